@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+# Everything the model needs from outside, found once.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+
+# Debian ships SystemC with a pkg-config file only; a source build installs a CMake package.
+pkg_check_modules(SYSTEMC IMPORTED_TARGET systemc)
+if(NOT SYSTEMC_FOUND)
+    find_package(SystemCLanguage CONFIG REQUIRED)
+    add_library(PkgConfig::SYSTEMC ALIAS SystemC::systemc)
+endif()
+
+set(CMAKE_MESSAGE_LOG_LEVEL WARNING) # Debian's Imath complains of Python bindings that nobody needs
+find_package(OpenEXR CONFIG REQUIRED)
+unset(CMAKE_MESSAGE_LOG_LEVEL)
+find_package(PNG REQUIRED)
+find_package(yaml-cpp CONFIG REQUIRED)
+
+# Header-only packages. Debian's glm has no CMake package of a stable name, so look for the header.
+find_path(GLM_INCLUDE_DIR glm/glm.hpp REQUIRED)
+add_library(degs_glm INTERFACE)
+add_library(glm::glm ALIAS degs_glm)
+target_include_directories(degs_glm SYSTEM INTERFACE $<BUILD_INTERFACE:${GLM_INCLUDE_DIR}>)
+find_package(nlohmann_json CONFIG REQUIRED)

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# install.sh [--tests]: installs what a fresh Debian 12 lacks to build the model (and, with --tests, to
+# check it). The one list of packages of this project; does nothing when everything is present.
+set -euo pipefail
+
+packages=(
+    g++ cmake ninja-build pkg-config
+    libsystemc-dev libglm-dev libopenexr-dev libpng-dev zlib1g-dev
+    libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
+)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format clang-tidy ccache)
+[[ ${1:-} != --tests ]] || packages+=("${test_packages[@]}")
+
+missing=()
+for package in "${packages[@]}"; do
+    status=$(dpkg-query -W -f '${Status}' "$package" 2>/dev/null || true)
+    [[ $status == 'install ok installed' ]] || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+    echo "packages: all ${#packages[@]} are installed"
+    exit 0
+fi
+
+echo "packages: installing ${missing[*]}"
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+    command -v sudo >/dev/null || {
+        echo "packages: run this as root, or install them yourself: ${missing[*]}" >&2
+        exit 1
+    }
+    as_root=(sudo)
+fi
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}"

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs render: the reference image in double precision, no accelerator.
+#include <iostream>
+#include <memory>
+
+#include "scene/image_io.hpp"
+#include "sim/commands.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/report.hpp"
+#include "sim/stopwatch.hpp"
+#include "sim/terminal.hpp"
+#include "sim/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct RenderOptions {
+    ViewRequest view;
+    std::string tiles = "exact";
+    int tile_size = 16;
+    std::string out = "out";
+};
+
+struct RenderResult {
+    SceneFacts scene;
+    Camera camera;
+    WorkloadFacts workload;
+    Image image;
+    double load_s = 0, workload_s = 0, render_s = 0;
+};
+
+RenderResult render(const RenderOptions& options, const View& view) {
+    RenderResult result;
+    result.scene = facts_of(view.scene);
+    result.camera = view.camera;
+    result.load_s = view.load_s;
+    const Progress progress("reference image");
+    const Stopwatch project;
+    const FrameWorkload workload =
+        make_frame_workload(view.scene.cloud, view.camera, options.tile_size,
+                            options.tiles == "ref" ? TileMode::Ref : TileMode::Exact);
+    result.workload_s = project.seconds();
+    result.workload = facts_of(workload);
+    const Stopwatch draw;
+    ReferenceCounts counts;
+    result.image = render_reference(workload, counts);
+    result.render_s = draw.seconds();
+    result.workload.reference = counts;
+    return result;
+}
+
+nlohmann::ordered_json render_json(const RenderResult& result, double wall_s) {
+    nlohmann::ordered_json json;
+    json["schema"] = {{"name", "degs-render"}, {"version", kReportVersion}};
+    json["tool"] = tool_json();
+    json["scene"] = scene_json(result.scene);
+    json["camera"] = camera_json(result.camera);
+    json["workload"] = workload_json(result.workload, result.scene);
+    json["host"] = {{"load_s", result.load_s},
+                    {"workload_s", result.workload_s},
+                    {"render_s", result.render_s},
+                    {"wall_s", wall_s},
+                    {"peak_rss_bytes", peak_rss_bytes()}};
+    return json;
+}
+
+void run(const RenderOptions& options) {
+    const Stopwatch wall;
+    const View view = load_view(options.view);
+    const OutputFolder out(options.out, {"image.exr", "image.png", "render.json"});
+    const RenderResult result = render(options, view);
+    write_exr(result.image, out.path("image.exr"));
+    write_png(result.image, out.path("image.png"));
+    out.write_json("render.json", render_json(result, wall.seconds()));
+    const auto fragments = static_cast<double>(result.workload.reference->fragments);
+    std::cout << layout({{"scene", scene_words(result.scene) + " · " +
+                                       grouped(result.workload.visible) + " visible"},
+                         {"frame", size_words(result.camera) + " · " + scaled(fragments) +
+                                       " fragments · " + out.path("image.exr")},
+                         {"host", "rendering " + three_digits(result.render_s) + " s · " +
+                                      three_digits(wall.seconds()) + " s in all"}})
+              << std::flush;
+}
+
+} // namespace
+
+void add_render_command(CLI::App& program) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command =
+        program.add_subcommand("render", "render the reference image in double precision");
+    add_view_options(*command, options->view);
+    command
+        ->add_option("--tiles", options->tiles,
+                     "exact: tiles that the ellipse touches; ref: the 3-sigma square's")
+        ->check(CLI::IsMember({"exact", "ref"}))
+        ->capture_default_str();
+    command->add_option("--tile-size", options->tile_size, "pixels")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command->add_option("--out", options->out, "folder for image.exr, image.png and render.json")
+        ->capture_default_str();
+    command->callback([options] { run(*options); });
+}
+
+} // namespace degs::sim

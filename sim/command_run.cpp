@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs run: one frame on one accelerator.
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#include "scene/image_io.hpp"
+#include "sim/commands.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/report.hpp"
+#include "sim/terminal.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct RunOptions {
+    std::string config;
+    std::vector<std::string> overrides;
+    ViewRequest view;
+    std::string fidelity = "exact";
+    std::string out = "out";
+    bool no_reference = false;
+    bool explain = false;
+};
+
+void run(const RunOptions& options) {
+    const RunConfig config = load_run_config(options.config, options.overrides);
+    View view = load_view(options.view);
+    const OutputFolder out(options.out, {"image.exr", "image.png", "report.json"});
+    const Fidelity fidelity = options.fidelity == "strict" ? Fidelity::Strict : Fidelity::Exact;
+    const RunResult result = simulate({config, fidelity, !options.no_reference}, std::move(view));
+    write_exr(result.accelerator.image, out.path("image.exr"));
+    write_png(result.accelerator.image, out.path("image.png"));
+    out.write_json("report.json", report(result));
+    std::cout << summary(result, out.path("image.exr"));
+    if (options.explain) {
+        std::cout << explanation(result);
+    }
+    std::cout << std::flush;
+}
+
+} // namespace
+
+void add_run_command(CLI::App& program) {
+    auto options = std::make_shared<RunOptions>();
+    CLI::App* command = program.add_subcommand("run", "simulate one frame on an accelerator");
+    command->add_option("config", options->config, "configuration file (YAML)")->required();
+    add_view_options(*command, options->view);
+    command
+        ->add_option("--fidelity", options->fidelity,
+                     "exact, or strict: synchronise every cycle; the results are the same")
+        ->check(CLI::IsMember({"exact", "strict"}))
+        ->capture_default_str();
+    command->add_option("--out", options->out, "folder for image.exr, image.png and report.json")
+        ->capture_default_str();
+    command
+        ->add_option("--set", options->overrides,
+                     "path.to.key=value in place of what the file says; may be repeated")
+        ->take_all()
+        ->expected(1);
+    command->add_flag("--no-reference", options->no_reference,
+                      "do not render the double-precision image to compare with");
+    command->add_flag("--explain", options->explain, "tell what the model left out, and why");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace degs::sim

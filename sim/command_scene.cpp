@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs scene info | generate | convert
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "scene/ply.hpp"
+#include "scene/synthetic.hpp"
+#include "sim/commands.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/report.hpp"
+#include "sim/scene_words.hpp"
+#include "splat/error.hpp"
+
+namespace degs::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder of a file that is going to be written; "." if it has none.
+std::string folder_of(const std::string& file) {
+    const std::string folder = fs::path(file).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
+void check_ply(const std::string& file) {
+    if (fs::path(file).extension() != ".ply") {
+        throw InputError("The scene file '" + file +
+                         "' cannot be written: its name must end in "
+                         ".ply.");
+    }
+}
+
+/// Writes the scene and, unless there is one, cameras.json beside it.
+void write_scene(const Scene& scene, const std::string& file) {
+    const OutputFolder folder(folder_of(file), {fs::path(file).filename().string()});
+    write_ply(scene.cloud, file);
+    std::cout << file << ": " << scene_words(facts_of(scene)) << "\n";
+    const std::string cameras = folder.path("cameras.json");
+    if (fs::exists(cameras)) {
+        std::cout << cameras << ": exists already and stays as it is" << std::endl;
+        return;
+    }
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Camera& camera : scene.cameras) {
+        list.push_back(camera_json(camera));
+    }
+    folder.write_json("cameras.json", list);
+    std::cout << cameras << ": " << scene.cameras.size() << " camera(s)" << std::endl;
+}
+
+void add_info(CLI::App& scene) {
+    struct Options {
+        ViewRequest view;
+        CLI::Option* camera = nullptr;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        scene.add_subcommand("info", "statistics of a scene and, with --camera, of a view");
+    ViewRequest& view = options->view;
+    command->add_option("scene", view.scene, "scene file, or synthetic:NAME[,...]")->required();
+    command->add_option("--cameras", view.cameras, "cameras.json instead of the scene's own");
+    options->camera = command->add_option("--camera", view.camera, "view to measure, from 0");
+    command->add_option("--width", view.width, "image width of the view in pixels")
+        ->needs(options->camera);
+    command->callback([options] {
+        const View loaded = load_view(options->view);
+        std::cout << scene_info(loaded.scene);
+        if (options->camera->count() != 0) {
+            std::cout << view_info(loaded.scene, loaded.camera);
+        }
+        std::cout << std::flush;
+    });
+}
+
+void add_generate(CLI::App& scene) {
+    struct Options {
+        std::string profile, gaussians, seed = "1", out;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command = scene.add_subcommand("generate", "write a synthetic scene as PLY");
+    std::string names;
+    for (const SyntheticProfile& profile : synthetic_profiles()) {
+        names += (names.empty() ? "" : "; ") + profile.name + ": " + profile.meaning;
+    }
+    command->add_option("name", options->profile, names)->required();
+    command->add_option("--gaussians", options->gaussians, "how many; the profile has a default")
+        ->type_name("UINT");
+    command->add_option("--seed", options->seed, "of the random numbers")
+        ->type_name("UINT")
+        ->capture_default_str();
+    command->add_option("--out", options->out, "file to write (.ply)")->required();
+    command->callback([options] {
+        check_ply(options->out);
+        std::string spec = "synthetic:" + options->profile + ",seed=" + options->seed;
+        if (!options->gaussians.empty()) {
+            spec += ",gaussians=" + options->gaussians;
+        }
+        write_scene(load_scene(spec), options->out);
+    });
+}
+
+void add_convert(CLI::App& scene) {
+    struct Options {
+        std::string in, out;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command = scene.add_subcommand(
+        "convert", "write a scene as PLY, without the Gaussians that cannot be drawn");
+    command->add_option("scene", options->in, "scene file, or synthetic:NAME[,...]")->required();
+    command->add_option("--out", options->out, "file to write (.ply)")->required();
+    command->callback([options] {
+        check_ply(options->out);
+        write_scene(load_scene(options->in), options->out);
+    });
+}
+
+} // namespace
+
+void add_scene_command(CLI::App& program) {
+    CLI::App* scene = program.add_subcommand("scene", "measure, make or convert a scene");
+    scene->require_subcommand(1);
+    add_info(*scene);
+    add_generate(*scene);
+    add_convert(*scene);
+}
+
+} // namespace degs::sim

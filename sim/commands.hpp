@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each function adds one command to the program; the command runs when its arguments are parsed.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace degs::sim {
+
+void add_run_command(CLI::App& program);
+void add_render_command(CLI::App& program);
+void add_scene_command(CLI::App& program);
+void add_config_command(CLI::App& program);
+
+} // namespace degs::sim

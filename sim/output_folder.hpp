@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace degs::sim {
+
+/// The folder that receives results. Made, and tried out, before anything long starts.
+class OutputFolder {
+public:
+    /// Creates the folder; throws InputError if that fails, if nothing can be written there, or if
+    /// one of `files` is there and not a file.
+    OutputFolder(std::string folder, const std::vector<std::string>& files);
+
+    std::string path(const std::string& file) const;
+    /// Whole or not at all; bytes that are no UTF-8 become U+FFFD.
+    void write_json(const std::string& file, const nlohmann::ordered_json& value) const;
+
+private:
+    std::string folder_;
+};
+
+} // namespace degs::sim

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/program.hpp"
+
+#include <iostream>
+#include <new>
+#include <string>
+
+#include <systemc>
+
+#include "sim/commands.hpp"
+#include "splat/error.hpp"
+#include "tlm/config.hpp"
+#include "tlm/config_words.hpp"
+
+namespace degs::sim {
+namespace {
+
+/// One line, whatever a file name or a message may contain.
+int fail(int code, const std::string& sentence) {
+    std::cerr << "degs: " << config_words::one_line(sentence) << std::endl;
+    return code;
+}
+
+int fail_parse(const CLI::App& program, const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+        return program.exit(error); // --help and --version
+    }
+    std::string reason = error.what();
+    // CLI11 misses the command before it looks at what stands in its place.
+    if (const auto extras = program.remaining(true); !extras.empty()) {
+        reason = "'" + extras.front() + "' is not expected here";
+    }
+    while (!reason.empty() && (reason.back() == '.' || reason.back() == '\n')) {
+        reason.pop_back();
+    }
+    return fail(kUserError, reason + "; 'degs --help' and 'degs COMMAND --help' tell what is "
+                                     "allowed.");
+}
+
+/// The kernel reports errors as exceptions and is silent otherwise.
+void quieten_kernel() {
+    using sc_core::sc_report_handler;
+    sc_report_handler::set_actions(sc_core::SC_INFO, sc_core::SC_DO_NOTHING);
+    sc_report_handler::set_actions(sc_core::SC_WARNING, sc_core::SC_DO_NOTHING);
+    sc_report_handler::set_actions(sc_core::SC_ERROR, sc_core::SC_THROW);
+    sc_report_handler::set_actions(sc_core::SC_FATAL, sc_core::SC_THROW);
+}
+
+void add_commands(CLI::App& program) {
+    program.require_subcommand(1);
+    program.set_version_flag("--version", "degs " DEGS_VERSION);
+    add_run_command(program);
+    add_render_command(program);
+    add_scene_command(program);
+    add_config_command(program);
+}
+
+} // namespace
+
+int run_program(int argc, char* argv[]) {
+    CLI::App program("SystemC/TLM model of the DeGS accelerator for 3D Gaussian Splatting", "degs");
+    try {
+        quieten_kernel();
+        add_commands(program);
+        program.parse(argc, argv);
+        return kSuccess;
+    } catch (const CLI::ParseError& error) {
+        return fail_parse(program, error);
+    } catch (const InputError& error) {
+        return fail(kUserError, error.what());
+    } catch (const ConfigError& error) {
+        return fail(kUserError, error.what());
+    } catch (const std::bad_alloc&) {
+        return fail(kInternalError,
+                    "There is not enough memory for a scene or an image of this size.");
+    } catch (const sc_core::sc_report& report) {
+        return fail(kInternalError, std::string("The simulation kernel failed: ") +
+                                        report.get_msg_type() + ": " + report.get_msg() + ".");
+    } catch (const std::exception& error) {
+        return fail(kInternalError, std::string("Internal error: ") + error.what() + ".");
+    } catch (...) {
+        return fail(kInternalError, "Internal error of unknown kind.");
+    }
+}
+
+} // namespace degs::sim

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// One run: scene -> workload -> accelerator -> results, and the reference to compare with.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "sim/accelerator_run.hpp"
+#include "sim/run_config.hpp"
+#include "sim/view.hpp"
+#include "splat/image_metrics.hpp"
+#include "splat/reference_renderer.hpp"
+
+namespace degs::sim {
+
+struct RunRequest {
+    RunConfig config;
+    Fidelity fidelity = Fidelity::Exact;
+    bool reference = true; ///< render the double-precision image and compare
+};
+
+/// What stays of a scene when its Gaussians have become a workload.
+struct SceneFacts {
+    std::string name, source;
+    std::uint64_t gaussians = 0;
+    int sh_degree = 0;
+    SanitizeReport dropped; ///< Gaussians of the file that cannot be drawn
+};
+
+struct WorkloadFacts {
+    std::uint64_t gaussians = 0, visible = 0, tile_pairs = 0;
+    CullCounts culled;
+    int tile_size = 0;
+    std::uint64_t tiles = 0, empty_tiles = 0;
+    std::optional<ReferenceCounts> reference;
+};
+
+/// Seconds and bytes of the machine that simulates; the only part of a result that may differ
+/// between two runs.
+struct HostFacts {
+    std::string fidelity;
+    double load_s = 0, workload_s = 0, elaborate_s = 0, sim_s = 0, wall_s = 0;
+    std::optional<double> render_s;
+    std::uint64_t peak_rss_bytes = 0;
+};
+
+struct RunResult {
+    SceneFacts scene;
+    Camera camera;
+    RunConfig config;
+    WorkloadFacts workload;
+    AcceleratorResult accelerator;
+    std::optional<ImageError> error; ///< against the reference
+    HostFacts host;
+};
+
+SceneFacts facts_of(const Scene& scene);
+WorkloadFacts facts_of(const FrameWorkload& workload);
+/// Largest resident set of this process so far.
+std::uint64_t peak_rss_bytes();
+
+/// Throws InputError for mistakes of the user, std::logic_error if the model breaks its laws.
+/// `view` loses its Gaussians as soon as they are projected.
+RunResult simulate(const RunRequest& request, View view);
+
+} // namespace degs::sim

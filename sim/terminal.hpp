@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a person reads after a run. Text only; the commands print it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/simulation.hpp"
+
+namespace degs::sim {
+
+/// Lines of a block: a name and what it says.
+using Block = std::vector<std::pair<std::string, std::string>>;
+/// The names padded to one column.
+std::string layout(const Block& block);
+
+/// The summary of a run; `image_path` is where the image went.
+std::string summary(const RunResult& result, const std::string& image_path);
+/// --explain: what the model left out and why, one sentence per line.
+std::string explanation(const RunResult& result);
+/// "flowers · 210 422 Gaussians, SH 2"
+std::string scene_words(const SceneFacts& scene);
+/// "1920×1080"
+std::string size_words(const Camera& camera);
+
+} // namespace degs::sim

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/view.hpp"
+
+#include <cmath>
+
+#include "sim/progress.hpp"
+#include "sim/stopwatch.hpp"
+#include "sim/words.hpp"
+#include "splat/error.hpp"
+
+namespace degs::sim {
+namespace {
+
+void check_positive(const char* option, std::optional<int> value) {
+    if (value && *value < 1) {
+        throw InputError(std::string(option) + " is " + std::to_string(*value) +
+                         ", but an image needs at least 1 pixel.");
+    }
+}
+
+/// `sides` in double, so that no product of two int overflows.
+void check_pixels(double width, double height) {
+    if (width * height > static_cast<double>(kMostPixels)) {
+        throw InputError("An image of " + three_digits(width) + " x " + three_digits(height) +
+                         " pixels is too large; at most " + grouped(kMostPixels) +
+                         " pixels (8K UHD) are allowed.");
+    }
+}
+
+} // namespace
+
+void add_view_options(CLI::App& command, ViewRequest& request) {
+    command
+        .add_option("--scene", request.scene,
+                    "scene file (.ply), or synthetic:NAME[,gaussians=N][,seed=N]")
+        ->required();
+    command.add_option("--cameras", request.cameras,
+                       "cameras.json to use instead of the one beside the scene");
+    command.add_option("--camera", request.camera, "position in the list of cameras, from 0");
+    command.add_option("--width", request.width, "image width in pixels; the view is scaled");
+    command.add_option("--height", request.height,
+                       "image height in pixels; alone it scales the view, with --width it crops or "
+                       "extends it");
+}
+
+Camera resize(const Camera& camera, std::optional<int> width, std::optional<int> height) {
+    check_positive("--width", width);
+    check_positive("--height", height);
+    const double aspect = static_cast<double>(camera.width) / camera.height;
+    const double new_width = width ? *width : height ? std::round(*height * aspect) : camera.width;
+    const double new_height = height ? *height : std::round(new_width / aspect);
+    check_pixels(std::max(new_width, 1.0), std::max(new_height, 1.0));
+    Camera resized = camera;
+    if (width || height) {
+        resized = camera.scaled_to_width(std::max(1, static_cast<int>(new_width)));
+        resized.height = height.value_or(resized.height);
+    }
+    return resized;
+}
+
+View load_view(const ViewRequest& request) {
+    check_positive("--width", request.width);
+    check_positive("--height", request.height);
+    if (request.scene.empty()) {
+        throw InputError("The scene has an empty name; a file or synthetic:NAME is needed.");
+    }
+    const Progress progress("loading " + request.scene);
+    const Stopwatch clock;
+    View view;
+    view.scene = load_scene(request.scene, request.cameras);
+    view.camera = resize(select_camera(view.scene, request.camera), request.width, request.height);
+    view.load_s = clock.seconds();
+    return view;
+}
+
+} // namespace degs::sim

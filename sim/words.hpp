@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers as people read them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace degs::sim {
+
+/// 210422 -> "210 422".
+std::string grouped(std::uint64_t value);
+/// Three significant digits without exponent: 2.108 -> "2.11", 473.9 -> "474", 51234 -> "51200".
+std::string three_digits(double value);
+/// 54512345 -> "54.5 M"; k, M, G and T are decimal.
+std::string scaled(double value);
+inline std::string scaled(std::uint64_t value) {
+    return scaled(static_cast<double>(value));
+}
+/// 0.834 -> "83.4"; the percent sign is the caller's.
+std::string percent(double share, int decimals = 1);
+
+} // namespace degs::sim

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/degs.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "modules/row_map.hpp"
+
+namespace degs {
+namespace {
+
+std::string numbered(const char* name, std::size_t index) {
+    return std::string(name) + "_" + std::to_string(index);
+}
+
+template <class T>
+Degs::RingUse sum(const std::vector<std::unique_ptr<DatedFifo<T>>>& rings) {
+    Degs::RingUse use;
+    for (const auto& ring : rings) {
+        use.depth += ring->depth();
+        use.high_water = std::max(use.high_water, ring->stats().high_water);
+        use.items += ring->stats().items;
+        use.full_cycles += ring->stats().full_cycles;
+        use.empty_cycles += ring->stats().empty_cycles;
+        use.occupied_cycles += ring->stats().occupied_cycles;
+    }
+    return use;
+}
+
+// Feedback and tokens are wires, not buffers: deep enough never to push back (one message per pixel
+// of what a Packing Buffer can hold, a few tiles).
+constexpr int kTokenDepth = 64;
+
+} // namespace
+
+Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const Timebase& time,
+           RenderJob& job)
+    : sc_core::sc_module(name), config_(config), time_(time), job_(job) {
+    build_front_end();
+    build_span_engine();
+    build_scheduler();
+    build_array();
+    build_memory();
+}
+
+template <class T>
+DatedFifo<T>& Degs::ring(Rings<T>& rings, const char* name, int depth, int latency) {
+    rings.push_back(std::make_unique<DatedFifo<T>>(numbered(name, rings.size()).c_str(), time_,
+                                                   static_cast<std::size_t>(depth),
+                                                   static_cast<Cycle>(latency)));
+    return *rings.back();
+}
+
+void Degs::build_front_end() {
+    const auto sorters = static_cast<std::size_t>(config_.sorting.count);
+    const auto slicers = static_cast<std::size_t>(config_.slicing.count);
+    binner_ = std::make_unique<TileBinner>(
+        "binner", config_.binning, config_.traffic, time_, job_, config_.projection.chunk,
+        static_cast<std::size_t>(config_.projection.count), sorters);
+    for (int i = 0; i < config_.projection.count; ++i) {
+        projection_.push_back(
+            std::make_unique<ProjectionUnit>(numbered("projection", projection_.size()).c_str(),
+                                             config_.projection, config_.traffic, time_, job_, i));
+        auto& chunks = ring(projected_, "projected", 4, 1);
+        projection_.back()->out.bind(chunks);
+        binner_->in[static_cast<std::size_t>(i)].bind(chunks);
+    }
+    monitor_ = std::make_unique<TileMonitor>("monitor", config_.monitor, time_, job_,
+                                             config_.scheduler.banks, sorters + slicers);
+    for (std::size_t i = 0; i < sorters; ++i) {
+        sorting_.push_back(std::make_unique<SortingUnit>(
+            numbered("sorting", i).c_str(), config_.sorting, config_.traffic, time_, job_,
+            static_cast<int>(i), slicers, static_cast<std::uint64_t>(config_.sort_capacity())));
+        auto& frames = ring(frames_, "frames", kTokenDepth, 1);
+        binner_->out[i].bind(frames);
+        sorting_.back()->start.bind(frames);
+        auto& cancel = ring(cancel_rings_, "cancel", kTokenDepth, config_.monitor.latency_cycles);
+        monitor_->out[i].bind(cancel);
+        sorting_.back()->cancel.bind(cancel);
+    }
+}
+
+void Degs::build_span_engine() {
+    const auto sorters = sorting_.size();
+    const int lanes = config_.span.count;
+    for (int g = 0; g < config_.slicing.count; ++g) {
+        slicing_.push_back(std::make_unique<GaussianSlicingUnit>(
+            numbered("slicing", slicing_.size()).c_str(), config_.slicing, time_, job_, g, sorters,
+            lanes, reachable(g, config_.slicing.count, config_.scheduler.banks),
+            config_.scheduler.segment_length));
+        GaussianSlicingUnit& unit = *slicing_.back();
+        for (std::size_t s = 0; s < sorters; ++s) {
+            auto& splats = ring(gaussian_rings_, "gaussian_buffer", config_.gaussian_chunks(), 1);
+            sorting_[s]->out[static_cast<std::size_t>(g)].bind(splats);
+            unit.in[s].bind(splats);
+        }
+        auto& cancel = ring(cancel_rings_, "cancel", kTokenDepth, config_.monitor.latency_cycles);
+        monitor_->out[sorters + static_cast<std::size_t>(g)].bind(cancel);
+        unit.cancel.bind(cancel);
+    }
+    for (int u = 0; u < lanes; ++u) {
+        spans_.push_back(std::make_unique<SpanUnit>(numbered("span", spans_.size()).c_str(),
+                                                    config_.span, time_, job_, u,
+                                                    config_.scheduler.banks));
+        auto& rows = ring(span_rings_, "span_buffer", config_.span_lane_depth(), 1);
+        const int g = u % config_.slicing.count;
+        slicing_[static_cast<std::size_t>(g)]
+            ->out[static_cast<std::size_t>(u / config_.slicing.count)]
+            .bind(rows);
+        spans_.back()->in.bind(rows);
+    }
+}
+
+void Degs::build_scheduler() {
+    const DegsConfig::Scheduler& s = config_.scheduler;
+    IssueBank::Config bank;
+    bank.count = s.banks;
+    bank.queue_depth = config_.queue_depth();
+    bank.segment_length = s.segment_length;
+    bank.segments_per_cycle = s.segments_per_cycle;
+    bank.issue_width = s.issue_width;
+    bank.reuse_cycles = s.reuse_cycles;
+    bank.feature_entries = config_.feature_entries();
+    bank.scoreboard = s.scoreboard;
+    bank.termination = s.termination;
+    bank.scan = s.scan;
+    const PackingUnit::Config packing{config_.array.pes_per_bank, config_.packing.latency_cycles,
+                                      config_.packing_lead()};
+    std::vector<std::size_t> next_port(spans_.size(), 0);
+    for (int b = 0; b < s.banks; ++b) {
+        std::vector<std::size_t> sources;
+        for (int u = 0; u < config_.span.count; ++u) {
+            if (shares_row(u, config_.span.count, b, s.banks)) {
+                sources.push_back(static_cast<std::size_t>(u));
+            }
+        }
+        packing_.push_back(
+            std::make_unique<PackingUnit>(numbered("packing", packing_.size()).c_str(), packing));
+        banks_.push_back(std::make_unique<IssueBank>(numbered("bank", banks_.size()).c_str(), bank,
+                                                     time_, job_, b, sources.size(),
+                                                     config_.contexts()));
+        banks_.back()->packing = packing_.back().get();
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            auto& vectors = ring(crossbar_rings_, "crossbar", config_.span.crossbar_depth,
+                                 config_.span.latency_cycles);
+            spans_[sources[i]]->out[next_port[sources[i]]++].bind(vectors);
+            banks_.back()->in[i].bind(vectors);
+        }
+    }
+}
+
+void Degs::build_array() {
+    build_pixel_buffer();
+    const int writeback = config_.array.writeback_cycles;
+    const ArraySlice::Config slice{config_.array.pes_per_bank, writeback,
+                                   config_.scheduler.termination,
+                                   config_.slicing.skip_dead_rows ? config_.slicing.count : 0};
+    next_region_port_.assign(slicing_.size(), 0);
+    const int messages =
+        (config_.packing_depth() + config_.packing.latency_cycles + writeback + 4) *
+        config_.array.pes_per_bank;
+    const int tokens = kTokenDepth + config_.contexts();
+    for (int b = 0; b < config_.scheduler.banks; ++b) {
+        const auto i = static_cast<std::size_t>(b);
+        slices_.push_back(std::make_unique<ArraySlice>(
+            numbered("slice", i).c_str(), slice, time_, job_, b, config_.scheduler.banks,
+            config_.scheduler.segment_length, config_.contexts()));
+        // Control packets (tile ends) need cells of their own: they take no room of the buffer.
+        auto& packets = ring(packing_rings_, "packing_buffer", config_.packing_depth() + 4,
+                             config_.packing.latency_cycles);
+        packing_[i]->out.bind(packets);
+        slices_[i]->in.bind(packets);
+        auto& terminations = ring(termination_rings_, "terminations", messages, writeback);
+        slices_[i]->terminated.bind(terminations);
+        banks_[i]->terminated.bind(terminations);
+        connect_region_feedback(b, slice.region_listeners);
+        auto& done = ring(done_rings_, "tile_done", tokens, writeback);
+        slices_[i]->tile_done.bind(done);
+        PixelBuffer& pixels = *pixel_buffers_[i % pixel_buffers_.size()];
+        const std::size_t port = i / pixel_buffers_.size();
+        pixels.in[port].bind(done);
+        auto& state = ring(state_rings_, "tile_state", tokens, writeback);
+        slices_[i]->tile_state.bind(state);
+        monitor_->in[i].bind(state);
+        auto& contexts = ring(context_rings_, "context_free", tokens, 1);
+        pixels.context_free[port].bind(contexts);
+        banks_[i]->context_free.bind(contexts);
+    }
+}
+
+void Degs::build_pixel_buffer() {
+    const int banks = config_.scheduler.banks;
+    const bool banked = config_.pixel_buffer.release == ContextRelease::Bank;
+    for (int b = 0; b < (banked ? banks : 1); ++b) {
+        pixel_buffers_.push_back(std::make_unique<PixelBuffer>(
+            numbered("pixel_buffer", pixel_buffers_.size()).c_str(), config_.pixel_buffer,
+            config_.traffic, time_, job_, static_cast<std::size_t>(banked ? 1 : banks),
+            config_.contexts(), b, banked ? banks : 1));
+    }
+}
+
+void Degs::connect_region_feedback(int slice, int listeners) {
+    const DegsConfig::Scheduler& scheduler = config_.scheduler;
+    const int slice_rows = (config_.tile_size + scheduler.banks - 1) / scheduler.banks;
+    const int segments =
+        (config_.tile_size + scheduler.segment_length - 1) / scheduler.segment_length;
+    const int region_depth = slice_rows * segments * (config_.contexts() + 1);
+    std::size_t port = 0;
+    for (int g = 0; g < listeners; ++g) {
+        if (shares_row(slice, config_.scheduler.banks, g, listeners)) {
+            auto& rows =
+                ring(region_rings_, "region_ended", region_depth, config_.slicing.feedback_cycles);
+            slices_[static_cast<std::size_t>(slice)]->region_ended[port++].bind(rows);
+            const auto listener = static_cast<std::size_t>(g);
+            slicing_[listener]->region_ended[next_region_port_[listener]++].bind(rows);
+        }
+    }
+}
+
+void Degs::build_memory() {
+    for (auto& unit : projection_) {
+        connect_memory(unit->geometry, "geometry");
+        connect_memory(unit->sh, "sh");
+    }
+    connect_memory(binner_->splats, "splats_written");
+    connect_memory(binner_->lists, "tile_lists_written");
+    for (auto& unit : sorting_) {
+        connect_memory(unit->lists, "tile_lists_sorted");
+        connect_memory(unit->records, "splats_read");
+    }
+    for (auto& unit : pixel_buffers_) {
+        connect_memory(unit->frame_buffer, "frame_buffer");
+    }
+    memory_ = std::make_unique<Memory>("memory", config_.memory, time_, ports_.size());
+    for (std::size_t i = 0; i < ports_.size(); ++i) {
+        ports_[i]->out.bind(memory_->in[i]);
+    }
+}
+
+void Degs::connect_memory(MemoryPort& port, const char* stream) {
+    ports_.push_back(&port);
+    streams_.push_back(stream);
+}
+
+Cycle Degs::finished() const {
+    Cycle last = 0;
+    for (const auto& unit : pixel_buffers_) {
+        last = std::max(last, unit->stats().finished);
+    }
+    return last;
+}
+
+Degs::RingUse Degs::gaussian_buffer() const {
+    return sum(gaussian_rings_);
+}
+Degs::RingUse Degs::span_buffer() const {
+    return sum(span_rings_);
+}
+Degs::RingUse Degs::crossbar() const {
+    return sum(crossbar_rings_);
+}
+Degs::RingUse Degs::packing_buffer() const {
+    return sum(packing_rings_);
+}
+
+} // namespace degs

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/degs_config.hpp"
+
+#include <algorithm>
+
+namespace degs {
+
+void DegsConfig::Pipeline::describe(ConfigVisitor& visitor) {
+    visitor.choice("numbers", numbers, {"fp32", "fp64"}, "arithmetic of spans, alpha and blending");
+    visitor.choice(
+        "span_ends", span_ends, {"exact", "outward"},
+        "exact: ceil/floor, the pixels inside the ellipse; outward: floor/ceil (paper, Eq. 15)");
+    visitor.integer(
+        "span_delta", span_delta, 0, 16,
+        "px added at both ends of outward spans; the paper gives no value, 0 is its least");
+    visitor.choice(
+        "stop_rule", stop_rule, {"refuse", "after"},
+        "refuse: the splat that would push T under 1e-4 is not blended (reference code); "
+        "after: it is, then the pixel ends (paper, Sec. II-A)");
+    visitor.choice("tiles", tiles, {"exact", "ref"},
+                   "tile lists: the ellipse's tiles, or the 3-sigma square's");
+}
+
+void DegsConfig::GaussianBuffer::describe(ConfigVisitor& visitor) {
+    visitor.integer("bytes", bytes, 256, 1 << 30, "bytes (paper Table I: 72 KB)");
+    visitor.real(
+        "sort_share", sort_share, 0.05, 0.95,
+        "share of the buffer for lists being sorted; the rest holds sorted splats [assumed]");
+}
+
+void DegsConfig::SpanBuffer::describe(ConfigVisitor& visitor) {
+    visitor.integer("bytes", bytes, 8, 1 << 30,
+                    "bytes (paper Table I: 2 KB), split among Span Units");
+    visitor.integer("row_bytes", row_bytes, 1, 256,
+                    "bytes per row work item: G_ID 4, row 2, tags 2 [assumed]");
+}
+
+void DegsConfig::Scheduler::describe(ConfigVisitor& visitor) {
+    visitor.integer("banks", banks, 1, 64,
+                    "Issue Banks, Packing Units and array slices (paper Table II)");
+    visitor.integer(
+        "queue_segments_per_pe", queue_segments_per_pe, 1, 256,
+        "segments waiting per bank and PE of its slice; a fixed 32 starves wide banks [assumed]");
+    visitor.integer(
+        "segment_bytes", segment_bytes, 1, 256,
+        "bytes per waiting segment, part of packing.bytes: g0 4, d0 4, G_ID 2, mask and "
+        "link 2 [assumed]");
+    visitor.integer("segment_length", segment_length, 1, 32,
+                    "px, stride of the Segmenter (paper: 1 x 16)");
+    visitor.integer("segments_per_cycle", segments_per_cycle, 1, 64,
+                    "segments cut and queued per bank and cycle [assumed]");
+    visitor.integer(
+        "issue_width", issue_width, 1, 64,
+        "segments issued per bank and cycle; one per four PEs keeps the prefix sum short "
+        "[assumed]");
+    visitor.integer(
+        "reuse_cycles", reuse_cycles, 1, 64,
+        "cycles between two updates of a segment (paper: 4); not below array.writeback_cycles");
+    visitor.boolean("scoreboard", scoreboard,
+                    "enforce reuse_cycles; false shows what it is for (hazards are counted)");
+    visitor.choice(
+        "termination", termination, {"segment", "pixel"},
+        "what is skipped: segments whose pixels have all ended (paper), or single pixels");
+    visitor.choice("scan", scan, {"round_robin", "oldest", "deepest"},
+                   "which ready conflict domain issues first [assumed]");
+}
+
+void DegsConfig::Packing::describe(ConfigVisitor& visitor) {
+    visitor.integer(
+        "bytes", bytes, 16, 1 << 30,
+        "bytes (paper Table I: 32 KB), split among banks: waiting segments, then packets");
+    visitor.integer("task_bytes", task_bytes, 1, 256,
+                    "bytes per task: G_ID, x, y, n, g0, d0, tags [assumed]");
+    visitor.integer(
+        "lead_packets", lead_packets, 1, 65536,
+        "packets a bank may be ahead of its array slice; what is packed earlier cannot "
+        "be dropped any more when its pixels end, so a longer lead only adds terminated "
+        "tasks [assumed]");
+    visitor.integer("latency_cycles", latency_cycles, 1, 64,
+                    "cycles from issue to execution: prefix sum and shift, buffer read [assumed]");
+}
+
+void DegsConfig::Array::describe(ConfigVisitor& visitor) {
+    visitor.integer("pes_per_bank", pes_per_bank, 1, TaskPacket::kMaxRuns,
+                    "PEs per array slice (paper Table II)");
+    visitor.integer("writeback_cycles", writeback_cycles, 1, 64,
+                    "cycles from execution to written-back pixel state and feedback (paper: 4)");
+}
+
+void DegsConfig::FeatureBuffers::describe(ConfigVisitor& visitor) {
+    visitor.integer("bytes", bytes, 16, 1 << 30, "bytes (paper Table I: 8 KB), split among banks");
+    visitor.integer("entry_bytes", entry_bytes, 1, 256,
+                    "bytes per splat: A, three colours, tag [assumed]");
+}
+
+void DegsConfig::describe(ConfigVisitor& visitor) {
+    visitor.text("name", name, "what reports call this accelerator");
+    visitor.real("clock_ghz", clock_ghz, 0.01, 10.0, "GHz (paper: 1.0)");
+    visitor.integer("tile_size", tile_size, 4, 1024, "px (paper Table II: 16, 32, 64, 128)");
+    visitor.section("pipeline", pipeline, "what the data path computes");
+    visitor.section("traffic", traffic, "record layouts of the memory streams");
+    visitor.section("projection", projection, "Projection Units");
+    visitor.section("binning", binning, "tile lists");
+    visitor.section("sorting", sorting, "Sorting Units");
+    visitor.section("gaussian_buffer", gaussian_buffer, "sorted splats and lists being sorted");
+    visitor.section("slicing", slicing, "Gaussian Slicing Units");
+    visitor.section("span_buffer", span_buffer, "row work items");
+    visitor.section("span", span, "Span Units and spatial crossbar");
+    visitor.section("scheduler", scheduler, "Issue Banks");
+    visitor.section("packing", packing, "Packing Units and Packing Buffer");
+    visitor.section("feature_buffer", feature_buffer, "Global Gaussian Parameters");
+    visitor.section("array", array, "Blending Array");
+    visitor.section("pixel_buffer", pixel_buffer, "tiles in flight");
+    visitor.section("monitor", monitor, "cancellation of finished tiles");
+    visitor.section("memory", memory, "off-chip memory");
+}
+
+int DegsConfig::gaussian_chunks() const {
+    const double share = (1.0 - gaussian_buffer.sort_share) * gaussian_buffer.bytes / sorting.count;
+    return static_cast<int>(share) / (traffic.splat_bytes * sorting.chunk);
+}
+
+int DegsConfig::sort_capacity() const {
+    const double share = gaussian_buffer.sort_share * gaussian_buffer.bytes / sorting.count;
+    return static_cast<int>(share) / traffic.list_entry_bytes;
+}
+
+std::string DegsConfig::problem() const {
+    const auto need = [](const std::string& what, int has, int least) {
+        return what + " holds " + std::to_string(has) + ", but at least " + std::to_string(least) +
+               " must fit";
+    };
+    if (span.count % slicing.count != 0) {
+        return "slicing.count = " + std::to_string(slicing.count) +
+               " must divide span.count = " + std::to_string(span.count);
+    }
+    if (scheduler.reuse_cycles < array.writeback_cycles) {
+        return "scheduler.reuse_cycles = " + std::to_string(scheduler.reuse_cycles) +
+               " must not be below array.writeback_cycles = " +
+               std::to_string(array.writeback_cycles);
+    }
+    if (contexts() < 1) {
+        return need("pixel_buffer.bytes / pixel_buffer.state_bytes (tiles of tile_size)",
+                    contexts(), 1);
+    }
+    if (span_lane_depth() < 1) {
+        return need("span_buffer.bytes / span_buffer.row_bytes per Span Unit", span_lane_depth(),
+                    1);
+    }
+    // A segment of s pixels can straddle one packet more than it fills.
+    const int packets =
+        (scheduler.segment_length + array.pes_per_bank - 1) / array.pes_per_bank + 1;
+    if (packing.lead_packets < packets) {
+        return need("packing.lead_packets", packing.lead_packets, packets);
+    }
+    if (packing_depth() < packets) {
+        return need("packing.bytes per bank, less the segment queue, in packets", packing_depth(),
+                    packets);
+    }
+    if (feature_entries() < 1 || feature_entries() > 65535) {
+        return need("feature_buffer.bytes / feature_buffer.entry_bytes per bank", feature_entries(),
+                    1) +
+               " and at most 65535";
+    }
+    if (gaussian_chunks() < 1) {
+        return need("gaussian_buffer.bytes per Sorting Unit in chunks of sorting.chunk splats",
+                    gaussian_chunks(), 1);
+    }
+    if (sort_capacity() < 2) {
+        return need("gaussian_buffer.bytes x sort_share per Sorting Unit in list entries",
+                    sort_capacity(), 2);
+    }
+    return "";
+}
+
+} // namespace degs

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "modules/blending_array.hpp"
+#include "modules/gaussian_slicing_unit.hpp"
+#include "modules/issue_bank.hpp"
+#include "modules/pixel_buffer.hpp"
+#include "modules/projection_unit.hpp"
+#include "modules/sorting_unit.hpp"
+#include "modules/span_unit.hpp"
+#include "modules/tile_binner.hpp"
+#include "modules/tile_monitor.hpp"
+#include "modules/traffic.hpp"
+#include "tlm/memory.hpp"
+
+namespace degs {
+
+/// A complete DeGS accelerator; defaults are the paper's 64-PE design (Tables I and II), read
+/// literally. Capacities are in bytes; the depths of rings follow from record sizes.
+struct DegsConfig {
+    struct Pipeline {
+        NumberFormat numbers = NumberFormat::Fp32;
+        SpanEnds span_ends = SpanEnds::Outward;
+        int span_delta = 0;
+        StopRule stop_rule = StopRule::Refuse;
+        TileMode tiles = TileMode::Exact;
+        void describe(ConfigVisitor& visitor);
+    };
+    struct GaussianBuffer {
+        int bytes = 72 * 1024;
+        double sort_share = 0.5; ///< of the buffer, for lists being sorted
+        void describe(ConfigVisitor& visitor);
+    };
+    struct SpanBuffer {
+        int bytes = 2 * 1024;
+        int row_bytes = 8;
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Scheduler {
+        int banks = 8;
+        int queue_segments_per_pe = 4;
+        int segment_bytes = 12;
+        int segment_length = 16;
+        int segments_per_cycle = 2;
+        int issue_width = 2;
+        int reuse_cycles = 4;
+        bool scoreboard = true;
+        TerminationGrain termination = TerminationGrain::Segment;
+        DomainScan scan = DomainScan::RoundRobin;
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Packing {
+        int bytes = 32 * 1024;
+        int task_bytes = 16;
+        int lead_packets = 6;
+        int latency_cycles = 2;
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Array {
+        int pes_per_bank = 8;
+        int writeback_cycles = 4;
+        void describe(ConfigVisitor& visitor);
+    };
+    struct FeatureBuffers {
+        int bytes = 8 * 1024;
+        int entry_bytes = 16;
+        void describe(ConfigVisitor& visitor);
+    };
+
+    std::string name = "degs-64";
+    double clock_ghz = 1.0;
+    int tile_size = 32;
+    Pipeline pipeline;
+    TrafficConfig traffic;
+    ProjectionUnit::Config projection;
+    TileBinner::Config binning;
+    SortingUnit::Config sorting;
+    GaussianBuffer gaussian_buffer;
+    GaussianSlicingUnit::Config slicing;
+    SpanBuffer span_buffer;
+    SpanUnit::Config span;
+    Scheduler scheduler;
+    Packing packing;
+    FeatureBuffers feature_buffer;
+    Array array;
+    PixelBuffer::Config pixel_buffer;
+    TileMonitor::Config monitor;
+    Memory::Config memory;
+
+    void describe(ConfigVisitor& visitor);
+    /// Checks what single ranges cannot; one sentence that names the keys, or empty.
+    std::string problem() const;
+
+    // Derived sizes.
+    int pes() const { return scheduler.banks * array.pes_per_bank; }
+    int contexts() const { return pixel_buffer.contexts(tile_size); }
+    int sram_bytes() const {
+        return gaussian_buffer.bytes + span_buffer.bytes + packing.bytes + feature_buffer.bytes +
+               pixel_buffer.bytes;
+    }
+    int span_lane_depth() const { return span_buffer.bytes / span_buffer.row_bytes / span.count; }
+    int queue_depth() const { return scheduler.queue_segments_per_pe * array.pes_per_bank; }
+    /// Packets per bank: the Packing Buffer holds the banks' waiting segments, too.
+    int packing_depth() const {
+        const int packets =
+            packing.bytes / scheduler.banks - queue_depth() * scheduler.segment_bytes;
+        return packets / (packing.task_bytes * array.pes_per_bank);
+    }
+    /// Packets that a bank may be ahead of its array slice.
+    int packing_lead() const { return std::min(packing_depth(), packing.lead_packets); }
+    int feature_entries() const {
+        return feature_buffer.bytes / feature_buffer.entry_bytes / scheduler.banks;
+    }
+    /// Splat chunks that a Sorting Unit's share of the Gaussian Buffer holds.
+    int gaussian_chunks() const;
+    /// Keys that a Sorting Unit's share of the Gaussian Buffer holds.
+    int sort_capacity() const;
+};
+
+} // namespace degs

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "modules/messages.hpp"
+#include "tlm/clock_domain.hpp"
+
+namespace degs {
+
+/// One bank's part of the Feature Buffer (paper Table I; Global Gaussian Parameters by G_ID). An
+/// entry is taken when the first row of a splat enters the bank and given back when the last task
+/// of its last row has been written back. Partitioned per bank, so that every array slice has its
+/// own read port [assumed].
+class FeatureBuffer {
+public:
+    explicit FeatureBuffer(int entries);
+
+    /// Makes (tile, splat) the splat that enters; false if no entry is free at `now`.
+    bool admit(TileNumber tile, std::uint32_t splat, Cycle now);
+    /// Entry of the splat that enters.
+    std::uint16_t current() const { return current_; }
+    void hold(std::uint16_t entry) { entries_[entry].pending++; }
+    /// One held task group is done; the entry is needed until `date`.
+    void release(std::uint16_t entry, Cycle date);
+    /// No more rows of the current splat will come.
+    void close(Cycle now);
+    /// Date at which the next entry becomes free; kNever if none is on its way.
+    Cycle next_free() const { return retiring_.empty() ? kNever : retiring_.front().date; }
+    /// Times that the bank had to wait for an entry, however often it asked meanwhile.
+    std::uint64_t waits() const { return waits_; }
+
+private:
+    struct Entry {
+        TileNumber tile = 0;
+        std::uint32_t splat = 0;
+        std::uint32_t pending = 0;
+        Cycle needed_until = 0;
+        bool open = false;
+    };
+    struct Retiring {
+        Cycle date;
+        std::uint16_t entry;
+    };
+    void retire(std::uint16_t entry, Cycle date);
+    void collect(Cycle now);
+
+    std::vector<Entry> entries_;
+    std::vector<std::uint16_t> free_;
+    std::deque<Retiring> retiring_; // dates do not fall
+    std::uint16_t current_ = 0;
+    bool has_current_ = false;
+    bool waiting_ = false;
+    std::uint64_t waits_ = 0;
+};
+
+} // namespace degs

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "splat/data_path.hpp"
+#include "tlm/clock_domain.hpp"
+
+namespace degs {
+
+/// Position of a tile in RenderJob::tiles; counts through all frames.
+using TileNumber = std::uint32_t;
+
+/// Visible splats of one chunk of Gaussians, Projection Unit -> Tile Binner.
+struct ProjectedChunk {
+    std::uint32_t frame = 0;
+    std::uint32_t first_visible = 0; ///< rank among the frame's visible Gaussians in scene order
+    std::uint32_t visible = 0;
+    std::uint64_t tile_pairs = 0; ///< tiles touched by these splats, summed
+};
+
+/// Up to a fixed number of depth-ordered splats of one tile, Sorting Unit -> Gaussian Slicing Unit.
+struct SplatChunk {
+    TileNumber tile = 0;
+    std::uint64_t first = 0; ///< index into FrameWorkload::tile_splats
+    std::uint32_t count = 0;
+    bool last = false; ///< nothing of this tile follows
+};
+
+/// One scanline of one splat inside a tile, Gaussian Slicing Unit -> Span Unit.
+struct RowItem {
+    TileNumber tile = 0;
+    std::uint32_t splat = 0; ///< DataPath index
+    std::int16_t row = 0;    ///< inside the tile
+    bool end = false;        ///< end of the tile instead of a row
+};
+
+/// Span Unit -> Issue Bank.
+struct SpanItem {
+    RowSpan span;
+    TileNumber tile = 0;
+    bool end = false; ///< end of the tile instead of a span
+};
+
+/// Tasks of one segment on their way to the array; each set bit of the mask is one task.
+struct TaskRun {
+    BlendTask task;
+    TileNumber tile = 0;
+    std::uint32_t domain = 0; ///< conflict domain inside the bank's part of the tile
+};
+
+/// A fixed-width packet of tasks, Packing Unit -> Blending Array.
+struct TaskPacket {
+    static constexpr int kMaxRuns = 32;
+    int run_count = 0;
+    Cycle slot = 0;         ///< cycle in which the array executes it
+    int tasks = 0;          ///< set bits over all runs, <= PEs per array slice
+    bool ends_tile = false; ///< the bank has nothing more for `ended_tile`
+    TileNumber ended_tile = 0;
+    std::array<TaskRun, kMaxRuns> runs{}; ///< the first run_count count
+
+    TaskPacket() = default;
+    TaskPacket(const TaskPacket& other) { copy(other); }
+    TaskPacket& operator=(const TaskPacket& other) {
+        if (this != &other) {
+            copy(other);
+        }
+        return *this;
+    }
+    ~TaskPacket() = default;
+
+private:
+    /// Only the runs in use: most packets have few, and every packet is copied.
+    void copy(const TaskPacket& other) {
+        std::copy_n(other.runs.begin(), other.run_count, runs.begin());
+        run_count = other.run_count;
+        slot = other.slot;
+        tasks = other.tasks;
+        ends_tile = other.ends_tile;
+        ended_tile = other.ended_tile;
+    }
+};
+
+/// Pixels that have ended, Blending Array -> Issue Bank (paper, Sec. IV-B).
+struct Termination {
+    TileNumber tile = 0;
+    std::int16_t row = 0;    ///< inside the tile
+    std::int16_t column = 0; ///< of mask bit 0, a multiple of the segment length
+    std::uint32_t mask = 0;
+};
+
+/// A segment of a tile's row whose pixels have all ended, array slice -> Gaussian Slicing Unit.
+struct RegionEnded {
+    TileNumber tile = 0;
+    std::int16_t row = 0;     ///< inside the tile
+    std::int16_t segment = 0; ///< column / segment length
+};
+
+/// Array slice -> Tile Monitor and Pixel Buffer.
+struct SliceReport {
+    TileNumber tile = 0;
+    bool all_ended = false; ///< every pixel of the slice's rows has terminated
+};
+
+} // namespace degs

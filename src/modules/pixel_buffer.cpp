@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/pixel_buffer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include <glm/gtc/packing.hpp>
+
+namespace degs {
+namespace {
+
+void encode(const PixelValue& pixel, int pixel_bytes, unsigned char* bytes) {
+    const std::array<double, 4> values{pixel.rgb[0], pixel.rgb[1], pixel.rgb[2],
+                                       1.0 - pixel.transmittance};
+    for (std::size_t c = 0; c < values.size(); ++c) {
+        if (pixel_bytes == 8) {
+            const std::uint16_t half = glm::packHalf1x16(static_cast<float>(values[c]));
+            std::memcpy(bytes + 2 * c, &half, sizeof half);
+        } else {
+            bytes[c] = static_cast<unsigned char>(std::clamp(values[c], 0.0, 1.0) * 255.0 + 0.5);
+        }
+    }
+}
+
+} // namespace
+
+void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("bytes", bytes, 1, 1 << 30, "bytes of tile contexts (paper Table I: 16 KB)");
+    visitor.integer(
+        "state_bytes", state_bytes, 1, 64,
+        "bytes per pixel; 16 = T and RGB in single precision fills 16 KB with one 32 x 32 "
+        "tile [assumed]");
+    visitor.choice("release", release, {"tile", "bank"},
+                   "when a context may hold the next tile: once all slices have finished, or each "
+                   "bank's rows on their own [assumed]");
+    visitor.integer("writes_in_flight", writes_in_flight, 1, 1024,
+                    "tile writes not yet acknowledged by memory; 4 hide its latency behind short "
+                    "tiles [assumed]");
+    visitor.integer("readout_pixels", readout_pixels, 1, 4096,
+                    "pixels per cycle when a finished tile is read out; one per PE [assumed]");
+}
+
+PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& config,
+                         const TrafficConfig& traffic, const Timebase& time, RenderJob& job,
+                         std::size_t slices, int contexts, int first_row, int row_stride)
+    : sc_core::sc_module(name), in("in", slices), context_free("context_free", slices),
+      frame_buffer("frame_buffer", time), config_(config), traffic_(traffic), job_(job),
+      contexts_(contexts), first_row_(first_row), row_stride_(row_stride), self_(time),
+      in_flight_(static_cast<std::size_t>(config.writes_in_flight), 0) {
+    for (int c = 0; c < contexts; ++c) {
+        clear(c);
+    }
+    SC_HAS_PROCESS(PixelBuffer);
+    SC_THREAD(run);
+}
+
+void PixelBuffer::clear(int context) {
+    for (int row = first_row_; row < job_.tile_size; row += row_stride_) {
+        job_.path->begin_row(context, row);
+    }
+}
+
+void PixelBuffer::end_of_elaboration() {
+    for (auto& port : in) {
+        port->connect_reader(self_);
+    }
+    for (auto& port : context_free) {
+        port->connect_writer(self_);
+    }
+}
+
+void PixelBuffer::run() {
+    if (first_row_ == 0) {
+        write_background();
+    }
+    for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
+        for (auto& port : in) {
+            port->get(self_);
+        }
+        finish_tile(number);
+    }
+    stats_.finished = std::max(written_, self_.local());
+    self_.finish();
+}
+
+// Rows of background tiles are long runs of equal bytes; one posted write per tile row of the
+// image.
+void PixelBuffer::write_background() {
+    std::size_t next = 0;
+    for (std::uint32_t f = 0; f < job_.frames.size(); ++f) {
+        const FrameWorkload& frame = *job_.frames[f];
+        const MemoryMap map(traffic_, frame);
+        std::uint64_t pixels = static_cast<std::uint64_t>(frame.camera.width) *
+                               static_cast<std::uint64_t>(frame.camera.height);
+        std::uint64_t busy_tiles = 0;
+        for (; next < job_.tiles.size() && job_.tiles[next].frame == f; ++next, ++busy_tiles) {
+            pixels -= static_cast<std::uint64_t>(job_.tiles[next].width * job_.tiles[next].height);
+        }
+        stats_.background_tiles += static_cast<std::uint64_t>(frame.tiles()) - busy_tiles;
+        constexpr std::uint64_t kPiece = 1U << 16U;
+        for (std::uint64_t bytes = pixels * static_cast<std::uint64_t>(traffic_.pixel_bytes);
+             bytes != 0;) {
+            const std::uint64_t piece = std::min(bytes, kPiece);
+            written_ = frame_buffer.write(self_, map.frame_buffer, piece);
+            self_.advance();
+            bytes -= piece;
+        }
+    }
+}
+
+void PixelBuffer::finish_tile(TileNumber number) {
+    const Cycle ready = self_.local();
+    Cycle& oldest = in_flight_[stats_.tiles % in_flight_.size()];
+    self_.advance_to(oldest);
+    stats_.write_wait += self_.local() - ready;
+    const Cycle start = self_.local();
+    oldest = write_rows(number);
+    written_ = std::max(written_, oldest);
+    stats_.readout_busy += self_.local() - start;
+    stats_.tiles++;
+    clear(static_cast<int>(number) % contexts_);
+    const TileNumber next = number + static_cast<TileNumber>(contexts_);
+    if (next < job_.tiles.size()) {
+        for (auto& port : context_free) {
+            port->put(self_, next);
+        }
+    }
+}
+
+// One posted write per row, as the rows are read out, at most kRowsPerCycle in a cycle: an access
+// takes the kernel half a cycle on, see Memory. Returns the completion of the last one.
+Cycle PixelBuffer::write_rows(TileNumber number) {
+    constexpr int kRowsPerCycle = 2;
+    const JobTile& tile = job_.tiles[number];
+    const MemoryMap map(traffic_, job_.frame_of(tile));
+    const auto pixel_bytes = static_cast<std::uint64_t>(traffic_.pixel_bytes);
+    const auto frame_width = static_cast<std::uint64_t>(job_.frame_of(tile).camera.width);
+    const int per_cycle = std::max(1, config_.readout_pixels / row_stride_);
+    const Cycle start = self_.local();
+    Cycle done = start;
+    int read = 0; // pixels
+    int row = 0;
+    for (int y = first_row_; y < tile.height; y += row_stride_, ++row) {
+        self_.advance_to(start +
+                         static_cast<Cycle>(std::max(read / per_cycle, row / kRowsPerCycle)));
+        const auto image_row = static_cast<std::uint64_t>(tile.y + y);
+        const std::uint64_t address =
+            map.frame_buffer +
+            (image_row * frame_width + static_cast<std::uint64_t>(tile.x)) * pixel_bytes;
+        done = std::max(done, frame_buffer.write(self_, address, read_out(number, y)));
+        read += tile.width;
+    }
+    self_.advance_to(start +
+                     static_cast<Cycle>(std::max((read + per_cycle - 1) / per_cycle,
+                                                 (row + kRowsPerCycle - 1) / kRowsPerCycle)));
+    return done;
+}
+
+const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y) {
+    const JobTile& tile = job_.tiles[number];
+    Image& image = job_.images[tile.frame];
+    const auto pixel_bytes = static_cast<std::size_t>(traffic_.pixel_bytes);
+    pixels_.resize(static_cast<std::size_t>(tile.width));
+    bytes_.resize(pixels_.size() * pixel_bytes);
+    job_.path->read_row(static_cast<int>(number) % contexts_, y, tile.width, pixels_.data());
+    unsigned char* out = bytes_.data();
+    std::size_t i = image.at(tile.x, tile.y + y);
+    for (const PixelValue& pixel : pixels_) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            image.rgb[i * 3 + c] = static_cast<float>(pixel.rgb[c]);
+        }
+        image.transmittance[i] = static_cast<float>(pixel.transmittance);
+        image.fragments[i] = pixel.updates;
+        encode(pixel, traffic_.pixel_bytes, out);
+        out += pixel_bytes;
+        ++i;
+    }
+    return bytes_;
+}
+
+} // namespace degs

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <systemc>
+
+#include "modules/render_job.hpp"
+#include "modules/traffic.hpp"
+#include "tlm/dated_fifo.hpp"
+#include "tlm/memory_port.hpp"
+
+namespace degs {
+
+/// Reads Gaussians, culls and projects them, then reads the SH of the visible ones and shades them
+/// (paper Table I, "Projection Unit"). Chunks of the scene go round the units. Three overlapping
+/// steps, each with its own date: fetch geometry, project, shade.
+/// Not modelled: the arithmetic pipeline's depth beyond `latency_cycles`; values come from the
+/// shared FrameWorkload.
+class ProjectionUnit : public sc_core::sc_module {
+public:
+    struct Config {
+        int count = 4;               ///< units
+        int chunk = 64;              ///< Gaussians per request and hand-over
+        int chunks_in_flight = 4;    ///< geometry requests outstanding per unit
+        int cycles_per_gaussian = 1; ///< projection initiation interval
+        int cycles_per_colour = 1;   ///< SH evaluation initiation interval
+        int latency_cycles = 32;     ///< projection pipeline
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Stats {
+        Cycle project_busy = 0, shade_busy = 0;
+        std::uint64_t gaussians = 0, visible = 0;
+    };
+
+    MemoryPort geometry;
+    MemoryPort sh;
+    FifoPort<ProjectedChunk> out;
+
+    ProjectionUnit(const sc_core::sc_module_name& name, const Config& config,
+                   const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
+                   int index);
+
+    const Stats& stats() const { return stats_; }
+
+private:
+    struct Chunk {
+        std::uint32_t frame = 0;
+        std::uint64_t first = 0, count = 0;
+    };
+    void end_of_elaboration() override;
+    void fetch();
+    void project();
+    void shade();
+    std::uint64_t sh_bursts(const FrameWorkload& frame, const ProjectedChunk& chunk) const;
+
+    Config config_;
+    TrafficConfig traffic_;
+    const RenderJob& job_;
+    int index_;
+    Process fetcher_, projector_, shader_;
+    DatedFifo<Chunk> fetched_;
+    DatedFifo<ProjectedChunk> projected_;
+    Stats stats_;
+};
+
+} // namespace degs

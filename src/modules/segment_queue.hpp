@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tlm/clock_domain.hpp"
+
+namespace degs {
+
+/// Part of a row span inside one fixed-stride segment: the minimum scheduling unit (paper, Sec.
+/// IV-B).
+struct Segment {
+    double g0 = 0, d0 = 0; ///< of the span
+    std::uint32_t splat = 0;
+    std::uint32_t mask = 0;     ///< pixels, bit 0 = first pixel of the segment's stride
+    std::int16_t offset = 0;    ///< n of mask bit 0 relative to the span's x0
+    std::uint16_t feature = 0;  ///< Feature Buffer entry
+    std::uint64_t sequence = 0; ///< arrival order in the bank
+};
+
+/// Which ready conflict domain issues first. `RoundRobin`: the next one after the last that issued.
+/// `Oldest`: the one whose head segment arrived first. `Deepest`: the one with most segments
+/// waiting.
+enum class DomainScan { RoundRobin, Oldest, Deepest };
+
+/// The waiting segments of one bank: one first-in-first-out list per conflict domain (row x segment
+/// of a tile in flight), all sharing one pool of entries. Keeps, per domain, the pixels that have
+/// ended and the date from which the array may touch it again (the scoreboard).
+class SegmentQueue {
+public:
+    SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile);
+
+    bool full() const { return free_.empty(); }
+    bool empty() const { return free_.size() == entries_.size(); }
+    std::size_t size() const { return entries_.size() - free_.size(); }
+    std::size_t waiting(int slot) const { return slots_[static_cast<std::size_t>(slot)].waiting; }
+
+    void push(int slot, int domain, const Segment& segment);
+    const Segment& front(int slot, int domain) const {
+        return entries_[static_cast<std::size_t>(lists_[at(slot, domain)].head)].segment;
+    }
+    void pop(int slot, int domain);
+
+    std::uint32_t ended(int slot, int domain) const { return lists_[at(slot, domain)].ended; }
+    /// Marks pixels as ended; returns all that have.
+    std::uint32_t end_pixels(int slot, int domain, std::uint32_t mask) {
+        return lists_[at(slot, domain)].ended |= mask;
+    }
+    /// The array may touch the domain again from `date` on; at most kWheel - 1 cycles after the
+    /// execution date of the next pick().
+    void set_ready_at(int slot, int domain, Cycle date);
+    bool has_waiting(int slot, int domain) const { return lists_[at(slot, domain)].head != kNone; }
+
+    /// A domain of `slot` that has a segment and may execute at `date`, chosen by `scan`; -1 if
+    /// none. Dates of successive calls do not fall.
+    int pick(int slot, Cycle date, DomainScan scan);
+    /// Earliest date at which a waiting domain of `slot` becomes ready; kNever if none is cooling.
+    Cycle next_ready(int slot) const;
+    static constexpr int kWheel = 128;
+
+    /// Prepares `slot` for another tile; it must have no segments waiting.
+    void clear(int slot);
+
+private:
+    static constexpr std::int32_t kNone = -1;
+    struct Entry {
+        Segment segment;
+        std::int32_t next = kNone;
+    };
+    struct List {
+        std::int32_t head = kNone, tail = kNone;
+        std::uint32_t ended = 0;
+        std::uint32_t length = 0;
+        std::uint64_t head_sequence = 0; // of the head segment, so that a scan stays in this array
+    };
+    /// What a tile in flight has in the queue. Bit sets run over domains, words_ words each.
+    struct Slot {
+        std::size_t waiting = 0;
+        int cursor = 0;                      // domain after the last that was picked
+        Cycle turned = 0;                    // the wheel has released everything up to this date
+        std::vector<std::uint64_t> occupied; // has segments
+        std::vector<std::uint64_t> cooling;  // within the reuse distance
+        std::vector<std::uint64_t> wheel;    // kWheel sets: released at date mod kWheel
+    };
+    std::size_t at(int slot, int domain) const {
+        return static_cast<std::size_t>(slot * domains_ + domain);
+    }
+    void turn_wheel(Slot& slot, Cycle date) const;
+    int pick_next(Slot& slot) const;
+
+    int domains_;
+    std::size_t words_;
+    std::vector<Entry> entries_;
+    std::vector<std::int32_t> free_;
+    std::vector<List> lists_;
+    std::vector<Slot> slots_;
+};
+
+} // namespace degs

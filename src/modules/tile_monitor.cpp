@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/tile_monitor.hpp"
+
+namespace degs {
+
+void TileMonitor::Config::describe(ConfigVisitor& visitor) {
+    visitor.boolean(
+        "cancel", cancel,
+        "stop fetching a tile whose pixels have all ended; false parses lists to the end");
+    visitor.integer("latency_cycles", latency_cycles, 1, 4096,
+                    "cycles from the last slice's report to the fetchers [assumed]");
+}
+
+TileMonitor::TileMonitor(const sc_core::sc_module_name& name, const Config& config,
+                         const Timebase& time, const RenderJob& job, int slices,
+                         std::size_t listeners)
+    : sc_core::sc_module(name), in("in", static_cast<std::size_t>(slices)), out("out", listeners),
+      config_(config), job_(job), self_(time) {
+    SC_HAS_PROCESS(TileMonitor);
+    SC_THREAD(run);
+}
+
+void TileMonitor::end_of_elaboration() {
+    for (auto& port : in) {
+        port->connect_reader(self_);
+    }
+    for (auto& port : out) {
+        port->connect_writer(self_);
+    }
+}
+
+void TileMonitor::run() {
+    for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
+        bool all_ended = true;
+        for (auto& port : in) {
+            all_ended = port->get(self_).all_ended && all_ended;
+        }
+        stats_.tiles++;
+        if (all_ended && config_.cancel) {
+            stats_.tiles_cancelled++;
+            for (auto& port : out) {
+                port->put(self_, number);
+            }
+        }
+    }
+    self_.finish();
+}
+
+} // namespace degs

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/traffic.hpp"
+
+namespace degs {
+
+void TrafficConfig::describe(ConfigVisitor& visitor) {
+    visitor.integer("geometry_bytes", geometry_bytes, 1, 1024,
+                    "bytes per Gaussian read by projection; 11 values of FP16 (44 for FP32)");
+    visitor.integer("sh_value_bytes", sh_value_bytes, 1, 8,
+                    "bytes per SH value; a second array, so that culled Gaussians cost no colour");
+    visitor.integer("splat_bytes", splat_bytes, 1, 1024, "bytes per projected splat record");
+    visitor.integer("list_entry_bytes", list_entry_bytes, 1, 64,
+                    "bytes per tile-list entry; depth key 4 + index 4, as in tile-based designs");
+    visitor.integer("pixel_bytes", pixel_bytes, 4, 8,
+                    "bytes per frame-buffer pixel; 4 is RGBA8, 8 is RGBA16F");
+    visitor.integer("burst_bytes", burst_bytes, 1, 4096,
+                    "bytes; scattered records are read in whole bursts of this size");
+}
+
+MemoryMap::MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame) {
+    const auto aligned = [](std::uint64_t bytes) { return (bytes + 4095) / 4096 * 4096; };
+    const auto times = [](std::uint64_t count, int bytes) {
+        return count * static_cast<std::uint64_t>(bytes);
+    };
+    sh = geometry + aligned(times(frame.gaussians, traffic.geometry_bytes));
+    splats = sh + aligned(frame.gaussians * traffic.sh_bytes(frame.sh_degree));
+    lists = splats + aligned(times(frame.gaussians, traffic.splat_bytes));
+    frame_buffer = lists + 2 * aligned(times(frame.tile_pairs(), traffic.list_entry_bytes));
+}
+
+} // namespace degs

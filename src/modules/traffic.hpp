@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "splat/frame_workload.hpp"
+#include "tlm/config.hpp"
+
+namespace degs {
+
+/// Record layouts of the streams between accelerator and memory [assumed; architecture page, Sec.
+/// 4].
+struct TrafficConfig {
+    int geometry_bytes = 22;  ///< per Gaussian: 11 values of 2 B
+    int sh_value_bytes = 2;   ///< per coefficient and channel
+    int splat_bytes = 32;     ///< per projected splat
+    int list_entry_bytes = 8; ///< per tile pair: depth key 4, index 4
+    int pixel_bytes = 4;      ///< per frame-buffer pixel, RGBA8
+    int burst_bytes = 64;     ///< gathers are rounded up to this
+    void describe(ConfigVisitor& visitor);
+
+    std::uint64_t sh_bytes(int degree) const {
+        return static_cast<std::uint64_t>(3 * (degree + 1) * (degree + 1) * sh_value_bytes);
+    }
+};
+
+/// Where the streams live in memory; regions follow each other, aligned to 4 KiB.
+struct MemoryMap {
+    std::uint64_t geometry = 0, sh = 0, splats = 0, lists = 0, frame_buffer = 0;
+    MemoryMap() = default;
+    MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame);
+};
+
+} // namespace degs

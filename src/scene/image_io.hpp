@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "splat/image.hpp"
+
+namespace degs {
+
+/// Writes an OpenEXR file: float channels R, G, B as they are (display-referred; the attribute
+/// `colorSpace` says "srgb_rec709_display"), float `transmittance` and uint `fragments`. Values
+/// need not be finite. Atomic, and InputError if the place cannot be written, like `write_png`.
+void write_exr(const Image& image, const std::string& path);
+
+/// Reads R, G, B and, where present, `transmittance` and `fragments` (else 1 and 0). InputError if
+/// this is no EXR image of at most 2^28 pixels with these channels.
+Image read_exr(const std::string& path);
+
+/// Writes 8 bits per channel: clamp(value, 0, 1) * 255 + 0.5, truncated; NaN is 0. No gamma: the
+/// values are display-referred already.
+void write_png(const Image& image, const std::string& path);
+
+} // namespace degs

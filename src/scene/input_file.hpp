@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+namespace degs {
+
+/// Throws InputError "<path>: <sentence>".
+[[noreturn]] void fail_file(const std::string& path, const std::string& sentence);
+
+/// A regular file of known size, read in blocks. Every failure is an InputError that names it.
+class InputFile {
+public:
+    /// Missing, a directory, unreadable or empty: InputError.
+    explicit InputFile(const std::string& path);
+
+    const std::string& path() const { return path_; }
+    std::uint64_t size() const { return size_; }
+    std::uint64_t position() const { return position_; }
+    std::uint64_t remaining() const { return size_ - position_; }
+
+    void seek(std::uint64_t position);
+    /// Moves on by `bytes`, which must not exceed `remaining()`.
+    void skip(std::uint64_t bytes);
+    /// Up to `bytes`; fewer at the end of the file only.
+    std::size_t read_some(char* destination, std::size_t bytes);
+    /// Exactly `bytes`; InputError if the file ends before (it shrank while we read).
+    void read_exactly(char* destination, std::size_t bytes);
+
+private:
+    std::string path_;
+    std::uint64_t size_ = 0;
+    std::uint64_t position_ = 0;
+    std::ifstream stream_;
+};
+
+/// The whole file as text; InputError if it is larger than `limit_bytes`.
+std::string read_text(const std::string& path, std::uint64_t limit_bytes);
+
+} // namespace degs

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+#include "scene/cameras.hpp"
+#include "scene/input_file.hpp"
+#include "scene/ply.hpp"
+#include "scene/synthetic.hpp"
+#include "splat/error.hpp"
+
+namespace degs {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Reader {
+    const char* extension; ///< lower case
+    GaussianCloud (*read)(const std::string& path);
+};
+constexpr std::array<Reader, 1> kReaders{{
+    {".ply", read_ply},
+}};
+
+constexpr const char* kSynthetic = "synthetic:";
+constexpr const char* kCameras = "cameras.json";
+
+std::string extension_of(const std::string& path) {
+    std::string extension = fs::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+std::string allowed_extensions() {
+    std::string list;
+    for (const std::string& extension : scene_extensions()) {
+        list += (list.empty() ? "" : ", ") + extension;
+    }
+    return list;
+}
+
+GaussianCloud read_cloud(const std::string& path) {
+    const InputFile exists(path); // a missing file is the first thing to say
+    for (const Reader& reader : kReaders) {
+        if (extension_of(path) == reader.extension) {
+            return reader.read(path);
+        }
+    }
+    fail_file(path, "the extension '" + extension_of(path) +
+                        "' is not that of a scene file; allowed are " + allowed_extensions() +
+                        ", or 'synthetic:NAME'.");
+}
+
+/// Training writes model/point_cloud/iteration_N/point_cloud.ply and model/cameras.json.
+bool is_training_output(const fs::path& file) {
+    return file.stem() == "point_cloud" &&
+           file.parent_path().filename().string().rfind("iteration_", 0) == 0;
+}
+
+std::string name_of(const fs::path& file) {
+    const fs::path absolute = fs::absolute(file);
+    if (is_training_output(absolute)) {
+        return absolute.parent_path().parent_path().parent_path().filename().string();
+    }
+    return file.stem() == "scene" ? absolute.parent_path().filename().string()
+                                  : file.stem().string();
+}
+
+/// Empty if there is none.
+std::string find_cameras(const fs::path& file) {
+    const fs::path folder = fs::absolute(file).parent_path();
+    std::error_code ignored;
+    if (fs::exists(folder / kCameras, ignored)) {
+        return (file.parent_path() / kCameras).string();
+    }
+    const fs::path model = folder.parent_path().parent_path();
+    if (is_training_output(fs::absolute(file)) && fs::exists(model / kCameras, ignored)) {
+        return (model / kCameras).string();
+    }
+    return {};
+}
+
+void sanitize_scene(Scene& scene) {
+    const std::size_t before = scene.cloud.size();
+    if (before == 0) {
+        fail_file(scene.source, "the scene holds no Gaussians; at least one is needed.");
+    }
+    scene.dropped = sanitize(scene.cloud);
+    if (scene.cloud.empty()) {
+        const SanitizeReport& d = scene.dropped;
+        fail_file(scene.source, "none of the " + std::to_string(before) +
+                                    " Gaussians can be drawn: " + std::to_string(d.non_finite) +
+                                    " hold NaN or infinity, " + std::to_string(d.zero_rotation) +
+                                    " a rotation of length zero, " + std::to_string(d.bad_scale) +
+                                    " a negative scale and " + std::to_string(d.bad_opacity) +
+                                    " an opacity outside 0 to 1.");
+    }
+}
+
+} // namespace
+
+Scene load_scene(const std::string& spec, const std::string& cameras_path) {
+    Scene scene;
+    scene.source = spec;
+    std::string cameras = cameras_path;
+    if (spec.rfind(kSynthetic, 0) == 0) {
+        const SyntheticSpec synthetic =
+            parse_synthetic(spec.substr(std::string(kSynthetic).size()));
+        SyntheticScene made = make_synthetic(synthetic);
+        scene.name = synthetic.profile;
+        scene.cloud = std::move(made.cloud);
+        scene.cameras = std::move(made.cameras);
+    } else {
+        scene.cloud = read_cloud(spec);
+        scene.name = name_of(spec);
+        cameras = cameras.empty() ? find_cameras(spec) : cameras;
+    }
+    sanitize_scene(scene);
+    if (!cameras.empty()) {
+        scene.cameras = read_cameras(cameras);
+    }
+    if (scene.cameras.empty()) {
+        scene.cameras.push_back(orbit_camera(scene.cloud));
+    }
+    return scene;
+}
+
+std::vector<std::string> scene_extensions() {
+    std::vector<std::string> extensions;
+    extensions.reserve(kReaders.size());
+    for (const Reader& reader : kReaders) {
+        extensions.emplace_back(reader.extension);
+    }
+    return extensions;
+}
+
+Camera select_camera(const Scene& scene, int index) {
+    if (index < 0 || index >= static_cast<int>(scene.cameras.size())) {
+        throw InputError("Camera " + std::to_string(index) + " does not exist: scene '" +
+                         scene.source + "' has " + std::to_string(scene.cameras.size()) +
+                         " camera(s), numbered from 0.");
+    }
+    return scene.cameras[static_cast<std::size_t>(index)];
+}
+
+} // namespace degs

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "splat/camera.hpp"
+#include "splat/gaussian.hpp"
+
+namespace degs {
+
+struct Scene {
+    std::string name;            ///< short, for reports: of the file, its folder or the profile
+    std::string source;          ///< what the user wrote
+    GaussianCloud cloud;         ///< sanitized and not empty
+    std::vector<Camera> cameras; ///< never empty: scenes without cameras get an orbit view
+    SanitizeReport dropped;      ///< what was not drawable
+};
+
+/// Loads `spec`: a scene file (its extension chooses the reader), or
+/// "synthetic:NAME[,gaussians=N][,seed=N]". Cameras come from `cameras_path` if given, else from
+/// cameras.json beside the file (or, for the folder layout of the original training code, beside
+/// the model). InputError for everything a user can get wrong, also for a scene without a drawable
+/// Gaussian.
+Scene load_scene(const std::string& spec, const std::string& cameras_path = "");
+
+/// File name extensions that `load_scene` reads, e.g. ".ply".
+std::vector<std::string> scene_extensions();
+
+/// By position in `scene.cameras`; InputError that says how many there are.
+Camera select_camera(const Scene& scene, int index);
+
+} // namespace degs

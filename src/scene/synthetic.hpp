@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "splat/camera.hpp"
+#include "splat/gaussian.hpp"
+
+namespace degs {
+
+/// Which synthetic scene to make; see docs/synthetic-scenes.md.
+struct SyntheticSpec {
+    std::string profile;
+    std::uint64_t gaussians = 0;
+    std::uint64_t seed = 1;
+};
+
+struct SyntheticScene {
+    GaussianCloud cloud;
+    std::vector<Camera> cameras; ///< overview 640x480, near 1280x720, closeup 1920x1080
+};
+
+/// A profile's row in the manual.
+struct SyntheticProfile {
+    std::string name;
+    std::string meaning;
+    std::uint64_t default_gaussians = 0;
+};
+std::vector<SyntheticProfile> synthetic_profiles();
+
+/// Parses "NAME[,gaussians=N][,seed=N]". InputError names the profiles, keys and ranges.
+SyntheticSpec parse_synthetic(const std::string& text);
+
+/// The same spec gives the same bytes on every platform with IEEE arithmetic (nothing depends on
+/// the distributions of the standard library or the last bit of the C library's exp). Sizes shrink
+/// as the count grows, so that coverage and depth complexity stay; below 10 000 Gaussians only
+/// roughly.
+SyntheticScene make_synthetic(const SyntheticSpec& spec);
+
+} // namespace degs

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "splat/data_path.hpp"
+
+namespace degs {
+
+/// What a PE fetches by G_ID (paper: Global Gaussian Parameter).
+template <class T>
+struct BlendRecord {
+    T a; // quadratic coefficient A
+    T r, g, b;
+};
+
+/// Pixel state as planes, so that neighbouring pixels are neighbouring lanes.
+template <class T>
+struct PixelPlanes {
+    std::vector<T> transmittance, r, g, b;
+    std::vector<T> live; // 1 while the pixel takes splats, 0 once it has ended
+    std::vector<std::uint32_t> updates;
+
+    explicit PixelPlanes(std::size_t size)
+        : transmittance(size, T(1)), r(size, T(0)), g(size, T(0)), b(size, T(0)), live(size, T(1)),
+          updates(size, 0) {}
+
+    void clear(std::size_t first, std::size_t count) {
+        std::fill_n(transmittance.begin() + static_cast<std::ptrdiff_t>(first), count, T(1));
+        std::fill_n(live.begin() + static_cast<std::ptrdiff_t>(first), count, T(1));
+        for (std::vector<T>* plane : {&r, &g, &b}) {
+            std::fill_n(plane->begin() + static_cast<std::ptrdiff_t>(first), count, T(0));
+        }
+        std::fill_n(updates.begin() + static_cast<std::ptrdiff_t>(first), count, 0U);
+    }
+    PixelValue read(std::size_t i) const {
+        PixelValue value;
+        value.rgb[0] = static_cast<double>(r[i]);
+        value.rgb[1] = static_cast<double>(g[i]);
+        value.rgb[2] = static_cast<double>(b[i]);
+        value.transmittance = static_cast<double>(transmittance[i]);
+        value.updates = updates[i];
+        value.ended = live[i] == T(0);
+        return value;
+    }
+};
+
+/// q' = q - 2 ln o at which alpha = 1/255: 2 ln 255.
+constexpr double kQLimit = 11.082527090316852;
+
+/// The PE for up to 32 neighbouring pixels: q_n (paper Eq. 19), alpha (Eq. 21), recurrence (Eq. 8).
+/// `first` is the pixel of mask bit 0. `refuse`: StopRule::Refuse. Neighbouring lanes are computed
+/// together; lanes without a task change nothing. The planes must have kLanePadding pixels more
+/// than are used. Uses the widest vectors of the machine it runs on; results are the same at any
+/// width.
+template <class T>
+using BlendFunction = BlendOutcome (*)(const BlendTask& task, const BlendRecord<T>& splat,
+                                       bool refuse, PixelPlanes<T>& pixels, std::size_t first);
+BlendFunction<float> blend_function(float);
+BlendFunction<double> blend_function(double);
+
+constexpr std::size_t kLanePadding = 16;
+
+/// All variants this build has, narrow first; those the machine cannot run are left out. For tests.
+std::vector<BlendFunction<float>> blend_variants();
+/// The exponential of the float lanes, x in [-80, 1]; relative error < 3e-7.
+float lane_exp(float x);
+
+} // namespace degs

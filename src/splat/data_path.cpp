@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "splat/data_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "splat/blend_lanes.hpp"
+
+namespace degs {
+namespace {
+
+/// What the Gaussian Slicing Unit and the Span Unit need of a splat (paper: Temporary Gaussian
+/// Parameter). The mean is its nearest pixel plus an offset in [-0.5, 0.5]: a plain fp32 coordinate
+/// would lose 2^-13 px beyond x = 1024, which is enough to move span ends.
+template <class T>
+struct SpanRecord {
+    std::int32_t pixel_x, pixel_y;
+    T offset_x, offset_y;
+    T slope;       // m = -B/A = b/c (Eq. 10)
+    T c_prime;     // C' = C - B^2/A = 1/c, exactly, without the cancellation
+    T inverse_a;   // 1/A = det/c
+    T a;           // A
+    T q_threshold; // Q_th
+    T fold;        // 2 ln o, subtracted from g0 so that the PE needs exp(-q/2) alone
+    std::int32_t first_row, last_row, first_column, last_column;
+    // For the part of the ellipse inside a tile's columns: the same shape solved for y.
+    float column_slope;   // b/a
+    float column_c_prime; // 1/a
+    float column_inverse; // det/a
+    float tip_offset;     // x of the lowest point minus the mean; the highest mirrors it
+};
+
+constexpr int kFarRow = 1 << 29; // beyond every image; leaves room to add to it
+
+std::int32_t to_pixel(double value) {
+    constexpr double kLimit = 1 << 30;
+    return static_cast<std::int32_t>(std::lround(std::clamp(value, -kLimit, kLimit)));
+}
+
+template <class T>
+SpanRecord<T> derive(const ProjectedSplat& splat) {
+    SpanRecord<T> record{};
+    record.pixel_x = to_pixel(splat.mu_x);
+    record.pixel_y = to_pixel(splat.mu_y);
+    record.offset_x = static_cast<T>(splat.mu_x - record.pixel_x);
+    record.offset_y = static_cast<T>(splat.mu_y - record.pixel_y);
+    record.slope = static_cast<T>(splat.cov_b / splat.cov_c);
+    record.c_prime = static_cast<T>(1.0 / splat.cov_c);
+    record.inverse_a = static_cast<T>(splat.det / splat.cov_c);
+    record.a = static_cast<T>(splat.cov_c / splat.det);
+    record.q_threshold = static_cast<T>(splat.q_threshold);
+    record.fold = static_cast<T>(2.0 * std::log(splat.opacity));
+    const double reach = std::sqrt(splat.q_threshold * splat.cov_c);
+    record.first_row = to_pixel(std::ceil(splat.mu_y - reach));
+    record.last_row = to_pixel(std::floor(splat.mu_y + reach));
+    const double reach_x = std::sqrt(splat.q_threshold * splat.cov_a);
+    record.first_column = to_pixel(std::ceil(splat.mu_x - reach_x));
+    record.last_column = to_pixel(std::floor(splat.mu_x + reach_x));
+    record.column_slope = static_cast<float>(splat.cov_b / splat.cov_a);
+    record.column_c_prime = static_cast<float>(1.0 / splat.cov_a);
+    record.column_inverse = static_cast<float>(splat.det / splat.cov_a);
+    record.tip_offset = static_cast<float>(splat.cov_b / splat.cov_c * reach);
+    return record;
+}
+
+template <class T>
+class DataPathOf final : public DataPath {
+public:
+    DataPathOf(const DataPathOptions& options, int tile_size, int contexts)
+        : options_(options), tile_size_(tile_size), stride_((tile_size + 31) / 32 * 32),
+          pixels_(static_cast<std::size_t>(contexts * tile_size * stride_) + kLanePadding),
+          blend_(blend_function(T{})) {}
+
+    std::uint32_t add_frame(const FrameWorkload& workload) override {
+        const auto base = static_cast<std::uint32_t>(spans_.size());
+        spans_.reserve(spans_.size() + workload.splats.size());
+        blends_.reserve(blends_.size() + workload.splats.size());
+        for (const ProjectedSplat& splat : workload.splats) {
+            spans_.push_back(derive<T>(splat));
+            blends_.push_back({spans_.back().a, static_cast<T>(splat.colour[0]),
+                               static_cast<T>(splat.colour[1]), static_cast<T>(splat.colour[2])});
+        }
+        return base;
+    }
+
+    void rows(std::uint32_t splat, int& first, int& last) const override {
+        first = spans_[splat].first_row;
+        last = spans_[splat].last_row;
+    }
+
+    void columns(std::uint32_t splat, int& first, int& last) const override {
+        // A rounded span end may lie a pixel beyond the box; outward ends always do.
+        first = spans_[splat].first_column - 2 - options_.delta;
+        last = spans_[splat].last_column + 2 + options_.delta;
+    }
+
+    // The ellipse between two columns is convex, so its lowest row is that of the ellipse's own
+    // lowest point if that lies between them, else where the nearer column cuts it; likewise the
+    // highest.
+    void rows_in_columns(std::uint32_t splat, int x_begin, int x_end, int& first,
+                         int& last) const override {
+        const SpanRecord<T>& s = spans_[splat];
+        const float left = static_cast<float>(x_begin - s.pixel_x) - static_cast<float>(s.offset_x);
+        const float right =
+            static_cast<float>(x_end - 1 - s.pixel_x) - static_cast<float>(s.offset_x);
+        first = s.first_row;
+        last = s.last_row;
+        // Lowest row index = smallest y: at x offset -tip; largest y at +tip.
+        if (-s.tip_offset < left || -s.tip_offset > right) {
+            first = std::max(first, cut(s, -s.tip_offset < left ? left : right, -1));
+        }
+        if (s.tip_offset < left || s.tip_offset > right) {
+            last = std::min(last, cut(s, s.tip_offset < left ? left : right, +1));
+        }
+    }
+
+    bool solve_row(std::uint32_t splat, int y, int x_begin, int x_end, int tile_y,
+                   RowSpan& span) const override {
+        const SpanRecord<T>& s = spans_[splat];
+        const T dy = static_cast<T>(y - s.pixel_y) - s.offset_y;
+        const T vertical = s.c_prime * dy * dy;
+        const T room = s.q_threshold - vertical;
+        if (!(room >= 0)) {
+            return false;
+        }
+        const T width = std::sqrt(room * s.inverse_a);
+        const T centre = s.offset_x + s.slope * dy; // relative to pixel_x
+        T left = centre - width;
+        T right = centre + width;
+        if (options_.ends == SpanEnds::Exact) {
+            left = std::ceil(left);
+            right = std::floor(right);
+        } else {
+            left = std::floor(left) - static_cast<T>(options_.delta);
+            right = std::ceil(right) + static_cast<T>(options_.delta);
+        }
+        left = std::max(left, static_cast<T>(x_begin - s.pixel_x));
+        right = std::min(right, static_cast<T>(x_end - 1 - s.pixel_x));
+        if (!(left <= right)) {
+            return false;
+        }
+        const T start = left - centre;
+        const T g0 = s.a * start * start + vertical - s.fold;
+        const T d0 = s.a * (2 * start + 1);
+        span.splat = splat;
+        span.y = static_cast<std::int16_t>(y - tile_y);
+        // Beyond 2^24 px from the mean a float does not name single pixels, and left may be rounded
+        // out of the tile.
+        const int x0 = std::max(static_cast<std::int32_t>(left) + s.pixel_x, x_begin);
+        const int x1 = std::min(static_cast<std::int32_t>(right) + s.pixel_x, x_end - 1);
+        if (x0 > x1) {
+            return false;
+        }
+        span.x0 = static_cast<std::int16_t>(x0 - x_begin);
+        span.length = static_cast<std::int16_t>(x1 - x0 + 1);
+        span.g0 = static_cast<double>(g0);
+        span.d0 = static_cast<double>(d0);
+        return true;
+    }
+
+    void begin_row(int context, int row) override {
+        pixels_.clear(at(context, row, 0), static_cast<std::size_t>(stride_));
+    }
+
+    BlendOutcome blend(const BlendTask& task) override {
+        const std::size_t first = at(task.context, task.row, task.column);
+        return blend_(task, blends_[task.splat], options_.stop == StopRule::Refuse, pixels_, first);
+    }
+
+    void read_row(int context, int row, int count, PixelValue* pixels) const override {
+        const std::size_t first = at(context, row, 0);
+        for (int i = 0; i < count; ++i) {
+            pixels[i] = pixels_.read(first + static_cast<std::size_t>(i));
+        }
+    }
+
+private:
+    // Row at which column dx (from the mean) leaves the ellipse, upwards (-1) or downwards (+1),
+    // with a row of slack; beyond every row if the column misses the ellipse.
+    static int cut(const SpanRecord<T>& s, float dx, int direction) {
+        const float room = static_cast<float>(s.q_threshold) - s.column_c_prime * dx * dx;
+        if (!(room >= -1e-3F)) {
+            return direction < 0 ? kFarRow : -kFarRow;
+        }
+        // The two terms of `room` cancel where the column just touches the ellipse: with their
+        // rounding added, a steep needle loses no row.
+        const float rounding = 1e-6F * (static_cast<float>(s.q_threshold) + 1);
+        const float height = std::sqrt(std::max(room + rounding, 0.0F) * s.column_inverse);
+        const float y = static_cast<float>(s.offset_y) + s.column_slope * dx +
+                        static_cast<float>(direction) * height;
+        const float limited = std::min(std::max(y, -1e8F), 1e8F);
+        const float slack =
+            0.01F + 1e-6F * (std::abs(limited) + std::abs(s.column_slope * dx) + height);
+        return s.pixel_y + static_cast<int>(direction < 0 ? std::ceil(limited - slack)
+                                                          : std::floor(limited + slack));
+    }
+    std::size_t at(int context, int row, int column) const {
+        return static_cast<std::size_t>((context * tile_size_ + row) * stride_ + column);
+    }
+
+    DataPathOptions options_;
+    int tile_size_;
+    int stride_; // tile rows are padded to 32 px so that a lane block never leaves its row
+    PixelPlanes<T> pixels_;
+    BlendFunction<T> blend_;
+    std::vector<SpanRecord<T>> spans_;
+    std::vector<BlendRecord<T>> blends_;
+};
+
+} // namespace
+
+std::unique_ptr<DataPath> make_data_path(const DataPathOptions& options, int tile_size,
+                                         int contexts) {
+    if (options.numbers == NumberFormat::Fp64) {
+        return std::make_unique<DataPathOf<double>>(options, tile_size, contexts);
+    }
+    return std::make_unique<DataPathOf<float>>(options, tile_size, contexts);
+}
+
+} // namespace degs

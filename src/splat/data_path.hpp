@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "splat/frame_workload.hpp"
+
+namespace degs {
+
+/// Arithmetic of the modelled data path. More formats join here.
+enum class NumberFormat { Fp32, Fp64 };
+
+/// Which pixels a row span covers. `Exact`: ceil(x_c - w) .. floor(x_c + w), the pixels with
+/// q <= Q_th. `Outward`: floor(x_c - w) - delta .. ceil(x_c + w) + delta (paper, Sec. III-A).
+enum class SpanEnds { Exact, Outward };
+
+/// `Refuse`: the splat that would push T under 1e-4 is not blended and ends the pixel (reference).
+/// `After`: it is blended, then the pixel ends (paper, Sec. II-A).
+enum class StopRule { Refuse, After };
+
+struct DataPathOptions {
+    NumberFormat numbers = NumberFormat::Fp32;
+    SpanEnds ends = SpanEnds::Exact;
+    int delta = 0; ///< px added at both ends of an outward span (paper: "estimates the error")
+    StopRule stop = StopRule::Refuse;
+};
+
+/// One row of one splat inside one tile: the Span Vector of the paper (Eq. 20). Values of g0 and d0
+/// are already rounded to the data path's format; double only carries them.
+struct RowSpan {
+    std::uint32_t splat = 0; ///< global index, see DataPath::add_frame
+    std::int16_t y = 0;      ///< row inside the tile
+    std::int16_t x0 = 0;     ///< first pixel inside the tile
+    std::int16_t length = 0; ///< pixels, >= 1
+    double g0 = 0;           ///< q - 2 ln o at x0 (the opacity is folded into the start value)
+    double d0 = 0;           ///< first forward difference
+};
+
+/// Up to 32 neighbouring pixels of one row span, handed to the PEs in one go.
+struct BlendTask {
+    double g0 = 0, d0 = 0; ///< of the span
+    std::uint32_t splat = 0;
+    std::uint32_t mask = 0;  ///< bit i: the pixel at column + i has a task
+    std::int16_t row = 0;    ///< inside the tile
+    std::int16_t column = 0; ///< inside the tile, of mask bit 0; a multiple of the segment length
+    std::int16_t offset =
+        0; ///< n of mask bit 0, i.e. column - x0; negative if the span starts later
+    std::int16_t context = 0; ///< tile context of the Pixel Buffer
+};
+
+/// What became of the tasks; disjoint masks whose union is BlendTask::mask, and the pixels that
+/// ended.
+struct BlendOutcome {
+    std::uint32_t useful = 0;     ///< inside the ellipse and blended
+    std::uint32_t boundary = 0;   ///< outside the ellipse (alpha < 1/255)
+    std::uint32_t terminated = 0; ///< inside, but the pixel has ended or refuses the splat
+    std::uint32_t ended = 0;      ///< pixels that ended now
+};
+
+/// One finished pixel.
+struct PixelValue {
+    double rgb[3] = {0, 0, 0};
+    double transmittance = 1;
+    std::uint32_t updates = 0;
+    bool ended = false;
+};
+
+/// The arithmetic that the modules call: row spans, closed-form q_n, alpha, transmittance and
+/// colour, and the pixel state of all tile contexts. No time in here.
+class DataPath {
+public:
+    virtual ~DataPath() = default;
+
+    /// Derives the records of all splats of a frame; returns the global index of its first splat.
+    virtual std::uint32_t add_frame(const FrameWorkload& workload) = 0;
+    /// First and last image row (inclusive, unclipped) that the splat's ellipse meets.
+    virtual void rows(std::uint32_t splat, int& first, int& last) const = 0;
+    /// The same for the part of the ellipse in columns [x_begin, x_end). May name a row too many at
+    /// either end (rounding), never one too few; first > last if the ellipse passes by.
+    virtual void rows_in_columns(std::uint32_t splat, int x_begin, int x_end, int& first,
+                                 int& last) const = 0;
+    /// First and last image column (inclusive, unclipped) that the splat's ellipse meets.
+    virtual void columns(std::uint32_t splat, int& first, int& last) const = 0;
+    /// Solves image row `y` for the columns [x_begin, x_end) of a tile whose top row is `tile_y`
+    /// (paper Eq. 12-15, 19). False if no pixel of the tile is covered.
+    virtual bool solve_row(std::uint32_t splat, int y, int x_begin, int x_end, int tile_y,
+                           RowSpan& span) const = 0;
+
+    /// Makes a row of a context ready for a tile: T = 1, colour 0, nothing ended.
+    virtual void begin_row(int context, int row) = 0;
+    /// Updates the pixels of one task, left to right.
+    virtual BlendOutcome blend(const BlendTask& task) = 0;
+    /// The first `count` pixels of a row.
+    virtual void read_row(int context, int row, int count, PixelValue* pixels) const = 0;
+};
+
+/// A data path for tiles of `tile_size` px and `contexts` tiles in flight.
+std::unique_ptr<DataPath> make_data_path(const DataPathOptions& options, int tile_size,
+                                         int contexts);
+
+} // namespace degs

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "splat/frame_workload.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "splat/error.hpp"
+#include "splat/tile_cover.hpp"
+
+namespace degs {
+namespace {
+
+constexpr int kMaxTileSize = 1 << 16; // px; keeps every pixel coordinate of the grid within int
+
+void check(const GaussianCloud& cloud, const Camera& camera, int tile_size,
+           const ProjectionOptions& options) {
+    if (camera.width < 1 || camera.height < 1 || !(camera.fx > 0) || !(camera.fy > 0)) {
+        throw InputError("Camera " + std::to_string(camera.id) + " has an image of " +
+                         std::to_string(camera.width) + " x " + std::to_string(camera.height) +
+                         " pixels and focal lengths " + std::to_string(camera.fx) + " and " +
+                         std::to_string(camera.fy) + "; all four must be positive.");
+    }
+    if (tile_size < 1 || tile_size > kMaxTileSize) {
+        throw InputError("Tile size " + std::to_string(tile_size) +
+                         " is not possible; it must lie in 1 .. " + std::to_string(kMaxTileSize) +
+                         " pixels.");
+    }
+    if (!(options.near_plane >= 0)) {
+        throw InputError("Near plane " + std::to_string(options.near_plane) +
+                         " is not possible; it must be 0 or a positive distance in scene units.");
+    }
+    if (cloud.size() > std::numeric_limits<std::uint32_t>::max()) {
+        throw InputError("The scene has " + std::to_string(cloud.size()) +
+                         " Gaussians; at most 4294967295 are supported.");
+    }
+}
+
+/// Everything that binning needs to know about the mode, and the scratch space for it.
+class Binner {
+public:
+    Binner(const TileGrid& grid, TileMode mode) : grid_(grid), mode_(mode) {}
+
+    /// Valid until the next call.
+    const std::vector<TileRun>& cover(const ProjectedSplat& splat) {
+        if (mode_ == TileMode::Exact) {
+            cover_ellipse(splat, grid_, runs_);
+        } else {
+            cover_square(splat, grid_, runs_);
+        }
+        return runs_;
+    }
+    std::size_t tile(int row, int column) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.tiles_x()) +
+               static_cast<std::size_t>(column);
+    }
+
+private:
+    TileGrid grid_;
+    TileMode mode_;
+    std::vector<TileRun> runs_;
+};
+
+void count_cull(Cull cull, CullCounts& counts) {
+    switch (cull) {
+    case Cull::None:
+        break;
+    case Cull::Near:
+        ++counts.near;
+        break;
+    case Cull::Transparent:
+        ++counts.transparent;
+        break;
+    case Cull::Degenerate:
+        ++counts.degenerate;
+        break;
+    case Cull::OffScreen:
+        ++counts.off_screen;
+        break;
+    }
+}
+
+/// Adds the splat to the length of every list it belongs to (kept in tile_begin[tile + 1]).
+std::uint32_t count_tiles(const ProjectedSplat& splat, Binner& binner, FrameWorkload& work) {
+    std::uint32_t touched = 0;
+    for (const TileRun& run : binner.cover(splat)) {
+        touched += static_cast<std::uint32_t>(run.last - run.first + 1);
+        const std::size_t begin = binner.tile(run.row, run.first) + 1;
+        const std::size_t end = binner.tile(run.row, run.last) + 1;
+        for (std::size_t tile = begin; tile <= end; ++tile) {
+            ++work.tile_begin[tile];
+        }
+    }
+    return touched;
+}
+
+/// Visible splats in cloud order, shaded; lists are counted but not filled.
+void project_all(const GaussianCloud& cloud, Binner& binner, FrameWorkload& work) {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        ProjectedSplat splat;
+        // In Ref mode the square decides what is on the screen, not the ellipse.
+        const Cull cull = work.tile_mode == TileMode::Exact
+                              ? project(cloud, i, work.camera, work.projection, splat)
+                              : project_anywhere(cloud, i, work.camera, work.projection, splat);
+        if (cull != Cull::None) {
+            count_cull(cull, work.culled);
+            continue;
+        }
+        const std::uint32_t touched = count_tiles(splat, binner, work);
+        if (touched == 0) {
+            ++work.culled.off_screen;
+            continue;
+        }
+        shade(cloud, i, work.camera, splat);
+        work.splats.push_back(splat);
+        work.visible_of.push_back(splat.id);
+        work.tiles_touched.push_back(touched);
+    }
+}
+
+/// Positions in near-to-far order. Bits of positive floats order like their values; the position
+/// in the low half makes the order of equal depths that of the cloud.
+std::vector<std::uint64_t> depth_order(const std::vector<ProjectedSplat>& splats) {
+    std::vector<std::uint64_t> keys(splats.size());
+    for (std::size_t i = 0; i < splats.size(); ++i) {
+        const auto depth = static_cast<float>(splats[i].depth);
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, &depth, sizeof bits);
+        keys[i] = static_cast<std::uint64_t>(bits) << 32 | i;
+    }
+    std::sort(keys.begin(), keys.end());
+    for (std::uint64_t& key : keys) {
+        key &= 0xffffffffU;
+    }
+    return keys;
+}
+
+template <class Value>
+void reorder(std::vector<Value>& values, const std::vector<std::uint64_t>& order) {
+    std::vector<Value> sorted;
+    sorted.reserve(values.size());
+    for (const std::uint64_t position : order) {
+        sorted.push_back(values[position]);
+    }
+    values.swap(sorted);
+}
+
+/// Turns list lengths into offsets and appends every splat, near to far, to its lists.
+void fill_lists(Binner& binner, FrameWorkload& work) {
+    for (std::size_t tile = 1; tile < work.tile_begin.size(); ++tile) {
+        work.tile_begin[tile] += work.tile_begin[tile - 1];
+    }
+    work.tile_splats.resize(work.tile_begin.back());
+    std::vector<std::uint64_t> next(work.tile_begin.begin(), work.tile_begin.end() - 1);
+    for (std::size_t i = 0; i < work.splats.size(); ++i) {
+        for (const TileRun& run : binner.cover(work.splats[i])) {
+            const std::size_t end = binner.tile(run.row, run.last);
+            for (std::size_t tile = binner.tile(run.row, run.first); tile <= end; ++tile) {
+                work.tile_splats[next[tile]++] = static_cast<std::uint32_t>(i);
+            }
+        }
+    }
+}
+
+} // namespace
+
+FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& camera, int tile_size,
+                                  TileMode mode, const ProjectionOptions& options) {
+    check(cloud, camera, tile_size, options);
+    const TileGrid grid{camera.width, camera.height, tile_size};
+    FrameWorkload work;
+    work.camera = camera;
+    work.projection = options;
+    work.tile_size = tile_size;
+    work.tile_mode = mode;
+    work.tiles_x = grid.tiles_x();
+    work.tiles_y = grid.tiles_y();
+    work.gaussians = cloud.size();
+    work.sh_degree = cloud.sh_degree;
+    work.tile_begin.assign(static_cast<std::size_t>(work.tiles()) + 1, 0);
+
+    Binner binner(grid, mode);
+    project_all(cloud, binner, work);
+    const std::vector<std::uint64_t> order = depth_order(work.splats);
+    reorder(work.splats, order);
+    reorder(work.tiles_touched, order);
+    fill_lists(binner, work);
+    return work;
+}
+
+} // namespace degs

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace degs {
+
+/// A rendered frame: colour in the scene's display-referred space (not clamped), the transmittance
+/// left for the background, and how many splats each pixel blended. Row-major from the top left.
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<float> rgb;               ///< 3 per pixel
+    std::vector<float> transmittance;     ///< 1 per pixel, 1 = nothing drawn
+    std::vector<std::uint32_t> fragments; ///< pixel updates performed (blended splats), 1 per pixel
+
+    Image() = default;
+    Image(int w, int h)
+        : width(w), height(h), rgb(pixels() * 3, 0.0F), transmittance(pixels(), 1.0F),
+          fragments(pixels(), 0) {}
+    std::size_t pixels() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+    std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+               static_cast<std::size_t>(x);
+    }
+};
+
+} // namespace degs

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "splat/frame_workload.hpp"
+#include "splat/image.hpp"
+
+namespace degs {
+
+/// What a reference render counted.
+struct ReferenceCounts {
+    std::uint64_t fragments = 0;  ///< pixel updates performed
+    std::uint64_t terminated = 0; ///< pixels that stopped early (a splat was refused)
+};
+
+/// Renders a workload in double precision with the pixel rules of the original rasteriser:
+/// alpha = min(0.99, o exp(-q/2)), skipped if alpha < 1/255, the splat that would push the
+/// transmittance under 1e-4 is refused and ends the pixel. Background is black (0).
+/// Tests every candidate pixel's alpha itself; shares no span arithmetic with the data path.
+/// The alpha threshold is workload.projection.alpha_min (1/255). With TileMode::Exact the image
+/// does not depend on the tile size.
+Image render_reference(const FrameWorkload& workload, ReferenceCounts& counts);
+
+} // namespace degs

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include <glm/glm.hpp>
+
+namespace degs {
+
+constexpr int kMaxShDegree = 3;
+constexpr int kMaxShCoefficients = (kMaxShDegree + 1) * (kMaxShDegree + 1);
+
+/// Real spherical harmonics Y_k(direction) with the Condon-Shortley phase, k < (degree + 1)^2; the
+/// rest is 0. `direction` has length 1. Order inside a degree: m = -l .. +l.
+std::array<double, kMaxShCoefficients> sh_basis(int degree, const glm::dvec3& direction);
+
+/// sum c_k Y_k(direction) per channel. `coefficients` is [coefficient][channel], as in
+/// GaussianCloud::sh. The 0.5 that the 3DGS colour adds is not included.
+glm::dvec3 evaluate_sh(int degree, const float* coefficients, const glm::dvec3& direction);
+
+} // namespace degs

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The configuration as a module sees it: a struct with defaults that describes its own keys.
+// Reading files is config_source.hpp, printing and documenting is config_document.hpp.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace degs {
+
+/// A mistake in a configuration: one sentence with file:line (or the --set text), full key, the
+/// offending value and what is allowed. The module kit has its own type because it knows nothing of
+/// src/splat; sim/ catches both.
+class ConfigError : public std::runtime_error {
+public:
+    explicit ConfigError(const std::string& sentence) : std::runtime_error(sentence) {}
+};
+
+/// Walks the fields of a configuration struct. A struct describes itself once,
+///     void Config::describe(ConfigVisitor& v) { v.integer("rows", rows, 1, 64, "rows per cycle");
+///     }
+/// and reading, validating, printing and documenting all use that one description. `describe` may
+/// branch on a value it has just visited (a choice of accelerator, say): a reader has set it by
+/// then.
+class ConfigVisitor {
+public:
+    ConfigVisitor() = default;
+    ConfigVisitor(const ConfigVisitor&) = delete;
+    ConfigVisitor& operator=(const ConfigVisitor&) = delete;
+    virtual ~ConfigVisitor() = default;
+    /// A nested mapping; every begin has its end. `doc` says what the section is about.
+    virtual void begin_section(const char* key, const char* doc) = 0;
+    virtual void end_section() = 0;
+    /// Both bounds belong to the range. `doc` starts with the unit and gives the reason for the
+    /// default.
+    virtual void integer(const char* key, std::int64_t& value, std::int64_t low, std::int64_t high,
+                         const char* doc) = 0;
+    virtual void real(const char* key, double& value, double low, double high, const char* doc) = 0;
+    virtual void boolean(const char* key, bool& value, const char* doc) = 0;
+    virtual void text(const char* key, std::string& value, const char* doc) = 0;
+    /// `value` is an index into `names`.
+    virtual void choice(const char* key, int& value, const std::vector<const char*>& names,
+                        const char* doc) = 0;
+    /// A rule that no range can say, e.g. require(tile % banks == 0, "banks", "must divide tile").
+    /// Stands after the keys it looks at; `key` is the one to blame, of the same section.
+    virtual void require(bool holds, const char* key, const char* rule) {
+        (void)holds, (void)key, (void)rule;
+    }
+
+    void integer(const char* key, int& value, int low, int high, const char* doc) {
+        std::int64_t wide = value;
+        integer(key, wide, low, high, doc);
+        value = static_cast<int>(wide);
+    }
+    template <class Enum>
+    void choice(const char* key, Enum& value, const std::vector<const char*>& names,
+                const char* doc) {
+        int index = static_cast<int>(value);
+        choice(key, index, names, doc);
+        value = static_cast<Enum>(index);
+    }
+    template <class Section>
+    void section(const char* key, Section& part, const char* doc) {
+        begin_section(key, doc);
+        part.describe(*this);
+        end_section();
+    }
+};
+
+} // namespace degs

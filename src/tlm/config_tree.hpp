@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A YAML file as a tree in which every value knows where it was written.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace degs {
+
+/// One value of a configuration file. The accepted YAML is the plain part of the language:
+/// sections, lists and scalars; no anchors, aliases, tags or second documents.
+struct ConfigNode {
+    enum class Kind { kNull, kScalar, kSection, kList };
+
+    Kind kind = Kind::kNull;
+    std::string key;                  ///< empty for the root and for items of a list
+    std::string text;                 ///< of a scalar
+    bool quoted = false;              ///< a scalar in quotes is text, never a number
+    std::string place;                ///< "file:line" of the key, or "--set path=value"
+    std::vector<ConfigNode> children; ///< in the order of the file
+
+    const ConfigNode* find(const std::string& child) const;
+};
+
+/// Reads a file; the first key of any section may be `include: other.yaml` (or a list of files),
+/// whose keys become part of that section and lose against the section's own. Paths are relative to
+/// the including file. Throws ConfigError.
+ConfigNode read_config_file(const std::filesystem::path& path);
+/// The same for text in memory; `name` stands for the file in messages, includes are relative to
+/// it.
+ConfigNode read_config_text(const std::string& name, const std::string& yaml);
+
+// Far above any real configuration; they keep a hostile one from taking all time, memory or stack.
+constexpr std::size_t kLargestConfigBytes = std::size_t{1} << 20;
+constexpr std::size_t kMostConfigKeys = 4096; ///< in one section
+constexpr std::size_t kDeepestConfig = 32;    ///< sections and lists inside each other
+constexpr int kMostIncludes = 100; ///< in one read; ends chains that double at every step
+
+} // namespace degs

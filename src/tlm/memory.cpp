@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tlm/memory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <tuple>
+
+namespace degs {
+
+void Memory::Config::describe(ConfigVisitor& visitor) {
+    visitor.real("bandwidth_gb_per_s", bandwidth_gb_per_s, 0.01, 1e5,
+                 "1e9 bytes/s; 204.8 is LPDDR5-6400 on 256 bit, the paper's main setting");
+    visitor.real(
+        "latency_ns", latency_ns, 0.0, 1e6,
+        "ns; request to data without the transfer; 100 is a loaded LPDDR5 controller's order");
+    visitor.integer("access_bytes", access_bytes, 1, 4096,
+                    "bytes; access granularity, a partial access costs a whole one");
+}
+
+Memory::Memory(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+               std::size_t initiators)
+    : sc_core::sc_module(name), in("in", initiators), config_(config),
+      half_cycle_(sc_core::sc_time::from_value(time.clock.period().value() / 2)),
+      units_per_ns_(static_cast<double>(sc_core::sc_time(1, sc_core::SC_NS).value())),
+      stats_(initiators) {
+    for (std::size_t i = 0; i < initiators; ++i) {
+        in[i].register_b_transport(this, &Memory::transport, static_cast<int>(i));
+        in[i].register_transport_dbg(this, &Memory::debug, static_cast<int>(i));
+    }
+}
+
+Memory::Stats Memory::total() const {
+    Stats sum;
+    for (const Stats& s : stats_) {
+        sum.reads += s.reads;
+        sum.writes += s.writes;
+        sum.bytes_read += s.bytes_read;
+        sum.bytes_written += s.bytes_written;
+        sum.busy_ns += s.busy_ns;
+        sum.waited_ns += s.waited_ns;
+    }
+    return sum;
+}
+
+// Half a cycle after a date every request of that date has been made (see Process), so whoever
+// wakes first then may serve all of them in order.
+void Memory::transport(int initiator, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+    if (!payload.is_read() && !payload.is_write()) {
+        payload.set_response_status(tlm::TLM_COMMAND_ERROR_RESPONSE);
+        return;
+    }
+    if (payload.get_data_length() == 0 || payload.get_byte_enable_ptr() != nullptr ||
+        payload.get_streaming_width() < payload.get_data_length()) {
+        payload.set_response_status(payload.get_byte_enable_ptr() != nullptr
+                                        ? tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE
+                                        : tlm::TLM_BURST_ERROR_RESPONSE);
+        return;
+    }
+    const sc_core::sc_time date = sc_core::sc_time_stamp() + delay;
+    Request request;
+    request.date = date.value();
+    request.initiator = static_cast<std::size_t>(initiator);
+    request.sequence = sequence_++;
+    request.payload = &payload;
+    pending_.push_back(&request);
+    sc_core::wait(delay + half_cycle_);
+    if (!request.served) {
+        serve_until(request.date);
+    }
+    const sc_core::sc_time now = sc_core::sc_time_stamp();
+    delay = request.done > now ? request.done - now : sc_core::SC_ZERO_TIME;
+    payload.set_response_status(tlm::TLM_OK_RESPONSE);
+}
+
+void Memory::serve_until(std::uint64_t date) {
+    const auto due = std::partition(pending_.begin(), pending_.end(),
+                                    [date](const Request* r) { return r->date > date; });
+    std::sort(due, pending_.end(), [](const Request* a, const Request* b) {
+        return std::tie(a->date, a->initiator, a->sequence) <
+               std::tie(b->date, b->initiator, b->sequence);
+    });
+    for (auto r = due; r != pending_.end(); ++r) {
+        serve(**r);
+    }
+    pending_.erase(due, pending_.end());
+}
+
+void Memory::serve(Request& request) {
+    tlm::tlm_generic_payload& payload = *request.payload;
+    const auto granule = static_cast<std::uint64_t>(config_.access_bytes);
+    const std::uint64_t first = payload.get_address() / granule;
+    const std::uint64_t last = (payload.get_address() + payload.get_data_length() - 1) / granule;
+    const std::uint64_t bytes = (last - first + 1) * granule;
+    const double transfer_ns = static_cast<double>(bytes) / config_.bandwidth_gb_per_s;
+    const double start = std::max(bus_free_, static_cast<double>(request.date));
+    bus_free_ = start + transfer_ns * units_per_ns_;
+    // Rounded up to the kernel's resolution, but not because of the rounding of a double: a whole
+    // cycle may hang on it.
+    constexpr double kRounding = 1e-3;
+    request.done = sc_core::sc_time::from_value(static_cast<std::uint64_t>(
+        std::ceil(bus_free_ + config_.latency_ns * units_per_ns_ - kRounding)));
+    request.served = true;
+    Stats& stats = stats_[request.initiator];
+    (payload.is_read() ? stats.reads : stats.writes)++;
+    (payload.is_read() ? stats.bytes_read : stats.bytes_written) += bytes;
+    stats.busy_ns += transfer_ns;
+    stats.waited_ns += (start - static_cast<double>(request.date)) / units_per_ns_;
+    if (payload.get_extension<TimingOnly>() == nullptr) {
+        copy(payload);
+    }
+}
+
+void Memory::copy(tlm::tlm_generic_payload& payload) {
+    unsigned char* data = payload.get_data_ptr();
+    std::uint64_t address = payload.get_address();
+    for (std::uint64_t left = payload.get_data_length(); left != 0;) {
+        const std::uint64_t offset = address % kPageBytes;
+        const std::uint64_t piece = std::min(left, kPageBytes - offset);
+        if (payload.is_write()) {
+            std::memcpy(pages_[address / kPageBytes].data() + offset, data, piece);
+        } else if (const auto page = pages_.find(address / kPageBytes); page != pages_.end()) {
+            std::memcpy(data, page->second.data() + offset, piece);
+        } else {
+            std::memset(data, 0, piece);
+        }
+        data += piece;
+        address += piece;
+        left -= piece;
+    }
+}
+
+unsigned int Memory::debug(int /*initiator*/, tlm::tlm_generic_payload& payload) {
+    if (!payload.is_read() && !payload.is_write()) {
+        return 0;
+    }
+    copy(payload);
+    payload.set_response_status(tlm::TLM_OK_RESPONSE);
+    return payload.get_data_length();
+}
+
+} // namespace degs

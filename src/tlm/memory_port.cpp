@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tlm/memory_port.hpp"
+
+#include <stdexcept>
+#include <string>
+
+namespace degs {
+
+Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64_t address,
+                         unsigned char* data, std::uint64_t bytes) {
+    if (bytes == 0) {
+        return process.local();
+    }
+    tlm::tlm_generic_payload payload;
+    if (data == nullptr) {
+        scratch_.resize(std::max<std::size_t>(scratch_.size(), bytes));
+        data = scratch_.data();
+        payload.set_extension(&timing_only_);
+    }
+    payload.set_command(command);
+    payload.set_address(address);
+    payload.set_data_ptr(data);
+    payload.set_data_length(static_cast<unsigned int>(bytes));
+    payload.set_streaming_width(static_cast<unsigned int>(bytes));
+    payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+
+    const sc_core::sc_time now = sc_core::sc_time_stamp();
+    const sc_core::sc_time date = clock_->at(process.local());
+    sc_core::sc_time delay = date > now ? date - now : sc_core::SC_ZERO_TIME;
+    out->b_transport(payload, delay);
+    payload.clear_extension(&timing_only_);
+    if (payload.is_response_error()) {
+        throw std::runtime_error(std::string(name()) + ": the memory answered " +
+                                 payload.get_response_string() + " to an access of " +
+                                 std::to_string(bytes) + " bytes at address " +
+                                 std::to_string(address));
+    }
+    return clock_->ceil(sc_core::sc_time_stamp() + delay);
+}
+
+} // namespace degs

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tlm/process.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace degs {
+namespace {
+
+// How far next_arrival() follows blocked predecessors for a proof before it falls back to sleeping.
+// The loop Issue Bank -> Packing Buffer -> Blending Array -> feedback needs one step; two cover a
+// block between them.
+constexpr int kProofDepth = 3;
+
+} // namespace
+
+void Process::sync() {
+    const sc_core::sc_time now = sc_core::sc_time_stamp();
+    const sc_core::sc_time target = clock_->at(local_);
+    if (target > now) {
+        sc_core::wait(target - now);
+    }
+}
+
+void Process::finish() {
+    local_ = kNever;
+    ring_alarms();
+}
+
+void Process::sleep() {
+    sc_core::wait(wake_);
+}
+
+void Process::sleep_until(Cycle half_after_date) {
+    const sc_core::sc_time target = clock_->half_after(half_after_date);
+    const sc_core::sc_time now = sc_core::sc_time_stamp();
+    if (target > now) {
+        sc_core::wait(target - now, wake_);
+    }
+}
+
+void Process::set_alarm(FifoBase& fifo, Cycle date) {
+    const Cycle latency = fifo.forward_latency();
+    alarm_ = std::min(alarm_, date > latency ? date - latency : 0);
+    for (Alarm& alarm : alarms_) {
+        if (alarm.fifo == &fifo) {
+            alarm.date = date;
+            return;
+        }
+    }
+    alarms_.push_back({&fifo, date});
+}
+
+// Rings only where the proof exists now: two processes that ask each other in vain would otherwise
+// wake each other for ever.
+void Process::ring_alarms() {
+    std::size_t kept = 0;
+    alarm_ = kNever;
+    for (std::size_t i = 0; i < alarms_.size(); ++i) {
+        const Alarm alarm = alarms_[i];
+        if (alarm.fifo->horizon(kProofDepth) > alarm.date) {
+            alarm.fifo->reader()->wake();
+        } else {
+            const Cycle latency = alarm.fifo->forward_latency();
+            alarm_ = std::min(alarm_, alarm.date > latency ? alarm.date - latency : 0);
+            alarms_[kept++] = alarm;
+        }
+    }
+    alarms_.resize(kept);
+}
+
+void Process::block_on_item(FifoBase& fifo) {
+    if (body_ != nullptr) {
+        throw std::logic_error(std::string(fifo.fifo_name()) +
+                               ": a process without a thread read an empty ring");
+    }
+    inputs_.front() = &fifo;
+    input_count_ = 1;
+    limit_ = kNever;
+    ring_alarms(); // blocked now: our bound may reach further than our date
+    sleep();
+    input_count_ = 0;
+}
+
+void Process::block_on_room(FifoBase& fifo) {
+    if (body_ != nullptr) {
+        throw std::logic_error(std::string(fifo.fifo_name()) +
+                               ": a process without a thread wrote to a full ring");
+    }
+    room_ = &fifo;
+    ring_alarms();
+    sleep();
+    room_ = nullptr;
+}
+
+Cycle Process::bound(int depth) const {
+    if (depth == 0 || !blocked()) {
+        return local_;
+    }
+    if (room_ != nullptr) {
+        const Process* reader = room_->reader();
+        if (!room_->full()) {
+            return std::max(local_, room_->free_date());
+        }
+        return reader == nullptr
+                   ? local_
+                   : std::max(local_, reader->bound(depth - 1) + room_->release_latency());
+    }
+    Cycle earliest = limit_;
+    for (std::size_t i = 0; i < input_count_ && earliest > local_; ++i) {
+        const FifoBase& fifo = *inputs_[i];
+        earliest = std::min(earliest, fifo.empty() ? fifo.horizon(depth - 1) : fifo.head_date());
+    }
+    return std::max(local_, earliest);
+}
+
+bool Process::arrived_after_asking(FifoBase& input) {
+    FifoBase* const inputs[] = {&input};
+    next_arrival(inputs, 1, local_, local_);
+    return !input.empty() && input.head_date() <= local_;
+}
+
+Cycle Process::next_arrival(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit) {
+    for (;;) {
+        Cycle known = limit;
+        Cycle proven = ~Cycle{0}; // beyond kNever, which is what closed inputs prove
+        for (std::size_t i = 0; i < count; ++i) {
+            if (!inputs[i]->empty()) {
+                known = std::min(known, std::max(inputs[i]->head_date(), from));
+            }
+        }
+        if (strict_ && known != kNever) {
+            if (sc_core::sc_time_stamp() >= clock_->half_after(known)) {
+                return known;
+            }
+        } else {
+            for (std::size_t i = 0; i < count && proven > known; ++i) {
+                if (inputs[i]->empty()) {
+                    proven = std::min(proven, inputs[i]->horizon(kProofDepth));
+                }
+            }
+            // An item that is not visible yet comes at `proven` or later.
+            if (proven > known ||
+                (known != kNever && sc_core::sc_time_stamp() >= clock_->half_after(known))) {
+                return known;
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                if (inputs[i]->empty() && inputs[i]->writer() != nullptr) {
+                    inputs[i]->writer()->set_alarm(*inputs[i], known);
+                }
+            }
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            inputs[i]->connect_reader(*this);
+        }
+        inputs_.resize(std::max(inputs_.size(), count));
+        std::copy_n(inputs, count, inputs_.begin());
+        input_count_ = count;
+        limit_ = limit;
+        if (!alarms_.empty()) {
+            ring_alarms();
+        }
+        if (known == kNever) {
+            sleep();
+        } else {
+            sleep_until(known);
+        }
+        input_count_ = 0;
+    }
+}
+
+} // namespace degs

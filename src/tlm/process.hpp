@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tlm/clock_domain.hpp"
+
+namespace degs {
+
+class FifoBase;
+
+/// How a run spends host time on order. Both give the same dates and decisions.
+/// `Strict`: every process sleeps to each of its dates and looks at inputs half a cycle later.
+/// `Exact`: processes run ahead on their own dates and ask for proof only where order matters.
+enum class Fidelity { Strict, Exact };
+
+/// The body of a process that needs no thread: what it does follows from its input ring alone, and
+/// it stops where an output ring is full. In exact mode it runs inside whoever feeds it or makes
+/// room for it, which costs a call instead of two trips through the kernel; dates are the same.
+/// Like a thread it takes its next item before it knows whether the result fits, and holds it: the
+/// cell it frees may be what somebody else needs at that date.
+class Pumped {
+public:
+    virtual ~Pumped() = default;
+    /// Handles items of the input ring until it is empty or an output ring is full.
+    virtual void pump() = 0;
+};
+
+/// What all blocks of one clock domain share.
+struct Timebase {
+    ClockDomain clock{1.0};
+    Fidelity fidelity = Fidelity::Exact;
+};
+
+/// The local clock of one SC_THREAD, and how it sleeps and is woken.
+///
+/// Rules: local() never falls and is never behind the kernel by a cycle or more; a process sleeps
+/// only up to its own date, or because it needs somebody else's item or free cell.
+class Process {
+public:
+    explicit Process(const Timebase& time)
+        : clock_(&time.clock), strict_(time.fidelity == Fidelity::Strict) {}
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
+    ~Process() = default;
+
+    Cycle local() const { return local_; }
+    const ClockDomain& clock() const { return *clock_; }
+    bool strict() const { return strict_; }
+
+    void advance(Cycle cycles = 1) { advance_to(local_ + cycles); }
+    /// Moves the local date forward; earlier dates are ignored.
+    void advance_to(Cycle date) {
+        if (date > local_) {
+            local_ = date;
+            if (local_ > alarm_) {
+                ring_alarms();
+            }
+            if (strict_) {
+                sync();
+            }
+        }
+    }
+    /// Sleeps until kernel time has reached the local date.
+    void sync();
+    /// No more items will ever come from this process.
+    void finish();
+
+    /// The first date >= `from` at which one of `inputs` has an item, but no later than `limit`;
+    /// with certainty: nothing dated up to the answer can still arrive. Does not move the local
+    /// date. kNever if all inputs are closed and no limit is given. `from` and `limit` >= local().
+    Cycle next_arrival(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit);
+    /// True if `input` has an item dated up to now; with certainty.
+    inline bool arrived(FifoBase& input);
+
+    /// Earliest date at which this process can act again, as far as `depth` blocked predecessors
+    /// tell. A lower bound; never revised downwards.
+    Cycle bound(int depth) const;
+
+    // For FifoBase: blocking on one ring, and the wake-up of whoever is blocked.
+    void block_on_item(FifoBase& fifo);
+    void block_on_room(FifoBase& fifo);
+    bool blocked() const { return input_count_ != 0 || room_ != nullptr; }
+    /// Makes this the process of a thread-less body that waits on `input` whenever it does not run.
+    void pump_with(Pumped& body, FifoBase& input) {
+        body_ = &body;
+        inputs_.front() = &input;
+        input_count_ = 1;
+    }
+    /// In the next delta cycle, not at the date of what it waits for: dates are in the rings, and
+    /// kernel time only has to pass where somebody sleeps for it.
+    /// A thread-less body holds a result for which `room` has none; nullptr: no longer.
+    void hold_for(FifoBase* room) { room_ = room; }
+    void wake() {
+        if (body_ != nullptr) {
+            body_->pump();
+        } else {
+            wake_.notify(sc_core::SC_ZERO_TIME);
+        }
+    }
+    /// Wakes `fifo`'s reader as soon as this process can prove that it will write nothing readable
+    /// at or before `date` (checked when the local date passes and when this process blocks).
+    void set_alarm(FifoBase& fifo, Cycle date);
+
+private:
+    bool arrived_after_asking(FifoBase& input);
+    void sleep();
+    void sleep_until(Cycle half_after_date);
+    void ring_alarms();
+
+    const ClockDomain* clock_;
+    bool strict_;
+    Cycle local_ = 0;
+    Pumped* body_ = nullptr;
+    sc_core::sc_event wake_;
+    // What the process is blocked on, for bound().
+    std::vector<FifoBase*> inputs_{1, nullptr}; // the first input_count_ count
+    std::size_t input_count_ = 0;
+    Cycle limit_ = kNever;
+    FifoBase* room_ = nullptr;
+    // Readers that want to know when the local date passes.
+    struct Alarm {
+        FifoBase* fifo = nullptr;
+        Cycle date = 0; ///< wanted: proof that nothing dated <= this is still to come
+    };
+    Cycle alarm_ = kNever;
+    std::vector<Alarm> alarms_;
+};
+
+/// What a ring of any item type shows to processes; see DatedFifo.
+class FifoBase {
+public:
+    FifoBase(Cycle forward_latency, Cycle release_latency)
+        : forward_latency_(forward_latency), release_latency_(release_latency) {}
+    virtual ~FifoBase() = default;
+
+    bool empty() const { return filled_ == 0; }
+    /// Date from which the oldest item may be read. Only if not empty.
+    Cycle head_date() const { return *head_; }
+    bool full() const { return filled_ == depth_; }
+    /// Date from which the next cell may be written. Only if not full.
+    Cycle free_date() const { return *free_; }
+    /// Names the process that writes before it first does, so that a reader can ask for its date.
+    void connect_writer(Process& writer) { writer_ = &writer; }
+    void connect_reader(Process& reader) { reader_ = &reader; }
+    Process* writer() const { return writer_; }
+    Process* reader() const { return reader_; }
+    Cycle forward_latency() const { return forward_latency_; }
+    Cycle release_latency() const { return release_latency_; }
+    /// First date at which an item that is not in the ring yet could be read.
+    Cycle horizon(int depth) const {
+        return writer_ == nullptr ? 0 : writer_->bound(depth) + forward_latency_;
+    }
+    virtual const char* fifo_name() const = 0;
+
+protected:
+    friend class Process;
+    Cycle quiet_until_ = 0; // proven: no item can be read before this date
+    Cycle forward_latency_;
+    Cycle release_latency_;
+    std::size_t filled_ = 0;
+    std::size_t depth_ = 0;
+    const Cycle* head_ = nullptr;
+    const Cycle* free_ = nullptr;
+    Process* writer_ = nullptr;
+    Process* reader_ = nullptr;
+};
+
+inline bool Process::arrived(FifoBase& input) {
+    if (!strict_) {
+        if (local_ < input.quiet_until_) {
+            return false;
+        }
+        const Cycle next = input.empty() ? input.horizon(1) : input.head_date();
+        if (next > local_) {
+            input.quiet_until_ = next;
+            return false;
+        }
+        if (!input.empty()) {
+            return true;
+        }
+    }
+    return arrived_after_asking(input);
+}
+
+} // namespace degs

@@ -1,0 +1,106 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# house_check.sh RULE [ROOT]: checks one rule of the house, or `all`, and prints every violation as
+# "file:line: reason". Rules: arrows systemc printing namespaces length licence.
+set -euo pipefail
+
+rule=${1:?usage: house_check.sh RULE [ROOT]}
+root=$(realpath "${2:-$(dirname "${BASH_SOURCE[0]}")/../..}")
+cd "$root"
+violations=0
+
+# Files of the given folders that end in one of our C++ suffixes; folders may be missing.
+sources() {
+    local folders=() folder
+    for folder in "$@"; do [[ -d $folder ]] && folders+=("$folder"); done
+    [[ ${#folders[@]} -eq 0 ]] || find "${folders[@]}" -type f \( -name '*.hpp' -o -name '*.cpp' \) | sort
+}
+
+# forbid REASON PATTERN FILES...: no line may match the extended regular expression.
+forbid() {
+    local reason=$1 pattern=$2 hits
+    shift 2
+    [[ $# -gt 0 ]] || return 0
+    hits=$(grep -nHE -- "$pattern" "$@" || true)
+    [[ -n $hits ]] || return 0
+    while IFS= read -r hit; do
+        echo "$(cut -d: -f1,2 <<<"$hit"): $reason: $(cut -d: -f3- <<<"$hit" | sed 's/^ *//')"
+        violations=$((violations + 1))
+    done <<<"$hits"
+}
+
+# may_include ROOM ALLOWED...: of our rooms, files of src/ROOM may include only itself and ALLOWED.
+may_include() {
+    local room=$1 other forbidden=()
+    for other in splat scene tlm modules baselines cost sim tests; do
+        [[ " $* " == *" $other "* ]] || forbidden+=("$other")
+    done
+    local pattern files
+    pattern="^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"](\.\./)*(src/)?($(IFS='|'; echo "${forbidden[*]}"))/"
+    mapfile -t files < <(sources "src/$room")
+    forbid "src/$room may include only: $*" "$pattern" "${files[@]}"
+    forbid "includes are written from src/, without .." \
+        '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]\.\.?/' "${files[@]}"
+}
+
+check_arrows() {
+    may_include splat
+    may_include scene splat
+    may_include tlm
+    may_include cost tlm
+    may_include modules splat tlm
+    may_include baselines modules splat tlm
+}
+
+check_systemc() {
+    mapfile -t files < <(sources src/splat src/scene)
+    forbid "no SystemC in the mathematics and the loaders" \
+        '#[[:space:]]*include[[:space:]]*[<"](systemc|tlm|sysc|tlm_utils)([./>"]|$)|\b(sc_core|tlm)::' "${files[@]}"
+}
+
+check_printing() {
+    mapfile -t files < <(sources src)
+    forbid "only sim/ prints and exits" \
+        'std::(cout|cerr|clog|puts|printf|exit|abort|quick_exit|_Exit)\b|(^|[^[:alnum:]_:.>])(printf|fprintf|puts|exit|_exit|abort)[[:space:]]*\(' \
+        "${files[@]}"
+}
+
+check_namespaces() {
+    mapfile -t files < <(sources src sim tests | grep '\.hpp$' || true)
+    forbid "no using namespace in a header" '^[[:space:]]*using[[:space:]]+namespace\b' "${files[@]}"
+}
+
+check_length() {
+    local file lines
+    while IFS= read -r file; do
+        lines=$(wc -l <"$file")
+        [[ $lines -le 500 ]] && continue
+        echo "$file:$lines: $lines lines, 500 are allowed"
+        violations=$((violations + 1))
+    done < <(sources src sim tests)
+}
+
+check_licence() {
+    local file first
+    while IFS= read -r file; do
+        first=$(head -n 1 "$file")
+        [[ $first == '// SPDX-License-Identifier: Apache-2.0' ]] && continue
+        echo "$file:1: the first line must be // SPDX-License-Identifier: Apache-2.0"
+        violations=$((violations + 1))
+    done < <(sources src sim tests)
+}
+
+rules=(arrows systemc printing namespaces length licence)
+case " ${rules[*]} all " in
+    *" $rule "*) ;;
+    *) echo "unknown rule '$rule'; there are: ${rules[*]} all" >&2; exit 2 ;;
+esac
+if [[ $(sources src | wc -l) -eq 0 ]]; then
+    echo "no sources under $root/src" >&2
+    exit 2
+fi
+for each in "${rules[@]}"; do
+    if [[ $rule == all || $rule == "$each" ]]; then "check_$each"; fi
+done
+[[ $violations -eq 0 ]] || { echo "house $rule: $violations violation(s)"; exit 1; }
+echo "house $rule: clean"

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Plants one violation after the other in an otherwise clean little tree: the check must accept the
+# clean tree and must find each violation, by rule, file and line.
+set -euo pipefail
+
+check=$(realpath "$(dirname "${BASH_SOURCE[0]}")")/house_check.sh
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+licence='// SPDX-License-Identifier: Apache-2.0'
+failures=0
+
+clean_tree() {
+    rm -rf "${tree:?}"/*
+    mkdir -p "$tree"/src/{splat,scene,tlm,modules,baselines/gscore,cost} "$tree/sim" "$tree/tests"
+    printf '%s\n' "$licence" '#include <vector>' '#include "splat/error.hpp"' >"$tree/src/splat/a.hpp"
+    printf '%s\n' "$licence" '#include "splat/a.hpp"' 'int s = snprintf(b, 2, "x");' >"$tree/src/scene/a.cpp"
+    printf '%s\n' "$licence" '#include <systemc>' '#include <tlm>' '#include "tlm/b.hpp"' >"$tree/src/tlm/a.hpp"
+    printf '%s\n' "$licence" '#include "splat/a.hpp"' '#include "tlm/a.hpp"' >"$tree/src/modules/a.cpp"
+    printf '%s\n' "$licence" '#include "modules/a.hpp"' >"$tree/src/baselines/gscore/a.cpp"
+    printf '%s\n' "$licence" 'int main() { std::cout << 1; }' 'using namespace x;' >"$tree/sim/main.cpp"
+}
+
+# finds RULE FILE LINE TEXT: after TEXT is appended to FILE, RULE must fail there and say so.
+finds() {
+    local rule=$1 file=$2 line=$3 text=$4 output
+    clean_tree
+    [[ -e $tree/$file || $rule == licence ]] || echo "$licence" >"$tree/$file"
+    printf '%s\n' "$text" >>"$tree/$file"
+    if output=$("$check" "$rule" "$tree") || ! grep -qF "$file:$line:" <<<"$output"; then
+        echo "house $rule missed '${text:0:60}' in $file:$line; it said: $output"
+        failures=$((failures + 1))
+    fi
+}
+
+clean_tree
+"$check" all "$tree" || { echo "the clean tree was rejected"; exit 1; }
+
+finds arrows src/splat/a.hpp 4 '#include "tlm/clock_domain.hpp"'
+finds arrows src/splat/a.hpp 4 '#include "scene/ply.hpp"'
+finds arrows src/scene/a.cpp 4 '#include "modules/degs.hpp"'
+finds arrows src/tlm/a.hpp 5 '#include "splat/error.hpp"'
+finds arrows src/tlm/a.hpp 5 '  #  include <src/splat/error.hpp>'
+finds arrows src/tlm/a.hpp 5 '#include "../splat/error.hpp"'
+finds arrows src/modules/a.cpp 4 '#include "scene/ply.hpp"'
+finds arrows src/modules/a.cpp 4 '#include "baselines/gscore.hpp"'
+finds arrows src/baselines/gscore/a.cpp 3 '#include "cost/cost_model.hpp"'
+finds arrows src/baselines/gscore/a.cpp 3 '#include "sim/report.hpp"'
+finds arrows src/cost/a.hpp 2 '#include "modules/degs.hpp"'
+finds systemc src/splat/a.hpp 4 '#include <systemc>'
+finds systemc src/scene/a.cpp 4 '#include <tlm.h>'
+finds systemc src/scene/a.cpp 4 'sc_core::sc_time t;'
+finds printing src/splat/a.hpp 4 'void f() { std::cout << 1; }'
+finds printing src/tlm/a.hpp 5 'void f() { printf("x"); }'
+finds printing src/modules/a.cpp 4 'void f() { exit(1); }'
+finds printing src/modules/a.cpp 4 'void f() { std::exit(1); }'
+finds namespaces src/tlm/a.hpp 5 'using namespace sc_core;'
+finds length src/tlm/a.hpp 505 "$(printf '// %.0s\n' {1..501})"
+finds licence src/tlm/bare.hpp 1 '#pragma once'
+
+# The check of links, likewise.
+links=$(dirname "$check")/links_check.sh
+clean_tree
+echo '[here](src/tlm/a.hpp#part) [web](https://example.org) ![self](page.md "title")' >"$tree/page.md"
+"$links" "$tree" || { echo "links_check.sh rejected good links"; exit 1; }
+echo '[here](src/tlm/a.hpp) ![gone](images/gone.svg)' >>"$tree/page.md"
+if output=$("$links" "$tree") || ! grep -qF "page.md:2: images/gone.svg" <<<"$output"; then
+    echo "links_check.sh missed a dead link; it said: $output"
+    failures=$((failures + 1))
+fi
+[[ $failures -eq 0 ]] || exit 1
+echo "house self-test: every planted violation was found"

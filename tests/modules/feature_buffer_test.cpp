@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/feature_buffer.hpp"
+
+#include <gtest/gtest.h>
+
+namespace degs {
+namespace {
+
+TEST(FeatureBuffer, OneEntryForAllRowsOfASplat) {
+    FeatureBuffer buffer(2);
+    ASSERT_TRUE(buffer.admit(0, 7, 1));
+    const std::uint16_t entry = buffer.current();
+    buffer.hold(entry);
+    ASSERT_TRUE(buffer.admit(0, 7, 5));
+    EXPECT_EQ(buffer.current(), entry);
+    ASSERT_TRUE(buffer.admit(1, 7, 6)); // the same splat in another tile is another entry
+    EXPECT_NE(buffer.current(), entry);
+    EXPECT_EQ(buffer.waits(), 0U);
+}
+
+// Needed until the write-back of the last task: not free at t - 1, free at t.
+TEST(FeatureBuffer, AnEntryIsFreeFromTheDateOfItsLastTask) {
+    FeatureBuffer buffer(1);
+    ASSERT_TRUE(buffer.admit(0, 1, 0));
+    const std::uint16_t entry = buffer.current();
+    buffer.hold(entry);
+    buffer.hold(entry);
+    buffer.release(entry, 30);           // later than the next one
+    EXPECT_FALSE(buffer.admit(0, 2, 3)); // the splat is closed, one task is still to come
+    EXPECT_EQ(buffer.next_free(), kNever);
+    buffer.release(entry, 20);
+    EXPECT_EQ(buffer.next_free(), 30U);
+    EXPECT_FALSE(buffer.admit(0, 2, 29));
+    EXPECT_TRUE(buffer.admit(0, 2, 30));
+    EXPECT_EQ(buffer.next_free(), kNever);
+    EXPECT_EQ(buffer.waits(), 1U); // one wait, asked twice
+}
+
+TEST(FeatureBuffer, ASplatWithoutTasksLeavesAtOnce) {
+    FeatureBuffer buffer(1);
+    ASSERT_TRUE(buffer.admit(0, 1, 5));
+    EXPECT_TRUE(buffer.admit(0, 2, 5));
+    buffer.close(6);
+    EXPECT_EQ(buffer.next_free(), 6U);
+    EXPECT_TRUE(buffer.admit(0, 3, 6));
+}
+
+// All rows of the splat may have executed before its last row comes in.
+TEST(FeatureBuffer, AnOpenSplatKeepsItsEntry) {
+    FeatureBuffer buffer(1);
+    ASSERT_TRUE(buffer.admit(0, 1, 0));
+    const std::uint16_t entry = buffer.current();
+    buffer.hold(entry);
+    buffer.release(entry, 8);
+    EXPECT_EQ(buffer.next_free(), kNever);
+    EXPECT_TRUE(buffer.admit(0, 1, 9));
+    EXPECT_EQ(buffer.current(), entry);
+    buffer.close(12);
+    EXPECT_EQ(buffer.next_free(), 12U); // not before it was closed
+}
+
+TEST(FeatureBuffer, HoldsAsManySplatsAsItHasEntries) {
+    FeatureBuffer buffer(5);
+    std::vector<std::uint16_t> entries;
+    for (std::uint32_t splat = 0; splat < 5; ++splat) {
+        ASSERT_TRUE(buffer.admit(0, splat, 0));
+        entries.push_back(buffer.current());
+        buffer.hold(entries.back());
+    }
+    EXPECT_FALSE(buffer.admit(0, 5, 1));
+    buffer.release(entries[2], 4);
+    EXPECT_TRUE(buffer.admit(0, 5, 4));
+    EXPECT_EQ(buffer.current(), entries[2]);
+}
+
+} // namespace
+} // namespace degs

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// `exact` is bit-identical to `strict`: random accelerators on random frames, the two fidelities
+// side by side as two accelerators of one elaboration.
+#include "tests/modules/run_fixture.hpp"
+
+namespace degs {
+namespace {
+
+using test::DegsRun;
+using test::Shape;
+
+constexpr Shape kShapes[] = {
+    {16, 1, 4, 4, 4}, {32, 2, 8, 8, 8}, {64, 4, 16, 16, 16}, // paper, Table II
+    {16, 1, 4, 8, 4}, {16, 1, 8, 4, 4}, {32, 2, 6, 4, 4},    // Span Units and banks differ
+    {16, 3, 9, 5, 3}, {8, 1, 1, 1, 2},  {32, 1, 2, 8, 1},    {8, 1, 3, 2, 8}, {128, 8, 32, 32, 32},
+};
+
+/// Draws until the sizes fit together.
+class Draw {
+public:
+    explicit Draw(unsigned seed) : random_(seed) {}
+    int upto(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n + 1)); }
+    int among(std::initializer_list<int> values) {
+        return values.begin()[upto(static_cast<int>(values.size()) - 1)];
+    }
+    bool chance(int of) { return upto(of - 1) == 0; }
+
+    DegsConfig config(unsigned index) {
+        for (;;) {
+            DegsConfig c = candidate(index);
+            if (c.problem().empty()) {
+                return c;
+            }
+        }
+    }
+
+private:
+    DegsConfig candidate(unsigned index) {
+        // Every eighth run has 1024 PEs; the others share the small shapes.
+        const unsigned small = std::size(kShapes) - 1;
+        DegsConfig c = shaped({}, index % 16 == 15 ? kShapes[small] : kShapes[index % small]);
+        arithmetic(c, index);
+        scheduler(c);
+        buffers(c);
+        front_end(c);
+        const double ghz[] = {1.0, 1.0, 0.7, 1.7};
+        c.clock_ghz = ghz[upto(3)];
+        const double bandwidth[] = {204.8, 204.8, 51.2, 1.0, 1e5};
+        c.memory.bandwidth_gb_per_s = bandwidth[upto(4)];
+        const double latency[] = {100, 100, 0, 3.3, 1000};
+        c.memory.latency_ns = latency[upto(4)];
+        return c;
+    }
+    void arithmetic(DegsConfig& c, unsigned index) {
+        if (index % 2 == 0) {
+            c = test::exact_arithmetic(c);
+            return;
+        }
+        c.pipeline.numbers = chance(4) ? NumberFormat::Fp64 : NumberFormat::Fp32;
+        c.pipeline.span_ends = chance(2) ? SpanEnds::Exact : SpanEnds::Outward;
+        c.pipeline.span_delta = chance(3) ? 1 : 0;
+        c.pipeline.stop_rule = chance(3) ? StopRule::After : StopRule::Refuse;
+    }
+    void scheduler(DegsConfig& c) {
+        c.scheduler.queue_segments_per_pe = among({1, 2, 4, 9});
+        c.scheduler.segment_length = among({16, 16, 16, 8, 32, 5});
+        c.scheduler.segments_per_cycle = among({1, 2, 4});
+        c.scheduler.issue_width = among({1, 2, 4, 8});
+        c.scheduler.reuse_cycles = among({4, 4, 7, 13});
+        c.scheduler.termination = chance(2) ? TerminationGrain::Pixel : TerminationGrain::Segment;
+        c.scheduler.scan = static_cast<DomainScan>(upto(2));
+        c.scheduler.scoreboard = !chance(8);
+        c.packing.latency_cycles = among({1, 2, 2, 5});
+        c.packing.lead_packets = among({6, 3, 17, 1000});
+        c.array.writeback_cycles = among({4, 4, 1, 3});
+    }
+    void buffers(DegsConfig& c) {
+        c.pixel_buffer.bytes *= among({1, 1, 2, 4});
+        c.pixel_buffer.readout_pixels = among({64, 1, 7, 1024});
+        c.pixel_buffer.release = chance(2) ? ContextRelease::Bank : ContextRelease::Tile;
+        c.pixel_buffer.writes_in_flight = among({4, 1});
+        c.packing.bytes = chance(2) ? c.packing.bytes : among({1024, 2048, 8192, 16384});
+        c.feature_buffer.bytes =
+            chance(2) ? c.feature_buffer.bytes : 16 * c.scheduler.banks * among({1, 2, 5});
+        c.span_buffer.bytes = chance(2) ? c.span_buffer.bytes : 8 * c.span.count * among({1, 2});
+        c.gaussian_buffer.bytes =
+            chance(2) ? c.gaussian_buffer.bytes : among({256, 1024, 2048, 4096});
+    }
+    void front_end(DegsConfig& c) {
+        c.projection.chunk = among({64, 8, 1});
+        c.projection.chunks_in_flight = among({4, 1});
+        c.sorting.count = among({4, 1, 2, 3});
+        c.sorting.chunk = among({16, 1, 4});
+        c.sorting.chunks_in_flight = among({8, 1, 2});
+        c.slicing.rows_per_cycle = among({1, 4, 8});
+        c.slicing.skip_dead_rows = chance(2);
+        c.slicing.feedback_cycles = among({1, 4, 20});
+        c.slicing.rows = chance(2) ? SlicedRows::Tile : SlicedRows::Splat;
+        c.span.latency_cycles = among({1, 6});
+        c.span.cycles_per_row = among({1, 1, 2});
+        c.span.crossbar_depth = among({8, 1, 2});
+        c.monitor.cancel = !chance(3);
+        c.monitor.latency_cycles = among({8, 1, 50});
+        c.binning.writes_in_flight = among({8, 1});
+    }
+    std::mt19937 random_;
+};
+
+std::string describe(const DegsConfig& c) {
+    return std::to_string(c.tile_size) + " px tiles, " + std::to_string(c.slicing.count) + "/" +
+           std::to_string(c.span.count) + "/" + std::to_string(c.scheduler.banks) + "/" +
+           std::to_string(c.array.pes_per_bank) + ", " + std::to_string(c.contexts()) +
+           " contexts, scan " + std::to_string(static_cast<int>(c.scheduler.scan));
+}
+
+class SmallRunFidelity : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(SmallRunFidelity, ExactIsStrict) {
+    const unsigned index = GetParam();
+    Draw draw(index);
+    const DegsConfig config = draw.config(index);
+    SCOPED_TRACE(describe(config));
+    const bool large = config.pes() >= 256;
+    std::vector<FrameWorkload> frames;
+    for (int f = draw.chance(4) ? 2 : 1; f > 0; --f) {
+        const int width = 1 + draw.upto(large ? 200 : 90);
+        const int height = 1 + draw.upto(large ? 150 : 70);
+        frames.push_back(test::random_frame(index * 10 + static_cast<unsigned>(f), width, height,
+                                            config.tile_size,
+                                            draw.among({1, 10, 60, 150, large ? 300 : 200})));
+    }
+    std::vector<const FrameWorkload*> list;
+    for (const FrameWorkload& frame : frames) {
+        list.push_back(&frame);
+    }
+    const DegsRun exact("exact", config, list, Fidelity::Exact);
+    const DegsRun strict("strict", config, list, Fidelity::Strict);
+    sc_core::sc_start();
+    test::expect_sound(exact);
+    EXPECT_EQ(exact.degs().finished(), strict.degs().finished());
+    test::expect_same_statistics(exact, strict);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+        EXPECT_TRUE(test::same_bytes(exact.image(f), strict.image(f)));
+    }
+    if (index % 2 == 0 && config.scheduler.scoreboard) {
+        test::expect_reference(exact);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, SmallRunFidelity, ::testing::Range(0U, 300U));
+
+} // namespace
+} // namespace degs

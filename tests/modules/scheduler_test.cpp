@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// The dates at which tasks execute, against closed formulas.
+#include "tests/modules/scheduler_bench.hpp"
+
+namespace degs {
+namespace {
+
+using test::blanket;
+using test::one_pixel;
+using test::one_row;
+using Bench = test::SchedulerBench;
+
+class FirstExecution : public ::testing::TestWithParam<int> {};
+
+// Issued in the cycle in which the span enters, executed the packing latency later.
+TEST_P(FirstExecution, IsThePackingLatencyAfterTheSpan) {
+    Bench::Sizes sizes;
+    sizes.packing_latency = GetParam();
+    Bench bench(sizes, {one_row(0, 15, 3)});
+    bench.run({{37, 0, 3}});
+    EXPECT_EQ(bench.stats().window.first, 37U + static_cast<Cycle>(GetParam()));
+    EXPECT_EQ(bench.stats().window.last, bench.stats().window.first);
+    EXPECT_EQ(bench.stats().packets, 1U);
+    EXPECT_EQ(bench.stats().slots.useful, 16U);
+    EXPECT_EQ(bench.accounted(), bench.window_slots());
+}
+
+// The slice hands its tile over in the cycle after the last packet, and it is written back then.
+TEST_P(FirstExecution, TheTileIsDoneWhenItsLastPixelIsWrittenBack) {
+    Bench::Sizes sizes;
+    sizes.packing_latency = GetParam();
+    sizes.writeback = 3;
+    Bench bench(sizes, {one_row(0, 15, 3)});
+    bench.run({{37, 0, 3}});
+    EXPECT_EQ(bench.tile_done, std::vector<Cycle>{bench.stats().window.last + 1 + 3});
+    EXPECT_EQ(bench.tile_state, bench.tile_done);
+}
+
+INSTANTIATE_TEST_SUITE_P(Latencies, FirstExecution, ::testing::Values(1, 2, 5));
+
+class FullTile : public ::testing::TestWithParam<int> {};
+
+// 16 rows of 16 px, one row per cycle: as soon as a packet takes no more than a cycle brings, the
+// array never waits; packets = ceil(tasks / width).
+TEST_P(FullTile, PacketsAreTasksOverWidth) {
+    Bench::Sizes sizes;
+    sizes.width = GetParam();
+    Bench bench(sizes, {blanket(8, 8, 16)});
+    bench.run(Bench::rows(0, 16, 20, 1));
+    const auto packets = static_cast<Cycle>((256 + sizes.width - 1) / sizes.width);
+    EXPECT_EQ(bench.stats().packets, packets);
+    EXPECT_EQ(bench.stats().window.first, 22U);
+    EXPECT_EQ(bench.stats().window.cycles(), packets);
+    EXPECT_EQ(bench.stats().slots.useful, 256U);
+    EXPECT_EQ(bench.accounted(), bench.window_slots());
+    EXPECT_EQ(bench.stats().hazards, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Widths, FullTile, ::testing::Values(1, 3, 8, 15, 16));
+
+class Reuse : public ::testing::TestWithParam<int> {};
+
+// Every splat updates the same pixel: executions are exactly the reuse distance apart, whatever
+// waits in the bank.
+TEST_P(Reuse, OnePixelSplatsExecuteTheReuseDistanceApart) {
+    constexpr std::uint32_t kSplats = 12;
+    Bench::Sizes sizes;
+    sizes.reuse = GetParam();
+    sizes.writeback = std::min(GetParam(), 4);
+    Bench bench(sizes, std::vector<ProjectedSplat>(kSplats, one_pixel(5, 5, 0.1)));
+    std::vector<Bench::Feed> feeds;
+    for (std::uint32_t i = 0; i < kSplats; ++i) {
+        feeds.push_back({10, i, 5});
+    }
+    bench.run(feeds);
+    const auto reuse = static_cast<Cycle>(GetParam());
+    EXPECT_EQ(bench.stats().packets, kSplats);
+    EXPECT_EQ(bench.stats().window.first, 12U);
+    EXPECT_EQ(bench.stats().window.last, 12 + (kSplats - 1) * reuse);
+    EXPECT_EQ(bench.stats().slots.useful, kSplats);
+    EXPECT_EQ(bench.packing.idle().conflict, bench.window_slots() - kSplats - 15);
+    EXPECT_EQ(bench.packing.idle().total(), bench.window_slots() - kSplats);
+    EXPECT_EQ(bench.stats().hazards, 0U);
+}
+
+// A segment over several packets is busy until its last one has executed.
+TEST_P(Reuse, CountsFromTheLastPacketOfASegment) {
+    Bench::Sizes sizes;
+    sizes.width = 4; // 16 px: four packets
+    sizes.reuse = GetParam();
+    sizes.writeback = 1;
+    Bench bench(sizes, {one_row(0, 15, 2, 0.1), one_row(0, 15, 2, 0.1)});
+    bench.run({{10, 0, 2}, {10, 1, 2}});
+    EXPECT_EQ(bench.stats().packets, 8U);
+    // 12 .. 15, then 15 + reuse .. 18 + reuse
+    EXPECT_EQ(bench.stats().window.last, 18 + static_cast<Cycle>(GetParam()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Distances, Reuse, ::testing::Values(1, 4, 5, 13));
+
+// Other rows fill the cycles between two updates of a row.
+TEST(IssueBank, OtherDomainsFillTheGap) {
+    Bench bench({}, std::vector<ProjectedSplat>(3, blanket(8, 8, 16, 0.1)));
+    std::vector<Bench::Feed> feeds;
+    for (std::uint32_t splat = 0; splat < 3; ++splat) {
+        for (int row = 0; row < 4; ++row) {
+            feeds.push_back({10, splat, row});
+        }
+    }
+    bench.run(feeds); // 4 rows round: each is back after exactly 4 cycles
+    EXPECT_EQ(bench.stats().window.first, 12U);
+    EXPECT_EQ(bench.stats().window.cycles(), 12U);
+    EXPECT_EQ(bench.packing.idle().total(), 0U);
+    EXPECT_EQ(bench.stats().hazards, 0U);
+}
+
+struct Feedback {
+    int packing_latency, reuse, writeback;
+};
+std::ostream& operator<<(std::ostream& out, const Feedback& f) {
+    return out << "latency" << f.packing_latency << "_reuse" << f.reuse << "_back" << f.writeback;
+}
+class TerminationOf : public ::testing::TestWithParam<Feedback> {};
+
+// alpha = 0.98: T is 0.02, 4e-4, and the third splat is refused and ends the row. Its report is
+// back at e2 + writeback; segment k more is issued at e2 + k reuse - latency, so those issued
+// before the report are executed in vain, the others dropped.
+TEST_P(TerminationOf, SegmentsBehindTheReportAreDropped) {
+    constexpr std::uint64_t kSplats = 20;
+    const Feedback f = GetParam();
+    Bench::Sizes sizes;
+    sizes.packing_latency = f.packing_latency;
+    sizes.reuse = f.reuse;
+    sizes.writeback = f.writeback;
+    Bench bench(sizes, std::vector<ProjectedSplat>(kSplats, blanket(8, 8, 1e4, 0.98)));
+    std::vector<Bench::Feed> feeds;
+    for (std::uint32_t i = 0; i < kSplats; ++i) {
+        feeds.push_back({10, i, 0});
+    }
+    bench.run(feeds);
+    std::uint64_t executed = 3;
+    for (int k = 1; k * f.reuse - f.packing_latency < f.writeback; ++k) {
+        ++executed;
+    }
+    EXPECT_EQ(bench.stats().packets, executed);
+    EXPECT_EQ(bench.stats().slots.useful, 2U * 16);
+    EXPECT_EQ(bench.stats().slots.terminated, (executed - 2) * 16);
+    EXPECT_EQ(bench.stats().pixels_ended, 16U);
+    EXPECT_EQ(bench.bank.stats().tasks_dropped, (kSplats - executed) * 16);
+    EXPECT_EQ(bench.bank.stats().tasks_in, kSplats * 16);
+}
+
+INSTANTIATE_TEST_SUITE_P(Delays, TerminationOf,
+                         ::testing::Values(Feedback{1, 4, 4}, Feedback{2, 4, 4}, Feedback{4, 4, 4},
+                                           Feedback{5, 4, 4}, Feedback{2, 13, 4}, Feedback{3, 4, 1},
+                                           Feedback{9, 5, 5}));
+
+/// Three splats end one pixel; six more cover its whole row.
+std::vector<Bench::Feed> end_one_pixel(std::vector<ProjectedSplat>& splats) {
+    std::vector<Bench::Feed> feeds;
+    for (std::uint32_t i = 0; i < 9; ++i) {
+        splats.push_back(i < 3 ? one_pixel(4, 0, 0.98) : one_row(0, 15, 0, 0.1));
+        feeds.push_back({i < 3 ? Cycle{10} : Cycle{60}, i, 0});
+    }
+    return feeds;
+}
+
+TEST(IssueBank, ByPixelsEndedPixelsAreMaskedOut) {
+    std::vector<ProjectedSplat> splats;
+    const auto feeds = end_one_pixel(splats);
+    Bench::Sizes sizes;
+    sizes.grain = TerminationGrain::Pixel;
+    Bench bench(sizes, splats);
+    bench.run(feeds);
+    EXPECT_EQ(bench.stats().slots.useful, 2U + 6 * 15);
+    EXPECT_EQ(bench.stats().slots.terminated, 1U);
+    EXPECT_EQ(bench.bank.stats().tasks_dropped, 6U);
+}
+
+TEST(IssueBank, BySegmentsEndedPixelsCostTheirSlots) {
+    std::vector<ProjectedSplat> splats;
+    const auto feeds = end_one_pixel(splats);
+    Bench bench({}, splats);
+    bench.run(feeds);
+    EXPECT_EQ(bench.stats().slots.useful, 2U + 6 * 15);
+    EXPECT_EQ(bench.stats().slots.terminated, 1U + 6);
+    EXPECT_EQ(bench.bank.stats().tasks_dropped, 0U);
+}
+
+// One context: the second tile's segments wait in the bank until the Pixel Buffer hands it back.
+TEST(IssueBank, TheNextTileStartsWhenItsContextIsFree) {
+    Bench bench({}, {blanket(16, 8, 32, 0.2)}, 16, 2);
+    bench.next_context = 100;
+    std::vector<Bench::Feed> feeds = Bench::rows(0, 4, 10);
+    for (int row = 0; row < 4; ++row) {
+        feeds.push_back({10, 0, row, 1});
+    }
+    bench.run(feeds);
+    EXPECT_EQ(bench.stats().window.first, 12U);
+    EXPECT_EQ(bench.stats().window.last, 100U + 2 + 3);
+    EXPECT_EQ(bench.packing.idle().blocked, (102U - 16) * 16);
+    EXPECT_EQ(bench.accounted(), bench.window_slots());
+}
+
+// Deep packing buffer, four segments issued per cycle but a quarter of one executed: whatever
+// queues up drains back to back and still keeps its distance. Without scoreboard it does not.
+class Hazards : public ::testing::TestWithParam<bool> {};
+
+TEST_P(Hazards, OnlyTheScoreboardPreventsThem) {
+    Bench::Sizes sizes;
+    sizes.width = 4;
+    sizes.packets = 64;
+    sizes.scoreboard = GetParam();
+    constexpr std::uint32_t kSplats = 30;
+    Bench bench(sizes, std::vector<ProjectedSplat>(kSplats, blanket(8, 8, 100, 0.05)));
+    std::vector<Bench::Feed> feeds;
+    for (std::uint32_t i = 0; i < kSplats; ++i) {
+        feeds.push_back({10, i, static_cast<int>(i % 2)});
+    }
+    bench.run(feeds);
+    EXPECT_EQ(bench.stats().packets, kSplats * 4);
+    if (GetParam()) {
+        EXPECT_EQ(bench.stats().hazards, 0U);
+    } else {
+        EXPECT_GT(bench.stats().hazards, 0U);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scoreboard, Hazards, ::testing::Bool());
+
+} // namespace
+} // namespace degs

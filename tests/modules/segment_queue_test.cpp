@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/segment_queue.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace degs {
+namespace {
+
+Segment segment(std::uint64_t sequence) {
+    Segment s;
+    s.sequence = sequence;
+    return s;
+}
+
+TEST(SegmentQueue, KeepsOrderInsideADomain) {
+    SegmentQueue queue(4, 1, 3);
+    for (std::uint64_t i = 0; i < 4; ++i) {
+        EXPECT_FALSE(queue.full());
+        queue.push(0, 1, segment(i));
+    }
+    EXPECT_TRUE(queue.full());
+    EXPECT_EQ(queue.size(), 4U);
+    EXPECT_EQ(queue.waiting(0), 4U);
+    EXPECT_FALSE(queue.has_waiting(0, 0));
+    for (std::uint64_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(queue.front(0, 1).sequence, i);
+        queue.pop(0, 1);
+    }
+    EXPECT_TRUE(queue.empty());
+    EXPECT_EQ(queue.pick(0, 100, DomainScan::Oldest), -1);
+}
+
+TEST(SegmentQueue, ScansChooseByTheirRule) {
+    SegmentQueue queue(8, 1, 4);
+    queue.push(0, 2, segment(0));
+    queue.push(0, 1, segment(1));
+    queue.push(0, 3, segment(2));
+    queue.push(0, 3, segment(3));
+    EXPECT_EQ(queue.pick(0, 0, DomainScan::Oldest), 2);
+    EXPECT_EQ(queue.pick(0, 0, DomainScan::Deepest), 3);
+    // Round robin starts at domain 0 and goes on behind the last one picked.
+    for (const int expected : {1, 2, 3, 1}) {
+        EXPECT_EQ(queue.pick(0, 0, DomainScan::RoundRobin), expected);
+    }
+    queue.pop(0, 3); // equally deep now: the oldest head
+    EXPECT_EQ(queue.pick(0, 0, DomainScan::Deepest), 2);
+}
+
+TEST(SegmentQueue, BlockedAtTMinusOneLegalAtT) {
+    for (const DomainScan scan :
+         {DomainScan::RoundRobin, DomainScan::Oldest, DomainScan::Deepest}) {
+        SegmentQueue queue(8, 1, 2);
+        queue.push(0, 0, segment(0));
+        queue.push(0, 0, segment(1));
+        EXPECT_EQ(queue.pick(0, 10, scan), 0);
+        queue.set_ready_at(0, 0, 14);
+        queue.pop(0, 0);
+        EXPECT_EQ(queue.next_ready(0), 14U);
+        EXPECT_EQ(queue.pick(0, 13, scan), -1);
+        EXPECT_EQ(queue.pick(0, 14, scan), 0);
+        EXPECT_EQ(queue.next_ready(0), kNever);
+    }
+}
+
+TEST(SegmentQueue, EndedPixelsAddUpUntilTheSlotIsCleared) {
+    SegmentQueue queue(4, 2, 2);
+    EXPECT_EQ(queue.end_pixels(1, 0, 0x3), 0x3U);
+    EXPECT_EQ(queue.end_pixels(1, 0, 0x6), 0x7U);
+    EXPECT_EQ(queue.ended(1, 0), 0x7U);
+    EXPECT_EQ(queue.ended(0, 0), 0U);
+    EXPECT_EQ(queue.ended(1, 1), 0U);
+    queue.set_ready_at(1, 0, 50);
+    queue.clear(1);
+    EXPECT_EQ(queue.ended(1, 0), 0U);
+    queue.push(1, 0, segment(0));
+    EXPECT_EQ(queue.pick(1, 1, DomainScan::Oldest), 0); // nor is it within a reuse distance
+}
+
+/// The same rules with plain lists and a date per domain.
+struct Model {
+    struct Domain {
+        std::deque<std::uint64_t> waiting;
+        Cycle ready = 0;
+    };
+    std::vector<Domain> domains;
+    std::size_t cursor = 0;
+    explicit Model(std::size_t count) : domains(count) {}
+
+    int pick(Cycle date, DomainScan scan) {
+        int best = -1;
+        for (std::size_t step = 0; step < domains.size(); ++step) {
+            const std::size_t i =
+                scan == DomainScan::RoundRobin ? (cursor + step) % domains.size() : step;
+            const Domain& d = domains[i];
+            if (d.waiting.empty() || d.ready > date) {
+                continue;
+            }
+            if (scan == DomainScan::RoundRobin) {
+                cursor = (i + 1) % domains.size();
+                return static_cast<int>(i);
+            }
+            const auto rank = [scan](const Domain& x) {
+                const std::size_t depth = scan == DomainScan::Deepest ? x.waiting.size() : 0;
+                return std::make_pair(-static_cast<long>(depth), x.waiting.front());
+            };
+            if (best < 0 || rank(d) < rank(domains[static_cast<std::size_t>(best)])) {
+                best = static_cast<int>(i);
+            }
+        }
+        return best;
+    }
+    Cycle next_ready(Cycle after) const {
+        Cycle next = kNever;
+        for (const Domain& d : domains) {
+            if (!d.waiting.empty() && d.ready > after) {
+                next = std::min(next, d.ready);
+            }
+        }
+        return next;
+    }
+};
+
+class SegmentQueueOf : public ::testing::TestWithParam<DomainScan> {};
+
+// More domains than a machine word has bits, dates that stand still, creep and jump.
+TEST_P(SegmentQueueOf, BehavesAsPlainLists) {
+    for (const int count : {1, 5, 64, 65, 200}) {
+        std::mt19937 random(static_cast<unsigned>(count));
+        SegmentQueue queue(24, 2, count);
+        Model model(static_cast<std::size_t>(count));
+        std::uint64_t sequence = 0;
+        Cycle date = 0;
+        for (int step = 0; step < 20000; ++step) {
+            if (!queue.full() && random() % 2 == 0) {
+                const auto domain =
+                    static_cast<std::size_t>(random() % static_cast<unsigned>(count));
+                queue.push(1, static_cast<int>(domain), segment(sequence));
+                model.domains[domain].waiting.push_back(sequence++);
+            }
+            date += random() % 50 == 0 ? random() % 400 : random() % 3;
+            const int domain = queue.pick(1, date, GetParam());
+            ASSERT_EQ(domain, model.pick(date, GetParam())) << step;
+            ASSERT_EQ(queue.next_ready(1), model.next_ready(date)) << step;
+            if (domain >= 0 && random() % 4 != 0) {
+                Model::Domain& taken = model.domains[static_cast<std::size_t>(domain)];
+                ASSERT_EQ(queue.front(1, domain).sequence, taken.waiting.front());
+                queue.pop(1, domain);
+                taken.waiting.pop_front();
+                taken.ready = date + 1 + random() % (SegmentQueue::kWheel - 1);
+                queue.set_ready_at(1, domain, taken.ready);
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scans, SegmentQueueOf,
+                         ::testing::Values(DomainScan::RoundRobin, DomainScan::Oldest,
+                                           DomainScan::Deepest));
+
+} // namespace
+} // namespace degs

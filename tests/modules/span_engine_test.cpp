@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Slicing Units, Span Units, Tile Monitor and Pixel Buffer, one at a time: dates against closed
+// formulas.
+#include "modules/gaussian_slicing_unit.hpp"
+#include "modules/pixel_buffer.hpp"
+#include "modules/span_unit.hpp"
+#include "modules/tile_monitor.hpp"
+#include "tests/modules/unit_bench.hpp"
+#include "tlm/memory.hpp"
+
+namespace degs {
+namespace {
+
+using test::blanket;
+using test::make_frame;
+using test::one_pixel;
+using test::one_row;
+using Bench = test::UnitBench;
+
+// A row per cycles_per_row; its span is there a latency later; an empty row costs its cycle too.
+TEST(SpanUnit, ARowPerIntervalAndTheLatencyOfThePipeline) {
+    Bench bench(make_frame({one_row(2, 9, 1), one_row(2, 9, 3)}, 16, 16, 16));
+    SpanUnit::Config config;
+    config.count = 1;
+    config.cycles_per_row = 3;
+    SpanUnit unit("unit", config, bench.time, bench.job, 0, 2);
+    DatedFifo<RowItem> rows("rows", bench.time, 16);
+    DatedFifo<SpanItem> bank0("bank0", bench.time, 8, 6);
+    DatedFifo<SpanItem> bank1("bank1", bench.time, 8, 6);
+    unit.in.bind(rows);
+    unit.out[0].bind(bank0);
+    unit.out[1].bind(bank1);
+    bench.script([&](Process& self) {
+        rows.connect_writer(self);
+        self.advance(19);
+        for (const int row : {1, 2, 3}) { // splat 0 covers row 1 alone, splat 1 row 3
+            RowItem item;
+            item.splat = row == 3 ? 1 : 0;
+            item.row = static_cast<std::int16_t>(row);
+            rows.put(self, item);
+        }
+        RowItem end;
+        end.end = true;
+        rows.put(self, end);
+    });
+    const auto& even = bench.drain(bank0);
+    const auto& odd = bench.drain(bank1);
+    sc_core::sc_start();
+    ASSERT_EQ(odd.size(), 3U); // rows 1 and 3 belong to bank 1, and the end
+    EXPECT_EQ(odd[0].first, 20U + 6);
+    EXPECT_EQ(odd[1].first, 20U + 2 * 3 + 6);
+    EXPECT_EQ(odd[0].second.span.length, 8);
+    EXPECT_TRUE(odd[2].second.end);
+    ASSERT_EQ(even.size(), 1U);
+    EXPECT_TRUE(even[0].second.end);
+    EXPECT_EQ(unit.stats().rows, 3U);
+    EXPECT_EQ(unit.stats().empty_rows, 1U);
+    EXPECT_EQ(unit.stats().tasks, 16U);
+    EXPECT_EQ(unit.stats().busy, 9U);
+}
+
+class Slicing : public ::testing::TestWithParam<int> {};
+
+// `rows_per_cycle` rows of a splat per cycle, a new splat in a new cycle.
+TEST_P(Slicing, RowsPerCycle) {
+    Bench bench(make_frame({blanket(8, 8, 32), one_pixel(3, 4), blanket(8, 8, 32)}, 16, 16, 16));
+    GaussianSlicingUnit::Config config;
+    config.count = 1;
+    config.rows_per_cycle = GetParam();
+    GaussianSlicingUnit unit("unit", config, bench.time, bench.job, 0, 1, 1, 0, 16);
+    DatedFifo<SplatChunk> chunks("chunks", bench.time, 4);
+    DatedFifo<TileNumber> cancel("cancel", bench.time, 4);
+    DatedFifo<RowItem> rows("rows", bench.time, 256);
+    unit.in[0].bind(chunks);
+    unit.cancel.bind(cancel);
+    unit.out[0].bind(rows);
+    bench.script([&](Process& self) {
+        chunks.connect_writer(self);
+        self.advance(9);
+        SplatChunk chunk;
+        chunk.count = 3;
+        chunk.last = true;
+        chunks.put(self, chunk);
+    });
+    bench.script([&](Process& self) { cancel.connect_writer(self); });
+    const auto& got = bench.drain(rows);
+    sc_core::sc_start();
+    ASSERT_EQ(got.size(), 16U + 1 + 16 + 1);
+    const auto per_cycle = static_cast<Cycle>(GetParam());
+    const Cycle blanket_cycles = (16 + per_cycle - 1) / per_cycle;
+    for (Cycle i = 0; i < 16; ++i) {
+        EXPECT_EQ(got[i].first, 10 + i / per_cycle + 1); // the ring takes a cycle
+        EXPECT_EQ(got[i].second.row, static_cast<int>(i));
+        EXPECT_EQ(got[17 + i].first, 10 + blanket_cycles + 1 + i / per_cycle + 1);
+    }
+    EXPECT_EQ(got[16].first, 10 + blanket_cycles + 1);
+    EXPECT_EQ(got[16].second.row, 4);
+    EXPECT_TRUE(got.back().second.end);
+    EXPECT_EQ(unit.stats().rows, 33U);
+    EXPECT_EQ(unit.stats().busy, 2 * blanket_cycles + 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, Slicing, ::testing::Values(1, 3, 4, 16));
+
+// A cancelled tile's chunks go by at one per cycle and send nothing but the end.
+TEST(GaussianSlicingUnit, DropsWhatWasCancelled) {
+    Bench bench(make_frame({blanket(8, 8, 32)}, 16, 16, 16));
+    GaussianSlicingUnit::Config config;
+    config.count = 1;
+    GaussianSlicingUnit unit("unit", config, bench.time, bench.job, 0, 1, 1, 0, 16);
+    DatedFifo<SplatChunk> chunks("chunks", bench.time, 8);
+    DatedFifo<TileNumber> cancel("cancel", bench.time, 4, 8);
+    DatedFifo<RowItem> rows("rows", bench.time, 256);
+    unit.in[0].bind(chunks);
+    unit.cancel.bind(cancel);
+    unit.out[0].bind(rows);
+    bench.script([&](Process& self) {
+        chunks.connect_writer(self);
+        SplatChunk chunk;
+        chunk.count = 1;
+        self.advance(26);
+        chunks.put(self, chunk); // read at 27: not cancelled yet
+        chunk.last = true;
+        self.advance(1);
+        chunks.put(self, chunk); // read at 28 at the earliest: cancelled
+    });
+    bench.script([&](Process& self) {
+        cancel.connect_writer(self);
+        self.advance(20);
+        cancel.put(self, 0); // known at 28
+    });
+    const auto& got = bench.drain(rows);
+    sc_core::sc_start();
+    EXPECT_EQ(got.size(), 16U + 1);
+    EXPECT_EQ(unit.stats().splats, 1U);
+    EXPECT_EQ(unit.stats().splats_cancelled, 1U);
+}
+
+// Reports of all slices, then the latency of the ring that stands for the wires.
+TEST(TileMonitor, CancelsWhenTheLastSliceHasReported) {
+    Bench bench(make_frame({blanket(16, 8, 64)}, 32, 16, 16)); // two tiles
+    const TileMonitor::Config config;
+    TileMonitor unit("unit", config, bench.time, bench.job, 2, 1);
+    DatedFifo<SliceReport> slice0("slice0", bench.time, 4, 4);
+    DatedFifo<SliceReport> slice1("slice1", bench.time, 4, 4);
+    DatedFifo<TileNumber> out("out", bench.time, 4, 8);
+    unit.in[0].bind(slice0);
+    unit.in[1].bind(slice1);
+    unit.out[0].bind(out);
+    for (auto* ring : {&slice0, &slice1}) {
+        bench.script([ring, &slice0](Process& self) {
+            ring->connect_writer(self);
+            self.advance(ring == &slice0 ? 30 : 50);
+            ring->put(self, {0, ring == &slice0}); // one slice still has live pixels
+            self.advance(10);
+            ring->put(self, {1, true});
+        });
+    }
+    const auto& got = bench.drain(out);
+    sc_core::sc_start();
+    ASSERT_EQ(got.size(), 1U);
+    EXPECT_EQ(got[0].second, 1U);
+    EXPECT_EQ(got[0].first, 60U + 4 + 8);
+    EXPECT_EQ(unit.stats().tiles, 2U);
+    EXPECT_EQ(unit.stats().tiles_cancelled, 1U);
+}
+
+// A tile is read out at readout_pixels per cycle; its context is free then.
+TEST(PixelBuffer, ContextsComeBackAfterTheReadout) {
+    Bench bench(make_frame({blanket(24, 8, 64)}, 48, 13, 16)); // three tiles of 16 x 13
+    PixelBuffer::Config config;
+    config.readout_pixels = 10;
+    PixelBuffer unit("unit", config, {}, bench.time, bench.job, 2, 1, 0, 1);
+    DatedFifo<SliceReport> slice0("slice0", bench.time, 4, 4);
+    DatedFifo<SliceReport> slice1("slice1", bench.time, 4, 4);
+    DatedFifo<TileNumber> free0("free0", bench.time, 4, 1);
+    DatedFifo<TileNumber> free1("free1", bench.time, 4, 1);
+    unit.in[0].bind(slice0);
+    unit.in[1].bind(slice1);
+    unit.context_free[0].bind(free0);
+    unit.context_free[1].bind(free1);
+    bench.connect({&unit.frame_buffer}, 50);
+    for (auto* ring : {&slice0, &slice1}) {
+        bench.script([ring, &slice1](Process& self) {
+            ring->connect_writer(self);
+            for (TileNumber tile = 0; tile < 3; ++tile) {
+                self.advance(ring == &slice1 ? 100 : 80);
+                ring->put(self, {tile, false});
+            }
+        });
+    }
+    const auto& got = bench.drain(free0);
+    const auto& other = bench.drain(free1);
+    sc_core::sc_start();
+    ASSERT_EQ(got.size(), 2U);
+    constexpr Cycle kReadout = (16 * 13 + 9) / 10;
+    for (Cycle tile = 0; tile < 2; ++tile) {
+        EXPECT_EQ(got[tile].first, 100 * (tile + 1) + 4 + kReadout + 1);
+        EXPECT_EQ(got[tile].second, tile + 1);
+        EXPECT_EQ(other[tile].first, got[tile].first);
+    }
+    EXPECT_EQ(unit.stats().readout_busy, 3 * kReadout);
+    EXPECT_EQ(unit.stats().tiles, 3U);
+    EXPECT_GE(unit.stats().finished, 300U + 4 + 50);
+    EXPECT_EQ(bench.memory->total().bytes_written, 3U * 16 * 13 * 4);
+}
+
+} // namespace
+} // namespace degs

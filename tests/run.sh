@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Everything that must hold before a change is accepted: build, lint, sanitizers, tests. Runs from any directory;
+# stops at the first step that fails, ends with the summary of CTest.
+set -euo pipefail
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+jobs=${DEGS_JOBS:-2}
+step() { echo "== $(date +%M:%S -u -d "@$SECONDS") $*"; }
+
+step "packages"
+scripts/install.sh --tests
+
+step "build (preset release)"
+cmake --preset release -DDEGS_BUILD_TESTS=ON
+cmake --build --preset release -j "$jobs"
+
+step "build (preset asan)"
+cmake --preset asan
+cmake --build --preset asan -j "$jobs"
+
+step "hostile inputs and small runs under the sanitizers"
+ctest --preset asan -j "$jobs" --no-tests=error
+
+step "all tests, house rules, formatting, clang-tidy"
+ctest --preset release -j "$jobs" --no-tests=error

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Broken and malicious input to the whole program: one sentence and a code, or a picture.
+#include <limits>
+
+#include "tests/sim/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+const char* const kScene = "synthetic:single";
+
+Outcome run_scene(const std::string& scene, const Folder& folder,
+                  std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"run",   config("degs-64"), "--scene",       scene,
+                                       "--out", folder / "result", "--no-reference"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return degs(arguments);
+}
+
+/// The good splat stands in front of the default view; the bad one must be counted and left out.
+nlohmann::json run_with_bad_splat(const Splat& bad) {
+    const Folder folder;
+    write_ply(folder / "scene.ply", {Splat{}, bad, Splat{{0.1F, 0, 0}}});
+    expect_success(run_scene(folder / "scene.ply", folder, {"--width", "64"}));
+    return report_in(folder / "result");
+}
+
+TEST(HostileScene, MissingFile) {
+    const Folder folder;
+    expect_mistake(run_scene(folder / "absent.ply", folder), "absent.ply");
+    EXPECT_FALSE(fs::exists(folder / "result"));
+}
+
+TEST(HostileScene, EmptyNames) {
+    const Folder folder;
+    expect_mistake(run_scene("", folder), "empty name");
+    expect_mistake(degs({"run", "", "--scene", kScene}), "''");
+    expect_mistake(degs({"run", config("degs-64"), "--scene", kScene, "--out", ""}), "''");
+}
+
+TEST(HostileScene, TruncatedPly) {
+    const Folder folder;
+    write_ply(folder / "scene.ply", std::vector<Splat>(10));
+    fs::resize_file(folder / "scene.ply", fs::file_size(folder / "scene.ply") - 100);
+    expect_mistake(run_scene(folder / "scene.ply", folder), "scene.ply");
+    fs::resize_file(folder / "scene.ply", 40);
+    expect_mistake(run_scene(folder / "scene.ply", folder), "scene.ply");
+}
+
+TEST(HostileScene, EmptyScene) {
+    const Folder folder;
+    write_ply(folder / "scene.ply", {});
+    expect_mistake(run_scene(folder / "scene.ply", folder), "scene.ply");
+}
+
+TEST(HostileScene, NothingDrawable) {
+    const Folder folder;
+    Splat bad;
+    bad.mean[0] = std::numeric_limits<float>::quiet_NaN();
+    write_ply(folder / "scene.ply", {bad});
+    expect_mistake(run_scene(folder / "scene.ply", folder), "NaN");
+}
+
+TEST(HostileScene, NanRotationIsDropped) {
+    Splat bad;
+    bad.rotation[2] = std::numeric_limits<float>::quiet_NaN();
+    const nlohmann::json report = run_with_bad_splat(bad);
+    EXPECT_EQ(report["workload"]["dropped"], 1);
+    EXPECT_EQ(report["scene"]["dropped"]["non_finite"], 1);
+    EXPECT_EQ(report["workload"]["gaussians"], 2);
+    EXPECT_GT(report["slots"]["useful"], 0);
+}
+
+TEST(HostileScene, InfiniteScaleIsDropped) {
+    Splat bad;
+    bad.scale[1] = 1000; // exp overflows
+    EXPECT_EQ(run_with_bad_splat(bad)["workload"]["dropped"], 1);
+    bad.scale[1] = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(run_with_bad_splat(bad)["workload"]["dropped"], 1);
+}
+
+TEST(HostileScene, CameraInsideASplat) {
+    const Folder folder;
+    Splat around;
+    around.scale = {2, 2, 2};
+    Splat ahead = around;
+    ahead.mean = {0.1F, 0.1F, 0.5F};
+    write_ply(folder / "scene.ply", {around, ahead});
+    write_camera(folder / "cameras.json", {0, 0, 0});
+    expect_success(run_scene(folder / "scene.ply", folder));
+    const nlohmann::json report = report_in(folder / "result");
+    EXPECT_EQ(report["workload"]["culled"]["near"], 1);
+    EXPECT_EQ(report["slots"]["useful"], 64 * 48);
+}
+
+TEST(HostileScene, NothingInView) {
+    const Folder folder;
+    write_ply(folder / "scene.ply", {Splat{{0, 0, -5}}});
+    write_camera(folder / "cameras.json", {0, 0, 0});
+    expect_success(run_scene(folder / "scene.ply", folder));
+    const nlohmann::json report = report_in(folder / "result");
+    EXPECT_EQ(report["workload"]["visible"], 0);
+    EXPECT_EQ(report["slots"]["total"], 0);
+    EXPECT_TRUE(report["slots"]["utilization"].is_null());
+    EXPECT_TRUE(report["slots"]["window_first"].is_null());
+    EXPECT_GE(report["dram"]["bytes_written"], 64 * 48 * 4);
+}
+
+TEST(HostileView, OnePixel) {
+    const Folder folder;
+    expect_success(run_scene(kScene, folder, {"--width", "1", "--height", "1"}));
+    const nlohmann::json report = report_in(folder / "result");
+    EXPECT_EQ(report["camera"]["width"], 1);
+    EXPECT_EQ(report["camera"]["height"], 1);
+    EXPECT_EQ(report["workload"]["tiles"], 1);
+}
+
+TEST(HostileView, BadSizes) {
+    const Folder folder;
+    expect_mistake(run_scene(kScene, folder, {"--width", "0"}), "--width is 0");
+    expect_mistake(run_scene(kScene, folder, {"--height", "-4"}), "--height is -4");
+    expect_mistake(run_scene(kScene, folder, {"--width", "100000000"}), "33 177 600");
+    expect_mistake(run_scene(kScene, folder, {"--width", "1", "--height", "2000000000"}),
+                   "33 177 600");
+    expect_mistake(run_scene(kScene, folder, {"--width", "99999999999999"}), "--width");
+    expect_mistake(run_scene(kScene, folder, {"--width", "wide"}), "--width");
+}
+
+TEST(HostileView, BadCameras) {
+    const Folder folder;
+    expect_mistake(run_scene(kScene, folder, {"--camera", "99"}), "Camera 99");
+    expect_mistake(run_scene(kScene, folder, {"--camera", "-1"}), "Camera -1");
+    expect_mistake(run_scene(kScene, folder, {"--cameras", folder / "absent.json"}), "absent.json");
+    std::ofstream(folder / "broken.json") << R"([{"width": 4)";
+    expect_mistake(run_scene(kScene, folder, {"--cameras", folder / "broken.json"}), "broken.json");
+}
+
+TEST(HostileConfig, UnknownKey) {
+    const Folder folder;
+    std::ofstream(folder / "c.yaml") << "name: x\nscheduler:\n  bank: 8\n";
+    const Outcome outcome = degs({"run", folder / "c.yaml", "--scene", kScene});
+    expect_mistake(outcome, "c.yaml:3");
+    EXPECT_NE(outcome.err.find("scheduler.banks"), std::string::npos) << outcome.err;
+}
+
+TEST(HostileConfig, UnknownAccelerator) {
+    const Folder folder;
+    std::ofstream(folder / "c.yaml") << "accelerator: abacus\n";
+    expect_mistake(degs({"run", folder / "c.yaml", "--scene", kScene}), "abacus");
+}
+
+TEST(HostileConfig, MissingFile) {
+    const Folder folder;
+    expect_mistake(degs({"run", folder / "absent.yaml", "--scene", kScene}), "absent.yaml");
+}
+
+TEST(HostileConfig, BadOverrides) {
+    const Folder folder;
+    expect_mistake(run_scene(kScene, folder, {"--set", "banks"}), "--set");
+    expect_mistake(run_scene(kScene, folder, {"--set", "scheduler.bank=8"}), "scheduler.bank");
+    expect_mistake(run_scene(kScene, folder, {"--set", "scheduler.banks=eight"}), "1 to 64");
+    expect_mistake(run_scene(kScene, folder, {"--set", "scheduler.banks=65"}), "1 to 64");
+    // In range, but does not fit together.
+    expect_mistake(run_scene(kScene, folder, {"--set", "array.writeback_cycles=9"}),
+                   "reuse_cycles");
+}
+
+TEST(HostileOutput, UnwritableFolder) {
+    const Folder folder;
+    std::ofstream(folder / "file") << "x";
+    const std::vector<std::string> head{"run", config("degs-64"), "--scene", kScene, "--out"};
+    for (const std::string& out :
+         {folder / "file", folder / "file/below", std::string("/proc/x")}) {
+        std::vector<std::string> arguments = head;
+        arguments.push_back(out);
+        expect_mistake(degs(arguments), out);
+    }
+    EXPECT_EQ(read_file(folder / "file"), "x");
+}
+
+TEST(HostileOutput, FolderInPlaceOfAResult) {
+    const Folder folder;
+    fs::create_directories(folder / "result/report.json");
+    expect_mistake(run_scene(kScene, folder), "report.json");
+    EXPECT_FALSE(fs::exists(folder / "result/image.exr"));
+}
+
+TEST(HostileCommandLine, Mistakes) {
+    expect_mistake(degs({}), "subcommand");
+    expect_mistake(degs({"fly"}), "'fly'");
+    expect_mistake(degs({"scene"}), "subcommand");
+    expect_mistake(degs({"scene", "fly"}), "'fly'");
+    expect_mistake(degs({"run"}), "required");
+    expect_mistake(degs({"run", config("degs-64")}), "--scene");
+    expect_mistake(degs({"run", config("degs-64"), "--scene", kScene, "--fidelity", "sloppy"}),
+                   "sloppy");
+    expect_mistake(degs({"render", "--scene", kScene, "--tiles", "round"}), "round");
+    expect_mistake(degs({"render", "--scene", kScene, "--tile-size", "0"}), "--tile-size");
+    expect_mistake(degs({"scene", "info", "synthetic:teapot"}), "teapot");
+    expect_mistake(degs({"scene", "generate", "object", "--out", "scene.txt"}), ".ply");
+    expect_mistake(degs({"scene", "generate", "object", "--gaussians", "-1", "--out", "x.ply"}),
+                   "'-1'");
+    expect_mistake(degs({"config", "--format", "xml"}), "xml");
+    expect_mistake(degs({"config", "absent.yaml"}), "absent.yaml");
+    expect_mistake(degs({"run\nrm", "\x01\xff"}), "not expected");
+}
+
+} // namespace
+} // namespace degs::sim_test

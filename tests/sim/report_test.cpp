@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run leaves behind: the contract of report.json and the laws that its numbers obey.
+#include <regex>
+#include <set>
+
+#include "tests/sim/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using nlohmann::json;
+
+struct Result {
+    json report;
+    std::string exr, png, text;
+};
+
+Result run(const std::vector<std::string>& more, const std::string& name = "degs-64",
+           const std::string& scene = "synthetic:object,gaussians=2000",
+           const std::string& width = "200") {
+    const Folder folder;
+    std::vector<std::string> arguments{"run",     config(name), "--scene", scene,
+                                       "--width", width,        "--out",   folder / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = degs(arguments);
+    expect_success(outcome);
+    return {report_in(folder / "out"), read_file(folder / "out/image.exr"),
+            read_file(folder / "out/image.png"), outcome.out};
+}
+
+json without_host(json report) {
+    report.erase("host");
+    return report;
+}
+
+void expect_keys(const json& section, const std::vector<std::string>& keys) {
+    for (const std::string& key : keys) {
+        EXPECT_TRUE(section.contains(key)) << key;
+    }
+}
+
+/// PEs x window, conservation, memory streams: whatever the configuration.
+void expect_laws(const json& report) {
+    const json& s = report["slots"];
+    std::uint64_t sum = 0;
+    for (const char* part :
+         {"useful", "boundary", "terminated", "conflict", "starved", "blocked", "drain"}) {
+        sum += s[part].get<std::uint64_t>();
+    }
+    const std::uint64_t window =
+        s["window_last"].get<std::uint64_t>() - s["window_first"].get<std::uint64_t>() + 1;
+    EXPECT_EQ(sum, s["total"]);
+    EXPECT_EQ(s["pes"].get<std::uint64_t>() * window, s["total"]);
+    EXPECT_EQ(report["timing"]["blending_cycles"], window);
+    EXPECT_EQ(s["hazards"], 0);
+    EXPECT_LE(s["window_last"], report["timing"]["cycles"]);
+    EXPECT_LE(report["timing"]["preprocessing_cycles"], s["window_first"]);
+    EXPECT_GE(report["conservation"].size(), 5U);
+    for (const json& law : report["conservation"]) {
+        EXPECT_EQ(law["left"], law["right"]) << law;
+        EXPECT_GT(law["left"], 0) << law;
+    }
+    std::uint64_t read = 0;
+    std::uint64_t written = 0;
+    for (const json& stream : report["dram"]["streams"]) {
+        read += stream["bytes_read"].get<std::uint64_t>();
+        written += stream["bytes_written"].get<std::uint64_t>();
+        EXPECT_GT(stream["requests"], 0);
+    }
+    EXPECT_EQ(report["dram"]["bytes_read"], read);
+    EXPECT_EQ(report["dram"]["bytes_written"], written);
+    for (const json& stage : report["stages"]) {
+        if (stage.is_object()) {
+            EXPECT_GT(stage["busy"], 0) << stage;
+            EXPECT_LE(stage["busy"], 1) << stage;
+        }
+    }
+}
+
+TEST(SmallRunReport, HasEveryKeyOfTheContract) {
+    const json report = run({}).report;
+    expect_keys(report, {"tool", "schema", "scene", "camera", "config", "workload", "timing",
+                         "stages", "slots", "dram", "buffers", "energy", "area", "image", "host"});
+    EXPECT_EQ(report["schema"]["version"], 1);
+    expect_keys(report["workload"],
+                {"gaussians", "visible", "tile_pairs", "fragments", "culled", "dropped"});
+    expect_keys(report["timing"], {"cycles", "latency_ms", "fps", "clock_ghz", "blending_cycles",
+                                   "preprocessing_cycles"});
+    expect_keys(report["slots"], {"total", "useful", "boundary", "terminated", "conflict",
+                                  "starved", "blocked", "drain", "utilization", "frame_utilization",
+                                  "window_first", "window_last", "hazards"});
+    expect_keys(report["stages"],
+                {"projection", "sorting", "slicing", "span", "packing", "blending", "limited_by"});
+    expect_keys(report["dram"],
+                {"bytes_read", "bytes_written", "utilization", "row_hit_rate", "streams"});
+    for (const char* buffer : {"gaussian_buffer", "span_buffer", "packing_buffer"}) {
+        expect_keys(report["buffers"][buffer],
+                    {"bytes", "depth", "high_water", "mean_fill", "full_cycles", "empty_cycles"});
+        EXPECT_LE(report["buffers"][buffer]["high_water"], report["buffers"][buffer]["depth"]);
+    }
+    expect_keys(report["buffers"], {"feature_buffer", "pixel_buffer", "crossbar"});
+    expect_keys(report["image"], {"psnr_db", "ssim", "max_abs_error"});
+    expect_keys(report["host"], {"load_s", "workload_s", "sim_s", "render_s", "wall_s",
+                                 "fragments_per_s", "peak_rss_bytes", "sim_over_render"});
+    EXPECT_EQ(report["energy"]["available"], false);
+    EXPECT_FALSE(report["area"]["why"].get<std::string>().empty());
+}
+
+/// Adds the names of all keys below `value`.
+void collect_keys(const json& value, std::set<std::string>& keys) {
+    for (const auto& [key, child] : value.items()) {
+        if (value.is_object()) {
+            keys.insert(key);
+        }
+        if (child.is_structured()) {
+            collect_keys(child, keys);
+        }
+    }
+}
+
+TEST(SmallRunReport, IsDocumentedKeyByKey) {
+    json report = run({}).report;
+    report["config"] = json::object(); // `degs config` documents these
+    std::set<std::string> keys;
+    collect_keys(report, keys);
+    EXPECT_GT(keys.size(), 100U);
+    const std::string page = read_file(fs::path(DEGS_CONFIGS).parent_path() / "docs/report.md");
+    for (const std::string& key : keys) {
+        const std::regex word("\\b" + key + "\\b");
+        EXPECT_TRUE(std::regex_search(page, word)) << key << " is not in docs/report.md";
+    }
+}
+
+TEST(SmallRunReport, DerivedNumbersFollowFromTheCounters) {
+    const json report = run({"--set", "clock_ghz=2"}).report;
+    const auto cycles = report["timing"]["cycles"].get<double>();
+    const auto useful = report["slots"]["useful"].get<double>();
+    EXPECT_DOUBLE_EQ(report["timing"]["latency_ms"], cycles / 2e6);
+    EXPECT_NEAR(report["timing"]["fps"].get<double>() * cycles / 2e9, 1.0, 1e-12);
+    EXPECT_DOUBLE_EQ(report["slots"]["utilization"],
+                     useful / report["slots"]["total"].get<double>());
+    EXPECT_DOUBLE_EQ(report["slots"]["frame_utilization"], useful / (64 * cycles));
+    const json& w = report["workload"];
+    std::uint64_t accounted = w["visible"];
+    for (const json& culled : w["culled"]) {
+        accounted += culled.get<std::uint64_t>();
+    }
+    EXPECT_EQ(accounted, w["gaussians"]);
+    EXPECT_EQ(report["config"]["clock_ghz"], 2);
+    EXPECT_EQ(report["config"]["accelerator"], "degs");
+}
+
+class SmallRunLaws : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SmallRunLaws, Hold) {
+    expect_laws(run({"--no-reference"}, GetParam()).report);
+}
+
+INSTANTIATE_TEST_SUITE_P(Configs, SmallRunLaws,
+                         ::testing::Values("degs-16", "degs-64", "degs-64-tuned", "degs-256",
+                                           "degs-1024"));
+
+// Exact ends make no boundary tasks, double precision flips no threshold: what the PEs blend is
+// what the reference blends, pixel by pixel.
+TEST(SmallRunReport, DoublePrecisionCountsAndPaintsLikeTheReference) {
+    for (const char* scene : {"synthetic:object,gaussians=2000", "synthetic:needles,gaussians=300",
+                              "synthetic:dense,gaussians=2000"}) {
+        const json report =
+            run({"--set", "pipeline.numbers=fp64", "--set", "pipeline.span_ends=exact"}, "degs-64",
+                scene)
+                .report;
+        EXPECT_EQ(report["slots"]["useful"], report["workload"]["fragments"]) << scene;
+        const json& psnr = report["image"]["psnr_db"];
+        EXPECT_TRUE(psnr == "inf" || psnr > 120) << psnr;
+    }
+}
+
+TEST(SmallRunReport, ExactAndStrictAgreeToTheByte) {
+    for (const char* name : {"degs-64", "degs-64-tuned"}) {
+        const Result exact = run({}, name);
+        const Result strict = run({"--fidelity", "strict"}, name);
+        EXPECT_EQ(without_host(exact.report), without_host(strict.report)) << name;
+        EXPECT_EQ(exact.exr, strict.exr) << name;
+        EXPECT_EQ(exact.png, strict.png) << name;
+        EXPECT_EQ(strict.report["host"]["fidelity"], "strict");
+    }
+}
+
+TEST(SmallRunReport, TwoRunsAgreeToTheByte) {
+    const Result first = run({});
+    const Result second = run({});
+    EXPECT_EQ(without_host(first.report).dump(), without_host(second.report).dump());
+    EXPECT_EQ(first.exr, second.exr);
+    EXPECT_EQ(first.png, second.png);
+    EXPECT_NE(first.exr, run({}, "degs-64", "synthetic:object,gaussians=2000,seed=2").exr);
+}
+
+TEST(SmallRunReport, WithoutReferenceItsNumbersAreNull) {
+    const json with = run({}).report;
+    const json without = run({"--no-reference"}).report;
+    EXPECT_TRUE(without["workload"]["fragments"].is_null());
+    EXPECT_TRUE(without["image"]["psnr_db"].is_null());
+    EXPECT_TRUE(without["host"]["render_s"].is_null());
+    EXPECT_TRUE(without["host"]["sim_over_render"].is_null());
+    EXPECT_GT(with["workload"]["fragments"], 0);
+    EXPECT_EQ(with["slots"], without["slots"]);
+}
+
+TEST(SmallRunTerminal, SummaryAndExplanation) {
+    const std::string text = run({"--explain"}).text;
+    for (const char* line : {"scene ", "design ", "frame ", "slots ", "stages ", "memory ",
+                             "image ", "host ", "limited by: ", "culled", "tiles list no splat"}) {
+        EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
+    }
+    EXPECT_EQ(text.find("SystemC 2"), std::string::npos) << "the kernel's banner";
+    EXPECT_EQ(run({}).text.find("left out"), std::string::npos);
+}
+
+TEST(TrainedScene, DoublePrecisionCountsLikeTheReference) {
+    const char* const set = std::getenv("DEGS_SCENES");
+    const fs::path scene =
+        fs::path(set != nullptr ? set : DEGS_SCENES_DEFAULT) / "flowers-small" / "scene.ply";
+    if (!fs::exists(scene)) {
+        GTEST_SKIP() << "There is no trained scene " << scene << "; set DEGS_SCENES to their "
+                     << "folder.";
+    }
+    const json report = run({"--camera", "1", "--set", "pipeline.numbers=fp64"}, "degs-64-tuned",
+                            scene.string(), "1280")
+                            .report;
+    expect_laws(report);
+    EXPECT_EQ(report["slots"]["useful"], report["workload"]["fragments"]);
+    EXPECT_GT(report["workload"]["fragments"], 1000000);
+}
+
+} // namespace
+} // namespace degs::sim_test

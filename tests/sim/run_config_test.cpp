@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "sim/run_config.hpp"
+#include "tlm/config_document.hpp"
+
+namespace degs::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+RunConfig load(const std::string& name) {
+    return load_run_config(std::string(DEGS_CONFIGS) + "/" + name + ".yaml", {});
+}
+
+TEST(Configs, EveryFileLoads) {
+    int files = 0;
+    for (const auto& entry : fs::directory_iterator(DEGS_CONFIGS)) {
+        if (entry.path().stem().string().rfind("degs-", 0) != 0) {
+            continue;
+        }
+        SCOPED_TRACE(entry.path());
+        const RunConfig config = load_run_config(entry.path().string(), {});
+        EXPECT_EQ(config.problem(), "");
+        EXPECT_EQ(config.degs.name, entry.path().stem().string());
+        ++files;
+    }
+    EXPECT_GE(files, 5);
+}
+
+TEST(Configs, Degs64IsTheDefault) {
+    EXPECT_EQ(resolved(load("degs-64")).dump(2), resolved(RunConfig{}).dump(2));
+}
+
+TEST(Configs, SixtyFourPesHaveTheMemoryOfTableI) {
+    for (const char* name : {"degs-64", "degs-64-tuned"}) {
+        EXPECT_EQ(load(name).degs.sram_bytes(), 130 * 1024) << name;
+        EXPECT_EQ(load(name).degs.pes(), 64) << name;
+    }
+    EXPECT_EQ(load("degs-64").degs.contexts(), 1);
+    EXPECT_EQ(load("degs-64-tuned").degs.contexts(), 2);
+}
+
+// Table II, and one tile context as the Pixel Buffer scales with the PEs.
+TEST(Configs, ScalingPointsAreThoseOfThePaper) {
+    struct Row {
+        int pes, tile, slicing, spans, banks, width;
+    };
+    for (const Row& row : {Row{16, 16, 1, 4, 4, 4}, Row{64, 32, 2, 8, 8, 8},
+                           Row{256, 64, 4, 16, 16, 16}, Row{1024, 128, 8, 32, 32, 32}}) {
+        SCOPED_TRACE(row.pes);
+        const DegsConfig config = load("degs-" + std::to_string(row.pes)).degs;
+        EXPECT_EQ(config.pes(), row.pes);
+        EXPECT_EQ(config.tile_size, row.tile);
+        EXPECT_EQ(config.slicing.count, row.slicing);
+        EXPECT_EQ(config.span.count, row.spans);
+        EXPECT_EQ(config.scheduler.banks, row.banks);
+        EXPECT_EQ(config.array.pes_per_bank, row.width);
+        EXPECT_EQ(config.scheduler.issue_width, std::max(1, row.width / 4));
+        EXPECT_EQ(config.scheduler.segments_per_cycle, std::max(1, row.width / 4));
+        EXPECT_EQ(config.pixel_buffer.bytes, row.pes * 256);
+        EXPECT_EQ(config.contexts(), 1);
+        EXPECT_EQ(config.span_lane_depth(), 32);
+        EXPECT_EQ(config.feature_entries(), 64);
+    }
+}
+
+TEST(Configs, ProblemsNameTheFile) {
+    const std::string file = std::string(DEGS_CONFIGS) + "/degs-64.yaml";
+    try {
+        load_run_config(file, {"packing.bytes=16"});
+        FAIL() << "a Packing Buffer of one task was accepted";
+    } catch (const ConfigError& error) {
+        EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("packing.bytes"), std::string::npos);
+    }
+}
+
+} // namespace
+} // namespace degs::sim

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// GoogleTest inside sc_main: tests of the module kit need the SystemC kernel, the others do not
+// mind.
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+#include <systemc>
+
+namespace {
+/// SystemC prints its banner before sc_main; set early, it spares builds (test discovery) and
+/// tests.
+const int kNoBanner = ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
+} // namespace
+
+/// Asked by the leak sanitizer at exit. It cannot read the protected pages between the stacks of
+/// SystemC's threads, so programs that have run a simulation are not searched for leaks.
+extern "C" int __lsan_is_turned_off() { // NOLINT(bugprone-reserved-identifier)
+    return sc_core::sc_start_of_simulation_invoked() ? 1 : 0;
+}
+
+int sc_main(int argc, char* argv[]) {
+    ::testing::InitGoogleTest(&argc, argv);
+    return kNoBanner != 0 ? kNoBanner : RUN_ALL_TESTS();
+}
