@@ -12,11 +12,12 @@ namespace {
 const int kNoBanner = ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
 } // namespace
 
-/// Asked by the leak sanitizer at exit. It cannot read the protected pages between the stacks of
-/// SystemC's threads, so programs that have run a simulation are not searched for leaks.
+#ifdef __SANITIZE_ADDRESS__
+/// As in sim/main.cpp: the leak sanitizer cannot read the stacks of SystemC's threads.
 extern "C" int __lsan_is_turned_off() { // NOLINT(bugprone-reserved-identifier)
     return sc_core::sc_start_of_simulation_invoked() ? 1 : 0;
 }
+#endif
 
 int sc_main(int argc, char* argv[]) {
     ::testing::InitGoogleTest(&argc, argv);
