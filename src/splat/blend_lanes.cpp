@@ -50,11 +50,34 @@ BlendFunction<double> blend_function(double /*type*/) {
     return &narrow::blend_double;
 }
 
+TestFunction<float> test_function(float /*type*/) {
+#ifdef DEGS_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        return &wide::test_float;
+    }
+#endif
+    return &narrow::test_float;
+}
+
+TestFunction<double> test_function(double /*type*/) {
+    return &narrow::test_double;
+}
+
 std::vector<BlendFunction<float>> blend_variants() {
     std::vector<BlendFunction<float>> variants{&narrow::blend_float};
 #ifdef DEGS_HAS_WIDE_LANES
     if (has_wide_lanes()) {
         variants.push_back(&wide::blend_float);
+    }
+#endif
+    return variants;
+}
+
+std::vector<TestFunction<float>> test_variants() {
+    std::vector<TestFunction<float>> variants{&narrow::test_float};
+#ifdef DEGS_HAS_WIDE_LANES
+    if (has_wide_lanes()) {
+        variants.push_back(&wide::test_float);
     }
 #endif
     return variants;

@@ -62,10 +62,29 @@ using BlendFunction = BlendOutcome (*)(const BlendTask& task, const BlendRecord<
 BlendFunction<float> blend_function(float);
 BlendFunction<double> blend_function(double);
 
+/// One splat on up to 32 neighbouring pixels of a row, each tested by itself:
+/// q'_i = A (n0 + i - centre)^2 + rest.
+template <class T>
+struct TestRow {
+    T centre;           ///< of the ellipse on this row, px from the splat's nearest column
+    T rest;             ///< C' dy^2 - 2 ln o
+    std::int32_t n0;    ///< column of mask bit 0 minus the splat's nearest column
+    std::uint32_t mask; ///< pixels to test
+};
+
+/// A PE that checks while it blends: alpha test, then alpha, transmittance and colour of the pixels
+/// inside. Planes, `first`, `refuse` and widths as for BlendFunction.
+template <class T>
+using TestFunction = BlendOutcome (*)(const TestRow<T>& row, const BlendRecord<T>& splat,
+                                      bool refuse, PixelPlanes<T>& pixels, std::size_t first);
+TestFunction<float> test_function(float);
+TestFunction<double> test_function(double);
+
 constexpr std::size_t kLanePadding = 16;
 
 /// All variants this build has, narrow first; those the machine cannot run are left out. For tests.
 std::vector<BlendFunction<float>> blend_variants();
+std::vector<TestFunction<float>> test_variants();
 /// The exponential of the float lanes, x in [-80, 1]; relative error < 3e-7.
 float lane_exp(float x);
 

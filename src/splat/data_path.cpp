@@ -70,7 +70,7 @@ public:
     DataPathOf(const DataPathOptions& options, int tile_size, int contexts)
         : options_(options), tile_size_(tile_size), stride_((tile_size + 31) / 32 * 32),
           pixels_(static_cast<std::size_t>(contexts * tile_size * stride_) + kLanePadding),
-          blend_(blend_function(T{})) {}
+          blend_(blend_function(T{})), test_(test_function(T{})) {}
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
         const auto base = static_cast<std::uint32_t>(spans_.size());
@@ -168,6 +168,23 @@ public:
         return blend_(task, blends_[task.splat], options_.stop == StopRule::Refuse, pixels_, first);
     }
 
+    BlendOutcome test(const PixelTest& test) override {
+        const SpanRecord<T>& s = spans_[test.splat];
+        const T dy = static_cast<T>(test.y - s.pixel_y) - s.offset_y;
+        TestRow<T> row;
+        row.rest = s.c_prime * dy * dy - s.fold;
+        if (row.rest > static_cast<T>(kQLimit)) { // adding A u^2 >= 0 cannot round below
+            BlendOutcome outcome;
+            outcome.boundary = test.mask;
+            return outcome;
+        }
+        row.centre = s.offset_x + s.slope * dy;
+        row.n0 = test.x - s.pixel_x;
+        row.mask = test.mask;
+        const std::size_t first = at(test.context, test.row, test.column);
+        return test_(row, blends_[test.splat], options_.stop == StopRule::Refuse, pixels_, first);
+    }
+
     void read_row(int context, int row, int count, PixelValue* pixels) const override {
         const std::size_t first = at(context, row, 0);
         for (int i = 0; i < count; ++i) {
@@ -204,6 +221,7 @@ private:
     int stride_; // tile rows are padded to 32 px so that a lane block never leaves its row
     PixelPlanes<T> pixels_;
     BlendFunction<T> blend_;
+    TestFunction<T> test_;
     std::vector<SpanRecord<T>> spans_;
     std::vector<BlendRecord<T>> blends_;
 };

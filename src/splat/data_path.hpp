@@ -49,7 +49,18 @@ struct BlendTask {
     std::int16_t context = 0; ///< tile context of the Pixel Buffer
 };
 
-/// What became of the tasks; disjoint masks whose union is BlendTask::mask, and the pixels that
+/// Up to 32 neighbouring pixels of a row that each check for themselves whether they are inside the
+/// ellipse: what the lanes of a coupled "checking-while-blending" array do (paper, Sec. II-B).
+struct PixelTest {
+    std::uint32_t splat = 0;
+    std::uint32_t mask = 0;   ///< bit i: the pixel at column + i is tested
+    int x = 0, y = 0;         ///< image pixel of mask bit 0
+    std::int16_t row = 0;     ///< inside the tile
+    std::int16_t column = 0;  ///< inside the tile, of mask bit 0
+    std::int16_t context = 0; ///< tile context of the Pixel Buffer
+};
+
+/// What became of the tasks; disjoint masks whose union is the mask asked for, and the pixels that
 /// ended.
 struct BlendOutcome {
     std::uint32_t useful = 0;     ///< inside the ellipse and blended
@@ -91,6 +102,9 @@ public:
     virtual void begin_row(int context, int row) = 0;
     /// Updates the pixels of one task, left to right.
     virtual BlendOutcome blend(const BlendTask& task) = 0;
+    /// Tests each pixel by itself, q' = A u^2 + C' dy^2 - 2 ln o with u = dx - m dy (paper Eq. 10),
+    /// and blends the live ones with q <= Q_th; the others keep their state.
+    virtual BlendOutcome test(const PixelTest& test) = 0;
     /// The first `count` pixels of a row.
     virtual void read_row(int context, int row, int count, PixelValue* pixels) const = 0;
 };
