@@ -61,8 +61,10 @@ void add_info(CLI::App& scene) {
     command->add_option("scene", view.scene, "scene file, or synthetic:NAME[,...]")->required();
     command->add_option("--cameras", view.cameras, "cameras.json instead of the scene's own");
     options->camera = command->add_option("--camera", view.camera, "view to measure, from 0");
-    command->add_option("--width", view.width, "image width of the view in pixels")
-        ->needs(options->camera);
+    CLI::Option* width =
+        command->add_option("--width", view.width, "image width of the view in pixels")
+            ->needs(options->camera);
+    add_resolution_option(*command, view.resolution)->needs(options->camera)->excludes(width);
     command->callback([options] {
         const View loaded = load_view(options->view);
         std::cout << scene_info(loaded.scene);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/view.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 
 #include "sim/progress.hpp"
@@ -23,11 +26,52 @@ void check_pixels(double width, double height) {
     if (width * height > static_cast<double>(kMostPixels)) {
         throw InputError("An image of " + three_digits(width) + " x " + three_digits(height) +
                          " pixels is too large; at most " + grouped(kMostPixels) +
-                         " pixels (8K UHD) are allowed.");
+                         " pixels (8192 x 4320) are allowed.");
     }
 }
 
+struct Resolution {
+    const char* name;
+    int height; ///< px
+};
+constexpr std::array<Resolution, 5> kResolutions{
+    {{"720p", 720}, {"1080p", 1080}, {"2k", 1440}, {"4k", 2160}, {"8k", 4320}}};
+
+std::string in_small_letters(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
 } // namespace
+
+std::vector<std::string> resolution_names() {
+    std::vector<std::string> names;
+    names.reserve(kResolutions.size());
+    for (const Resolution& resolution : kResolutions) {
+        names.emplace_back(resolution.name);
+    }
+    return names;
+}
+
+int resolution_height(const std::string& name) {
+    std::string allowed;
+    for (const Resolution& resolution : kResolutions) {
+        if (in_small_letters(name) == resolution.name) {
+            return resolution.height;
+        }
+        allowed += std::string(allowed.empty() ? "" : ", ") + resolution.name;
+    }
+    throw InputError("The resolution '" + name + "' is not known; allowed are " + allowed +
+                     ", and --width and --height for any other size.");
+}
+
+CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution) {
+    return command.add_option(
+        "--resolution", resolution,
+        "720p, 1080p, 2k, 4k or 8k: images 720, 1080, 1440, 2160 or 4320 pixels high, as wide as "
+        "the camera's aspect ratio makes them");
+}
 
 void add_view_options(CLI::App& command, ViewRequest& request) {
     command
@@ -37,10 +81,13 @@ void add_view_options(CLI::App& command, ViewRequest& request) {
     command.add_option("--cameras", request.cameras,
                        "cameras.json to use instead of the one beside the scene");
     command.add_option("--camera", request.camera, "position in the list of cameras, from 0");
-    command.add_option("--width", request.width, "image width in pixels; the view is scaled");
-    command.add_option("--height", request.height,
-                       "image height in pixels; alone it scales the view, with --width it crops or "
-                       "extends it");
+    CLI::Option* width =
+        command.add_option("--width", request.width, "image width in pixels; the view is scaled");
+    CLI::Option* height =
+        command.add_option("--height", request.height,
+                           "image height in pixels; alone it scales the view, with --width it "
+                           "crops or extends it");
+    add_resolution_option(command, request.resolution)->excludes(width)->excludes(height);
 }
 
 Camera resize(const Camera& camera, std::optional<int> width, std::optional<int> height) {
@@ -61,6 +108,8 @@ Camera resize(const Camera& camera, std::optional<int> width, std::optional<int>
 View load_view(const ViewRequest& request) {
     check_positive("--width", request.width);
     check_positive("--height", request.height);
+    const std::optional<int> height =
+        request.resolution.empty() ? request.height : resolution_height(request.resolution);
     if (request.scene.empty()) {
         throw InputError("The scene has an empty name; a file or synthetic:NAME is needed.");
     }
@@ -68,7 +117,7 @@ View load_view(const ViewRequest& request) {
     const Stopwatch clock;
     View view;
     view.scene = load_scene(request.scene, request.cameras);
-    view.camera = resize(select_camera(view.scene, request.camera), request.width, request.height);
+    view.camera = resize(select_camera(view.scene, request.camera), request.width, height);
     view.load_s = clock.seconds();
     return view;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -17,6 +18,7 @@ struct ViewRequest {
     std::string cameras; ///< file, empty: the scene's own
     int camera = 0;
     std::optional<int> width, height;
+    std::string resolution; ///< a name of resolution_names(), empty: width and height decide
 };
 
 struct View {
@@ -25,11 +27,21 @@ struct View {
     double load_s = 0;
 };
 
-/// 8K UHD; images, the reference and their comparison take some 100 B per pixel.
-constexpr std::int64_t kMostPixels = std::int64_t{7680} * 4320;
+/// 8K as cinemas have it, so that cameras a little wider than 16:9 can be scaled to 8k, too;
+/// images, the reference and their comparison take some 100 B per pixel.
+constexpr std::int64_t kMostPixels = std::int64_t{8192} * 4320;
 
-/// Adds --scene, --cameras, --camera, --width and --height.
+/// Adds --scene, --cameras, --camera and the options for the image size.
 void add_view_options(CLI::App& command, ViewRequest& request);
+
+/// Adds --resolution, which excludes the options for width and height.
+CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution);
+
+/// "720p", "1080p", "2k", "4k", "8k".
+std::vector<std::string> resolution_names();
+/// Image height in pixels: 720, 1080, 1440, 2160, 4320. Capital letters are allowed; InputError
+/// lists the names for any other.
+int resolution_height(const std::string& name);
 
 /// Loads the scene and resizes the camera. Throws InputError.
 View load_view(const ViewRequest& request);

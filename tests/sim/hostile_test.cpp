@@ -119,11 +119,20 @@ TEST(HostileView, BadSizes) {
     const Folder folder;
     expect_mistake(run_scene(kScene, folder, {"--width", "0"}), "--width is 0");
     expect_mistake(run_scene(kScene, folder, {"--height", "-4"}), "--height is -4");
-    expect_mistake(run_scene(kScene, folder, {"--width", "100000000"}), "33 177 600");
+    expect_mistake(run_scene(kScene, folder, {"--width", "100000000"}), "35 389 440");
     expect_mistake(run_scene(kScene, folder, {"--width", "1", "--height", "2000000000"}),
-                   "33 177 600");
+                   "35 389 440");
     expect_mistake(run_scene(kScene, folder, {"--width", "99999999999999"}), "--width");
     expect_mistake(run_scene(kScene, folder, {"--width", "wide"}), "--width");
+}
+
+TEST(HostileView, BadResolutions) {
+    const Folder folder;
+    expect_mistake(run_scene(kScene, folder, {"--resolution", "5k"}), "'5k'");
+    expect_mistake(run_scene(kScene, folder, {"--resolution", "5k"}), "720p, 1080p, 2k, 4k, 8k");
+    expect_mistake(run_scene(kScene, folder, {"--resolution", "4k", "--width", "64"}), "--width");
+    expect_mistake(run_scene(kScene, folder, {"--resolution", "4k", "--height", "9"}), "--height");
+    expect_mistake(degs({"scene", "info", kScene, "--resolution", "4k"}), "--camera");
 }
 
 TEST(HostileView, BadCameras) {
