@@ -2,14 +2,12 @@
 #include "sim/program.hpp"
 
 #include <iostream>
-#include <new>
 #include <string>
 
 #include <systemc>
 
 #include "sim/commands.hpp"
-#include "splat/error.hpp"
-#include "tlm/config.hpp"
+#include "sim/failure.hpp"
 #include "tlm/config_words.hpp"
 
 namespace degs::sim {
@@ -66,20 +64,9 @@ int run_program(int argc, char* argv[]) {
         return kSuccess;
     } catch (const CLI::ParseError& error) {
         return fail_parse(program, error);
-    } catch (const InputError& error) {
-        return fail(kUserError, error.what());
-    } catch (const ConfigError& error) {
-        return fail(kUserError, error.what());
-    } catch (const std::bad_alloc&) {
-        return fail(kInternalError,
-                    "There is not enough memory for a scene or an image of this size.");
-    } catch (const sc_core::sc_report& report) {
-        return fail(kInternalError, std::string("The simulation kernel failed: ") +
-                                        report.get_msg_type() + ": " + report.get_msg() + ".");
-    } catch (const std::exception& error) {
-        return fail(kInternalError, std::string("Internal error: ") + error.what() + ".");
     } catch (...) {
-        return fail(kInternalError, "Internal error of unknown kind.");
+        const Failure failure = failure_of(std::current_exception());
+        return fail(failure.code, failure.sentence);
     }
 }
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <exception>
+#include <string>
+
+namespace degs::sim {
+
+constexpr int kSuccess = 0;
+constexpr int kInternalError = 1; ///< the model or the machine failed
+constexpr int kUserError = 2;     ///< command line, configuration, scene or output folder
+constexpr int kInterrupted = 130; ///< Ctrl-C or SIGTERM, as shells report it
+
+/// Why something was not done.
+struct Failure {
+    int code = kInternalError; ///< one of the above
+    std::string sentence;
+};
+
+/// A failure as an exception, for results that another process could not deliver.
+class FailureError : public std::exception {
+public:
+    explicit FailureError(Failure failure) : failure_(std::move(failure)) {}
+    const Failure& failure() const { return failure_; }
+    const char* what() const noexcept override { return failure_.sentence.c_str(); }
+
+private:
+    Failure failure_;
+};
+
+/// What to tell the user of an exception; never throws one itself except for lack of memory.
+Failure failure_of(const std::exception_ptr& error);
+
+} // namespace degs::sim
