@@ -12,6 +12,8 @@ namespace degs {
 
 /// Position of a tile in RenderJob::tiles; counts through all frames.
 using TileNumber = std::uint32_t;
+/// In place of a tile: nothing follows.
+constexpr TileNumber kNoTile = ~TileNumber{0};
 
 /// Visible splats of one chunk of Gaussians, Projection Unit -> Tile Binner.
 struct ProjectedChunk {

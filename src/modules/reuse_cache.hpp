@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "modules/render_job.hpp"
+
+namespace degs {
+
+/// For every entry of a frame's tile lists the next entry, in raster order of tiles, that names the
+/// same splat.
+class NextUse {
+public:
+    static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+    /// One backward pass over the lists. Throws std::length_error if there are 2^32 - 1 entries or
+    /// more.
+    explicit NextUse(const FrameWorkload& frame);
+
+    /// Position in FrameWorkload::tile_splats, or kNone.
+    std::uint32_t after(std::uint64_t entry) const { return next_[entry]; }
+
+private:
+    std::vector<std::uint32_t> next_;
+};
+
+/// The Gaussian reuse cache of GBU: keeps splat records between the tiles of one engine. Which
+/// record gives way is decided by reuse distances that binning has computed in advance: the one
+/// whose next use is farthest away, which may be the record that has just been read. Next uses are
+/// those of all tiles in raster order, whichever engine works on them; once the engine has passed a
+/// tile, its entries count no more. Fully associative [assumed].
+///
+/// No time in here: the Splat Fetcher asks which records it must read.
+class ReuseCache {
+public:
+    struct Stats {
+        std::uint64_t hits = 0, misses = 0;
+    };
+
+    /// `next_use`: one per frame of the job; both outlive the cache. `records`: capacity, >= 1.
+    ReuseCache(const RenderJob& job, const std::vector<NextUse>& next_use, std::size_t records);
+
+    /// Looks up `count` list entries from `first` on; tiles never go back. The number of records
+    /// that have to be read.
+    std::uint32_t request(TileNumber tile, std::uint64_t first, std::uint32_t count);
+
+    const Stats& stats() const { return stats_; }
+
+private:
+    static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
+    using Rank = std::pair<std::uint32_t, std::uint32_t>; // next use, splat
+
+    void start_tile(TileNumber number);
+    bool look_up(std::uint64_t entry);
+    void keep(std::uint32_t splat, std::uint32_t use);
+    void evict_farthest();
+    const Rank& farthest();
+
+    const RenderJob& job_;
+    const std::vector<NextUse>& next_use_;
+    std::size_t capacity_;
+    TileNumber tile_ = kNoTile;
+    std::uint32_t frame_ = 0;
+    std::vector<std::uint32_t> use_of_; // per splat: its next use if resident, else kNowhere
+    std::vector<Rank> by_use_; // max-heap; entries that use_of_ contradicts are out of date
+    std::size_t resident_ = 0;
+    Stats stats_;
+};
+
+} // namespace degs
