@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baselines/tile_engine.hpp"
+
+#include <algorithm>
+
+namespace degs {
+namespace {
+
+constexpr int kLaneBlock = 32; // pixels that DataPath::test() takes at a time
+
+std::uint32_t first_bits(int count) {
+    return count >= kLaneBlock ? ~0U : (1U << count) - 1U;
+}
+
+} // namespace
+
+void TileEngine::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("row_pes", row_pes, 1, 1024,
+                    "Row PEs per engine; PE k serves the tile rows k, k + row_pes, ... (8 for 16 "
+                    "rows in the original, one per row in the scaled designs [assumed])");
+    visitor.integer("queue_depth", queue_depth, 1, 4096,
+                    "row entries waiting in front of a Row PE; GBU does not say [assumed]");
+    visitor.integer("generation_latency", generation_latency, 0, 4096,
+                    "cycles from a splat's record to its row entries; 8 in an HLS rebuild");
+    visitor.integer("row_pe_latency", row_pe_latency, 1, 4096,
+                    "cycles from a pixel's slot to written-back state; 10 in an HLS rebuild");
+    visitor.integer("termination_cycles", termination_cycles, 1, 4096,
+                    "cycles from the slot that ends a row to Row Generation, which then leaves it "
+                    "out [assumed]");
+    visitor.boolean("end_probe", end_probe,
+                    "an entry's end is found by one failing check (DeGS paper, Sec. II-B); false: "
+                    "it is computed with its start [assumed]");
+}
+
+TileEngine::TileEngine(const sc_core::sc_module_name& name, const Config& config,
+                       const Timebase& time, RenderJob& job, int first_context, int contexts)
+    : sc_core::sc_module(name), in("in"), context_free("context_free"), tile_done("tile_done"),
+      tile_state("tile_state"), config_(config), job_(job), first_context_(first_context),
+      contexts_(contexts), self_(time), pes_(static_cast<std::size_t>(config.row_pes)),
+      loaded_(pes_.size() * static_cast<std::size_t>(config.queue_depth), 0),
+      rows_(static_cast<std::size_t>(job.tile_size)) {
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+        pe_of_row_.push_back(row % pes_.size());
+    }
+    SC_HAS_PROCESS(TileEngine);
+    SC_THREAD(run);
+}
+
+void TileEngine::end_of_elaboration() {
+    in->connect_reader(self_);
+    context_free->connect_reader(self_);
+    tile_done->connect_writer(self_);
+    tile_state->connect_writer(self_);
+}
+
+void TileEngine::run() {
+    for (TileNumber number = next_chunk().tile; number != kNoTile; number = next_chunk().tile) {
+        start_tile(number);
+        work();
+        finish_tile();
+    }
+    in->drop(self_);
+    tile_done->put(self_, {kNoTile, false});
+    tile_state->put(self_, {kNoTile, false});
+    self_.finish();
+}
+
+// Generation is a pipeline: what has long been there has passed through it up to the last stage.
+const SplatChunk& TileEngine::next_chunk() {
+    in->wait_for_item(self_);
+    const Cycle generated = in->head_date() + static_cast<Cycle>(config_.generation_latency);
+    const SplatChunk& chunk = in->arrive(self_);
+    self_.advance_to(generated);
+    return chunk;
+}
+
+void TileEngine::start_tile(TileNumber number) {
+    number_ = number;
+    tile_ = &job_.tiles[number];
+    take_context();
+    live_rows_ = tile_->height;
+    started_ = self_.local();
+    last_end_ = 0;
+    ended_ = kNever;
+    reported_ = false;
+    for (std::size_t row = 0; row < rows_.size(); ++row) {
+        const bool inside = static_cast<int>(row) < tile_->height;
+        rows_[row] = {inside ? kNever : 0, inside ? tile_->width : 0};
+    }
+}
+
+void TileEngine::take_context() {
+    const auto turn = static_cast<std::uint64_t>(contexts_);
+    context_ = first_context_ + static_cast<int>(stats_.tiles % turn);
+    if (stats_.tiles >= turn) {
+        const Cycle ready = self_.local();
+        context_free->get(self_);
+        blocked_ += stats_.window.empty() ? 0 : (self_.local() - ready) * pes_.size();
+    }
+}
+
+// Of an abandoned tile a chunk per cycle is thrown away.
+void TileEngine::work() {
+    const std::uint32_t first_splat = job_.first_splat[tile_->frame];
+    const FrameWorkload& frame = job_.frame_of(*tile_);
+    for (bool last = false; !last;) {
+        const Cycle ready = self_.local();
+        const SplatChunk& chunk = next_chunk();
+        last = chunk.last;
+        stats_.input_wait += abandoned() ? 0 : self_.local() - ready;
+        std::uint32_t taken = 0;
+        for (; taken < chunk.count && !abandoned(); ++taken) {
+            generate(first_splat + frame.tile_splats[chunk.first + taken]);
+        }
+        stats_.splats += taken;
+        stats_.splats_abandoned += chunk.count - taken;
+        if (taken == 0) {
+            self_.advance();
+        }
+        in->drop(self_);
+    }
+}
+
+// The date moves to the cycle after the one in which the last row was pushed.
+void TileEngine::generate(std::uint32_t splat) {
+    const Cycle now = self_.local();
+    int first = 0;
+    int last = 0;
+    job_.path->rows_in_columns(splat, tile_->x, tile_->x + tile_->width, first, last);
+    first = std::max(first, tile_->y);
+    last = std::min(last, tile_->y + tile_->height - 1);
+    Cycle pushed = now;
+    RowSpan span;
+    for (int y = first; y <= last; ++y) {
+        if (rows_[static_cast<std::size_t>(y - tile_->y)].ended <= now) {
+            stats_.rows_skipped++;
+        } else if (job_.path->solve_row(splat, y, tile_->x, tile_->x + tile_->width, tile_->y,
+                                        span)) {
+            pushed = std::max(pushed, push(span, now));
+        }
+    }
+    stats_.queue_wait += pushed - now;
+    if (ended_ != kNever && !reported_) {
+        report_tile(last_end_);
+    }
+    self_.advance_to(pushed + 1);
+}
+
+// The date at which generation is done with the entry: once the cell it takes has been loaded from,
+// or the row is known to have ended.
+Cycle TileEngine::push(const RowSpan& span, Cycle now) {
+    Row& row = rows_[static_cast<std::size_t>(span.y)];
+    const std::size_t index = pe_of_row_[static_cast<std::size_t>(span.y)];
+    RowPe& pe = pes_[index];
+    const auto depth = static_cast<std::size_t>(config_.queue_depth);
+    Cycle& cell = loaded_[index * depth + pe.next];
+    const Cycle pushed = std::max(now, cell);
+    if (row.ended <= pushed) {
+        stats_.entries_dropped++;
+        return row.ended;
+    }
+    pe.next = pe.next + 1 == depth ? 0 : pe.next + 1;
+    cell = std::max(pe.free, pushed + 1);
+    if (row.live == 0) {
+        stats_.entries_dropped++;
+    } else {
+        pe.free = cell + execute(span, cell);
+    }
+    return pushed;
+}
+
+// The slots that the entry takes from `load` on.
+Cycle TileEngine::execute(const RowSpan& span, Cycle load) {
+    Row& row = rows_[static_cast<std::size_t>(span.y)];
+    PixelTest test;
+    test.splat = span.splat;
+    test.y = tile_->y + span.y;
+    test.row = span.y;
+    test.context = static_cast<std::int16_t>(context_);
+    SlotAccount& slots = stats_.slots;
+    for (int done = 0; done < span.length; done += kLaneBlock) {
+        test.column = static_cast<std::int16_t>(span.x0 + done);
+        test.x = tile_->x + test.column;
+        test.mask = first_bits(span.length - done);
+        const BlendOutcome outcome = job_.path->test(test);
+        slots.useful += static_cast<std::uint64_t>(__builtin_popcount(outcome.useful));
+        slots.boundary += static_cast<std::uint64_t>(__builtin_popcount(outcome.boundary));
+        slots.terminated += static_cast<std::uint64_t>(__builtin_popcount(outcome.terminated));
+        if (outcome.ended != 0) {
+            const int ended = __builtin_popcount(outcome.ended);
+            stats_.pixels_ended += static_cast<std::uint64_t>(ended);
+            row.live -= ended;
+            if (row.live == 0) {
+                row_ended(row, load + static_cast<Cycle>(done + 31 - __builtin_clz(outcome.ended)));
+            }
+        }
+    }
+    stats_.entries++;
+    stats_.pixels += static_cast<std::uint64_t>(span.length);
+    slots.boundary += config_.end_probe ? 1 : 0;
+    const auto taken = static_cast<Cycle>(span.length) + (config_.end_probe ? 1 : 0);
+    stats_.window.include(load);
+    stats_.window.include(load + taken - 1);
+    return taken;
+}
+
+void TileEngine::row_ended(Row& row, Cycle slot) {
+    const auto delay = static_cast<Cycle>(config_.termination_cycles);
+    row.ended = slot + delay;
+    last_end_ = std::max(last_end_, slot);
+    if (--live_rows_ == 0) {
+        ended_ = last_end_ + delay;
+    }
+}
+
+// No pixel changes any more: what may still be executed finds none alive.
+void TileEngine::report_tile(Cycle last_slot) {
+    const Cycle written = last_slot + static_cast<Cycle>(config_.row_pe_latency);
+    const bool all_ended = live_rows_ == 0;
+    tile_state->put_at(self_, {number_, all_ended}, written);
+    tile_done->put_at(self_, {number_, all_ended}, written);
+    reported_ = true;
+}
+
+// The barrier: all Row PEs wait for the last one.
+void TileEngine::finish_tile() {
+    const Cycle generated = self_.local();
+    Cycle end = generated;
+    for (const RowPe& pe : pes_) {
+        end = std::max(end, pe.free);
+    }
+    for (const RowPe& pe : pes_) {
+        stats_.drain_slots += end - std::max(pe.free, generated);
+    }
+    self_.advance_to(end);
+    if (!reported_) {
+        report_tile(end - 1);
+    }
+    stats_.tiles++;
+    account_idle();
+}
+
+// Up to the last slot of work: whether the engine works again is not known yet.
+void TileEngine::account_idle() {
+    SlotAccount& slots = stats_.slots;
+    if (stats_.window.empty() || stats_.window.last < started_) {
+        return;
+    }
+    slots.blocked += blocked_;
+    blocked_ = 0;
+    slots.starved = stats_.window.cycles() * pes_.size() - slots.useful - slots.boundary -
+                    slots.terminated - slots.blocked;
+}
+
+} // namespace degs
