@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <systemc>
+
+#include "baselines/chunk_inputs.hpp"
+#include "modules/render_job.hpp"
+#include "modules/slot_account.hpp"
+#include "splat/subtile_cover.hpp"
+#include "tlm/config.hpp"
+#include "tlm/dated_fifo.hpp"
+
+namespace degs {
+
+/// The volume rendering cores of GSCore: a fixed square of pixel lanes in lock step (paper, Sec.
+/// II-B; Lee et al., ASPLOS 2024). A tile is cut into sub-tiles of the lanes' size. For each splat
+/// in depth order, each sub-tile that its bitmap names and that is not done takes one slot, in
+/// which every lane evaluates the splat at its own pixel, useful or not. A sub-tile is done when
+/// its last pixel has ended; what a slot finds guides the slots `termination_cycles` later. The
+/// tile stops when all its sub-tiles are done; splats of it that still come are dropped at no cost.
+///
+/// Updates of a pixel in neighbouring cycles are forwarded (initiation interval 1), tiles follow
+/// each other without a bubble while a context is free, and a splat whose bits are all clear or
+/// done costs no cycle: all in favour of this design.
+class LockstepArray : public sc_core::sc_module {
+public:
+    struct Config {
+        int lanes = 64; ///< pixels evaluated per cycle: a square of 4, 8, 16 or 32 px
+        SubtileTest subtile_skip = SubtileTest::Obb;
+        int clusters = 1;           ///< groups of lanes that work through the list on their own
+        int termination_cycles = 1; ///< from the slot that ends a sub-tile to the first that skips
+        int pipeline_cycles = 4;    ///< last slot of a tile to its pixels written back
+        void describe(ConfigVisitor& visitor);
+        /// Side of the square of lanes and of a sub-tile, px.
+        int side() const;
+        /// Tiles are 2 x 2 sub-tiles and never smaller than 16 x 16 px.
+        int tile_size() const;
+    };
+    struct Stats {
+        SlotAccount slots; ///< of all lanes over the window
+        ActiveWindow window;
+        std::uint64_t passes = 0;           ///< sub-tiles evaluated, each takes all lanes once
+        std::uint64_t splats = 0;           ///< taken in their turn
+        std::uint64_t splats_skipped = 0;   ///< of these, took no slot
+        std::uint64_t splats_discarded = 0; ///< came when their tile had stopped
+        std::uint64_t pixels_ended = 0;
+        std::uint64_t tiles_stopped = 0; ///< before the end of their list
+    };
+
+    sc_core::sc_vector<FifoPort<SplatChunk>> in; ///< tile t arrives on port t mod their number
+    FifoPort<TileNumber> context_free;           ///< from the Pixel Buffer
+    FifoPort<SliceReport> tile_done;             ///< to the Pixel Buffer, once per tile
+    FifoPort<SliceReport> tile_state;            ///< to the Tile Monitor, once per tile
+
+    /// The job's tiles are whole multiples of config.side(), at most 32 sub-tiles.
+    LockstepArray(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+                  RenderJob& job, std::size_t inputs, int contexts);
+
+    const Config& config() const { return config_; }
+    const Stats& stats() const { return stats_; }
+
+private:
+    /// Lanes that share one place in the list. One cluster: the whole array.
+    struct Cluster {
+        Cycle first = kNever; ///< its first cycle of work
+        Cycle free = 0;       ///< the cycle after its last one
+        Cycle blocked = 0;    ///< blocked_ when it last worked
+    };
+    struct Subtile {
+        int live = 0;             ///< pixels that take splats
+        Cycle done_from = kNever; ///< first cycle whose slot sees that all pixels have ended
+    };
+    void end_of_elaboration() override;
+    void run();
+    void render_tile(TileNumber number);
+    void start_tile(TileNumber number);
+    bool await_chunk(FifoBase& source);
+    void await_context(TileNumber number);
+    void work(const SplatChunk& chunk, Cycle begin);
+    SubtileMask bitmap(const ProjectedSplat& splat, std::uint32_t index);
+    bool all_done(Cycle begin);
+    bool issue(std::uint32_t splat, SubtileMask mask, Cycle begin);
+    void pass(int subtile, std::uint32_t splat, Cycle at);
+    int evaluate(int subtile, std::uint32_t splat);
+    void account_wait(Cluster& cluster, Cycle at);
+    void close_window();
+
+    /// Pixels of the tile in the image, relative to its corner; may be empty.
+    PixelBox pixels_of(int subtile) const;
+    Cluster& cluster_of(int subtile) {
+        return clusters_[static_cast<std::size_t>(subtile % config_.clusters)];
+    }
+
+    Config config_;
+    RenderJob& job_;
+    int contexts_;
+    Process self_;
+    ChunkInputs chunks_;
+    SubtileGrid grid_;
+    std::vector<OrientedBox> boxes_; // by DataPath index; empty unless the bitmap needs them
+    std::vector<Cluster> clusters_;
+    std::vector<Subtile> subtiles_;
+    SubtileMask inside_ = 0; // sub-tiles with a pixel in the image
+    int live_subtiles_ = 0;
+    const JobTile* tile_ = nullptr;
+    int context_ = 0;
+    TileNumber startable_ = 0; // tiles below this number have a context
+    Cycle blocked_ = 0;        // cycles spent waiting for contexts so far
+    Stats stats_;
+};
+
+} // namespace degs
