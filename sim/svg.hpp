@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Just enough SVG for charts: shapes and text on a white page, colours as "#rrggbb".
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace degs::sim {
+
+struct TextStyle {
+    double size = 13; ///< px
+    const char* colour = "#1a1a1a";
+    const char* anchor = "start"; ///< or middle, end
+    bool bold = false;
+};
+
+/// Shapes that tell lines apart without colour.
+enum class Marker { Circle, Square, Triangle, Diamond };
+
+/// Coordinates in px from the top left; later shapes lie on earlier ones.
+class Svg {
+public:
+    using Points = std::vector<std::pair<double, double>>;
+
+    void rectangle(double x, double y, double width, double height, const std::string& fill);
+    void line(double x0, double y0, double x1, double y1, const std::string& colour, double width);
+    void polyline(const Points& points, const std::string& colour, double width);
+    void marker(Marker shape, double x, double y, const std::string& colour);
+    /// (x, y) is the anchor on the base line.
+    void text(double x, double y, const std::string& words, const TextStyle& style = {});
+
+    /// The whole file; `title` is what a screen reader says.
+    std::string document(double width, double height, const std::string& title) const;
+
+private:
+    std::string body_;
+};
+
+/// What `words` will measure at most in a usual sans-serif font, px; fonts are not looked up.
+double text_width(const std::string& words, double size, bool bold = false);
+/// The longest beginning of `words` that fits, with an ellipsis if something is missing.
+std::string fitting(const std::string& words, double size, double width);
+/// Characters of a UTF-8 text; what is no UTF-8 counts a character per byte.
+std::size_t characters(const std::string& text);
+
+} // namespace degs::sim

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/plot_svg.hpp"
+
+#include <cmath>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/svg.hpp"
+
+namespace degs::sim {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+        ++found;
+    }
+    return found;
+}
+
+/// All values of an attribute in elements of a kind whose text contains `with`.
+std::vector<double> values(const std::string& svg, const std::string& element,
+                           const std::string& attribute, const std::string& with = "") {
+    std::vector<double> found;
+    const std::regex tags("<" + element + " ([^>]*)/?>");
+    for (std::sregex_iterator tag(svg.begin(), svg.end(), tags), end; tag != end; ++tag) {
+        const std::string inside = " " + (*tag)[1].str();
+        std::smatch match;
+        if (inside.find(with) != std::string::npos &&
+            std::regex_search(inside, match, std::regex(" " + attribute + "=\"([-0-9.]+)\""))) {
+            found.push_back(std::stod(match[1].str()));
+        }
+    }
+    return found;
+}
+
+/// Every element that is opened is closed, in order; no stray markup in texts.
+void expect_well_formed(const std::string& svg) {
+    std::vector<std::string> open;
+    const std::regex tag("<(/?)([a-z]+)[^<>]*?(/?)>");
+    std::string rest = std::regex_replace(svg, tag, "");
+    EXPECT_THAT(rest, Not(HasSubstr("<")));
+    EXPECT_TRUE(std::regex_replace(rest, std::regex("&(amp|lt|gt|quot);"), "").find('&') ==
+                std::string::npos);
+    for (std::sregex_iterator at(svg.begin(), svg.end(), tag), end; at != end; ++at) {
+        if ((*at)[1].length() != 0) {
+            ASSERT_FALSE(open.empty());
+            EXPECT_EQ(open.back(), (*at)[2].str());
+            open.pop_back();
+        } else if ((*at)[3].length() == 0) {
+            open.push_back((*at)[2].str());
+        }
+    }
+    EXPECT_TRUE(open.empty());
+}
+
+const std::array<double, 7> kShares{0.5, 0.2, 0.1, 0.1, 0.05, 0.0, 0.05};
+
+TEST(Svg, TextsOfUsersAreHarmless) {
+    Svg svg;
+    svg.text(1, 2, "<a href=\"x\">&\x01\xff</a>");
+    const std::string file = svg.document(10, 10, "<&>");
+    expect_well_formed(file);
+    EXPECT_THAT(file, HasSubstr("&lt;a href=&quot;x&quot;&gt;&amp; \xEF\xBF\xBD&lt;/a&gt;"));
+    EXPECT_THAT(file, HasSubstr("<title>&lt;&amp;&gt;</title>"));
+}
+
+TEST(Svg, LongWordsAreCutAtACharacter) {
+    EXPECT_EQ(fitting("short", 10, 100), "short");
+    const std::string words = "µµµµµµµµµµ"; // two bytes each
+    for (double width = 0; width < 70; width += 3) {
+        const std::string cut = fitting(words, 10, width);
+        if (cut != words) {
+            EXPECT_EQ(cut.substr(cut.size() - 3), "…");
+            EXPECT_EQ((cut.size() - 3) % 2, 0U);
+            EXPECT_TRUE(cut == "…" || text_width(cut, 10) <= width);
+        }
+    }
+    EXPECT_EQ(characters("1920×1080"), 9U);
+}
+
+TEST(SlotsPlot, BarsAreSharesOfOneWidth) {
+    const std::string svg =
+        slots_svg("Title", {{"first view", {{"a", "", kShares}, {"b", "64 PEs", kShares}}},
+                            {"second view", {{"a", "", {1, 0, 0, 0, 0, 0, 0}}}}});
+    expect_well_formed(svg);
+    for (const char* words : {"Title", "first view", "second view", "64 PEs", ">100<", ">50.0<"}) {
+        EXPECT_THAT(svg, HasSubstr(words));
+    }
+    const std::vector<double> useful =
+        values(svg, "rect", "width", "height=\"24\" fill=\"#009e73\"");
+    const std::vector<double> boundary =
+        values(svg, "rect", "width", "height=\"24\" fill=\"#e69f00\"");
+    ASSERT_EQ(useful.size(), 3U);
+    ASSERT_EQ(boundary.size(), 2U);
+    const double hair = 0.75; // of white between neighbours
+    EXPECT_NEAR(useful[0] + hair, (useful[2] + hair) / 2, 0.01);
+    EXPECT_NEAR(boundary[0] + hair, (useful[2] + hair) / 5, 0.01);
+    // A class without slots has no rectangle; the legend has one of each class in their order.
+    EXPECT_TRUE(values(svg, "rect", "width", "height=\"24\" fill=\"#0072b2\"").empty());
+    std::size_t before = 0;
+    for (const SlotClass& slot : kSlotClasses) {
+        const std::size_t at = svg.find(std::string(">") + slot.key + "<");
+        ASSERT_NE(at, std::string::npos) << slot.key;
+        EXPECT_GT(at, before);
+        before = at;
+        EXPECT_EQ(
+            values(svg, "rect", "x", std::string("height=\"13\" fill=\"") + slot.colour).size(),
+            1U);
+    }
+}
+
+TEST(SlotsPlot, StaysInsideThePage) {
+    const std::string longest(200, 'w');
+    const std::string svg = slots_svg("T", {{longest, {{longest, longest, kShares}}}});
+    expect_well_formed(svg);
+    const std::vector<double> x = values(svg, "rect", "x");
+    const std::vector<double> width = values(svg, "rect", "width");
+    EXPECT_EQ(values(svg, "svg", "width"), std::vector<double>{800});
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        EXPECT_GE(x[i], 0);
+        EXPECT_LE(x[i] + width[width.size() - x.size() + i], 800);
+    }
+}
+
+TEST(UtilizationPlot, PlacesPointsOnALogAxis) {
+    const UtilizationLine degs{"degs", {{64, 0.8}, {16, 1.0}, {1024, 0.0}}};
+    const UtilizationLine one{"other", {{64, 0.5}}};
+    const std::string svg = utilization_svg("T", {{"view", {degs, one}}});
+    expect_well_formed(svg);
+    const std::vector<double> x = values(svg, "circle", "cx");
+    const std::vector<double> y = values(svg, "circle", "cy");
+    ASSERT_EQ(x.size(), 4U);                             // the legend's, then by PEs
+    EXPECT_NEAR((x[3] - x[1]) / (x[2] - x[1]), 3, 0.01); // 6 octaves against 2
+    EXPECT_NEAR((y[3] - y[2]) / (y[2] - y[1]), 4, 0.05); // 80 % against 20 %
+    EXPECT_EQ(count(svg, "<polyline"), 1U);              // one point makes no line
+    for (const char* words :
+         {">16<", ">64<", ">1024<", "PEs", "utilization, %", ">degs<", ">other<", ">view<"}) {
+        EXPECT_THAT(svg, HasSubstr(words));
+    }
+}
+
+TEST(UtilizationPlot, ManyPanelsAndNone) {
+    const UtilizationPanel panel{"view", {{"a", {{1, 0.5}, {1 << 20, 0.6}}}, {"b", {}}}};
+    for (std::size_t panels : {0U, 1U, 2U, 5U}) {
+        const std::string svg = utilization_svg("T", std::vector<UtilizationPanel>(panels, panel));
+        expect_well_formed(svg);
+        EXPECT_EQ(count(svg, ">view<"), panels);
+        EXPECT_EQ(count(svg, "<polyline"), panels);
+        for (double x : values(svg, "circle", "cx")) {
+            EXPECT_LT(x, 800);
+        }
+    }
+}
+
+} // namespace
+} // namespace degs::sim
