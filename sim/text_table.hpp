@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace degs::sim {
+
+/// A table for terminals. The first column is flushed left, the others right; a column in which
+/// every cell below the heading is empty is left out, other empty cells show "-".
+class TextTable {
+public:
+    explicit TextTable(std::vector<std::string> headings) : lines_{std::move(headings)} {}
+    /// As many cells as there are headings.
+    void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
+    std::string text() const;
+
+private:
+    std::vector<std::vector<std::string>> lines_;
+};
+
+} // namespace degs::sim
