@@ -185,6 +185,48 @@ public:
         return test_(row, blends_[test.splat], options_.stop == StopRule::Refuse, pixels_, first);
     }
 
+    // q falls towards the centre and rises behind it, rounded or not, so the pixel nearest to the
+    // centre decides whether there are any; the solved ends are then moved until the test agrees.
+    bool tested_columns(std::uint32_t splat, int y, int x_begin, int x_end, int& first,
+                        int& last) const override {
+        const SpanRecord<T>& s = spans_[splat];
+        const T dy = static_cast<T>(y - s.pixel_y) - s.offset_y;
+        const T rest = s.c_prime * dy * dy - s.fold;
+        const auto limit = static_cast<T>(kQLimit);
+        const T centre = s.offset_x + s.slope * dy;
+        if (!(rest <= limit) || !std::isfinite(centre) || x_begin >= x_end) {
+            return false;
+        }
+        const auto inside = [&](int n) {
+            const T u = static_cast<T>(n) - centre;
+            return s.a * u * u + rest <= limit;
+        };
+        const int low = x_begin - s.pixel_x;
+        const int high = x_end - 1 - s.pixel_x;
+        const auto column = [&](T x) { // clamped first: not every x is an int
+            return x > static_cast<T>(low) ? x < static_cast<T>(high) ? static_cast<int>(x) : high
+                                           : low;
+        };
+        const int nearest = std::clamp(column(std::nearbyint(centre)), low, high);
+        if (!inside(nearest)) {
+            return false;
+        }
+        const T width = std::sqrt((limit - rest) * s.inverse_a);
+        int left = std::clamp(column(std::ceil(centre - width)), low, nearest);
+        int right = std::clamp(column(std::floor(centre + width)), nearest, high);
+        for (; !inside(left); ++left) {
+        }
+        for (; left > low && inside(left - 1); --left) {
+        }
+        for (; !inside(right); --right) {
+        }
+        for (; right < high && inside(right + 1); ++right) {
+        }
+        first = left + s.pixel_x;
+        last = right + s.pixel_x;
+        return true;
+    }
+
     void read_row(int context, int row, int count, PixelValue* pixels) const override {
         const std::size_t first = at(context, row, 0);
         for (int i = 0; i < count; ++i) {

@@ -105,6 +105,10 @@ public:
     /// Tests each pixel by itself, q' = A u^2 + C' dy^2 - 2 ln o with u = dx - m dy (paper Eq. 10),
     /// and blends the live ones with q <= Q_th; the others keep their state.
     virtual BlendOutcome test(const PixelTest& test) = 0;
+    /// First and last of the columns [x_begin, x_end) whose pixel on image row `y` passes test()'s
+    /// q <= Q_th, to the last rounding; between them all pixels do. False if none does.
+    virtual bool tested_columns(std::uint32_t splat, int y, int x_begin, int x_end, int& first,
+                                int& last) const = 0;
     /// The first `count` pixels of a row.
     virtual void read_row(int context, int row, int count, PixelValue* pixels) const = 0;
 };

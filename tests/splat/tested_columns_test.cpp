@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// DataPath::tested_columns names exactly the pixels that DataPath::test finds inside.
+#include "tests/splat/data_path_fixture.hpp"
+
+namespace degs {
+namespace {
+
+using test::make_splat;
+using test::path_of;
+using test::path_options;
+using test::random_splat;
+
+constexpr int kTile = 32;
+
+/// The row as test() sees it on pixels that no splat has touched.
+std::uint32_t tested(DataPath& path, std::uint32_t splat, int x, int y) {
+    path.begin_row(0, 0);
+    PixelTest test;
+    test.splat = splat;
+    test.mask = ~0U;
+    test.x = x;
+    test.y = y;
+    return ~path.test(test).boundary;
+}
+
+std::uint32_t named(const DataPath& path, std::uint32_t splat, int x, int y, int width) {
+    int first = 0;
+    int last = 0;
+    if (!path.tested_columns(splat, y, x, x + width, first, last)) {
+        return 0;
+    }
+    EXPECT_LE(x, first);
+    EXPECT_LE(first, last);
+    EXPECT_LT(last, x + width);
+    std::uint32_t mask = 0;
+    for (int i = first; i <= last; ++i) {
+        mask |= 1U << (i - x);
+    }
+    return mask;
+}
+
+class TestedColumns : public ::testing::TestWithParam<NumberFormat> {};
+
+// Far corners too, where float names pixels by the dozen only.
+TEST_P(TestedColumns, AreThoseThatPassTheTest) {
+    std::mt19937 random(31);
+    const int corners[] = {0, 7, 1900, 40'000, 20'000'000};
+    int covered = 0;
+    for (const int corner : corners) {
+        std::vector<ProjectedSplat> splats;
+        for (int i = 0; i < 400; ++i) {
+            splats.push_back(random_splat(random, corner, corner / 2, kTile));
+        }
+        const auto path = path_of(splats, path_options(GetParam()), kTile);
+        for (std::uint32_t i = 0; i < splats.size(); ++i) {
+            for (int y = corner / 2; y < corner / 2 + kTile; ++y) {
+                const std::uint32_t pixels = tested(*path, i, corner, y);
+                ASSERT_EQ(named(*path, i, corner, y, kTile), pixels) << corner << " " << i;
+                ASSERT_EQ(named(*path, i, corner, y, 5), pixels & 31U);
+                covered += __builtin_popcount(pixels);
+            }
+        }
+    }
+    EXPECT_GT(covered, 100'000);
+}
+
+// Pixels exactly on the rim, where one rounding decides.
+TEST_P(TestedColumns, OnTheRim) {
+    std::vector<ProjectedSplat> splats;
+    for (int i = 0; i < 200; ++i) {
+        ProjectedSplat s = make_splat(16, 16, 1, 1, 0, 0.9);
+        const double reach = 1 + 0.05 * i;
+        s.cov_a = s.cov_c = reach * reach / s.q_threshold; // pixel 16 + reach is on the rim
+        s.det = s.cov_a * s.cov_c;
+        splats.push_back(s);
+    }
+    const auto path = path_of(splats, path_options(GetParam()), kTile);
+    for (std::uint32_t i = 0; i < splats.size(); ++i) {
+        for (int y = 0; y < kTile; ++y) {
+            ASSERT_EQ(named(*path, i, 0, y, kTile), tested(*path, i, 0, y)) << i << " " << y;
+        }
+    }
+}
+
+// No columns asked for, and a splat that no number describes.
+TEST_P(TestedColumns, NothingToName) {
+    ProjectedSplat broken = make_splat(3, 3, 1, 1, 0, 0.5);
+    broken.cov_b = std::nan("");
+    const auto path =
+        path_of({make_splat(3, 3, 2, 2, 0, 0.5), broken}, path_options(GetParam()), kTile);
+    int first = 0;
+    int last = 0;
+    EXPECT_FALSE(path->tested_columns(0, 3, 5, 5, first, last));
+    EXPECT_FALSE(path->tested_columns(1, 3, 0, kTile, first, last));
+    EXPECT_TRUE(path->tested_columns(0, 3, 0, kTile, first, last));
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, TestedColumns,
+                         ::testing::Values(NumberFormat::Fp32, NumberFormat::Fp64));
+
+} // namespace
+} // namespace degs
