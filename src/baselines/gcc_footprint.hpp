@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "modules/render_job.hpp"
+
+namespace degs {
+
+/// One bit per window of a row of windows, leftmost first.
+using GccWindowMask = std::uint64_t;
+
+/// Bits first .. last (inclusive).
+inline GccWindowMask windows_between(int first, int last) {
+    return ((GccWindowMask{2} << last) - 1) & ~((GccWindowMask{1} << first) - 1);
+}
+
+/// What of one splat lies inside a view, pixel row by pixel row and window by window. A view is cut
+/// into windows of `side` x `side` px from its top left corner; `valid` is what the alpha test of
+/// the data path accepts (alpha >= 1/255), whether or not the pixel has ended.
+class GccFootprint {
+public:
+    enum Side { kLeft, kRight, kTop, kBottom };
+    static constexpr int kMaxWindows = 64; ///< in a row of windows
+
+    /// Valid pixels first .. last of row y, all inside the view.
+    struct Row {
+        int y = 0, first = 0, last = 0;
+    };
+
+    /// view_size <= kMaxWindows * side.
+    GccFootprint(int view_size, int side);
+
+    /// Forgets the splat before.
+    void solve(const DataPath& path, std::uint32_t splat, const JobTile& view);
+
+    /// Rows with valid pixels, top to bottom.
+    const std::vector<Row>& rows() const { return rows_; }
+    /// Windows of a row of windows that hold a valid pixel.
+    GccWindowMask valid(int row) const { return valid_[static_cast<std::size_t>(row)]; }
+    /// Those among them with a valid pixel on the given border.
+    GccWindowMask border(Side side, int row) const {
+        return border_[side][static_cast<std::size_t>(row)];
+    }
+    int first_window_row() const { return first_row_; } ///< that may hold a valid pixel
+    int last_window_row() const { return last_row_; }   ///< below the first one if there is none
+    /// Row or column of windows that a row or column of pixels belongs to.
+    int window_of(int pixel) const { return window_of_[static_cast<std::size_t>(pixel)]; }
+    int side() const { return side_; }
+
+private:
+    void add(const Row& row);
+
+    int side_;
+    std::vector<std::uint8_t> window_of_;
+    std::vector<Row> rows_;
+    std::vector<GccWindowMask> valid_;
+    std::array<std::vector<GccWindowMask>, 4> border_;
+    int first_row_ = 0, last_row_ = -1;
+};
+
+} // namespace degs
