@@ -4,10 +4,24 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sim/degs_run.hpp"
+#include "sim/stopwatch.hpp"
 
 namespace degs::sim {
 namespace {
+
+/// Simulated time between two looks at the progress; some 10 ms of host time.
+constexpr Cycle kCyclesPerSlice = 10000;
+
+/// sc_start(t) executes the same events in the same order as sc_start(), so that looking in between
+/// changes nothing.
+void run_kernel(const RenderEngine& engine, const ClockDomain& clock, std::size_t tiles,
+                Progress& progress) {
+    do {
+        sc_core::sc_start(clock.at(kCyclesPerSlice));
+        const auto done = static_cast<double>(engine.finished_tiles());
+        progress.done(tiles == 0 ? 0.0 : done / static_cast<double>(tiles));
+    } while (sc_core::sc_pending_activity());
+}
 
 void require_equal(const std::string& law, std::uint64_t left, std::uint64_t right) {
     if (left != right) {
@@ -18,14 +32,30 @@ void require_equal(const std::string& law, std::uint64_t left, std::uint64_t rig
 
 } // namespace
 
-AcceleratorResult run_accelerator(const RunConfig& config, const FrameWorkload& workload,
-                                  Fidelity fidelity, Progress& progress) {
+AcceleratorResult run_accelerator(const AcceleratorConfig& config,
+                                  const std::vector<const FrameWorkload*>& frames,
+                                  Fidelity fidelity, const BuildOptions& options,
+                                  Progress& progress) {
+    const Stopwatch elaborate;
+    const Timebase time{ClockDomain(config.clock_ghz), fidelity};
+    RenderJob job = make_render_job(frames, config);
+    const std::unique_ptr<RenderEngine> engine = config.build("accelerator", time, job, options);
     AcceleratorResult result;
-    switch (config.accelerator) {
-    case AcceleratorKind::Degs:
-        result = run_degs(config.degs, workload, fidelity, progress);
-        break;
-    }
+    result.elaborate_s = elaborate.seconds();
+
+    const Stopwatch run;
+    run_kernel(*engine, time.clock, job.tiles.size(), progress);
+    result.sim_s = run.seconds();
+
+    result.name = config.name;
+    result.pes = config.pes();
+    result.clock_ghz = config.clock_ghz;
+    result.area_mm2 = config.area.total();
+    result.array_only = options.array_only;
+    result.tiles_listed = job.tiles.size();
+    result.stopped = time.clock.ceil(sc_core::sc_time_stamp());
+    engine->collect(result);
+    result.images = std::move(job.images);
     check_result(result);
     return result;
 }

@@ -1,89 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "modules/slot_account.hpp"
+#include "modules/render_engine.hpp"
 #include "sim/progress.hpp"
-#include "sim/run_config.hpp"
-#include "splat/frame_workload.hpp"
-#include "splat/image.hpp"
-#include "tlm/process.hpp"
 
 namespace degs::sim {
 
-using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
-
-/// How busy one kind of unit was.
-struct StageUse {
-    std::string name;
-    int units = 0;
-    double busy_cycles = 0; ///< sum over the units
-    double busy = 0;        ///< busy_cycles / (units x cycles of the frame)
-    Counts counts;
-};
-
-/// One buffer or ring; fields that a kind of buffer does not have stay 0 and are not reported.
-struct BufferUse {
-    std::string name;
-    int bytes = 0;                ///< configured capacity, 0 if the configuration counts cells
-    std::uint64_t rings = 0;      ///< parts of the buffer, one per reader
-    std::uint64_t depth = 0;      ///< cells per ring
-    std::uint64_t high_water = 0; ///< most cells filled in any ring
-    double mean_fill = 0;         ///< share of all cells, mean over the frame
-    Cycle full_cycles = 0, empty_cycles = 0;
-    Counts counts;
-};
-
-struct StreamUse {
-    std::string name;
-    std::uint64_t bytes_read = 0, bytes_written = 0, requests = 0;
-};
-
-/// A law that must hold between two counters of a run.
-struct Conservation {
-    std::string law;
-    std::uint64_t left = 0, right = 0;
-};
-
-/// What any accelerator has to say about one frame. Plain values, filled when the run is over.
-struct AcceleratorResult {
-    std::string name;
-    int pes = 0;
-    double clock_ghz = 1;
-    Cycle cycles = 0;               ///< start to last pixel in memory
-    Cycle preprocessing_cycles = 0; ///< start to complete tile lists
-    SlotAccount slots;
-    ActiveWindow window; ///< first task issued to last task retired
-    std::uint64_t hazards = 0;
-    std::vector<StageUse> stages;
-    std::vector<BufferUse> buffers;
-    std::vector<StreamUse> streams;
-    double memory_utilization = 0;  ///< share of the frame in which the data bus was occupied
-    double memory_gb_per_s = 0;     ///< peak
-    std::uint64_t tiles_listed = 0; ///< that the accelerator has to render
-    std::uint64_t tiles = 0;        ///< that it has rendered
-    std::uint64_t background_tiles = 0, tiles_cancelled = 0;
-    Cycle stopped = 0; ///< nothing was left to happen at this date
-    std::vector<Conservation> conservation;
-    std::vector<std::string> left_out; ///< sentences for --explain
-    Image image;
-    double elaborate_s = 0, sim_s = 0; ///< host; sim_s is sc_start() alone
-};
-
-/// Builds the accelerator that `config` names, renders the frame, checks the laws of conservation.
-/// Once per process: SystemC elaborates once. Throws std::logic_error if the model is broken.
-AcceleratorResult run_accelerator(const RunConfig& config, const FrameWorkload& workload,
-                                  Fidelity fidelity, Progress& progress);
+/// Builds the accelerator, renders the frames one after the other, checks the laws of conservation.
+/// Once per process: SystemC elaborates once. All workloads must have the tile size and tile mode
+/// that the accelerator asks for. Throws std::logic_error if the model is broken.
+AcceleratorResult run_accelerator(const AcceleratorConfig& config,
+                                  const std::vector<const FrameWorkload*>& frames,
+                                  Fidelity fidelity, const BuildOptions& options,
+                                  Progress& progress);
 
 /// Throws std::logic_error unless all tiles are done (else the model is deadlocked), every law
 /// holds and the slots fill PEs x window.
 void check_result(const AcceleratorResult& result);
 
-/// Name of the stage (or the memory) with the largest busy share of the frame.
+/// Name of the stage (or the memory) with the largest busy share of the run.
 std::string limiting_stage(const AcceleratorResult& result);
 
 } // namespace degs::sim

@@ -20,6 +20,7 @@ struct RunOptions {
     std::string fidelity = "exact";
     std::string out = "out";
     bool no_reference = false;
+    bool array_only = false;
     bool explain = false;
 };
 
@@ -28,9 +29,10 @@ void run(const RunOptions& options) {
     View view = load_view(options.view);
     const OutputFolder out(options.out, {"image.exr", "image.png", "report.json"});
     const Fidelity fidelity = options.fidelity == "strict" ? Fidelity::Strict : Fidelity::Exact;
-    const RunResult result = simulate({config, fidelity, !options.no_reference}, std::move(view));
-    write_exr(result.accelerator.image, out.path("image.exr"));
-    write_png(result.accelerator.image, out.path("image.png"));
+    const RunResult result = simulate(
+        {config, fidelity, {options.array_only}, !options.no_reference, {}}, std::move(view));
+    write_exr(result.accelerator.images.front(), out.path("image.exr"));
+    write_png(result.accelerator.images.front(), out.path("image.png"));
     out.write_json("report.json", report(result));
     std::cout << summary(result, out.path("image.exr"));
     if (options.explain) {
@@ -60,6 +62,10 @@ void add_run_command(CLI::App& program) {
         ->expected(1);
     command->add_flag("--no-reference", options->no_reference,
                       "do not render the double-precision image to compare with");
+    command->add_flag(
+        "--array-only", options->array_only,
+        "the rasterisation array alone: sorted lists are there at once, and memory is "
+        "unlimited");
     command->add_flag("--explain", options->explain, "tell what the model left out, and why");
     command->callback([options] { run(*options); });
 }

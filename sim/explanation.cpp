@@ -45,7 +45,7 @@ std::string explanation(const RunResult& result) {
     sentences.push_back(sh_sentence(result.scene.sh_degree));
     sentences.insert(sentences.end(), result.accelerator.left_out.begin(),
                      result.accelerator.left_out.end());
-    sentences.emplace_back("Energy and area are not reported: this version has no cost model.");
+    sentences.emplace_back("Energy is not reported: this version has no energy model.");
     std::string text = "left out, and why:\n";
     for (const std::string& sentence : sentences) {
         text += "- " + sentence + "\n";

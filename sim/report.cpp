@@ -35,14 +35,34 @@ ordered_json counts_json(const Counts& counts) {
     return json;
 }
 
+/// Frames per second once the pipeline is full: of all frames but the first, which starts alone.
+ordered_json steady_fps(const AcceleratorResult& run) {
+    if (run.frames.size() < 2) {
+        return {};
+    }
+    const auto cycles =
+        static_cast<double>(run.frames.back().finished - run.frames.front().finished);
+    return ratio(static_cast<double>(run.frames.size() - 1) * run.clock_ghz * 1e9, cycles);
+}
+
+/// The first frame has the accelerator to itself until the next one's preprocessing starts.
 ordered_json timing_json(const AcceleratorResult& run) {
-    const double frame_ns = static_cast<double>(run.cycles) / run.clock_ghz;
+    const double frame_ns =
+        static_cast<double>(run.frames.empty() ? 0 : run.frames.front().finished) / run.clock_ghz;
+    ordered_json finished = ordered_json::array();
+    for (const FrameDates& frame : run.frames) {
+        finished.push_back(frame.finished);
+    }
     return {{"cycles", run.cycles},
             {"latency_ms", frame_ns * 1e-6},
             {"fps", ratio(1e9, frame_ns)},
             {"clock_ghz", run.clock_ghz},
-            {"preprocessing_cycles", run.preprocessing_cycles},
-            {"blending_cycles", run.window.cycles()}};
+            {"preprocessing_cycles", run.frames.empty() ? 0 : run.frames.front().preprocessed},
+            {"blending_cycles", run.window.cycles()},
+            {"frames", run.frames.size()},
+            {"frame_finished_cycles", std::move(finished)},
+            {"throughput_fps", steady_fps(run)},
+            {"array_only", run.array_only}};
 }
 
 ordered_json stages_json(const AcceleratorResult& run) {
@@ -91,8 +111,10 @@ ordered_json dram_json(const AcceleratorResult& run) {
     }
     return {{"bytes_read", read},
             {"bytes_written", written},
-            {"peak_gb_per_s", run.memory_gb_per_s},
-            {"utilization", run.memory_utilization},
+            {"peak_gb_per_s",
+             run.memory_gb_per_s > 0 ? ordered_json(run.memory_gb_per_s) : ordered_json()},
+            {"utilization",
+             run.memory_gb_per_s > 0 ? ordered_json(run.memory_utilization) : ordered_json()},
             {"row_hit_rate", nullptr},
             {"streams", std::move(streams)}};
 }
@@ -124,6 +146,13 @@ ordered_json laws_json(const AcceleratorResult& run) {
         json.push_back({{"law", c.law}, {"left", c.left}, {"right", c.right}});
     }
     return json;
+}
+
+ordered_json area_json(const AreaConfig& area) {
+    if (area.total() <= 0) {
+        return unavailable("the configuration says nothing of area");
+    }
+    return {{"mm2", area.total()}, {"fixed_mm2", area.fixed_mm2}, {"array_mm2", area.array_mm2}};
 }
 
 ordered_json image_json(const RunResult& result) {
@@ -208,7 +237,6 @@ ordered_json workload_json(const WorkloadFacts& workload, const SceneFacts& scen
 
 ordered_json report(const RunResult& result) {
     const AcceleratorResult& run = result.accelerator;
-    const char* const no_cost = "this version has no cost model";
     ordered_json json;
     json["schema"] = {{"name", "degs-report"}, {"version", kReportVersion}};
     json["tool"] = tool_json();
@@ -222,8 +250,8 @@ ordered_json report(const RunResult& result) {
     json["dram"] = dram_json(run);
     json["buffers"] = buffers_json(run);
     json["conservation"] = laws_json(run);
-    json["energy"] = unavailable(no_cost);
-    json["area"] = unavailable(no_cost);
+    json["energy"] = unavailable("this version has no energy model");
+    json["area"] = area_json(result.config.accelerator().area);
     json["image"] = image_json(result);
     json["host"] = host_json(result);
     return json;

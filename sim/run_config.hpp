@@ -1,25 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "modules/degs_config.hpp"
+#include "modules/render_engine.hpp"
 
 namespace degs::sim {
 
-/// Which accelerator a configuration file describes. Another one joins by a name in
-/// RunConfig::describe, its configuration beside `degs`, and a row in run_accelerator().
-enum class AcceleratorKind { Degs };
-
 /// A configuration file: the kind of accelerator, then the keys of that kind.
-struct RunConfig {
-    AcceleratorKind accelerator = AcceleratorKind::Degs;
-    DegsConfig degs;
+class RunConfig {
+public:
+    /// The first of accelerator_kinds() with its defaults.
+    RunConfig();
+    RunConfig(const RunConfig& other) : kind_(other.kind_), model_(other.model_->clone()) {}
+    RunConfig& operator=(const RunConfig& other) {
+        kind_ = other.kind_;
+        model_ = other.model_->clone();
+        return *this;
+    }
+    ~RunConfig() = default;
+
+    const AcceleratorConfig& accelerator() const { return *model_; }
 
     void describe(ConfigVisitor& visitor);
     /// What single ranges cannot check; one sentence or empty.
-    std::string problem() const { return degs.problem(); }
+    std::string problem() const { return model_->problem(); }
+
+private:
+    int kind_ = 0; // into accelerator_kinds()
+    std::unique_ptr<AcceleratorConfig> model_;
 };
 
 /// Reads and checks a file with `--set` overrides. Throws ConfigError.

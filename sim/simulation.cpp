@@ -8,15 +8,22 @@
 namespace degs::sim {
 namespace {
 
-FrameWorkload make_workload(View& view, const DegsConfig& config, RunResult& result) {
+std::vector<FrameWorkload> make_workloads(View& view, const RunRequest& request,
+                                          RunResult& result) {
+    const AcceleratorConfig& config = request.config.accelerator();
     const Progress progress("projecting and sorting");
     const Stopwatch clock;
-    FrameWorkload workload =
-        make_frame_workload(view.scene.cloud, view.camera, config.tile_size, config.pipeline.tiles);
+    std::vector<Camera> cameras{view.camera};
+    cameras.insert(cameras.end(), request.following.begin(), request.following.end());
+    std::vector<FrameWorkload> workloads;
+    for (const Camera& camera : cameras) {
+        workloads.push_back(make_frame_workload(view.scene.cloud, camera, config.tile_size_px(),
+                                                config.tile_mode()));
+    }
     view.scene.cloud = GaussianCloud{}; // everything that follows needs the splats only
     result.host.workload_s = clock.seconds();
-    result.workload = facts_of(workload);
-    return workload;
+    result.workload = facts_of(workloads.front());
+    return workloads;
 }
 
 void compare_with_reference(const FrameWorkload& workload, RunResult& result) {
@@ -26,7 +33,7 @@ void compare_with_reference(const FrameWorkload& workload, RunResult& result) {
     const Image reference = render_reference(workload, counts);
     result.host.render_s = clock.seconds();
     result.workload.reference = counts;
-    result.error = compare_images(reference, result.accelerator.image);
+    result.error = compare_images(reference, result.accelerator.images.front());
 }
 
 } // namespace
@@ -62,13 +69,18 @@ RunResult simulate(const RunRequest& request, View view) {
     result.scene = facts_of(view.scene);
     result.camera = view.camera;
     result.host.load_s = view.load_s;
-    const FrameWorkload workload = make_workload(view, request.config.degs, result);
+    const std::vector<FrameWorkload> workloads = make_workloads(view, request, result);
+    std::vector<const FrameWorkload*> frames;
+    for (const FrameWorkload& workload : workloads) {
+        frames.push_back(&workload);
+    }
     {
         Progress progress("simulation");
-        result.accelerator = run_accelerator(request.config, workload, request.fidelity, progress);
+        result.accelerator = run_accelerator(request.config.accelerator(), frames, request.fidelity,
+                                             request.build, progress);
     }
     if (request.reference) {
-        compare_with_reference(workload, result);
+        compare_with_reference(workloads.front(), result);
     }
     result.host.fidelity = request.fidelity == Fidelity::Strict ? "strict" : "exact";
     result.host.elaborate_s = result.accelerator.elaborate_s;

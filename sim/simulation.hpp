@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/accelerator_run.hpp"
 #include "sim/run_config.hpp"
@@ -17,7 +18,9 @@ namespace degs::sim {
 struct RunRequest {
     RunConfig config;
     Fidelity fidelity = Fidelity::Exact;
-    bool reference = true; ///< render the double-precision image and compare
+    BuildOptions build;
+    bool reference = true;         ///< render the double-precision image and compare
+    std::vector<Camera> following; ///< frames after the view's own, of the same size
 };
 
 /// What stays of a scene when its Gaussians have become a workload.
@@ -47,11 +50,11 @@ struct HostFacts {
 
 struct RunResult {
     SceneFacts scene;
-    Camera camera;
+    Camera camera; ///< of the first frame
     RunConfig config;
-    WorkloadFacts workload;
+    WorkloadFacts workload; ///< of the first frame
     AcceleratorResult accelerator;
-    std::optional<ImageError> error; ///< against the reference
+    std::optional<ImageError> error; ///< first frame against the reference
     HostFacts host;
 };
 

@@ -85,6 +85,9 @@ std::string memory_line(const AcceleratorResult& run) {
         read += stream.bytes_read;
         written += stream.bytes_written;
     }
+    if (run.memory_gb_per_s <= 0) {
+        return "unlimited: the array alone";
+    }
     return scaled(read) + "B read, " + scaled(written) + "B written" + kDot +
            percent(run.memory_utilization, 0) + " % of " +
            config_words::number(run.memory_gb_per_s) + " GB/s";

@@ -25,15 +25,6 @@ double rounded(double value) {
 
 } // namespace
 
-std::string grouped(std::uint64_t value) {
-    std::string text = std::to_string(value);
-    for (std::size_t at = text.size(); at > 3;) {
-        at -= 3;
-        text.insert(at, 1, ' ');
-    }
-    return text;
-}
-
 std::string three_digits(double value) {
     const double shown = rounded(value);
     if (shown == 0 || !std::isfinite(shown)) {

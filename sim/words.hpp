@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <string>
 
+#include "tlm/grouped_number.hpp"
+
 namespace degs::sim {
 
-/// 210422 -> "210 422".
-std::string grouped(std::uint64_t value);
+using degs::grouped;
 /// Three significant digits without exponent: 2.108 -> "2.11", 473.9 -> "474", 51234 -> "51200".
 std::string three_digits(double value);
 /// 54512345 -> "54.5 M"; k, M, G and T are decimal.

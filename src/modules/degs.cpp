@@ -9,24 +9,6 @@
 namespace degs {
 namespace {
 
-std::string numbered(const char* name, std::size_t index) {
-    return std::string(name) + "_" + std::to_string(index);
-}
-
-template <class T>
-Degs::RingUse sum(const std::vector<std::unique_ptr<DatedFifo<T>>>& rings) {
-    Degs::RingUse use;
-    for (const auto& ring : rings) {
-        use.depth += ring->depth();
-        use.high_water = std::max(use.high_water, ring->stats().high_water);
-        use.items += ring->stats().items;
-        use.full_cycles += ring->stats().full_cycles;
-        use.empty_cycles += ring->stats().empty_cycles;
-        use.occupied_cycles += ring->stats().occupied_cycles;
-    }
-    return use;
-}
-
 // Feedback and tokens are wires, not buffers: deep enough never to push back (one message per pixel
 // of what a Packing Buffer can hold, a few tiles).
 constexpr int kTokenDepth = 64;
@@ -34,54 +16,55 @@ constexpr int kTokenDepth = 64;
 } // namespace
 
 Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const Timebase& time,
-           RenderJob& job)
-    : sc_core::sc_module(name), config_(config), time_(time), job_(job) {
+           RenderJob& job, const BuildOptions& options)
+    : RenderEngine(name), config_(config), time_(time), job_(job), options_(options) {
     build_front_end();
     build_span_engine();
     build_scheduler();
     build_array();
+    build_frame_gate();
     build_memory();
+}
+
+std::unique_ptr<RenderEngine> DegsConfig::build(const char* module, const Timebase& time,
+                                                RenderJob& job, const BuildOptions& options) const {
+    return std::make_unique<Degs>(module, *this, time, job, options);
 }
 
 template <class T>
 DatedFifo<T>& Degs::ring(Rings<T>& rings, const char* name, int depth, int latency) {
-    rings.push_back(std::make_unique<DatedFifo<T>>(numbered(name, rings.size()).c_str(), time_,
-                                                   static_cast<std::size_t>(depth),
-                                                   static_cast<Cycle>(latency)));
-    return *rings.back();
+    return add_ring(rings, name, time_, depth, latency);
 }
 
 void Degs::build_front_end() {
     const auto sorters = static_cast<std::size_t>(config_.sorting.count);
     const auto slicers = static_cast<std::size_t>(config_.slicing.count);
-    binner_ = std::make_unique<TileBinner>(
-        "binner", config_.binning, config_.traffic, time_, job_, config_.projection.chunk,
-        static_cast<std::size_t>(config_.projection.count), sorters);
-    for (int i = 0; i < config_.projection.count; ++i) {
-        projection_.push_back(
-            std::make_unique<ProjectionUnit>(numbered("projection", projection_.size()).c_str(),
-                                             config_.projection, config_.traffic, time_, job_, i));
-        auto& chunks = ring(projected_, "projected", 4, 1);
-        projection_.back()->out.bind(chunks);
-        binner_->in[static_cast<std::size_t>(i)].bind(chunks);
-    }
+    TileFrontEnd::Config front;
+    front.projection = config_.projection;
+    front.binning = config_.binning;
+    front.sorting = config_.sorting;
+    front.traffic = config_.traffic;
+    front.sort_capacity = static_cast<std::uint64_t>(config_.sort_capacity());
+    front.frames_in_flight = config_.frames_in_flight;
+    front.instant = options_.array_only;
+    front_end_ = std::make_unique<TileFrontEnd>("front_end", front, time_, job_);
     monitor_ = std::make_unique<TileMonitor>("monitor", config_.monitor, time_, job_,
                                              config_.scheduler.banks, sorters + slicers);
     for (std::size_t i = 0; i < sorters; ++i) {
-        sorting_.push_back(std::make_unique<SortingUnit>(
-            numbered("sorting", i).c_str(), config_.sorting, config_.traffic, time_, job_,
-            static_cast<int>(i), slicers, static_cast<std::uint64_t>(config_.sort_capacity())));
-        auto& frames = ring(frames_, "frames", kTokenDepth, 1);
-        binner_->out[i].bind(frames);
-        sorting_.back()->start.bind(frames);
+        fetchers_.push_back(std::make_unique<SplatFetcher>(numbered("fetcher", i).c_str(),
+                                                           config_.fetching, config_.traffic, time_,
+                                                           job_, slicers, options_.array_only));
+        auto& lists = ring(sorted_rings_, "sorted", 1, 1);
+        front_end_->sorted[i].bind(lists);
+        fetchers_[i]->sorted.bind(lists);
         auto& cancel = ring(cancel_rings_, "cancel", kTokenDepth, config_.monitor.latency_cycles);
         monitor_->out[i].bind(cancel);
-        sorting_.back()->cancel.bind(cancel);
+        fetchers_[i]->cancel.bind(cancel);
     }
 }
 
 void Degs::build_span_engine() {
-    const auto sorters = sorting_.size();
+    const auto sorters = fetchers_.size();
     const int lanes = config_.span.count;
     for (int g = 0; g < config_.slicing.count; ++g) {
         slicing_.push_back(std::make_unique<GaussianSlicingUnit>(
@@ -91,7 +74,7 @@ void Degs::build_span_engine() {
         GaussianSlicingUnit& unit = *slicing_.back();
         for (std::size_t s = 0; s < sorters; ++s) {
             auto& splats = ring(gaussian_rings_, "gaussian_buffer", config_.gaussian_chunks(), 1);
-            sorting_[s]->out[static_cast<std::size_t>(g)].bind(splats);
+            fetchers_[s]->out[static_cast<std::size_t>(g)].bind(splats);
             unit.in[s].bind(splats);
         }
         auto& cancel = ring(cancel_rings_, "cancel", kTokenDepth, config_.monitor.latency_cycles);
@@ -192,10 +175,14 @@ void Degs::build_pixel_buffer() {
     const int banks = config_.scheduler.banks;
     const bool banked = config_.pixel_buffer.release == ContextRelease::Bank;
     for (int b = 0; b < (banked ? banks : 1); ++b) {
+        PixelBuffer::Share share;
+        share.first_row = b;
+        share.row_stride = banked ? banks : 1;
+        share.background = b == 0;
         pixel_buffers_.push_back(std::make_unique<PixelBuffer>(
             numbered("pixel_buffer", pixel_buffers_.size()).c_str(), config_.pixel_buffer,
             config_.traffic, time_, job_, static_cast<std::size_t>(banked ? 1 : banks),
-            config_.contexts(), b, banked ? banks : 1));
+            config_.contexts(), share, front_end_->frame_free.size() != 0, options_.array_only));
     }
 }
 
@@ -217,29 +204,32 @@ void Degs::connect_region_feedback(int slice, int listeners) {
     }
 }
 
-void Degs::build_memory() {
-    for (auto& unit : projection_) {
-        connect_memory(unit->geometry, "geometry");
-        connect_memory(unit->sh, "sh");
+// Frames wait for each other only in runs of more frames than may be in flight.
+void Degs::build_frame_gate() {
+    auto& listeners = front_end_->frame_free;
+    if (listeners.size() == 0) {
+        return;
     }
-    connect_memory(binner_->splats, "splats_written");
-    connect_memory(binner_->lists, "tile_lists_written");
-    for (auto& unit : sorting_) {
-        connect_memory(unit->lists, "tile_lists_sorted");
-        connect_memory(unit->records, "splats_read");
+    frame_gate_ = std::make_unique<FrameGate>("frame_gate", time_, job_, pixel_buffers_.size(),
+                                              listeners.size());
+    for (std::size_t i = 0; i < pixel_buffers_.size(); ++i) {
+        auto& done = ring(frame_rings_, "frame_done", kTokenDepth, 1);
+        pixel_buffers_[i]->frame_done[0].bind(done);
+        frame_gate_->in[i].bind(done);
     }
-    for (auto& unit : pixel_buffers_) {
-        connect_memory(unit->frame_buffer, "frame_buffer");
-    }
-    memory_ = std::make_unique<Memory>("memory", config_.memory, time_, ports_.size());
-    for (std::size_t i = 0; i < ports_.size(); ++i) {
-        ports_[i]->out.bind(memory_->in[i]);
+    for (std::size_t i = 0; i < listeners.size(); ++i) {
+        auto& free = ring(frame_rings_, "frame_free", kTokenDepth, 1);
+        frame_gate_->out[i].bind(free);
+        listeners[i].bind(free);
     }
 }
 
-void Degs::connect_memory(MemoryPort& port, const char* stream) {
-    ports_.push_back(&port);
-    streams_.push_back(stream);
+void Degs::build_memory() {
+    front_end_->connect_memory(streams_, fetchers_);
+    for (auto& unit : pixel_buffers_) {
+        streams_.connect(unit->frame_buffer, "frame_buffer");
+    }
+    streams_.build("memory", config_.memory, time_, options_.array_only);
 }
 
 Cycle Degs::finished() const {
@@ -250,17 +240,12 @@ Cycle Degs::finished() const {
     return last;
 }
 
-Degs::RingUse Degs::gaussian_buffer() const {
-    return sum(gaussian_rings_);
-}
-Degs::RingUse Degs::span_buffer() const {
-    return sum(span_rings_);
-}
-Degs::RingUse Degs::crossbar() const {
-    return sum(crossbar_rings_);
-}
-Degs::RingUse Degs::packing_buffer() const {
-    return sum(packing_rings_);
+std::size_t Degs::finished_tiles() const {
+    std::uint64_t tiles = ~std::uint64_t{0};
+    for (const auto& part : pixel_buffers_) {
+        tiles = std::min(tiles, part->stats().tiles);
+    }
+    return tiles;
 }
 
 } // namespace degs

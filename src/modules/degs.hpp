@@ -6,27 +6,33 @@
 
 #include <systemc>
 
+#include "modules/collect.hpp"
 #include "modules/degs_config.hpp"
+#include "modules/frame_gate.hpp"
+#include "modules/memory_streams.hpp"
+#include "modules/tile_front_end.hpp"
 
 namespace degs {
 
 /// The DeGS accelerator with its memory, composed from its blocks (paper, Fig. 4):
 ///
-///   memory -> Projection Units -> Tile Binner -> memory -> Sorting Units -> [Gaussian Buffer] ->
-///   Slicing Units -> [Span Buffer] -> Span Units -> crossbar -> Issue Banks -> Packing Units ->
-///   [Packing Buffer] -> array slices -> Pixel Buffer -> memory
+///   Tile Front End -> Splat Fetchers -> [Gaussian Buffer] -> Slicing Units -> [Span Buffer] ->
+///   Span Units -> crossbar -> Issue Banks -> Packing Units -> [Packing Buffer] -> array slices ->
+///   Pixel Buffer -> memory
 ///
 /// with two ways back: terminations to the Issue Banks, tile cancellation to the fetchers.
-class Degs : public sc_core::sc_module {
+class Degs : public RenderEngine {
 public:
     /// `job` supplies the work and receives the images. `config.problem()` must be empty.
     Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const Timebase& time,
-         RenderJob& job);
+         RenderJob& job, const BuildOptions& options = {});
+
+    std::size_t finished_tiles() const override;
+    void collect(AcceleratorResult& result) const override;
 
     const DegsConfig& config() const { return config_; }
-    const std::vector<std::unique_ptr<ProjectionUnit>>& projection() const { return projection_; }
-    const TileBinner& binner() const { return *binner_; }
-    const std::vector<std::unique_ptr<SortingUnit>>& sorting() const { return sorting_; }
+    const TileFrontEnd& front_end() const { return *front_end_; }
+    const std::vector<std::unique_ptr<SplatFetcher>>& fetchers() const { return fetchers_; }
     const std::vector<std::unique_ptr<GaussianSlicingUnit>>& slicing() const { return slicing_; }
     const std::vector<std::unique_ptr<SpanUnit>>& spans() const { return spans_; }
     const std::vector<std::unique_ptr<IssueBank>>& banks() const { return banks_; }
@@ -38,20 +44,11 @@ public:
     /// Date at which the last pixel was in memory.
     Cycle finished() const;
     const TileMonitor& monitor() const { return *monitor_; }
-    const Memory& memory() const { return *memory_; }
-    /// Statistics of the rings that stand for a buffer of Table I, in the order given.
-    struct RingUse {
-        std::size_t depth = 0, high_water = 0;
-        std::uint64_t items = 0;
-        Cycle full_cycles = 0, empty_cycles = 0, occupied_cycles = 0;
-    };
-    RingUse gaussian_buffer() const;
-    RingUse span_buffer() const;
-    RingUse crossbar() const;
-    RingUse packing_buffer() const;
-
-    /// What a memory initiator reads or writes, for reports; index = Memory initiator.
-    const std::vector<const char*>& stream_of_initiator() const { return streams_; }
+    const MemoryStreams& streams() const { return streams_; }
+    RingUse gaussian_buffer() const { return use_of(gaussian_rings_); }
+    RingUse span_buffer() const { return use_of(span_rings_); }
+    RingUse crossbar() const { return use_of(crossbar_rings_); }
+    RingUse packing_buffer() const { return use_of(packing_rings_); }
 
 private:
     template <class T>
@@ -65,16 +62,21 @@ private:
     void build_array();
     void build_pixel_buffer();
     void connect_region_feedback(int slice, int listeners);
+    void build_frame_gate();
     void build_memory();
-    void connect_memory(MemoryPort& port, const char* stream);
+    void collect_slots(AcceleratorResult& result) const;
+    void collect_stages(AcceleratorResult& result) const;
+    void collect_buffers(AcceleratorResult& result) const;
+    void collect_laws(AcceleratorResult& result) const;
+    void explain(AcceleratorResult& result) const;
 
     DegsConfig config_;
     Timebase time_;
     RenderJob& job_;
+    BuildOptions options_;
 
-    std::vector<std::unique_ptr<ProjectionUnit>> projection_;
-    std::unique_ptr<TileBinner> binner_;
-    std::vector<std::unique_ptr<SortingUnit>> sorting_;
+    std::unique_ptr<TileFrontEnd> front_end_;
+    std::vector<std::unique_ptr<SplatFetcher>> fetchers_;
     std::vector<std::unique_ptr<GaussianSlicingUnit>> slicing_;
     std::vector<std::unique_ptr<SpanUnit>> spans_;
     std::vector<std::unique_ptr<IssueBank>> banks_;
@@ -82,10 +84,11 @@ private:
     std::vector<std::unique_ptr<ArraySlice>> slices_;
     std::vector<std::unique_ptr<PixelBuffer>> pixel_buffers_; // one, or one per bank
     std::unique_ptr<TileMonitor> monitor_;
-    std::unique_ptr<Memory> memory_;
+    std::unique_ptr<FrameGate> frame_gate_;
+    MemoryStreams streams_;
 
-    Rings<ProjectedChunk> projected_;
-    Rings<std::uint32_t> frames_;
+    Rings<SortedRun> sorted_rings_;
+    Rings<std::uint32_t> frame_rings_;
     Rings<SplatChunk> gaussian_rings_;
     Rings<RowItem> span_rings_;
     Rings<SpanItem> crossbar_rings_;
@@ -95,8 +98,6 @@ private:
     std::vector<std::size_t> next_region_port_; // while wiring: per Slicing Unit
     Rings<SliceReport> done_rings_, state_rings_;
     Rings<TileNumber> context_rings_, cancel_rings_;
-    std::vector<MemoryPort*> ports_;
-    std::vector<const char*> streams_;
 };
 
 } // namespace degs

@@ -6,19 +6,13 @@
 namespace degs {
 
 void DegsConfig::Pipeline::describe(ConfigVisitor& visitor) {
-    visitor.choice("numbers", numbers, {"fp32", "fp64"}, "arithmetic of spans, alpha and blending");
+    PipelineConfig::describe(visitor);
     visitor.choice(
         "span_ends", span_ends, {"exact", "outward"},
         "exact: ceil/floor, the pixels inside the ellipse; outward: floor/ceil (paper, Eq. 15)");
     visitor.integer(
         "span_delta", span_delta, 0, 16,
         "px added at both ends of outward spans; the paper gives no value, 0 is its least");
-    visitor.choice(
-        "stop_rule", stop_rule, {"refuse", "after"},
-        "refuse: the splat that would push T under 1e-4 is not blended (reference code); "
-        "after: it is, then the pixel ends (paper, Sec. II-A)");
-    visitor.choice("tiles", tiles, {"exact", "ref"},
-                   "tile lists: the ellipse's tiles, or the 3-sigma square's");
 }
 
 void DegsConfig::GaussianBuffer::describe(ConfigVisitor& visitor) {
@@ -94,14 +88,14 @@ void DegsConfig::FeatureBuffers::describe(ConfigVisitor& visitor) {
 }
 
 void DegsConfig::describe(ConfigVisitor& visitor) {
-    visitor.text("name", name, "what reports call this accelerator");
-    visitor.real("clock_ghz", clock_ghz, 0.01, 10.0, "GHz (paper: 1.0)");
+    describe_common(visitor);
     visitor.integer("tile_size", tile_size, 4, 1024, "px (paper Table II: 16, 32, 64, 128)");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
     visitor.section("projection", projection, "Projection Units");
     visitor.section("binning", binning, "tile lists");
     visitor.section("sorting", sorting, "Sorting Units");
+    visitor.section("fetching", fetching, "Splat Fetchers, one per Sorting Unit");
     visitor.section("gaussian_buffer", gaussian_buffer, "sorted splats and lists being sorted");
     visitor.section("slicing", slicing, "Gaussian Slicing Units");
     visitor.section("span_buffer", span_buffer, "row work items");
@@ -117,7 +111,7 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
 
 int DegsConfig::gaussian_chunks() const {
     const double share = (1.0 - gaussian_buffer.sort_share) * gaussian_buffer.bytes / sorting.count;
-    return static_cast<int>(share) / (traffic.splat_bytes * sorting.chunk);
+    return static_cast<int>(share) / (traffic.splat_bytes * fetching.chunk);
 }
 
 int DegsConfig::sort_capacity() const {
@@ -163,7 +157,7 @@ std::string DegsConfig::problem() const {
                " and at most 65535";
     }
     if (gaussian_chunks() < 1) {
-        return need("gaussian_buffer.bytes per Sorting Unit in chunks of sorting.chunk splats",
+        return need("gaussian_buffer.bytes per Sorting Unit in chunks of fetching.chunk splats",
                     gaussian_chunks(), 1);
     }
     if (sort_capacity() < 2) {

@@ -9,8 +9,10 @@
 #include "modules/issue_bank.hpp"
 #include "modules/pixel_buffer.hpp"
 #include "modules/projection_unit.hpp"
+#include "modules/render_engine.hpp"
 #include "modules/sorting_unit.hpp"
 #include "modules/span_unit.hpp"
+#include "modules/splat_fetcher.hpp"
 #include "modules/tile_binner.hpp"
 #include "modules/tile_monitor.hpp"
 #include "modules/traffic.hpp"
@@ -20,13 +22,10 @@ namespace degs {
 
 /// A complete DeGS accelerator; defaults are the paper's 64-PE design (Tables I and II), read
 /// literally. Capacities are in bytes; the depths of rings follow from record sizes.
-struct DegsConfig {
-    struct Pipeline {
-        NumberFormat numbers = NumberFormat::Fp32;
+struct DegsConfig : AcceleratorConfig {
+    struct Pipeline : PipelineConfig {
         SpanEnds span_ends = SpanEnds::Outward;
         int span_delta = 0;
-        StopRule stop_rule = StopRule::Refuse;
-        TileMode tiles = TileMode::Exact;
         void describe(ConfigVisitor& visitor);
     };
     struct GaussianBuffer {
@@ -70,14 +69,13 @@ struct DegsConfig {
         void describe(ConfigVisitor& visitor);
     };
 
-    std::string name = "degs-64";
-    double clock_ghz = 1.0;
     int tile_size = 32;
     Pipeline pipeline;
     TrafficConfig traffic;
     ProjectionUnit::Config projection;
     TileBinner::Config binning;
     SortingUnit::Config sorting;
+    SplatFetcher::Config fetching;
     GaussianBuffer gaussian_buffer;
     GaussianSlicingUnit::Config slicing;
     SpanBuffer span_buffer;
@@ -90,12 +88,26 @@ struct DegsConfig {
     TileMonitor::Config monitor;
     Memory::Config memory;
 
-    void describe(ConfigVisitor& visitor);
-    /// Checks what single ranges cannot; one sentence that names the keys, or empty.
-    std::string problem() const;
+    DegsConfig() {
+        name = "degs-64";
+        area = {1.28, 1.44}; // paper, Table I: unshaded and shaded rows
+    }
+    std::unique_ptr<AcceleratorConfig> clone() const override {
+        return std::make_unique<DegsConfig>(*this);
+    }
+    void describe(ConfigVisitor& visitor) override;
+    std::string problem() const override;
+    int tile_size_px() const override { return tile_size; }
+    TileMode tile_mode() const override { return pipeline.tiles; }
+    DataPathOptions data_path() const override {
+        return {pipeline.numbers, pipeline.span_ends, pipeline.span_delta, pipeline.stop_rule};
+    }
+    int tile_contexts() const override { return contexts(); }
+    std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
+                                        const BuildOptions& options) const override;
 
     // Derived sizes.
-    int pes() const { return scheduler.banks * array.pes_per_bank; }
+    int pes() const override { return scheduler.banks * array.pes_per_bank; }
     int contexts() const { return pixel_buffer.contexts(tile_size); }
     int sram_bytes() const {
         return gaussian_buffer.bytes + span_buffer.bytes + packing.bytes + feature_buffer.bytes +

@@ -23,7 +23,13 @@ struct ProjectedChunk {
     std::uint64_t tile_pairs = 0; ///< tiles touched by these splats, summed
 };
 
-/// Up to a fixed number of depth-ordered splats of one tile, Sorting Unit -> Gaussian Slicing Unit.
+/// The first entries of a tile's list are in order, Sorting Unit -> Splat Fetcher.
+struct SortedRun {
+    TileNumber tile = 0;
+    std::uint64_t end = 0; ///< entries in order so far; the list is complete at JobTile::count
+};
+
+/// Up to a fixed number of depth-ordered splats of one tile, Splat Fetcher -> rasterisation.
 struct SplatChunk {
     TileNumber tile = 0;
     std::uint64_t first = 0; ///< index into FrameWorkload::tile_splats

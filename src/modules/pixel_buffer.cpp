@@ -43,20 +43,21 @@ void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
 
 PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& config,
                          const TrafficConfig& traffic, const Timebase& time, RenderJob& job,
-                         std::size_t slices, int contexts, int first_row, int row_stride)
+                         std::size_t slices, int contexts, const Share& share, bool gated,
+                         bool instant)
     : sc_core::sc_module(name), in("in", slices), context_free("context_free", slices),
-      frame_buffer("frame_buffer", time), config_(config), traffic_(traffic), job_(job),
-      contexts_(contexts), first_row_(first_row), row_stride_(row_stride), self_(time),
-      in_flight_(static_cast<std::size_t>(config.writes_in_flight), 0) {
+      frame_done("frame_done", gated ? 1 : 0), frame_buffer("frame_buffer", time), config_(config),
+      traffic_(traffic), job_(job), contexts_(contexts), share_(share), instant_(instant),
+      self_(time), in_flight_(static_cast<std::size_t>(config.writes_in_flight), 0) {
     for (int c = 0; c < contexts; ++c) {
-        clear(c);
+        clear(share.first_context + c);
     }
     SC_HAS_PROCESS(PixelBuffer);
     SC_THREAD(run);
 }
 
 void PixelBuffer::clear(int context) {
-    for (int row = first_row_; row < job_.tile_size; row += row_stride_) {
+    for (int row = share_.first_row; row < job_.tile_size; row += share_.row_stride) {
         job_.path->begin_row(context, row);
     }
 }
@@ -68,20 +69,51 @@ void PixelBuffer::end_of_elaboration() {
     for (auto& port : context_free) {
         port->connect_writer(self_);
     }
+    for (auto& port : frame_done) {
+        port->connect_writer(self_);
+    }
 }
 
 void PixelBuffer::run() {
-    if (first_row_ == 0) {
+    if (share_.background) {
         write_background();
     }
-    for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
-        for (auto& port : in) {
-            port->get(self_);
-        }
+    TileNumber number = 0;
+    while ((share_.granted || stats_.tiles < job_.tiles.size()) && take_tile(number)) {
+        finish_frames(job_.tiles[number].frame);
         finish_tile(number);
+        if (!share_.granted && job_.tiles[number].last_of_frame) {
+            finish_frames(job_.tiles[number].frame + 1);
+        }
     }
+    finish_frames(static_cast<std::uint32_t>(job_.frames.size()));
     stats_.finished = std::max(written_, self_.local());
     self_.finish();
+}
+
+// False: there are no more tiles.
+bool PixelBuffer::take_tile(TileNumber& number) {
+    for (auto& port : in) {
+        number = port->get(self_).tile;
+    }
+    return number != kNoTile;
+}
+
+// All frames below `end` have been written.
+void PixelBuffer::finish_frames(std::uint32_t end) {
+    while (frames_written_.size() < end) {
+        const auto frame = static_cast<std::uint32_t>(frames_written_.size());
+        frames_written_.push_back(std::max(written_, self_.local()));
+        for (auto& port : frame_done) {
+            port->put_at(self_, frame, written_);
+        }
+    }
+}
+
+// Of a granted tile: before it is counted.
+int PixelBuffer::context_of(TileNumber number) const {
+    const std::uint64_t turn = share_.granted ? stats_.tiles : number;
+    return share_.first_context + static_cast<int>(turn % static_cast<std::uint64_t>(contexts_));
 }
 
 // Rows of background tiles are long runs of equal bytes; one posted write per tile row of the
@@ -99,7 +131,8 @@ void PixelBuffer::write_background() {
         }
         stats_.background_tiles += static_cast<std::uint64_t>(frame.tiles()) - busy_tiles;
         constexpr std::uint64_t kPiece = 1U << 16U;
-        for (std::uint64_t bytes = pixels * static_cast<std::uint64_t>(traffic_.pixel_bytes);
+        for (std::uint64_t bytes =
+                 instant_ ? 0 : pixels * static_cast<std::uint64_t>(traffic_.pixel_bytes);
              bytes != 0;) {
             const std::uint64_t piece = std::min(bytes, kPiece);
             written_ = frame_buffer.write(self_, map.frame_buffer, piece);
@@ -118,10 +151,10 @@ void PixelBuffer::finish_tile(TileNumber number) {
     oldest = write_rows(number);
     written_ = std::max(written_, oldest);
     stats_.readout_busy += self_.local() - start;
+    clear(context_of(number));
     stats_.tiles++;
-    clear(static_cast<int>(number) % contexts_);
     const TileNumber next = number + static_cast<TileNumber>(contexts_);
-    if (next < job_.tiles.size()) {
+    if (share_.granted || next < job_.tiles.size()) {
         for (auto& port : context_free) {
             port->put(self_, next);
         }
@@ -136,20 +169,30 @@ Cycle PixelBuffer::write_rows(TileNumber number) {
     const MemoryMap map(traffic_, job_.frame_of(tile));
     const auto pixel_bytes = static_cast<std::uint64_t>(traffic_.pixel_bytes);
     const auto frame_width = static_cast<std::uint64_t>(job_.frame_of(tile).camera.width);
-    const int per_cycle = std::max(1, config_.readout_pixels / row_stride_);
+    const int per_cycle = std::max(1, config_.readout_pixels / share_.row_stride);
     const Cycle start = self_.local();
     Cycle done = start;
     int read = 0; // pixels
     int row = 0;
-    for (int y = first_row_; y < tile.height; y += row_stride_, ++row) {
-        self_.advance_to(start +
-                         static_cast<Cycle>(std::max(read / per_cycle, row / kRowsPerCycle)));
+    for (int y = share_.first_row; y < tile.height; y += share_.row_stride, ++row) {
+        if (!instant_) {
+            self_.advance_to(start +
+                             static_cast<Cycle>(std::max(read / per_cycle, row / kRowsPerCycle)));
+        }
         const auto image_row = static_cast<std::uint64_t>(tile.y + y);
         const std::uint64_t address =
             map.frame_buffer +
             (image_row * frame_width + static_cast<std::uint64_t>(tile.x)) * pixel_bytes;
-        done = std::max(done, frame_buffer.write(self_, address, read_out(number, y)));
+        const std::vector<unsigned char>& pixels = read_out(number, y);
+        if (instant_) {
+            frame_buffer.poke(address, pixels);
+        } else {
+            done = std::max(done, frame_buffer.write(self_, address, pixels));
+        }
         read += tile.width;
+    }
+    if (instant_) {
+        return done;
     }
     self_.advance_to(start +
                      static_cast<Cycle>(std::max((read + per_cycle - 1) / per_cycle,
@@ -163,7 +206,7 @@ const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y
     const auto pixel_bytes = static_cast<std::size_t>(traffic_.pixel_bytes);
     pixels_.resize(static_cast<std::size_t>(tile.width));
     bytes_.resize(pixels_.size() * pixel_bytes);
-    job_.path->read_row(static_cast<int>(number) % contexts_, y, tile.width, pixels_.data());
+    job_.path->read_row(context_of(number), y, tile.width, pixels_.data());
     unsigned char* out = bytes_.data();
     std::size_t i = image.at(tile.x, tile.y + y);
     for (const PixelValue& pixel : pixels_) {

@@ -20,7 +20,8 @@ enum class ContextRelease { Tile, Bank };
 /// tiles to the frame buffer in memory as RGBA8 or RGBA16F. A context is free again once every
 /// slice has finished its tile and the pixels have been read out; the write itself is
 /// posted. Tiles that no splat touches are written as background while the pipeline starts.
-/// One instance serves the rows y = first, first + stride, ...: all of them, or one bank's.
+/// One instance serves a share of the pixels: all of them, one bank's rows, or the tiles that are
+/// granted to one engine.
 class PixelBuffer : public sc_core::sc_module {
 public:
     struct Config {
@@ -39,23 +40,43 @@ public:
         Cycle finished = 0;   ///< date at which the last pixel was in memory
         std::uint64_t tiles = 0, background_tiles = 0;
     };
+    /// Which pixels are this instance's, and where it keeps them.
+    struct Share {
+        int first_row = 0, row_stride = 1; ///< rows y = first, first + stride, ... of every tile
+        int first_context = 0;             ///< in the data path
+        /// Tiles come one by one, ascending, until kNoTile, and use this instance's contexts in
+        /// turn; else all tiles of the job come, and tile t uses context t modulo the contexts.
+        bool granted = false;
+        bool background = true; ///< writes the tiles that no splat touches
+    };
 
-    sc_core::sc_vector<FifoPort<SliceReport>> in;          ///< one per array slice
-    sc_core::sc_vector<FifoPort<TileNumber>> context_free; ///< one per bank
+    sc_core::sc_vector<FifoPort<SliceReport>> in; ///< one per array slice
+    /// The tile that may now use its context, one per bank; of granted tiles only the number of
+    /// messages counts.
+    sc_core::sc_vector<FifoPort<TileNumber>> context_free;
+    /// Numbers of the frames that this instance has written, to the Frame Gate; empty without one.
+    sc_core::sc_vector<FifoPort<std::uint32_t>> frame_done;
     MemoryPort frame_buffer;
 
+    /// `instant`: a context is free again at once, see BuildOptions.
     PixelBuffer(const sc_core::sc_module_name& name, const Config& config,
                 const TrafficConfig& traffic, const Timebase& time, RenderJob& job,
-                std::size_t slices, int contexts, int first_row, int row_stride);
+                std::size_t slices, int contexts, const Share& share, bool gated = false,
+                bool instant = false);
 
     const Stats& stats() const { return stats_; }
+    /// Dates at which each frame's last pixel of this share was in memory.
+    const std::vector<Cycle>& frames_written() const { return frames_written_; }
 
 private:
     void end_of_elaboration() override;
     void run();
     void clear(int context);
     void write_background();
+    bool take_tile(TileNumber& number);
     void finish_tile(TileNumber number);
+    void finish_frames(std::uint32_t end);
+    int context_of(TileNumber number) const;
     Cycle write_rows(TileNumber number);
     const std::vector<unsigned char>& read_out(TileNumber number, int y);
 
@@ -63,12 +84,14 @@ private:
     TrafficConfig traffic_;
     RenderJob& job_;
     int contexts_;
-    int first_row_, row_stride_;
+    Share share_;
+    bool instant_;
     Process self_;
     Cycle written_ = 0;                // completion of the latest write
     std::vector<Cycle> in_flight_;     // ring of completion dates of the latest tile writes
     std::vector<PixelValue> pixels_;   // of the row being read out
     std::vector<unsigned char> bytes_; // the same as frame-buffer pixels
+    std::vector<Cycle> frames_written_;
     Stats stats_;
 };
 

@@ -21,10 +21,11 @@ void ProjectionUnit::Config::describe(ConfigVisitor& visitor) {
 
 ProjectionUnit::ProjectionUnit(const sc_core::sc_module_name& name, const Config& config,
                                const TrafficConfig& traffic, const Timebase& time,
-                               const RenderJob& job, int index)
+                               const RenderJob& job, int index, int frames_in_flight)
     : sc_core::sc_module(name), geometry("geometry", time), sh("sh", time), out("out"),
-      config_(config), traffic_(traffic), job_(job), index_(index), fetcher_(time),
-      projector_(time), shader_(time),
+      frame_free("frame_free", frames_in_flight == 0 ? 0 : 1), config_(config), traffic_(traffic),
+      job_(job), index_(index), frames_in_flight_(static_cast<std::uint32_t>(frames_in_flight)),
+      fetcher_(time), projector_(time), shader_(time),
       fetched_("fetched", time, static_cast<std::size_t>(config.chunks_in_flight)),
       projected_("projected", time, static_cast<std::size_t>(config.chunks_in_flight),
                  static_cast<Cycle>(config.latency_cycles)) {
@@ -40,12 +41,18 @@ void ProjectionUnit::end_of_elaboration() {
     projected_.connect_writer(projector_);
     projected_.connect_reader(shader_);
     out->connect_writer(shader_);
+    for (auto& port : frame_free) {
+        port->connect_reader(fetcher_);
+    }
 }
 
 void ProjectionUnit::fetch() {
     const auto chunk = static_cast<std::uint64_t>(config_.chunk);
     const std::uint64_t stride = chunk * static_cast<std::uint64_t>(config_.count);
     for (std::uint32_t f = 0; f < job_.frames.size(); ++f) {
+        if (frames_in_flight_ != 0 && f >= frames_in_flight_) {
+            frame_free[0]->get(fetcher_);
+        }
         const MemoryMap map(traffic_, *job_.frames[f]);
         const std::uint64_t total = job_.frames[f]->gaussians;
         for (std::uint64_t first = chunk * static_cast<std::uint64_t>(index_); first < total;

@@ -36,10 +36,13 @@ public:
     MemoryPort geometry;
     MemoryPort sh;
     FifoPort<ProjectedChunk> out;
+    /// Numbers of finished frames from the Frame Gate; empty unless frames wait for each other.
+    sc_core::sc_vector<FifoPort<std::uint32_t>> frame_free;
 
+    /// `frames_in_flight`: frame f + this many waits for the end of frame f; 0: none waits.
     ProjectionUnit(const sc_core::sc_module_name& name, const Config& config,
                    const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
-                   int index);
+                   int index, int frames_in_flight = 0);
 
     const Stats& stats() const { return stats_; }
 
@@ -58,6 +61,7 @@ private:
     TrafficConfig traffic_;
     const RenderJob& job_;
     int index_;
+    std::uint32_t frames_in_flight_;
     Process fetcher_, projector_, shader_;
     DatedFifo<Chunk> fetched_;
     DatedFifo<ProjectedChunk> projected_;

@@ -12,35 +12,24 @@ void SortingUnit::Config::describe(ConfigVisitor& visitor) {
         "keys per cycle and pass; 4 keeps sorting limited by bandwidth, as the paper says "
         "(Sec. V-E) [assumed]");
     visitor.integer("merge_ways", merge_ways, 2, 1024, "fan-in of a merge pass [assumed]");
-    visitor.integer("chunk", chunk, 1, 1024, "splat records per request [assumed]");
-    visitor.integer("chunks_in_flight", chunks_in_flight, 1, 1024,
-                    "record requests outstanding per unit; covers a 100 ns memory [assumed]");
 }
 
 SortingUnit::SortingUnit(const sc_core::sc_module_name& name, const Config& config,
                          const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
-                         int index, std::size_t outputs, std::uint64_t sort_capacity)
-    : sc_core::sc_module(name), start("start"), cancel("cancel"), out("out", outputs),
-      lists("lists", time), records("records", time), config_(config), traffic_(traffic), job_(job),
-      index_(static_cast<std::size_t>(index)), sort_capacity_(sort_capacity), loader_(time),
-      sorter_(time), fetcher_(time), loaded_("loaded", time, 1), sorted_("sorted", time, 1),
-      answered_(static_cast<std::size_t>(config.chunks_in_flight), 0) {
+                         int index, std::uint64_t sort_capacity)
+    : sc_core::sc_module(name), start("start"), sorted("sorted"), lists("lists", time),
+      config_(config), traffic_(traffic), job_(job), index_(static_cast<std::size_t>(index)),
+      sort_capacity_(sort_capacity), loader_(time), sorter_(time), loaded_("loaded", time, 1) {
     SC_HAS_PROCESS(SortingUnit);
     SC_THREAD(load);
     SC_THREAD(sort);
-    SC_THREAD(fetch);
 }
 
 void SortingUnit::end_of_elaboration() {
     start->connect_reader(loader_);
     loaded_.connect_writer(loader_);
     loaded_.connect_reader(sorter_);
-    sorted_.connect_writer(sorter_);
-    sorted_.connect_reader(fetcher_);
-    cancel->connect_reader(fetcher_);
-    for (auto& port : out) {
-        port->connect_writer(fetcher_);
-    }
+    sorted->connect_writer(sorter_);
 }
 
 void SortingUnit::load() {
@@ -95,61 +84,10 @@ void SortingUnit::sort() {
             stats_.memory_passes++;
         }
         stats_.keys += tile.count;
-        sorted_.put(sorter_, number);
+        sorted->put(sorter_, {number, tile.count});
     }
+    sorted->put(sorter_, {kNoTile, 0});
     sorter_.finish();
-}
-
-void SortingUnit::fetch() {
-    for (std::size_t t = index_; t < job_.tiles.size();
-         t += static_cast<std::size_t>(config_.count)) {
-        fetch_tile(sorted_.get(fetcher_));
-    }
-    fetcher_.finish();
-}
-
-// Asks before each request; the question takes a cycle.
-bool SortingUnit::cancelled(TileNumber number) {
-    while (fetcher_.arrived(*cancel.operator->())) {
-        cancelled_before_ = std::max(cancelled_before_, cancel->take(fetcher_) + 1);
-    }
-    fetcher_.advance();
-    return number < cancelled_before_;
-}
-
-void SortingUnit::fetch_tile(TileNumber number) {
-    const JobTile& tile = job_.tiles[number];
-    const MemoryMap map(traffic_, job_.frame_of(tile));
-    const auto burst = static_cast<std::uint64_t>(
-        std::max(traffic_.burst_bytes, traffic_.splat_bytes)); // records are scattered
-    std::uint64_t done = 0;
-    while (done < tile.count) {
-        SplatChunk chunk;
-        chunk.tile = number;
-        chunk.first = tile.first + done;
-        for (auto& port : out) {
-            port->reserve(fetcher_);
-        }
-        Cycle ready = fetcher_.local();
-        if (cancelled(number)) {
-            stats_.records_cancelled += tile.count - done;
-            done = tile.count;
-        } else {
-            chunk.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(
-                static_cast<std::uint64_t>(config_.chunk), tile.count - done));
-            done += chunk.count;
-            stats_.records += chunk.count;
-            Cycle& oldest = answered_[requests_++ % answered_.size()];
-            fetcher_.advance_to(oldest);
-            ready = records.read(fetcher_, map.splats, chunk.count * burst);
-            oldest = ready;
-        }
-        chunk.last = done == tile.count;
-        for (auto& port : out) {
-            port->put_at(fetcher_, chunk, ready);
-        }
-        fetcher_.advance();
-    }
 }
 
 } // namespace degs

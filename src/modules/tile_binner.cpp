@@ -42,6 +42,7 @@ void TileBinner::run() {
         }
         self_.advance_to(last_write_); // lists are read back from memory: they must be there
         stats_.frame_binned = self_.local();
+        frames_binned_.push_back(self_.local());
         for (auto& port : out) {
             port->put(self_, f);
         }

@@ -35,6 +35,8 @@ public:
                std::size_t inputs, std::size_t outputs);
 
     const Stats& stats() const { return stats_; }
+    /// Dates at which the lists of each frame were complete.
+    const std::vector<Cycle>& frames_binned() const { return frames_binned_; }
 
 private:
     void end_of_elaboration() override;
@@ -49,6 +51,7 @@ private:
     std::vector<Cycle> acknowledged_; // ring of completion dates of the latest writes
     std::uint64_t writes_ = 0;
     Cycle last_write_ = 0;
+    std::vector<Cycle> frames_binned_;
     Stats stats_;
 };
 

@@ -13,9 +13,9 @@ void TileMonitor::Config::describe(ConfigVisitor& visitor) {
 
 TileMonitor::TileMonitor(const sc_core::sc_module_name& name, const Config& config,
                          const Timebase& time, const RenderJob& job, int slices,
-                         std::size_t listeners)
+                         std::size_t listeners, bool granted)
     : sc_core::sc_module(name), in("in", static_cast<std::size_t>(slices)), out("out", listeners),
-      config_(config), job_(job), self_(time) {
+      config_(config), job_(job), granted_(granted), self_(time) {
     SC_HAS_PROCESS(TileMonitor);
     SC_THREAD(run);
 }
@@ -30,20 +30,31 @@ void TileMonitor::end_of_elaboration() {
 }
 
 void TileMonitor::run() {
-    for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
-        bool all_ended = true;
-        for (auto& port : in) {
-            all_ended = port->get(self_).all_ended && all_ended;
-        }
-        stats_.tiles++;
-        if (all_ended && config_.cancel) {
-            stats_.tiles_cancelled++;
-            for (auto& port : out) {
-                port->put(self_, number);
-            }
-        }
+    while ((granted_ || stats_.tiles < job_.tiles.size()) && watch_tile()) {
     }
     self_.finish();
+}
+
+// False: there are no more tiles.
+bool TileMonitor::watch_tile() {
+    bool all_ended = true;
+    TileNumber number = kNoTile;
+    for (auto& port : in) {
+        const SliceReport report = port->get(self_);
+        number = report.tile;
+        all_ended = report.all_ended && all_ended;
+    }
+    if (number == kNoTile) {
+        return false;
+    }
+    stats_.tiles++;
+    if (all_ended && config_.cancel) {
+        stats_.tiles_cancelled++;
+        for (auto& port : out) {
+            port->put(self_, number);
+        }
+    }
+    return true;
 }
 
 } // namespace degs

@@ -26,17 +26,21 @@ public:
     sc_core::sc_vector<FifoPort<SliceReport>> in; ///< one per array slice
     sc_core::sc_vector<FifoPort<TileNumber>> out; ///< one per fetcher
 
+    /// `granted`: the slices work on tiles handed to them one by one, ascending, until kNoTile;
+    /// else on all tiles of the job.
     TileMonitor(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
-                const RenderJob& job, int slices, std::size_t listeners);
+                const RenderJob& job, int slices, std::size_t listeners, bool granted = false);
 
     const Stats& stats() const { return stats_; }
 
 private:
     void end_of_elaboration() override;
     void run();
+    bool watch_tile();
 
     Config config_;
     const RenderJob& job_;
+    bool granted_;
     Process self_;
     Stats stats_;
 };

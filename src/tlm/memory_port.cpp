@@ -38,4 +38,17 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
     return clock_->ceil(sc_core::sc_time_stamp() + delay);
 }
 
+void MemoryPort::poke(std::uint64_t address, const std::vector<unsigned char>& data) {
+    tlm::tlm_generic_payload payload;
+    payload.set_command(tlm::TLM_WRITE_COMMAND);
+    payload.set_address(address);
+    payload.set_data_ptr(const_cast<unsigned char*>(data.data()));
+    payload.set_data_length(static_cast<unsigned int>(data.size()));
+    if (out->transport_dbg(payload) != data.size()) {
+        throw std::runtime_error(std::string(name()) + ": the memory did not take " +
+                                 std::to_string(data.size()) + " bytes at address " +
+                                 std::to_string(address));
+    }
+}
+
 } // namespace degs

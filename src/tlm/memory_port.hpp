@@ -36,6 +36,10 @@ public:
                       const_cast<unsigned char*>(data.data()), data.size());
     }
 
+    /// Puts real bytes there without taking time (debug transport). Throws std::runtime_error if
+    /// the memory takes fewer.
+    void poke(std::uint64_t address, const std::vector<unsigned char>& data);
+
 private:
     Cycle access(Process& process, tlm::tlm_command command, std::uint64_t address,
                  unsigned char* data, std::uint64_t bytes);

@@ -90,8 +90,8 @@ private:
         c.projection.chunk = among({64, 8, 1});
         c.projection.chunks_in_flight = among({4, 1});
         c.sorting.count = among({4, 1, 2, 3});
-        c.sorting.chunk = among({16, 1, 4});
-        c.sorting.chunks_in_flight = among({8, 1, 2});
+        c.fetching.chunk = among({16, 1, 4});
+        c.fetching.chunks_in_flight = among({8, 1, 2});
         c.slicing.rows_per_cycle = among({1, 4, 8});
         c.slicing.skip_dead_rows = chance(2);
         c.slicing.feedback_cycles = among({1, 4, 20});

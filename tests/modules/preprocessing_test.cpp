@@ -3,6 +3,7 @@
 // Memory is ideal (no latency, no transfer time) unless a test says otherwise.
 #include "modules/projection_unit.hpp"
 #include "modules/sorting_unit.hpp"
+#include "modules/splat_fetcher.hpp"
 #include "modules/tile_binner.hpp"
 #include "tests/modules/unit_bench.hpp"
 #include "tlm/memory.hpp"
@@ -83,6 +84,35 @@ TEST(TileBinner, AFrameIsBinnedWhenItsListsAreInMemory) {
     EXPECT_EQ(bench.memory->stats(1).bytes_written, 5U * 2 * 64); // 80 B touch two granules each
 }
 
+/// A Sorting Unit with the Splat Fetcher behind it.
+struct SortAndFetch {
+    SortingUnit sorter;
+    SplatFetcher fetcher;
+    DatedFifo<std::uint32_t> start;
+    DatedFifo<SortedRun> sorted;
+    DatedFifo<TileNumber> cancel;
+    DatedFifo<SplatChunk> out;
+
+    SortAndFetch(Bench& bench, const SortingUnit::Config& config, std::uint64_t capacity)
+        : sorter("sorter", config, {}, bench.time, bench.job, 0, capacity),
+          fetcher("fetcher", {}, {}, bench.time, bench.job, 1, false),
+          start("start", bench.time, 1), sorted("sorted", bench.time, 1),
+          cancel("cancel", bench.time, 4, 8), out("out", bench.time, 64) {
+        sorter.start.bind(start);
+        sorter.sorted.bind(sorted);
+        fetcher.sorted.bind(sorted);
+        fetcher.cancel.bind(cancel);
+        fetcher.out[0].bind(out);
+        bench.connect({&sorter.lists, &fetcher.records});
+        bench.script([this](Process& self) {
+            start.connect_writer(self);
+            self.advance(99);
+            start.put(self, 0);
+        });
+        bench.script([this](Process& self) { cancel.connect_writer(self); });
+    }
+};
+
 struct SortCase {
     int keys, ways, rate, passes;
 };
@@ -100,21 +130,9 @@ TEST_P(Sorting, MergePassesOverTheRate) {
     config.count = 1;
     config.keys_per_cycle = c.rate;
     config.merge_ways = c.ways;
-    SortingUnit unit("unit", config, {}, bench.time, bench.job, 0, 1, 1U << 20U);
-    DatedFifo<std::uint32_t> start("start", bench.time, 1);
-    DatedFifo<TileNumber> cancel("cancel", bench.time, 4, 8);
-    DatedFifo<SplatChunk> out("out", bench.time, 64);
-    unit.start.bind(start);
-    unit.cancel.bind(cancel);
-    unit.out[0].bind(out);
-    bench.connect({&unit.lists, &unit.records});
-    bench.script([&](Process& self) {
-        start.connect_writer(self);
-        self.advance(99);
-        start.put(self, 0);
-    });
-    bench.script([&](Process& self) { cancel.connect_writer(self); });
-    const auto& got = bench.drain(out);
+    SortAndFetch units(bench, config, 1U << 20U);
+    const SortingUnit& unit = units.sorter;
+    const auto& got = bench.drain(units.out);
     sc_core::sc_start();
     const auto merging = static_cast<Cycle>((c.keys * c.passes + c.rate - 1) / c.rate);
     EXPECT_EQ(unit.stats().sort_busy, merging);
@@ -138,20 +156,9 @@ TEST(SortingUnit, LongListsTakeExtraPassesThroughMemory) {
     SortingUnit::Config config;
     config.count = 1;
     config.merge_ways = 2;
-    SortingUnit unit("unit", config, {}, bench.time, bench.job, 0, 1, 50);
-    DatedFifo<std::uint32_t> start("start", bench.time, 1);
-    DatedFifo<TileNumber> cancel("cancel", bench.time, 4, 8);
-    DatedFifo<SplatChunk> out("out", bench.time, 64);
-    unit.start.bind(start);
-    unit.cancel.bind(cancel);
-    unit.out[0].bind(out);
-    bench.connect({&unit.lists, &unit.records});
-    bench.script([&](Process& self) {
-        start.connect_writer(self);
-        start.put(self, 0);
-    });
-    bench.script([&](Process& self) { cancel.connect_writer(self); });
-    const auto& got = bench.drain(out);
+    SortAndFetch units(bench, config, 50);
+    const SortingUnit& unit = units.sorter;
+    const auto& got = bench.drain(units.out);
     sc_core::sc_start();
     EXPECT_EQ(got.size(), 13U);
     EXPECT_EQ(unit.stats().memory_passes, 2U); // 4 runs of 50, two ways

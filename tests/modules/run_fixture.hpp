@@ -51,14 +51,11 @@ inline DegsConfig shaped(DegsConfig config, const Shape& shape) {
 class DegsRun {
 public:
     DegsRun(const std::string& name, const DegsConfig& config,
-            const std::vector<const FrameWorkload*>& frames, Fidelity fidelity = Fidelity::Exact)
-        : time_{ClockDomain(config.clock_ghz), fidelity},
-          job_(make_render_job(frames,
-                               {config.pipeline.numbers, config.pipeline.span_ends,
-                                config.pipeline.span_delta, config.pipeline.stop_rule},
-                               config.contexts())) {
+            const std::vector<const FrameWorkload*>& frames, Fidelity fidelity = Fidelity::Exact,
+            const BuildOptions& options = {})
+        : time_{ClockDomain(config.clock_ghz), fidelity}, job_(make_render_job(frames, config)) {
         EXPECT_EQ(config.problem(), "");
-        degs_ = std::make_unique<Degs>(name.c_str(), config, time_, job_);
+        degs_ = std::make_unique<Degs>(name.c_str(), config, time_, job_, options);
     }
     const Degs& degs() const { return *degs_; }
     const RenderJob& job() const { return job_; }
@@ -145,9 +142,12 @@ inline std::vector<DegsRun::Words> DegsRun::signature() const {
         }
     };
     add("finished", degs_->finished());
-    all(degs_->projection());
-    add("binner", degs_->binner().stats());
-    all(degs_->sorting());
+    all(degs_->front_end().projection());
+    if (degs_->front_end().binner() != nullptr) {
+        add("binner", degs_->front_end().binner()->stats());
+    }
+    all(degs_->front_end().sorting());
+    all(degs_->fetchers());
     all(degs_->slicing());
     all(degs_->spans());
     all(degs_->banks());
@@ -161,8 +161,9 @@ inline std::vector<DegsRun::Words> DegsRun::signature() const {
     for (const auto& bank : degs_->banks()) {
         add("feature waits", bank->feature_waits());
     }
-    for (std::size_t i = 0; i < degs_->stream_of_initiator().size(); ++i) {
-        add(degs_->stream_of_initiator()[i], degs_->memory().stats(i));
+    const MemoryStreams& streams = degs_->streams();
+    for (std::size_t i = 0; i < streams.names().size(); ++i) {
+        add(streams.names()[i], streams.memory().stats(i));
     }
     add("gaussian buffer", degs_->gaussian_buffer());
     add("span buffer", degs_->span_buffer());

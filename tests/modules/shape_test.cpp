@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
             Change{"pixel_buffer", [](DegsConfig& c) { c.pixel_buffer.bytes /= 2; }},
             Change{"queue", [](DegsConfig& c) { c.scheduler.queue_segments_per_pe /= 2; }},
             Change{"crossbar", [](DegsConfig& c) { c.span.crossbar_depth /= 2; }},
-            Change{"records_in_flight", [](DegsConfig& c) { c.sorting.chunks_in_flight /= 2; }},
+            Change{"records_in_flight", [](DegsConfig& c) { c.fetching.chunks_in_flight /= 2; }},
             Change{"geometry_in_flight", [](DegsConfig& c) { c.projection.chunks_in_flight /= 2; }},
             Change{"writes_in_flight", [](DegsConfig& c) { c.binning.writes_in_flight /= 2; }})),
     [](const auto& pair) {
@@ -85,7 +85,7 @@ TEST_P(ShapeOfMemory, TimeFollowsTheBandwidth) {
     sc_core::sc_start();
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const auto cycles = static_cast<double>(runs[i]->degs().finished());
-        const Memory::Stats& traffic = runs[i]->degs().memory().total();
+        const Memory::Stats& traffic = runs[i]->degs().streams().memory().total();
         EXPECT_GE(cycles, traffic.busy_ns);
         EXPECT_NEAR(traffic.busy_ns * bandwidths[i],
                     static_cast<double>(traffic.bytes_read + traffic.bytes_written), 1);
@@ -94,7 +94,7 @@ TEST_P(ShapeOfMemory, TimeFollowsTheBandwidth) {
         }
     }
     // At 1 GB/s the bus is what limits.
-    EXPECT_GT(runs[0]->degs().memory().total().busy_ns,
+    EXPECT_GT(runs[0]->degs().streams().memory().total().busy_ns,
               0.8 * static_cast<double>(runs[0]->degs().finished()));
 }
 

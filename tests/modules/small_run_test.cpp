@@ -36,7 +36,8 @@ TEST(SmallRun, NoSplatsAtAll) {
     const auto result = run(tiles_of(16), frame);
     EXPECT_EQ(result->job().tiles.size(), 0U);
     EXPECT_GT(result->degs().finished(), 0U); // the background is written
-    EXPECT_EQ(result->degs().memory().total().bytes_written, (40U * 30 * 4 + 63) / 64 * 64);
+    EXPECT_EQ(result->degs().streams().memory().total().bytes_written,
+              (40U * 30 * 4 + 63) / 64 * 64);
     for (const float t : result->image().transmittance) {
         EXPECT_EQ(t, 1.0F);
     }
@@ -46,7 +47,7 @@ TEST(SmallRun, GaussiansThatNobodySees) {
     FrameWorkload frame = make_frame({}, 40, 30, 16);
     frame.gaussians = 1000;
     const auto result = run(tiles_of(16), frame);
-    EXPECT_GE(result->degs().memory().total().bytes_read, 1000U * 22);
+    EXPECT_GE(result->degs().streams().memory().total().bytes_read, 1000U * 22);
 }
 
 TEST(SmallRun, OnePixelOneSplat) {
@@ -136,7 +137,7 @@ TEST_P(SmallRunCancel, ATileThatTerminatesAtOnce) {
     EXPECT_EQ(result->slices(&ArraySlice::Stats::pixels_ended), 512U);
     EXPECT_EQ(result->degs().monitor().stats().tiles_cancelled, GetParam() ? 2U : 0U);
     std::uint64_t records = 0;
-    for (const auto& unit : result->degs().sorting()) {
+    for (const auto& unit : result->degs().fetchers()) {
         records += unit->stats().records;
     }
     if (GetParam()) {

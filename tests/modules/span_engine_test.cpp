@@ -170,7 +170,7 @@ TEST(PixelBuffer, ContextsComeBackAfterTheReadout) {
     Bench bench(make_frame({blanket(24, 8, 64)}, 48, 13, 16)); // three tiles of 16 x 13
     PixelBuffer::Config config;
     config.readout_pixels = 10;
-    PixelBuffer unit("unit", config, {}, bench.time, bench.job, 2, 1, 0, 1);
+    PixelBuffer unit("unit", config, {}, bench.time, bench.job, 2, 1, PixelBuffer::Share{});
     DatedFifo<SliceReport> slice0("slice0", bench.time, 4, 4);
     DatedFifo<SliceReport> slice1("slice1", bench.time, 4, 4);
     DatedFifo<TileNumber> free0("free0", bench.time, 4, 1);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/degs_config.hpp"
 #include "sim/run_config.hpp"
 #include "tlm/config_document.hpp"
 
@@ -16,6 +17,10 @@ RunConfig load(const std::string& name) {
     return load_run_config(std::string(DEGS_CONFIGS) + "/" + name + ".yaml", {});
 }
 
+DegsConfig load_degs(const std::string& name) {
+    return dynamic_cast<const DegsConfig&>(load(name).accelerator());
+}
+
 TEST(Configs, EveryFileLoads) {
     int files = 0;
     for (const auto& entry : fs::directory_iterator(DEGS_CONFIGS)) {
@@ -25,7 +30,7 @@ TEST(Configs, EveryFileLoads) {
         SCOPED_TRACE(entry.path());
         const RunConfig config = load_run_config(entry.path().string(), {});
         EXPECT_EQ(config.problem(), "");
-        EXPECT_EQ(config.degs.name, entry.path().stem().string());
+        EXPECT_EQ(config.accelerator().name, entry.path().stem().string());
         ++files;
     }
     EXPECT_GE(files, 5);
@@ -37,11 +42,11 @@ TEST(Configs, Degs64IsTheDefault) {
 
 TEST(Configs, SixtyFourPesHaveTheMemoryOfTableI) {
     for (const char* name : {"degs-64", "degs-64-tuned"}) {
-        EXPECT_EQ(load(name).degs.sram_bytes(), 130 * 1024) << name;
-        EXPECT_EQ(load(name).degs.pes(), 64) << name;
+        EXPECT_EQ(load_degs(name).sram_bytes(), 130 * 1024) << name;
+        EXPECT_EQ(load_degs(name).pes(), 64) << name;
     }
-    EXPECT_EQ(load("degs-64").degs.contexts(), 1);
-    EXPECT_EQ(load("degs-64-tuned").degs.contexts(), 2);
+    EXPECT_EQ(load_degs("degs-64").contexts(), 1);
+    EXPECT_EQ(load_degs("degs-64-tuned").contexts(), 2);
 }
 
 // Table II, and one tile context as the Pixel Buffer scales with the PEs.
@@ -52,7 +57,7 @@ TEST(Configs, ScalingPointsAreThoseOfThePaper) {
     for (const Row& row : {Row{16, 16, 1, 4, 4, 4}, Row{64, 32, 2, 8, 8, 8},
                            Row{256, 64, 4, 16, 16, 16}, Row{1024, 128, 8, 32, 32, 32}}) {
         SCOPED_TRACE(row.pes);
-        const DegsConfig config = load("degs-" + std::to_string(row.pes)).degs;
+        const DegsConfig config = load_degs("degs-" + std::to_string(row.pes));
         EXPECT_EQ(config.pes(), row.pes);
         EXPECT_EQ(config.tile_size, row.tile);
         EXPECT_EQ(config.slicing.count, row.slicing);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baselines/accelerators.hpp"
+
+#include "modules/degs_config.hpp"
+
+namespace degs {
+namespace {
+
+template <class Config>
+std::unique_ptr<AcceleratorConfig> make() {
+    return std::make_unique<Config>();
+}
+
+} // namespace
+
+const std::vector<AcceleratorKind>& accelerator_kinds() {
+    static const std::vector<AcceleratorKind> kinds{
+        {"degs", &make<DegsConfig>},
+    };
+    return kinds;
+}
+
+} // namespace degs

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// What any accelerator has to say about a run: plain values, filled when the run is over.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "modules/slot_account.hpp"
+#include "splat/image.hpp"
+
+namespace degs {
+
+using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
+
+/// How busy one kind of unit was.
+struct StageUse {
+    std::string name;
+    int units = 0;
+    double busy_cycles = 0; ///< sum over the units
+    double busy = 0;        ///< busy_cycles / (units x cycles of the run)
+    Counts counts;
+};
+
+/// One buffer or ring; fields that a kind of buffer does not have stay 0 and are not reported.
+struct BufferUse {
+    std::string name;
+    int bytes = 0;                ///< configured capacity, 0 if the configuration counts cells
+    std::uint64_t rings = 0;      ///< parts of the buffer, one per reader
+    std::uint64_t depth = 0;      ///< cells per ring
+    std::uint64_t high_water = 0; ///< most cells filled in any ring
+    double mean_fill = 0;         ///< share of all cells, mean over the run
+    Cycle full_cycles = 0, empty_cycles = 0;
+    Counts counts;
+};
+
+struct StreamUse {
+    std::string name;
+    std::uint64_t bytes_read = 0, bytes_written = 0, requests = 0;
+};
+
+/// A law that must hold between two counters of a run.
+struct Conservation {
+    std::string law;
+    std::uint64_t left = 0, right = 0;
+};
+
+/// Dates of one frame of a run; start of the run is 0.
+struct FrameDates {
+    Cycle preprocessed = 0; ///< its tile lists were complete
+    Cycle finished = 0;     ///< its last pixel was in memory
+};
+
+/// Counters are sums over all frames of the run.
+struct AcceleratorResult {
+    std::string name;
+    int pes = 0;
+    double clock_ghz = 1;
+    double area_mm2 = 0; ///< 0: the configuration does not say
+    bool array_only = false;
+    Cycle cycles = 0; ///< start to the last pixel of the last frame in memory
+    std::vector<FrameDates> frames;
+    SlotAccount slots;
+    ActiveWindow window; ///< first task issued to last task retired
+    std::uint64_t hazards = 0;
+    std::vector<StageUse> stages;
+    std::vector<BufferUse> buffers;
+    std::vector<StreamUse> streams;
+    double memory_utilization = 0;  ///< share of the run in which the data bus was occupied
+    double memory_gb_per_s = 0;     ///< peak; 0: unlimited
+    std::uint64_t tiles_listed = 0; ///< that the accelerator has to render
+    std::uint64_t tiles = 0;        ///< that it has rendered
+    std::uint64_t background_tiles = 0, tiles_cancelled = 0;
+    Cycle stopped = 0; ///< nothing was left to happen at this date
+    std::vector<Conservation> conservation;
+    std::vector<std::string> left_out; ///< sentences for --explain
+    std::vector<Image> images;         ///< one per frame
+    double elaborate_s = 0, sim_s = 0; ///< host; sim_s is sc_start() alone
+};
+
+} // namespace degs

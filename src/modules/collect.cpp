@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/collect.hpp"
+
+#include "tlm/grouped_number.hpp"
+
+namespace degs {
+
+void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers) {
+    for (const auto& buffer : buffers) {
+        const std::vector<Cycle>& written = buffer->frames_written();
+        result.frames.resize(std::max(result.frames.size(), written.size()));
+        for (std::size_t f = 0; f < written.size(); ++f) {
+            result.frames[f].finished = std::max(result.frames[f].finished, written[f]);
+        }
+        result.cycles = std::max(result.cycles, buffer->stats().finished);
+        result.background_tiles += buffer->stats().background_tiles;
+    }
+}
+
+void add_pixel_buffer(AcceleratorResult& result, int bytes, int contexts,
+                      const PixelBuffers& buffers) {
+    using P = PixelBuffer::Stats;
+    BufferUse use;
+    use.name = "pixel_buffer";
+    use.bytes = bytes;
+    use.counts = {{"contexts", static_cast<std::uint64_t>(contexts)},
+                  {"readout_cycles", sum_of(buffers, &P::readout_busy)},
+                  {"write_wait_cycles", sum_of(buffers, &P::write_wait)}};
+    result.buffers.push_back(use);
+}
+
+void explain_tiles(AcceleratorResult& result, std::uint64_t records_cancelled) {
+    auto& out = result.left_out;
+    out.push_back(grouped(result.background_tiles) + " of " +
+                  grouped(result.tiles + result.background_tiles) +
+                  " tiles list no splat: they are written as background and enter no unit.");
+    out.push_back(grouped(result.tiles_cancelled) +
+                  " tiles were cancelled before the end of their list because all their pixels had "
+                  "ended: " +
+                  grouped(records_cancelled) + " splat records were not fetched.");
+    out.emplace_back(
+        "The memory is a shared data bus with latency: its banks, rows and refresh are "
+        "not modelled, so there is no row hit rate.");
+    out.emplace_back(
+        "Only what is written to the frame buffer exists as bytes in memory; the other "
+        "streams cost their time and carry no data.");
+}
+
+} // namespace degs

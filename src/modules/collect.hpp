@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the counters of blocks to an AcceleratorResult.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "modules/accelerator_result.hpp"
+#include "modules/pixel_buffer.hpp"
+#include "tlm/dated_fifo.hpp"
+
+namespace degs {
+
+/// Sums one counter over units of a kind.
+template <class Units, class Stats>
+std::uint64_t sum_of(const Units& units, std::uint64_t Stats::*counter) {
+    std::uint64_t sum = 0;
+    for (const auto& unit : units) {
+        sum += unit->stats().*counter;
+    }
+    return sum;
+}
+
+/// Adds a stage; the cycles of `result` must be known. None if there are no units.
+inline void add_stage(AcceleratorResult& result, const char* name, std::size_t units,
+                      std::uint64_t busy_cycles, Counts counts) {
+    if (units == 0) {
+        return;
+    }
+    StageUse stage;
+    stage.name = name;
+    stage.units = static_cast<int>(units);
+    stage.busy_cycles = static_cast<double>(busy_cycles);
+    if (result.cycles != 0) {
+        stage.busy =
+            stage.busy_cycles / (static_cast<double>(units) * static_cast<double>(result.cycles));
+    }
+    stage.counts = std::move(counts);
+    result.stages.push_back(std::move(stage));
+}
+
+/// Statistics of the rings that stand for one buffer.
+struct RingUse {
+    std::size_t depth = 0, high_water = 0;
+    std::uint64_t items = 0;
+    Cycle full_cycles = 0, empty_cycles = 0, occupied_cycles = 0;
+};
+
+template <class T>
+RingUse use_of(const std::vector<std::unique_ptr<DatedFifo<T>>>& rings) {
+    RingUse use;
+    for (const auto& ring : rings) {
+        use.depth += ring->depth();
+        use.high_water = std::max(use.high_water, ring->stats().high_water);
+        use.items += ring->stats().items;
+        use.full_cycles += ring->stats().full_cycles;
+        use.empty_cycles += ring->stats().empty_cycles;
+        use.occupied_cycles += ring->stats().occupied_cycles;
+    }
+    return use;
+}
+
+/// Adds a buffer of `bytes` made of rings of `depth` cells each.
+inline void add_buffer(AcceleratorResult& result, const char* name, int bytes, int depth,
+                       const RingUse& use) {
+    BufferUse buffer;
+    buffer.name = name;
+    buffer.bytes = bytes;
+    buffer.depth = static_cast<std::uint64_t>(depth);
+    buffer.rings = use.depth / buffer.depth;
+    buffer.high_water = use.high_water;
+    if (result.cycles != 0 && use.depth != 0) {
+        buffer.mean_fill = static_cast<double>(use.occupied_cycles) /
+                           (static_cast<double>(use.depth) * static_cast<double>(result.cycles));
+    }
+    buffer.full_cycles = use.full_cycles;
+    buffer.empty_cycles = use.empty_cycles;
+    result.buffers.push_back(buffer);
+}
+
+using PixelBuffers = std::vector<std::unique_ptr<PixelBuffer>>;
+
+/// Dates of the frames, cycles of the run and background tiles; comes first, because everything
+/// that is relative to the run needs its cycles.
+void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers);
+/// `bytes`: of all instances together.
+void add_pixel_buffer(AcceleratorResult& result, int bytes, int contexts,
+                      const PixelBuffers& buffers);
+/// What empty and finished tiles did not cost, for --explain.
+void explain_tiles(AcceleratorResult& result, std::uint64_t records_cancelled);
+
+/// Names of numbered modules and rings: "bank_3".
+inline std::string numbered(const char* name, std::size_t index) {
+    return std::string(name) + "_" + std::to_string(index);
+}
+
+/// A ring of at least one cell, owned by whoever wires blocks together.
+template <class T>
+DatedFifo<T>& add_ring(std::vector<std::unique_ptr<DatedFifo<T>>>& rings, const char* name,
+                       const Timebase& time, int depth, int latency) {
+    rings.push_back(std::make_unique<DatedFifo<T>>(numbered(name, rings.size()).c_str(), time,
+                                                   static_cast<std::size_t>(depth),
+                                                   static_cast<Cycle>(latency)));
+    return *rings.back();
+}
+
+} // namespace degs

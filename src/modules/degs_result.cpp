@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The counters of DeGS in the terms that all accelerators share.
+#include <algorithm>
+
+#include "modules/degs.hpp"
+#include "tlm/grouped_number.hpp"
+
+namespace degs {
+
+/// PE-cycles of the whole array: executed tasks, idle slots between packets, and what a slice
+/// missed of the window before its first and after its last packet.
+void Degs::collect_slots(AcceleratorResult& result) const {
+    for (const auto& slice : slices_) {
+        result.slots += slice->stats().slots;
+        result.window.include(slice->stats().window);
+        result.hazards += slice->stats().hazards;
+    }
+    const auto width = static_cast<std::uint64_t>(config_.array.pes_per_bank);
+    for (std::size_t b = 0; b < slices_.size(); ++b) {
+        result.slots += packing_[b]->idle();
+        const ActiveWindow& own = slices_[b]->stats().window;
+        if (own.empty()) {
+            result.slots.drain += result.window.cycles() * width;
+        } else {
+            result.slots.starved += (own.first - result.window.first) * width;
+            result.slots.drain += (result.window.last - own.last) * width;
+        }
+    }
+}
+
+void Degs::collect_stages(AcceleratorResult& result) const {
+    front_end_->collect(result);
+    using F = SplatFetcher::Stats;
+    add_stage(result, "fetching", fetchers_.size(), sum_of(fetchers_, &F::busy),
+              {{"records", sum_of(fetchers_, &F::records)},
+               {"records_cancelled", sum_of(fetchers_, &F::records_cancelled)}});
+    using G = GaussianSlicingUnit::Stats;
+    add_stage(result, "slicing", slicing_.size(), sum_of(slicing_, &G::busy),
+              {{"splats", sum_of(slicing_, &G::splats)},
+               {"splats_cancelled", sum_of(slicing_, &G::splats_cancelled)},
+               {"rows", sum_of(slicing_, &G::rows)}});
+    using U = SpanUnit::Stats;
+    add_stage(result, "span", spans_.size(), sum_of(spans_, &U::busy),
+              {{"rows", sum_of(spans_, &U::rows)},
+               {"empty_rows", sum_of(spans_, &U::empty_rows)},
+               {"spans", sum_of(spans_, &U::spans)},
+               {"tasks", sum_of(spans_, &U::tasks)}});
+    using B = IssueBank::Stats;
+    add_stage(result, "packing", banks_.size(), sum_of(banks_, &B::busy),
+              {{"tasks_in", sum_of(banks_, &B::tasks_in)},
+               {"tasks_issued", sum_of(banks_, &B::tasks_issued)},
+               {"tasks_dropped", sum_of(banks_, &B::tasks_dropped)},
+               {"segments_issued", sum_of(banks_, &B::segments_issued)},
+               {"segments_dropped", sum_of(banks_, &B::segments_dropped)},
+               {"packets", sum_of(packing_, &PackingUnit::Stats::packets)}});
+    using A = ArraySlice::Stats;
+    add_stage(result, "blending", slices_.size(), sum_of(slices_, &A::packets),
+              {{"packets", sum_of(slices_, &A::packets)},
+               {"pixels_ended", sum_of(slices_, &A::pixels_ended)}});
+}
+
+void Degs::collect_buffers(AcceleratorResult& result) const {
+    const DegsConfig& c = config_;
+    add_buffer(result, "gaussian_buffer", c.gaussian_buffer.bytes, c.gaussian_chunks(),
+               gaussian_buffer());
+    add_buffer(result, "span_buffer", c.span_buffer.bytes, c.span_lane_depth(), span_buffer());
+    add_buffer(result, "crossbar", 0, c.span.crossbar_depth, crossbar());
+    // Four cells more than the buffer has: tile ends travel in them, see build_array().
+    add_buffer(result, "packing_buffer", c.packing.bytes, c.packing_depth() + 4, packing_buffer());
+    std::uint64_t waits = 0;
+    for (const auto& bank : banks_) {
+        waits += bank->feature_waits();
+    }
+    BufferUse feature;
+    feature.name = "feature_buffer";
+    feature.bytes = c.feature_buffer.bytes;
+    feature.counts = {{"banks", banks_.size()},
+                      {"entries_per_bank", static_cast<std::uint64_t>(c.feature_entries())},
+                      {"waits", waits}};
+    result.buffers.push_back(feature);
+    add_pixel_buffer(result, c.pixel_buffer.bytes, c.contexts(), pixel_buffers_);
+}
+
+void Degs::collect_laws(AcceleratorResult& result) const {
+    using B = IssueBank::Stats;
+    const std::uint64_t in = sum_of(banks_, &B::tasks_in);
+    const std::uint64_t issued = sum_of(banks_, &B::tasks_issued);
+    const std::uint64_t dropped = sum_of(banks_, &B::tasks_dropped);
+    const std::uint64_t packed = sum_of(packing_, &PackingUnit::Stats::tasks);
+    const SlotAccount& s = result.slots;
+    result.conservation = {
+        {"tasks solved = tasks into the banks", sum_of(spans_, &SpanUnit::Stats::tasks), in},
+        {"tasks into the banks = issued + dropped", in, issued + dropped},
+        {"tasks issued = packed", issued, packed},
+        {"tasks packed = executed", packed, s.useful + s.boundary + s.terminated},
+        {"packets packed = executed", sum_of(packing_, &PackingUnit::Stats::packets),
+         sum_of(slices_, &ArraySlice::Stats::packets)},
+    };
+}
+
+void Degs::explain(AcceleratorResult& result) const {
+    auto& out = result.left_out;
+    explain_tiles(result, sum_of(fetchers_, &SplatFetcher::Stats::records_cancelled));
+    out.push_back(grouped(sum_of(slicing_, &GaussianSlicingUnit::Stats::splats_cancelled)) +
+                  " splats of cancelled tiles had been fetched and were not sliced.");
+    out.push_back(grouped(sum_of(banks_, &IssueBank::Stats::tasks_dropped)) +
+                  " tasks of ended pixels were dropped by the Issue Banks and cost no PE slot.");
+    out.push_back(grouped(sum_of(spans_, &SpanUnit::Stats::empty_rows)) +
+                  " rows of splats cover no pixel of their tile: they cost a Span Unit cycle and "
+                  "nothing after it.");
+}
+
+void Degs::collect(AcceleratorResult& result) const {
+    collect_frames(result, pixel_buffers_);
+    result.tiles = finished_tiles();
+    result.tiles_cancelled = monitor_->stats().tiles_cancelled;
+    collect_slots(result);
+    collect_stages(result);
+    collect_buffers(result);
+    streams_.collect(result);
+    collect_laws(result);
+    explain(result);
+}
+
+} // namespace degs

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+
+#include "modules/render_job.hpp"
+#include "tlm/dated_fifo.hpp"
+
+namespace degs {
+
+/// In place of projection, binning and sorting when the rasterisation array is looked at alone: the
+/// lists of all tiles are in order from the start. Tiles go round the sources.
+class ListSource : public sc_core::sc_module {
+public:
+    FifoPort<SortedRun> sorted;
+
+    ListSource(const sc_core::sc_module_name& name, const Timebase& time, const RenderJob& job,
+               std::size_t index, std::size_t sources)
+        : sc_core::sc_module(name), sorted("sorted"), job_(job), index_(index), sources_(sources),
+          self_(time) {
+        SC_HAS_PROCESS(ListSource);
+        SC_THREAD(run);
+    }
+
+private:
+    void end_of_elaboration() override { sorted->connect_writer(self_); }
+    void run() {
+        for (std::size_t t = index_; t < job_.tiles.size(); t += sources_) {
+            sorted->put(self_, {static_cast<TileNumber>(t), job_.tiles[t].count});
+        }
+        sorted->put(self_, {kNoTile, 0});
+        self_.finish();
+    }
+
+    const RenderJob& job_;
+    std::size_t index_, sources_;
+    Process self_;
+};
+
+} // namespace degs

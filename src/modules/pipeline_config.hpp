@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "splat/data_path.hpp"
+#include "splat/frame_workload.hpp"
+#include "tlm/config.hpp"
+
+namespace degs {
+
+/// What every data path has to choose, whoever schedules it.
+struct PipelineConfig {
+    NumberFormat numbers = NumberFormat::Fp32;
+    StopRule stop_rule = StopRule::Refuse;
+    TileMode tiles = TileMode::Exact;
+    void describe(ConfigVisitor& visitor);
+    /// Exact span ends: the pixels inside the ellipse.
+    DataPathOptions data_path() const { return {numbers, SpanEnds::Exact, 0, stop_rule}; }
+};
+
+} // namespace degs

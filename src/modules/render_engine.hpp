@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <systemc>
+
+#include "modules/accelerator_result.hpp"
+#include "modules/pipeline_config.hpp"
+#include "modules/render_job.hpp"
+#include "tlm/process.hpp"
+
+namespace degs {
+
+/// An accelerator with its memory, as whoever runs it sees it: built for a job, run by the kernel,
+/// asked for its counters when nothing is left to happen.
+class RenderEngine : public sc_core::sc_module {
+public:
+    using sc_core::sc_module::sc_module;
+    /// Tiles whose pixels have all been read out.
+    virtual std::size_t finished_tiles() const = 0;
+    /// Reads the counters; names, images, host times and the fields of the job are not its matter.
+    virtual void collect(AcceleratorResult& result) const = 0;
+};
+
+/// What of an accelerator is built.
+struct BuildOptions {
+    /// The rasterisation array alone: depth-ordered lists are there at once and memory is
+    /// unlimited, so that arrays can be compared without their front ends.
+    bool array_only = false;
+};
+
+/// Silicon area, for comparisons at equal area.
+struct AreaConfig {
+    double fixed_mm2 = 0; ///< blocks that do not follow the number of PEs
+    double array_mm2 = 0; ///< blocks that do, at this number of PEs
+    double total() const { return fixed_mm2 + array_mm2; }
+    void describe(ConfigVisitor& visitor);
+};
+
+/// The configuration of an accelerator, whichever it is. A new accelerator derives one of these
+/// and joins accelerator_kinds(); docs/adding-an-accelerator.md is a worked example.
+struct AcceleratorConfig {
+    std::string name;
+    double clock_ghz = 1.0;
+    AreaConfig area;
+    int frames_in_flight = 2; ///< frames between the first Gaussian read and the last pixel written
+
+    AcceleratorConfig() = default;
+    AcceleratorConfig(const AcceleratorConfig&) = default;
+    AcceleratorConfig& operator=(const AcceleratorConfig&) = default;
+    virtual ~AcceleratorConfig() = default;
+
+    virtual std::unique_ptr<AcceleratorConfig> clone() const = 0;
+    virtual void describe(ConfigVisitor& visitor) = 0;
+    /// Checks what single ranges cannot; one sentence that names the keys, or empty.
+    virtual std::string problem() const = 0;
+
+    virtual int pes() const = 0;
+    /// Side of the square of pixels whose list is one unit of work, px.
+    virtual int tile_size_px() const = 0;
+    virtual TileMode tile_mode() const = 0;
+    virtual DataPathOptions data_path() const = 0;
+    /// Tiles whose pixels are on chip at a time.
+    virtual int tile_contexts() const = 0;
+    /// `job` must be made for this configuration and outlive the engine.
+    virtual std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time,
+                                                RenderJob& job,
+                                                const BuildOptions& options) const = 0;
+
+protected:
+    void describe_common(ConfigVisitor& visitor);
+};
+
+/// The job of rendering `frames` with the data path that `config` asks for.
+RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
+                          const AcceleratorConfig& config);
+
+} // namespace degs
