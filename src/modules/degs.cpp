@@ -211,7 +211,7 @@ void Degs::build_frame_gate() {
         return;
     }
     frame_gate_ = std::make_unique<FrameGate>("frame_gate", time_, job_, pixel_buffers_.size(),
-                                              listeners.size());
+                                              listeners.size(), pixel_buffers_.size());
     for (std::size_t i = 0; i < pixel_buffers_.size(); ++i) {
         auto& done = ring(frame_rings_, "frame_done", kTokenDepth, 1);
         pixel_buffers_[i]->frame_done[0].bind(done);

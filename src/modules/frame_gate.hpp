@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include <systemc>
 
 #include "modules/render_job.hpp"
@@ -12,13 +14,17 @@ namespace degs {
 /// many frames have lists in memory. Exists only for runs of more frames than that.
 class FrameGate : public sc_core::sc_module {
 public:
-    sc_core::sc_vector<FifoPort<std::uint32_t>> in;  ///< frames finished, one per Pixel Buffer
-    sc_core::sc_vector<FifoPort<std::uint32_t>> out; ///< the same, once all have; one per listener
+    sc_core::sc_vector<FifoPort<std::uint32_t>> in;  ///< frame of each tile, one per Pixel Buffer
+    sc_core::sc_vector<FifoPort<std::uint32_t>> out; ///< finished frames; one per listener
 
+    /// `reports`: messages per tile, i.e. Pixel Buffers that write a share of each.
     FrameGate(const sc_core::sc_module_name& name, const Timebase& time, const RenderJob& job,
-              std::size_t inputs, std::size_t listeners)
-        : sc_core::sc_module(name), in("in", inputs), out("out", listeners), job_(job),
-          self_(time) {
+              std::size_t inputs, std::size_t listeners, std::uint64_t reports)
+        : sc_core::sc_module(name), in("in", inputs), out("out", listeners), self_(time),
+          missing_(job.frames.size(), 0) {
+        for (const JobTile& tile : job.tiles) {
+            missing_[tile.frame] += reports;
+        }
         SC_HAS_PROCESS(FrameGate);
         SC_THREAD(run);
     }
@@ -33,9 +39,15 @@ private:
         }
     }
     void run() {
-        for (std::uint32_t f = 0; f < job_.frames.size(); ++f) {
-            for (auto& port : in) {
-                port->get(self_);
+        std::vector<FifoBase*> rings;
+        for (auto& port : in) {
+            rings.push_back(port.operator->());
+        }
+        for (std::uint32_t f = 0; f < missing_.size(); ++f) {
+            while (missing_[f] != 0) {
+                self_.advance_to(
+                    self_.next_arrival(rings.data(), rings.size(), self_.local(), kNever));
+                take_reports();
             }
             for (auto& port : out) {
                 port->put(self_, f);
@@ -43,9 +55,16 @@ private:
         }
         self_.finish();
     }
+    void take_reports() {
+        for (auto& port : in) {
+            while (self_.arrived(*port.operator->())) {
+                missing_[port->take(self_)]--;
+            }
+        }
+    }
 
-    const RenderJob& job_;
     Process self_;
+    std::vector<std::uint64_t> missing_; // reports, per frame
 };
 
 } // namespace degs

@@ -78,16 +78,13 @@ void PixelBuffer::run() {
     if (share_.background) {
         write_background();
     }
+    frames_written_.resize(job_.frames.size(), 0);
     TileNumber number = 0;
     while ((share_.granted || stats_.tiles < job_.tiles.size()) && take_tile(number)) {
-        finish_frames(job_.tiles[number].frame);
         finish_tile(number);
-        if (!share_.granted && job_.tiles[number].last_of_frame) {
-            finish_frames(job_.tiles[number].frame + 1);
-        }
     }
-    finish_frames(static_cast<std::uint32_t>(job_.frames.size()));
     stats_.finished = std::max(written_, self_.local());
+    finish_frames();
     self_.finish();
 }
 
@@ -99,14 +96,14 @@ bool PixelBuffer::take_tile(TileNumber& number) {
     return number != kNoTile;
 }
 
-// All frames below `end` have been written.
-void PixelBuffer::finish_frames(std::uint32_t end) {
-    while (frames_written_.size() < end) {
-        const auto frame = static_cast<std::uint32_t>(frames_written_.size());
-        frames_written_.push_back(std::max(written_, self_.local()));
-        for (auto& port : frame_done) {
-            port->put_at(self_, frame, written_);
-        }
+// A frame without tiles of its own ends with the one before it.
+void PixelBuffer::finish_frames() {
+    Cycle last = 0;
+    for (Cycle& date : frames_written_) {
+        date = last = std::max(last, date);
+    }
+    if (!frames_written_.empty()) {
+        frames_written_.back() = stats_.finished;
     }
 }
 
@@ -152,6 +149,11 @@ void PixelBuffer::finish_tile(TileNumber number) {
     written_ = std::max(written_, oldest);
     stats_.readout_busy += self_.local() - start;
     clear(context_of(number));
+    const std::uint32_t frame = job_.tiles[number].frame;
+    frames_written_[frame] = std::max(written_, self_.local());
+    for (auto& port : frame_done) {
+        port->put_at(self_, frame, oldest);
+    }
     stats_.tiles++;
     const TileNumber next = number + static_cast<TileNumber>(contexts_);
     if (share_.granted || next < job_.tiles.size()) {

@@ -54,7 +54,7 @@ public:
     /// The tile that may now use its context, one per bank; of granted tiles only the number of
     /// messages counts.
     sc_core::sc_vector<FifoPort<TileNumber>> context_free;
-    /// Numbers of the frames that this instance has written, to the Frame Gate; empty without one.
+    /// The frame of every tile written, to the Frame Gate; empty without one.
     sc_core::sc_vector<FifoPort<std::uint32_t>> frame_done;
     MemoryPort frame_buffer;
 
@@ -75,7 +75,7 @@ private:
     void write_background();
     bool take_tile(TileNumber& number);
     void finish_tile(TileNumber number);
-    void finish_frames(std::uint32_t end);
+    void finish_frames();
     int context_of(TileNumber number) const;
     Cycle write_rows(TileNumber number);
     const std::vector<unsigned char>& read_out(TileNumber number, int y);
