@@ -74,6 +74,15 @@ void check_result(const AcceleratorResult& result) {
                   static_cast<std::uint64_t>(result.pes) * result.window.cycles());
 }
 
+std::optional<double> steady_fps(const AcceleratorResult& result) {
+    const auto& frames = result.frames;
+    if (frames.size() < 2 || frames.back().finished == frames.front().finished) {
+        return {};
+    }
+    const auto cycles = static_cast<double>(frames.back().finished - frames.front().finished);
+    return static_cast<double>(frames.size() - 1) * result.clock_ghz * 1e9 / cycles;
+}
+
 std::string limiting_stage(const AcceleratorResult& result) {
     const auto busiest =
         std::max_element(result.stages.begin(), result.stages.end(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// degs run: one frame on one accelerator.
+// degs run: one frame, or a camera path, on one accelerator.
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -17,6 +17,7 @@ struct RunOptions {
     std::string config;
     std::vector<std::string> overrides;
     ViewRequest view;
+    PathRequest path;
     std::string fidelity = "exact";
     std::string out = "out";
     bool no_reference = false;
@@ -29,8 +30,12 @@ void run(const RunOptions& options) {
     View view = load_view(options.view);
     const OutputFolder out(options.out, {"image.exr", "image.png", "report.json"});
     const Fidelity fidelity = options.fidelity == "strict" ? Fidelity::Strict : Fidelity::Exact;
+    std::vector<Camera> following =
+        camera_path(view.scene.cloud, view.camera, options.path.frames, options.path.step_degrees);
+    following.erase(following.begin());
     const RunResult result = simulate(
-        {config, fidelity, {options.array_only}, !options.no_reference, {}}, std::move(view));
+        {config, fidelity, {options.array_only}, !options.no_reference, std::move(following)},
+        std::move(view));
     write_exr(result.accelerator.images.front(), out.path("image.exr"));
     write_png(result.accelerator.images.front(), out.path("image.png"));
     out.write_json("report.json", report(result));
@@ -45,9 +50,11 @@ void run(const RunOptions& options) {
 
 void add_run_command(CLI::App& program) {
     auto options = std::make_shared<RunOptions>();
-    CLI::App* command = program.add_subcommand("run", "simulate one frame on an accelerator");
+    CLI::App* command =
+        program.add_subcommand("run", "simulate a frame or a camera path on an accelerator");
     command->add_option("config", options->config, "configuration file (YAML)")->required();
     add_view_options(*command, options->view);
+    add_path_options(*command, options->path);
     command
         ->add_option("--fidelity", options->fidelity,
                      "exact, or strict: synchronise every cycle; the results are the same")

@@ -7,6 +7,7 @@
 namespace degs::sim {
 
 void add_run_command(CLI::App& program);
+void add_compare_command(CLI::App& program);
 void add_render_command(CLI::App& program);
 void add_scene_command(CLI::App& program);
 void add_config_command(CLI::App& program);

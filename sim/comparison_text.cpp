@@ -59,7 +59,7 @@ std::vector<std::string> joined(std::vector<std::string> head,
     return head;
 }
 
-const std::vector<std::string> kRatioHeadings{"speed", "speed/mm²", "path", "path/mm²"};
+const std::vector<std::string> kRatioHeadings{"speed ×", "per mm²", "path ×", "per mm²"};
 
 std::string time_table(const Comparison& comparison, std::size_t view) {
     TextTable table(joined({"", "PEs", "tile", "cycles", "ms", "fps", "path fps", "DRAM MB", "mm²"},
@@ -118,7 +118,7 @@ std::string heading(const ComparedView& view) {
 
 std::string legend(const Comparison& comparison) {
     const std::string& first = comparison.configs.front().name;
-    std::string words = "speed: 1 / latency of one frame alone, " + first + " = 1";
+    std::string words = "speed: 1 / latency of one frame alone; " + first + " = 1";
     if (comparison.frames > 1) {
         words += "; path: throughput over " + std::to_string(comparison.frames) + " frames of " +
                  config_words::number(comparison.path_step_degrees) + "° each, " + first + " = 1";
@@ -139,7 +139,13 @@ std::string comparison_text(const Comparison& comparison) {
         text += "geometric means over " + std::to_string(comparison.views.size()) + " views\n" +
                 means_table(comparison) + "\n";
     }
-    return text + (comparison.rows.empty() ? "" : legend(comparison));
+    if (comparison.rows.empty()) {
+        return "";
+    }
+    for (const FailedRun& failed : comparison.failed) {
+        text += "failed: " + failed.sentence + "\n";
+    }
+    return text + legend(comparison);
 }
 
 } // namespace degs::sim

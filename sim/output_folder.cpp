@@ -43,9 +43,7 @@ std::string OutputFolder::path(const std::string& file) const {
     return (fs::path(folder_) / file).string();
 }
 
-void OutputFolder::write_json(const std::string& file, const nlohmann::ordered_json& value) const {
-    const std::string text =
-        value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+void OutputFolder::write_text(const std::string& file, const std::string& text) const {
     write_atomically(path(file), [&](const std::string& temporary) {
         std::ofstream out(temporary, std::ios::binary);
         out << text;
@@ -54,6 +52,11 @@ void OutputFolder::write_json(const std::string& file, const nlohmann::ordered_j
             fail(folder_, "writing '" + file + "' failed, the disk may be full");
         }
     });
+}
+
+void OutputFolder::write_json(const std::string& file, const nlohmann::ordered_json& value) const {
+    write_text(file,
+               value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 } // namespace degs::sim

@@ -16,7 +16,9 @@ public:
     OutputFolder(std::string folder, const std::vector<std::string>& files);
 
     std::string path(const std::string& file) const;
-    /// Whole or not at all; bytes that are no UTF-8 become U+FFFD.
+    /// Whole or not at all.
+    void write_text(const std::string& file, const std::string& text) const;
+    /// Likewise; bytes that are no UTF-8 become U+FFFD.
     void write_json(const std::string& file, const nlohmann::ordered_json& value) const;
 
 private:

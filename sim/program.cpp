@@ -48,6 +48,7 @@ void add_commands(CLI::App& program) {
     program.require_subcommand(1);
     program.set_version_flag("--version", "degs " DEGS_VERSION);
     add_run_command(program);
+    add_compare_command(program);
     add_render_command(program);
     add_scene_command(program);
     add_config_command(program);

@@ -5,18 +5,30 @@
 #include <iostream>
 #include <utility>
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "sim/stopwatch.hpp"
+#include "sim/words.hpp"
 
 namespace degs::sim {
 namespace {
 
 constexpr double kQuietSeconds = 2.0;
 constexpr std::chrono::milliseconds kPeriod{250};
+constexpr const char* kClear = "\r\x1b[K";
+
+bool silent = false;
 
 std::string whole_seconds(double seconds) {
     return std::to_string(static_cast<long>(seconds + 0.5)) + " s";
+}
+
+/// A line that wraps could not be cleared again.
+std::size_t line_length() {
+    winsize size{};
+    return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1U
+                                                                             : 79U;
 }
 
 } // namespace
@@ -30,8 +42,12 @@ std::string progress_line(const std::string& step, double seconds, double share)
            whole_seconds(seconds) + ", about " + whole_seconds(left) + " to go";
 }
 
+void Progress::silence() {
+    silent = true;
+}
+
 Progress::Progress(std::string step) : step_(std::move(step)) {
-    if (::isatty(STDERR_FILENO) != 0) {
+    if (!silent && ::isatty(STDERR_FILENO) != 0) {
         watcher_ = std::thread([this] { watch(); });
     }
 }
@@ -47,19 +63,37 @@ Progress::~Progress() {
     }
 }
 
+StatusLine::StatusLine() : terminal_(::isatty(STDERR_FILENO) != 0) {}
+
+StatusLine::~StatusLine() {
+    if (shown_) {
+        std::cerr << kClear << std::flush;
+    }
+}
+
+void StatusLine::show(const std::string& words) {
+    if (terminal_) {
+        std::string line = words;
+        while (characters(line) > line_length()) {
+            line.pop_back();
+        }
+        std::cerr << kClear << line << std::flush;
+        shown_ = true;
+    }
+}
+
 void Progress::watch() {
-    const char* const clear = "\r\x1b[K";
     const Stopwatch clock;
     bool shown = false;
     std::unique_lock<std::mutex> lock(mutex_);
     while (!wake_.wait_for(lock, kPeriod, [this] { return over_; })) {
         if (clock.seconds() > kQuietSeconds) {
-            std::cerr << clear << progress_line(step_, clock.seconds(), share_) << std::flush;
+            std::cerr << kClear << progress_line(step_, clock.seconds(), share_) << std::flush;
             shown = true;
         }
     }
     if (shown) {
-        std::cerr << clear << std::flush;
+        std::cerr << kClear << std::flush;
     }
 }
 

@@ -22,6 +22,10 @@ public:
     /// Share of the step that is done, 0 .. 1.
     void done(double share) { share_ = share; }
 
+    /// Those that are made from now on print nothing; for processes whose parent tells how far it
+    /// is.
+    static void silence();
+
 private:
     void watch();
 
@@ -31,6 +35,20 @@ private:
     std::condition_variable wake_;
     bool over_ = false;
     std::thread watcher_;
+};
+
+/// A line on stderr that its owner keeps up to date, on a terminal only; gone when it is destroyed.
+class StatusLine {
+public:
+    StatusLine();
+    ~StatusLine();
+    StatusLine(const StatusLine&) = delete;
+    StatusLine& operator=(const StatusLine&) = delete;
+    void show(const std::string& words);
+
+private:
+    bool terminal_;
+    bool shown_ = false;
 };
 
 /// "simulation 42 % · 12 s, about 17 s to go"; without a share, the time alone.

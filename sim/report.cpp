@@ -35,20 +35,11 @@ ordered_json counts_json(const Counts& counts) {
     return json;
 }
 
-/// Frames per second once the pipeline is full: of all frames but the first, which starts alone.
-ordered_json steady_fps(const AcceleratorResult& run) {
-    if (run.frames.size() < 2) {
-        return {};
-    }
-    const auto cycles =
-        static_cast<double>(run.frames.back().finished - run.frames.front().finished);
-    return ratio(static_cast<double>(run.frames.size() - 1) * run.clock_ghz * 1e9, cycles);
-}
-
 /// The first frame has the accelerator to itself until the next one's preprocessing starts.
 ordered_json timing_json(const AcceleratorResult& run) {
     const double frame_ns =
         static_cast<double>(run.frames.empty() ? 0 : run.frames.front().finished) / run.clock_ghz;
+    const std::optional<double> steady = steady_fps(run);
     ordered_json finished = ordered_json::array();
     for (const FrameDates& frame : run.frames) {
         finished.push_back(frame.finished);
@@ -61,7 +52,7 @@ ordered_json timing_json(const AcceleratorResult& run) {
             {"blending_cycles", run.window.cycles()},
             {"frames", run.frames.size()},
             {"frame_finished_cycles", std::move(finished)},
-            {"throughput_fps", steady_fps(run)},
+            {"throughput_fps", steady ? ordered_json(*steady) : ordered_json()},
             {"array_only", run.array_only}};
 }
 

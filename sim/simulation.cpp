@@ -6,38 +6,6 @@
 #include "sim/stopwatch.hpp"
 
 namespace degs::sim {
-namespace {
-
-std::vector<FrameWorkload> make_workloads(View& view, const RunRequest& request,
-                                          RunResult& result) {
-    const AcceleratorConfig& config = request.config.accelerator();
-    const Progress progress("projecting and sorting");
-    const Stopwatch clock;
-    std::vector<Camera> cameras{view.camera};
-    cameras.insert(cameras.end(), request.following.begin(), request.following.end());
-    std::vector<FrameWorkload> workloads;
-    for (const Camera& camera : cameras) {
-        workloads.push_back(make_frame_workload(view.scene.cloud, camera, config.tile_size_px(),
-                                                config.tile_mode()));
-    }
-    view.scene.cloud = GaussianCloud{}; // everything that follows needs the splats only
-    result.host.workload_s = clock.seconds();
-    result.workload = facts_of(workloads.front());
-    return workloads;
-}
-
-void compare_with_reference(const FrameWorkload& workload, RunResult& result) {
-    const Progress progress("reference image");
-    const Stopwatch clock;
-    ReferenceCounts counts;
-    const Image reference = render_reference(workload, counts);
-    result.host.render_s = clock.seconds();
-    result.workload.reference = counts;
-    result.error = compare_images(reference, result.accelerator.images.front());
-}
-
-} // namespace
-
 SceneFacts facts_of(const Scene& scene) {
     return {scene.name, scene.source, scene.cloud.size(), scene.cloud.sh_degree, scene.dropped};
 }
@@ -62,29 +30,72 @@ std::uint64_t peak_rss_bytes() {
     return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
 }
 
-RunResult simulate(const RunRequest& request, View view) {
-    const Stopwatch wall;
+std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud,
+                                          const std::vector<Camera>& cameras,
+                                          const AcceleratorConfig& config, double& seconds) {
+    const Progress progress("projecting and sorting");
+    const Stopwatch clock;
+    std::vector<FrameWorkload> workloads;
+    workloads.reserve(cameras.size());
+    for (const Camera& camera : cameras) {
+        workloads.push_back(
+            make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode()));
+    }
+    seconds += clock.seconds();
+    return workloads;
+}
+
+Reference make_reference(const FrameWorkload& workload) {
+    const Progress progress("reference image");
+    const Stopwatch clock;
+    Reference reference;
+    reference.image = render_reference(workload, reference.counts);
+    reference.render_s = clock.seconds();
+    return reference;
+}
+
+void judge(RunResult& result, const Reference& reference) {
+    result.host.render_s = reference.render_s;
+    result.workload.reference = reference.counts;
+    result.error = compare_images(reference.image, result.accelerator.images.front());
+}
+
+RunResult run_frames(const RunRequest& request, const std::vector<const FrameWorkload*>& frames) {
     RunResult result;
     result.config = request.config;
-    result.scene = facts_of(view.scene);
-    result.camera = view.camera;
-    result.host.load_s = view.load_s;
-    const std::vector<FrameWorkload> workloads = make_workloads(view, request, result);
-    std::vector<const FrameWorkload*> frames;
-    for (const FrameWorkload& workload : workloads) {
-        frames.push_back(&workload);
-    }
-    {
-        Progress progress("simulation");
-        result.accelerator = run_accelerator(request.config.accelerator(), frames, request.fidelity,
-                                             request.build, progress);
-    }
-    if (request.reference) {
-        compare_with_reference(workloads.front(), result);
-    }
+    result.camera = frames.front()->camera;
+    result.workload = facts_of(*frames.front());
+    Progress progress("simulation");
+    result.accelerator = run_accelerator(request.config.accelerator(), frames, request.fidelity,
+                                         request.build, progress);
     result.host.fidelity = request.fidelity == Fidelity::Strict ? "strict" : "exact";
     result.host.elaborate_s = result.accelerator.elaborate_s;
     result.host.sim_s = result.accelerator.sim_s;
+    result.host.peak_rss_bytes = peak_rss_bytes();
+    return result;
+}
+
+RunResult simulate(const RunRequest& request, View view) {
+    const Stopwatch wall;
+    std::vector<Camera> cameras{view.camera};
+    cameras.insert(cameras.end(), request.following.begin(), request.following.end());
+    double workload_s = 0;
+    const std::vector<FrameWorkload> workloads =
+        make_workloads(view.scene.cloud, cameras, request.config.accelerator(), workload_s);
+    const SceneFacts scene = facts_of(view.scene);
+    view.scene.cloud = GaussianCloud{}; // everything that follows needs the splats only
+    std::vector<const FrameWorkload*> frames;
+    frames.reserve(workloads.size());
+    for (const FrameWorkload& workload : workloads) {
+        frames.push_back(&workload);
+    }
+    RunResult result = run_frames(request, frames);
+    result.scene = scene;
+    if (request.reference) {
+        judge(result, make_reference(workloads.front()));
+    }
+    result.host.load_s = view.load_s;
+    result.host.workload_s = workload_s;
     result.host.wall_s = view.load_s + wall.seconds();
     result.host.peak_rss_bytes = peak_rss_bytes();
     return result;

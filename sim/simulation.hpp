@@ -58,13 +58,33 @@ struct RunResult {
     HostFacts host;
 };
 
+/// The double-precision image of a frame, with which any number of runs can be compared.
+struct Reference {
+    Image image;
+    ReferenceCounts counts;
+    double render_s = 0; ///< host
+};
+
 SceneFacts facts_of(const Scene& scene);
 WorkloadFacts facts_of(const FrameWorkload& workload);
 /// Largest resident set of this process so far.
 std::uint64_t peak_rss_bytes();
 
-/// Throws InputError for mistakes of the user, std::logic_error if the model breaks its laws.
-/// `view` loses its Gaussians as soon as they are projected.
+/// The frames of `cameras` as the accelerator wants them; adds the host seconds to `seconds`.
+std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud,
+                                          const std::vector<Camera>& cameras,
+                                          const AcceleratorConfig& config, double& seconds);
+Reference make_reference(const FrameWorkload& workload);
+/// Fills in what a comparison of the first frame with its reference says.
+void judge(RunResult& result, const Reference& reference);
+
+/// Runs the accelerator on frames that were made for it (at least one). Facts of the scene, host
+/// times of what came before and the comparison are the caller's. Throws std::logic_error if the
+/// model breaks its laws. Once per process.
+RunResult run_frames(const RunRequest& request, const std::vector<const FrameWorkload*>& frames);
+
+/// All of it: frames, run, reference. Throws InputError for mistakes of the user, std::logic_error
+/// if the model breaks its laws. `view` loses its Gaussians as soon as they are projected.
 RunResult simulate(const RunRequest& request, View view);
 
 } // namespace degs::sim

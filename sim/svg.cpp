@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/svg.hpp"
 
-#include <algorithm>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
+
+#include "sim/words.hpp"
 
 namespace degs::sim {
 namespace {
@@ -67,10 +68,6 @@ std::string joined(const Svg::Points& points) {
         text += (text.empty() ? "" : " ") + number(x) + "," + number(y);
     }
     return text;
-}
-
-bool starts_character(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
 }
 
 } // namespace
@@ -136,10 +133,6 @@ std::string Svg::document(double width, double height, const std::string& title)
            attribute("font-family", kFonts) + " role=\"img\">\n<title>" + escaped(title) +
            "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + body_ +
            "</svg>\n";
-}
-
-std::size_t characters(const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
 }
 
 double text_width(const std::string& words, double size, bool bold) {

@@ -41,7 +41,5 @@ private:
 double text_width(const std::string& words, double size, bool bold = false);
 /// The longest beginning of `words` that fits, with an ellipsis if something is missing.
 std::string fitting(const std::string& words, double size, double width);
-/// Characters of a UTF-8 text; what is no UTF-8 counts a character per byte.
-std::size_t characters(const std::string& text);
 
 } // namespace degs::sim

@@ -48,10 +48,15 @@ std::string design_line(const RunResult& result) {
 
 std::string frame_line(const RunResult& result) {
     const AcceleratorResult& run = result.accelerator;
-    const double ms = static_cast<double>(run.cycles) / run.clock_ghz * 1e-6;
+    const Cycle latency = run.frames.empty() ? 0 : run.frames.front().finished;
+    const double ms = static_cast<double>(latency) / run.clock_ghz * 1e-6;
+    const std::optional<double> steady = steady_fps(run);
     return size_words(result.camera) + kDot + three_digits(ms) + " ms" + kDot +
-           (ms > 0 ? three_digits(1e3 / ms) : "-") + " fps" + kDot + "blending " +
-           scaled(run.window.cycles()) + " of " + scaled(run.cycles) + " cycles at " +
+           (ms > 0 ? three_digits(1e3 / ms) : "-") + " fps" + kDot +
+           (steady ? three_digits(*steady) + " fps over " + std::to_string(run.frames.size()) +
+                         " frames" + kDot
+                   : "") +
+           "blending " + scaled(run.window.cycles()) + " of " + scaled(run.cycles) + " cycles at " +
            config_words::number(run.clock_ghz) + " GHz";
 }
 

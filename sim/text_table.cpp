@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "sim/svg.hpp"
+#include "sim/words.hpp"
 
 namespace degs::sim {
 

@@ -30,6 +30,9 @@ void check_pixels(double width, double height) {
     }
 }
 
+/// All frames of a path are in memory at once; a typing error should not fill it.
+constexpr int kMostFrames = 10000;
+
 struct Resolution {
     const char* name;
     int height; ///< px
@@ -88,6 +91,23 @@ void add_view_options(CLI::App& command, ViewRequest& request) {
                            "image height in pixels; alone it scales the view, with --width it "
                            "crops or extends it");
     add_resolution_option(command, request.resolution)->excludes(width)->excludes(height);
+}
+
+void add_path_options(CLI::App& command, PathRequest& request) {
+    CLI::Option* frames =
+        command
+            .add_option("--frames", request.frames,
+                        "frames of a camera path that starts at the view; from 2 on, throughput is "
+                        "measured, too")
+            ->check(CLI::Range(1, kMostFrames))
+            ->capture_default_str();
+    command
+        .add_option("--path-step", request.step_degrees,
+                    "degrees by which the camera turns about the middle of the scene from frame to "
+                    "frame")
+        ->check(CLI::Range(-kMostPathStepDegrees, kMostPathStepDegrees))
+        ->needs(frames)
+        ->capture_default_str();
 }
 
 Camera resize(const Camera& camera, std::optional<int> width, std::optional<int> height) {

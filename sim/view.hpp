@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "scene/camera_path.hpp"
 #include "scene/scene.hpp"
 
 namespace degs::sim {
@@ -42,6 +43,14 @@ std::vector<std::string> resolution_names();
 /// Image height in pixels: 720, 1080, 1440, 2160, 4320. Capital letters are allowed; InputError
 /// lists the names for any other.
 int resolution_height(const std::string& name);
+
+/// A run of several frames along a camera path that starts at the view's camera.
+struct PathRequest {
+    int frames = 1;
+    double step_degrees = kPathStepDegrees;
+};
+/// Adds --frames and --path-step.
+void add_path_options(CLI::App& command, PathRequest& request);
 
 /// Loads the scene and resizes the camera. Throws InputError.
 View load_view(const ViewRequest& request);

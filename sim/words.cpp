@@ -49,4 +49,8 @@ std::string percent(double share, int decimals) {
     return fixed(share * 100, decimals);
 }
 
+std::size_t characters(const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
+}
+
 } // namespace degs::sim

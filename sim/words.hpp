@@ -2,6 +2,7 @@
 // Numbers as people read them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -19,5 +20,10 @@ inline std::string scaled(std::uint64_t value) {
 }
 /// 0.834 -> "83.4"; the percent sign is the caller's.
 std::string percent(double share, int decimals = 1);
+/// Characters of a UTF-8 text: bytes that do not continue one.
+std::size_t characters(const std::string& text);
+inline bool starts_character(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
+}
 
 } // namespace degs::sim

@@ -20,9 +20,10 @@ TEST_P(Help, ExplainsTheCommandAndSucceeds) {
 
 using Words = std::vector<std::string>;
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
-                         ::testing::Values(Words{}, Words{"run"}, Words{"render"}, Words{"scene"},
-                                           Words{"scene", "info"}, Words{"scene", "generate"},
-                                           Words{"scene", "convert"}, Words{"config"}));
+                         ::testing::Values(Words{}, Words{"run"}, Words{"compare"}, Words{"render"},
+                                           Words{"scene"}, Words{"scene", "info"},
+                                           Words{"scene", "generate"}, Words{"scene", "convert"},
+                                           Words{"config"}));
 
 TEST(Version, IsOneLine) {
     const Outcome outcome = degs({"--version"});

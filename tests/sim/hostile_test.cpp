@@ -203,6 +203,8 @@ TEST(HostileCommandLine, Mistakes) {
     expect_mistake(degs({"run", config("degs-64")}), "--scene");
     expect_mistake(degs({"run", config("degs-64"), "--scene", kScene, "--fidelity", "sloppy"}),
                    "sloppy");
+    expect_mistake(degs({"run", config("degs-64"), "--scene", kScene, "--frames", "-2"}),
+                   "--frames");
     expect_mistake(degs({"render", "--scene", kScene, "--tiles", "round"}), "round");
     expect_mistake(degs({"render", "--scene", kScene, "--tile-size", "0"}), "--tile-size");
     expect_mistake(degs({"scene", "info", "synthetic:teapot"}), "teapot");

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/svg.hpp"
+#include "sim/words.hpp"
 
 namespace degs::sim {
 namespace {

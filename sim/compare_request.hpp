@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `degs compare` is asked to compare, checked before anything long starts.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/run_config.hpp"
+#include "sim/view.hpp"
+
+namespace degs::sim {
+
+struct NamedConfig {
+    std::string name; ///< what the user calls it
+    RunConfig config;
+};
+
+/// Size of the images: one of the two, or none for the camera's own.
+struct ImageSize {
+    std::optional<int> width, height;
+};
+
+struct CompareRequest {
+    std::vector<NamedConfig> configs; ///< the others are compared with the first
+    std::vector<std::string> scenes;
+    std::optional<std::vector<int>> cameras; ///< positions in each scene's list; empty: all
+    std::vector<ImageSize> sizes{ImageSize{}};
+    PathRequest path;
+    bool array_only = false;
+    bool reference = true;
+    int jobs = 1; ///< simulations at a time
+};
+
+/// Loads configurations, each written as FILE or NAME=FILE; without a name it is called like the
+/// file without folder and extension. An override is "path=value" for all or "NAME:path=value" for
+/// one. Throws InputError for a name that is empty, given twice or not known, else ConfigError.
+std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
+                                      const std::vector<std::string>& overrides);
+
+/// "0,1,2" or "all", which is empty. InputError for anything else and for a number given twice.
+std::optional<std::vector<int>> parse_cameras(const std::string& text);
+
+/// "1080p,4k". InputError for an unknown name and one given twice.
+std::vector<ImageSize> parse_resolutions(const std::string& text);
+
+/// InputError for a scene without a name and one that is there twice.
+void check_scenes(const std::vector<std::string>& scenes);
+
+} // namespace degs::sim
