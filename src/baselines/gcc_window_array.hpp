@@ -5,18 +5,13 @@
 
 #include <systemc>
 
+#include "baselines/gcc_messages.hpp"
 #include "baselines/gcc_traversal.hpp"
 #include "modules/slot_account.hpp"
 #include "tlm/config.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
-
-/// A block of a view whose pixels have all ended, array -> Stage III.
-struct GccBlockEnded {
-    TileNumber view = 0;
-    std::int16_t row = 0, column = 0; ///< in blocks, inside the view
-};
 
 /// Stage IV of GCC: alpha and blending arrays in lock step (paper, Sec. II-B; Pei et al., MICRO
 /// 2025). A square window of PEs wanders over the pixels of a view. For each splat in exact depth

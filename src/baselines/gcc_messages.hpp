@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "modules/messages.hpp"
+
+namespace degs {
+
+/// A block of a view whose pixels have all ended, window array -> Stage III.
+struct GccBlockEnded {
+    TileNumber view = 0;
+    std::int16_t row = 0, column = 0; ///< in blocks, inside the view
+};
+
+} // namespace degs
