@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/accelerators.hpp"
 
+#include "baselines/gcc_config.hpp"
 #include "modules/degs_config.hpp"
 
 namespace degs {
@@ -16,6 +17,7 @@ std::unique_ptr<AcceleratorConfig> make() {
 const std::vector<AcceleratorKind>& accelerator_kinds() {
     static const std::vector<AcceleratorKind> kinds{
         {"degs", &make<DegsConfig>},
+        {"gcc", &make<GccConfig>},
     };
     return kinds;
 }

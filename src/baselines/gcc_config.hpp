@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "baselines/gcc_colour_stage.hpp"
+#include "baselines/gcc_grouping.hpp"
+#include "baselines/gcc_projection_stage.hpp"
+#include "baselines/gcc_window_array.hpp"
+#include "modules/pixel_buffer.hpp"
+#include "modules/render_engine.hpp"
+#include "modules/splat_fetcher.hpp"
+#include "modules/tile_monitor.hpp"
+#include "tlm/memory.hpp"
+
+namespace degs {
+
+/// A complete GCC accelerator; defaults are the 64-PE design that DeGS compares with (its Table I).
+/// What is not published is a key.
+struct GccConfig : AcceleratorConfig {
+    int view_size = 128;                ///< px, side of a view
+    int group_buffer_bytes = 62 * 1024; ///< groups between the stages
+    int splat_bytes = 32;               ///< per Gaussian of a group in flight
+    PipelineConfig pipeline;
+    GccTraffic traffic;
+    GccGrouping::Config grouping;          ///< Stage I
+    GccProjectionStage::Config projection; ///< Stage II
+    GccColourStage::Config colour;         ///< Stage III
+    GccWindowArray::Config array;          ///< Stage IV
+    PixelBuffer::Config image_buffer;
+    TileMonitor::Config monitor;
+    Memory::Config memory;
+
+    GccConfig();
+    std::unique_ptr<AcceleratorConfig> clone() const override {
+        return std::make_unique<GccConfig>(*this);
+    }
+    void describe(ConfigVisitor& visitor) override;
+    std::string problem() const override;
+    int pes() const override { return array.pes(); }
+    int tile_size_px() const override { return view_size; }
+    TileMode tile_mode() const override { return pipeline.tiles; }
+    DataPathOptions data_path() const override { return pipeline.data_path(); }
+    int tile_contexts() const override { return image_buffer.contexts(view_size); }
+    std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
+                                        const BuildOptions& options) const override;
+
+    /// Gaussians that wait before Stage II: list entries only.
+    int listed_gaussians() const { return projection.groups_ahead * projection.group; }
+    /// Hand-overs that wait before Stage IV: as many groups as elsewhere.
+    int chunks_ahead() const { return (listed_gaussians() + colour.chunk - 1) / colour.chunk; }
+    /// Behind the shapes, behind projection, behind SH, behind colour: four rings.
+    int group_bytes() const {
+        return listed_gaussians() * (traffic.list_entry_bytes + 4 * splat_bytes);
+    }
+};
+
+} // namespace degs
