@@ -2,6 +2,7 @@
 #include "baselines/accelerators.hpp"
 
 #include "baselines/gcc_config.hpp"
+#include "baselines/gscore_config.hpp"
 #include "modules/degs_config.hpp"
 
 namespace degs {
@@ -17,6 +18,7 @@ std::unique_ptr<AcceleratorConfig> make() {
 const std::vector<AcceleratorKind>& accelerator_kinds() {
     static const std::vector<AcceleratorKind> kinds{
         {"degs", &make<DegsConfig>},
+        {"gscore", &make<GscoreConfig>},
         {"gcc", &make<GccConfig>},
     };
     return kinds;

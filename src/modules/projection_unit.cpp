@@ -72,7 +72,6 @@ void ProjectionUnit::fetch() {
 void ProjectionUnit::project() {
     for (std::uint32_t f = 0; f < job_.frames.size(); ++f) {
         const FrameWorkload& frame = *job_.frames[f];
-        const MemoryMap map(traffic_, frame);
         const auto chunk = static_cast<std::uint64_t>(config_.chunk);
         for (std::uint64_t first = chunk * static_cast<std::uint64_t>(index_);
              first < frame.gaussians; first += chunk * static_cast<std::uint64_t>(config_.count)) {
@@ -91,13 +90,21 @@ void ProjectionUnit::project() {
             stats_.project_busy += busy;
             stats_.gaussians += in.count;
             projected_.reserve(projector_);
-            const std::uint64_t bursts = sh_bursts(frame, result);
-            const Cycle ready = sh.read(projector_, map.sh,
-                                        bursts * static_cast<std::uint64_t>(traffic_.burst_bytes));
-            projected_.put_at(projector_, result, ready);
+            projected_.put_at(projector_, result, read_sh(frame, in, result));
         }
     }
     projector_.finish();
+}
+
+Cycle ProjectionUnit::read_sh(const FrameWorkload& frame, const Chunk& chunk,
+                              const ProjectedChunk& visible) {
+    const MemoryMap map(traffic_, frame);
+    if (traffic_.sh == ShReads::All) {
+        const std::uint64_t record = traffic_.sh_bytes(frame.sh_degree);
+        return sh.read(projector_, map.sh + chunk.first * record, chunk.count * record);
+    }
+    return sh.read(projector_, map.sh,
+                   sh_bursts(frame, visible) * static_cast<std::uint64_t>(traffic_.burst_bytes));
 }
 
 // Distinct bursts that the visible records of a chunk touch; neighbours share one.

@@ -17,38 +17,19 @@ void SortingUnit::Config::describe(ConfigVisitor& visitor) {
 SortingUnit::SortingUnit(const sc_core::sc_module_name& name, const Config& config,
                          const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
                          int index, std::uint64_t sort_capacity)
-    : sc_core::sc_module(name), start("start"), sorted("sorted"), lists("lists", time),
+    : sc_core::sc_module(name), start("start"), sorted("sorted"),
+      loader("loader", traffic, time, job, index, config.count), lists("lists", time),
       config_(config), traffic_(traffic), job_(job), index_(static_cast<std::size_t>(index)),
-      sort_capacity_(sort_capacity), loader_(time), sorter_(time), loaded_("loaded", time, 1) {
+      sort_capacity_(sort_capacity), sorter_(time), loaded_("loaded", time, 1) {
+    loader.start.bind(start);
+    loader.out.bind(loaded_);
     SC_HAS_PROCESS(SortingUnit);
-    SC_THREAD(load);
     SC_THREAD(sort);
 }
 
 void SortingUnit::end_of_elaboration() {
-    start->connect_reader(loader_);
-    loaded_.connect_writer(loader_);
     loaded_.connect_reader(sorter_);
     sorted->connect_writer(sorter_);
-}
-
-void SortingUnit::load() {
-    const auto entry = static_cast<std::uint64_t>(traffic_.list_entry_bytes);
-    std::uint32_t frames_started = 0;
-    for (std::size_t t = index_; t < job_.tiles.size();
-         t += static_cast<std::size_t>(config_.count)) {
-        const JobTile& tile = job_.tiles[t];
-        while (frames_started <= tile.frame) {
-            start->get(loader_);
-            ++frames_started;
-        }
-        const MemoryMap map(traffic_, job_.frame_of(tile));
-        loaded_.reserve(loader_);
-        const Cycle ready = lists.read(loader_, map.lists + tile.first * entry, tile.count * entry);
-        loaded_.put_at(loader_, static_cast<TileNumber>(t), ready);
-        loader_.advance();
-    }
-    loader_.finish();
 }
 
 std::uint64_t SortingUnit::passes(std::uint64_t keys) const {

@@ -3,8 +3,7 @@
 
 #include <systemc>
 
-#include "modules/render_job.hpp"
-#include "modules/traffic.hpp"
+#include "modules/list_loader.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
@@ -29,7 +28,8 @@ public:
 
     FifoPort<std::uint32_t> start; ///< frame tokens from the binner
     FifoPort<SortedRun> sorted;    ///< to a Splat Fetcher; kNoTile at the end
-    MemoryPort lists;
+    ListLoader loader;
+    MemoryPort lists; ///< of passes through memory
 
     /// `sort_capacity`: keys that fit the unit's share of the Gaussian Buffer.
     SortingUnit(const sc_core::sc_module_name& name, const Config& config,
@@ -40,7 +40,6 @@ public:
 
 private:
     void end_of_elaboration() override;
-    void load();
     void sort();
     std::uint64_t passes(std::uint64_t keys) const;
 
@@ -49,7 +48,7 @@ private:
     const RenderJob& job_;
     std::size_t index_;
     std::uint64_t sort_capacity_;
-    Process loader_, sorter_;
+    Process sorter_;
     DatedFifo<TileNumber> loaded_;
     Stats stats_;
 };

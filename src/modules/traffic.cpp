@@ -8,6 +8,8 @@ void TrafficConfig::describe(ConfigVisitor& visitor) {
                     "bytes per Gaussian read by projection; 11 values of FP16 (44 for FP32)");
     visitor.integer("sh_value_bytes", sh_value_bytes, 1, 8,
                     "bytes per SH value; a second array, so that culled Gaussians cost no colour");
+    visitor.choice("sh", sh, {"visible", "all"},
+                   "whose SH coefficients are read; all: with the geometry, before culling");
     visitor.integer("splat_bytes", splat_bytes, 1, 1024, "bytes per projected splat record");
     visitor.integer("list_entry_bytes", list_entry_bytes, 1, 64,
                     "bytes per tile-list entry; depth key 4 + index 4, as in tile-based designs");

@@ -8,11 +8,15 @@
 
 namespace degs {
 
+/// Whose SH coefficients are read: those of visible Gaussians, or all, culled ones too.
+enum class ShReads { Visible, All };
+
 /// Record layouts of the streams between accelerator and memory [assumed; architecture page, Sec.
 /// 4].
 struct TrafficConfig {
-    int geometry_bytes = 22;  ///< per Gaussian: 11 values of 2 B
-    int sh_value_bytes = 2;   ///< per coefficient and channel
+    int geometry_bytes = 22; ///< per Gaussian: 11 values of 2 B
+    int sh_value_bytes = 2;  ///< per coefficient and channel
+    ShReads sh = ShReads::Visible;
     int splat_bytes = 32;     ///< per projected splat
     int list_entry_bytes = 8; ///< per tile pair: depth key 4, index 4
     int pixel_bytes = 4;      ///< per frame-buffer pixel, RGBA8

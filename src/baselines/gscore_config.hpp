@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "baselines/lockstep_array.hpp"
+#include "modules/hierarchical_sorter.hpp"
+#include "modules/pipeline_config.hpp"
+#include "modules/pixel_buffer.hpp"
+#include "modules/projection_unit.hpp"
+#include "modules/render_engine.hpp"
+#include "modules/splat_fetcher.hpp"
+#include "modules/tile_binner.hpp"
+#include "modules/tile_monitor.hpp"
+#include "modules/traffic.hpp"
+#include "tlm/memory.hpp"
+
+namespace degs {
+
+/// A complete GSCore (Lee et al., ASPLOS 2024) with the memory of this project's comparisons;
+/// defaults are its 64 lanes. What its publication leaves open is marked in the descriptions.
+struct GscoreConfig : AcceleratorConfig {
+    /// On-chip memory as one figure, as in the paper's Table I; the Pixel Buffer is part of it.
+    struct Buffer {
+        int bytes = 272 * 1024;
+        double sort_share = 0.5; ///< of what the Pixel Buffer leaves, for lists being sorted
+        void describe(ConfigVisitor& visitor);
+    };
+
+    PipelineConfig pipeline;
+    TrafficConfig traffic;
+    ProjectionUnit::Config projection;
+    TileBinner::Config binning;
+    HierarchicalSorter::Config sorting;
+    SplatFetcher::Config fetching;
+    Buffer buffer;
+    LockstepArray::Config array;
+    PixelBuffer::Config pixel_buffer;
+    TileMonitor::Config monitor;
+    Memory::Config memory;
+
+    GscoreConfig();
+    std::unique_ptr<AcceleratorConfig> clone() const override {
+        return std::make_unique<GscoreConfig>(*this);
+    }
+    void describe(ConfigVisitor& visitor) override;
+    std::string problem() const override;
+    int pes() const override { return array.lanes; }
+    int tile_size_px() const override { return array.tile_size(); }
+    TileMode tile_mode() const override { return pipeline.tiles; }
+    DataPathOptions data_path() const override { return pipeline.data_path(); }
+    int tile_contexts() const override { return pixel_buffer.contexts(tile_size_px()); }
+    std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
+                                        const BuildOptions& options) const override;
+
+    /// Splat chunks that a fetcher's share of the buffer holds.
+    int splat_chunks() const;
+    /// Keys that a sorter's share of the buffer holds.
+    int sort_capacity() const;
+};
+
+} // namespace degs
