@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/tile_array_engine.hpp"
+
+namespace degs {
+namespace {
+
+// Feedback and tokens are wires, not buffers: deep enough never to push back.
+constexpr int kTokenDepth = 64;
+
+} // namespace
+
+TileArrayEngine::TileArrayEngine(const sc_core::sc_module_name& name, const Parts& parts,
+                                 const Timebase& time, RenderJob& job, const BuildOptions& options)
+    : RenderEngine(name), parts_(parts), job_(job), array_only_(options.array_only) {
+    parts_.front.instant = array_only_;
+    build_front_end(time);
+    build_pixels(time);
+    build_frame_gate(time);
+    front_end_->connect_memory(streams_, fetchers_);
+    streams_.connect(pixel_buffers_.front()->frame_buffer, "frame_buffer");
+    streams_.build("memory", parts_.memory, time, array_only_);
+}
+
+void TileArrayEngine::build_front_end(const Timebase& time) {
+    front_end_ = std::make_unique<TileFrontEnd>("front_end", parts_.front, time, job_);
+    const std::size_t fetchers = front_end_->sorted.size();
+    monitor_ = std::make_unique<TileMonitor>("monitor", parts_.monitor, time, job_, 1,
+                                             fetchers + front_end_->cancel.size());
+    const auto cancel_ring = [&](std::size_t listener) -> DatedFifo<TileNumber>& {
+        auto& cancel =
+            add_ring(cancel_rings_, "cancel", time, kTokenDepth, parts_.monitor.latency_cycles);
+        monitor_->out[listener].bind(cancel);
+        return cancel;
+    };
+    for (std::size_t i = 0; i < fetchers; ++i) {
+        fetchers_.push_back(std::make_unique<SplatFetcher>(numbered("fetcher", i).c_str(),
+                                                           parts_.fetching, parts_.front.traffic,
+                                                           time, job_, 1, array_only_));
+        auto& lists = add_ring(sorted_rings_, "sorted", time, 1, 1);
+        front_end_->sorted[i].bind(lists);
+        fetchers_[i]->sorted.bind(lists);
+        fetchers_[i]->cancel.bind(cancel_ring(i));
+        fetchers_[i]->out[0].bind(add_ring(splat_rings_, "splats", time, parts_.splat_chunks, 1));
+    }
+    for (std::size_t i = 0; i < front_end_->cancel.size(); ++i) {
+        front_end_->cancel[i].bind(cancel_ring(fetchers + i));
+    }
+}
+
+void TileArrayEngine::build_pixels(const Timebase& time) {
+    const int tokens = kTokenDepth + parts_.contexts;
+    pixel_buffers_.push_back(std::make_unique<PixelBuffer>(
+        "pixel_buffer", parts_.pixel_buffer, parts_.front.traffic, time, job_, 1, parts_.contexts,
+        PixelBuffer::Share{}, front_end_->frame_free.size() != 0, array_only_));
+    PixelBuffer& pixels = *pixel_buffers_.front();
+    pixels.in[0].bind(add_ring(report_rings_, "tile_done", time, tokens, parts_.writeback_cycles));
+    monitor_->in[0].bind(add_ring(report_rings_, "tile_state", time, tokens, 1));
+    pixels.context_free[0].bind(add_ring(context_rings_, "context_free", time, tokens, 1));
+}
+
+// Frames wait for each other only in runs of more frames than may be in flight.
+void TileArrayEngine::build_frame_gate(const Timebase& time) {
+    auto& listeners = front_end_->frame_free;
+    if (listeners.size() == 0) {
+        return;
+    }
+    frame_gate_ = std::make_unique<FrameGate>("frame_gate", time, job_, 1, listeners.size(), 1);
+    auto& done = add_ring(frame_rings_, "frame_done", time, kTokenDepth, 1);
+    pixel_buffers_.front()->frame_done[0].bind(done);
+    frame_gate_->in[0].bind(done);
+    for (std::size_t i = 0; i < listeners.size(); ++i) {
+        auto& free = add_ring(frame_rings_, "frame_free", time, kTokenDepth, 1);
+        frame_gate_->out[i].bind(free);
+        listeners[i].bind(free);
+    }
+}
+
+std::size_t TileArrayEngine::finished_tiles() const {
+    return pixel_buffers_.front()->stats().tiles;
+}
+
+std::uint64_t TileArrayEngine::list_entries() const {
+    std::uint64_t entries = 0;
+    for (const JobTile& tile : job_.tiles) {
+        entries += tile.count;
+    }
+    return entries;
+}
+
+void TileArrayEngine::collect(AcceleratorResult& result) const {
+    collect_frames(result, pixel_buffers_);
+    result.tiles = finished_tiles();
+    result.tiles_cancelled = monitor_->stats().tiles_cancelled;
+    front_end_->collect(result);
+    using F = SplatFetcher::Stats;
+    add_stage(result, "fetching", fetchers_.size(), sum_of(fetchers_, &F::busy),
+              {{"records", records_fetched()},
+               {"records_cancelled", sum_of(fetchers_, &F::records_cancelled)}});
+    add_buffer(result, "gaussian_buffer", parts_.buffer_bytes, parts_.splat_chunks,
+               use_of(splat_rings_));
+    add_pixel_buffer(result, parts_.pixel_buffer.bytes, parts_.contexts, pixel_buffers_);
+    streams_.collect(result);
+    explain_tiles(result, sum_of(fetchers_, &F::records_cancelled));
+    result.conservation.push_back({"list entries = records fetched + cancelled", list_entries(),
+                                   records_fetched() + sum_of(fetchers_, &F::records_cancelled)});
+    collect_array(result);
+}
+
+} // namespace degs

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// An accelerator in one file: a row of lanes that sweeps over each splat. The worked example of
+// docs/adding-an-accelerator.md, built and run by row_sweep_test.cpp.
+#pragma once
+
+#include "modules/tile_array_engine.hpp"
+
+namespace degs::example {
+
+/// One lane per column of the tile. Each splat takes one slot per row that it meets.
+class RowSweepArray : public sc_core::sc_module {
+public:
+    sc_core::sc_vector<FifoPort<SplatChunk>> in;
+    FifoPort<TileNumber> context_free;
+    FifoPort<SliceReport> tile_done, tile_state;
+
+    RowSweepArray(const sc_core::sc_module_name& name, const Timebase& time, RenderJob& job,
+                  std::size_t streams, int contexts)
+        : sc_core::sc_module(name), in("in", streams), job_(job), contexts_(contexts), self_(time) {
+        SC_HAS_PROCESS(RowSweepArray);
+        SC_THREAD(run);
+    }
+    SlotAccount slots;
+    ActiveWindow window;
+    std::uint64_t splats = 0;
+
+private:
+    void end_of_elaboration() override {
+        for (auto& port : in) {
+            port->connect_reader(self_);
+        }
+        context_free->connect_reader(self_);
+        tile_done->connect_writer(self_);
+        tile_state->connect_writer(self_);
+    }
+    void run() {
+        for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
+            if (number >= static_cast<TileNumber>(contexts_)) {
+                wait_and_account(Idle::Blocked, [&] { context_free->get(self_); });
+            }
+            SplatChunk chunk;
+            while (!chunk.last) {
+                wait_and_account(Idle::Starved,
+                                 [&] { chunk = in[number % in.size()]->get(self_); });
+                sweep(chunk);
+            }
+            tile_state->put(self_, {number, false});
+            tile_done->put(self_, {number, false});
+        }
+        self_.finish();
+    }
+    /// Idle slots count once a slot follows: what lies outside the window is nobody's.
+    template <class Wait>
+    void wait_and_account(Idle cause, const Wait& wait) {
+        const Cycle before = self_.local();
+        wait();
+        pending_.idle(cause, lanes() * (self_.local() - before));
+    }
+    void sweep(const SplatChunk& chunk) {
+        const JobTile& tile = job_.tiles[chunk.tile];
+        const std::uint32_t* list = job_.frame_of(tile).tile_splats.data() + chunk.first;
+        PixelTest test;
+        test.mask = tile.width == 32 ? ~0U : (1U << tile.width) - 1U;
+        test.x = tile.x;
+        test.context = static_cast<std::int16_t>(chunk.tile % static_cast<TileNumber>(contexts_));
+        for (std::uint32_t i = 0; i < chunk.count; ++i, ++splats) {
+            test.splat = job_.first_splat[tile.frame] + list[i];
+            int first = 0, last = -1;
+            job_.path->rows_in_columns(test.splat, tile.x, tile.x + tile.width, first, last);
+            const int end = std::min(last + 1, tile.y + tile.height);
+            for (test.y = std::max(first, tile.y); test.y < end; ++test.y) {
+                test.row = static_cast<std::int16_t>(test.y - tile.y);
+                account(job_.path->test(test));
+            }
+        }
+    }
+    void account(const BlendOutcome& outcome) {
+        if (!window.empty()) {
+            slots += pending_;
+        }
+        pending_ = {};
+        window.include(self_.local());
+        const auto useful = static_cast<std::uint64_t>(__builtin_popcount(outcome.useful));
+        const auto ended = static_cast<std::uint64_t>(__builtin_popcount(outcome.terminated));
+        slots.useful += useful;
+        slots.terminated += ended;
+        slots.boundary += lanes() - useful - ended; // also lanes outside the image
+        self_.advance();
+    }
+    std::uint64_t lanes() const { return static_cast<std::uint64_t>(job_.tile_size); }
+    RenderJob& job_;
+    int contexts_;
+    Process self_;
+    SlotAccount pending_; // idle slots since the last one that did something
+};
+
+class RowSweep : public TileArrayEngine {
+public:
+    RowSweep(const char* name, const Parts& parts, const Timebase& time, RenderJob& job,
+             const BuildOptions& options)
+        : TileArrayEngine(name, parts, time, job, options),
+          array_("array", time, job, streams(), parts.contexts) {
+        connect(array_);
+    }
+
+private:
+    void collect_array(AcceleratorResult& result) const override {
+        result.slots = array_.slots;
+        result.window = array_.window;
+        add_stage(result, "blending", 1, array_.window.cycles(), {{"splats", array_.splats}});
+        result.conservation.push_back({"records = splats", records_fetched(), array_.splats});
+    }
+    RowSweepArray array_;
+};
+
+struct RowSweepConfig : AcceleratorConfig {
+    int tile_size = 16; ///< px, also the number of lanes
+    TileArrayEngine::Parts parts;
+
+    RowSweepConfig() { name = "row-sweep-16"; }
+    std::unique_ptr<AcceleratorConfig> clone() const override {
+        return std::make_unique<RowSweepConfig>(*this);
+    }
+    void describe(ConfigVisitor& visitor) override {
+        describe_common(visitor);
+        visitor.integer("tile_size", tile_size, 4, 32, "px, and lanes");
+        visitor.section("pixel_buffer", parts.pixel_buffer, "tiles in flight");
+        visitor.section("memory", parts.memory, "off-chip memory");
+    }
+    std::string problem() const override {
+        return tile_contexts() > 0 ? "" : "pixel_buffer.bytes holds no tile of tile_size";
+    }
+    int pes() const override { return tile_size; }
+    int tile_size_px() const override { return tile_size; }
+    TileMode tile_mode() const override { return TileMode::Exact; }
+    DataPathOptions data_path() const override { return PipelineConfig{}.data_path(); }
+    int tile_contexts() const override { return parts.pixel_buffer.contexts(tile_size); }
+    std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
+                                        const BuildOptions& options) const override {
+        TileArrayEngine::Parts sized = parts;
+        sized.front.sort_capacity = 1024;
+        sized.front.frames_in_flight = frames_in_flight;
+        sized.contexts = tile_contexts();
+        sized.splat_chunks = 8;
+        return std::make_unique<RowSweep>(module, sized, time, job, options);
+    }
+};
+
+} // namespace degs::example
