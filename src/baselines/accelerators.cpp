@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/accelerators.hpp"
 
+#include "baselines/gbu_config.hpp"
 #include "baselines/gcc_config.hpp"
 #include "baselines/gscore_config.hpp"
 #include "modules/degs_config.hpp"
@@ -19,6 +20,7 @@ const std::vector<AcceleratorKind>& accelerator_kinds() {
     static const std::vector<AcceleratorKind> kinds{
         {"degs", &make<DegsConfig>},
         {"gscore", &make<GscoreConfig>},
+        {"gbu", &make<GbuConfig>},
         {"gcc", &make<GccConfig>},
     };
     return kinds;

@@ -29,6 +29,9 @@ struct SortedRun {
     std::uint64_t end = 0; ///< entries in order so far; the list is complete at JobTile::count
 };
 
+/// An engine's Splat Fetcher is ready for another tile, Splat Fetcher -> Tile Dispatcher.
+struct TileRequest {};
+
 /// Up to a fixed number of depth-ordered splats of one tile, Splat Fetcher -> rasterisation.
 struct SplatChunk {
     TileNumber tile = 0;

@@ -83,7 +83,7 @@ void PixelBuffer::run() {
     while ((share_.granted || stats_.tiles < job_.tiles.size()) && take_tile(number)) {
         finish_tile(number);
     }
-    stats_.finished = std::max(written_, self_.local());
+    stats_.finished = std::max(written_, read_out_); // granted tiles: the last message comes later
     finish_frames();
     self_.finish();
 }
@@ -137,6 +137,7 @@ void PixelBuffer::write_background() {
             bytes -= piece;
         }
     }
+    read_out_ = self_.local();
 }
 
 void PixelBuffer::finish_tile(TileNumber number) {
@@ -147,10 +148,11 @@ void PixelBuffer::finish_tile(TileNumber number) {
     const Cycle start = self_.local();
     oldest = write_rows(number);
     written_ = std::max(written_, oldest);
-    stats_.readout_busy += self_.local() - start;
+    read_out_ = self_.local();
+    stats_.readout_busy += read_out_ - start;
     clear(context_of(number));
     const std::uint32_t frame = job_.tiles[number].frame;
-    frames_written_[frame] = std::max(written_, self_.local());
+    frames_written_[frame] = std::max(written_, read_out_);
     for (auto& port : frame_done) {
         port->put_at(self_, frame, oldest);
     }

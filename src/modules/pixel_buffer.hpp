@@ -88,6 +88,7 @@ private:
     bool instant_;
     Process self_;
     Cycle written_ = 0;                // completion of the latest write
+    Cycle read_out_ = 0;               // date at which the latest pixel had been read out
     std::vector<Cycle> in_flight_;     // ring of completion dates of the latest tile writes
     std::vector<PixelValue> pixels_;   // of the row being read out
     std::vector<unsigned char> bytes_; // the same as frame-buffer pixels

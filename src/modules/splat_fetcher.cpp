@@ -13,11 +13,11 @@ void SplatFetcher::Config::describe(ConfigVisitor& visitor) {
 
 SplatFetcher::SplatFetcher(const sc_core::sc_module_name& name, const Config& config,
                            const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
-                           std::size_t readers, bool instant, bool announce_end)
+                           std::size_t readers, bool instant, bool granted, ReuseCache* cache)
     : sc_core::sc_module(name), sorted("sorted"), cancel("cancel"), out("out", readers),
-      records("records", time), config_(config), traffic_(traffic), job_(job), instant_(instant),
-      announce_end_(announce_end), self_(time),
-      answered_(static_cast<std::size_t>(config.chunks_in_flight), 0) {
+      request("request", granted ? 1 : 0), records("records", time), config_(config),
+      traffic_(traffic), job_(job), instant_(instant), granted_(granted), cache_(cache),
+      self_(time), answered_(static_cast<std::size_t>(config.chunks_in_flight), 0) {
     SC_HAS_PROCESS(SplatFetcher);
     SC_THREAD(run);
 }
@@ -28,19 +28,29 @@ void SplatFetcher::end_of_elaboration() {
     for (auto& port : out) {
         port->connect_writer(self_);
     }
+    for (auto& port : request) {
+        port->connect_writer(self_);
+    }
 }
 
 void SplatFetcher::run() {
-    for (SortedRun run = sorted->get(self_); run.tile != kNoTile; run = sorted->get(self_)) {
+    for (SortedRun run = next_run(); run.tile != kNoTile; run = next_run()) {
         fetch(run);
     }
-    if (announce_end_) {
+    if (granted_) {
         SplatChunk end;
         end.tile = kNoTile;
         end.last = true;
         emit(end, 0);
     }
     self_.finish();
+}
+
+SortedRun SplatFetcher::next_run() {
+    if (granted_ && done_ == 0) {
+        request[0]->put(self_, {});
+    }
+    return sorted->get(self_);
 }
 
 // Asks before each request; the question takes a cycle.
@@ -59,12 +69,17 @@ Cycle SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
     if (instant_) {
         return self_.local();
     }
+    const std::uint32_t missed =
+        cache_ == nullptr ? chunk.count : cache_->request(chunk.tile, chunk.first, chunk.count);
+    if (missed == 0) {
+        return self_.local();
+    }
     const MemoryMap map(traffic_, job_.frame_of(tile));
     const auto burst = static_cast<std::uint64_t>(
         std::max(traffic_.burst_bytes, traffic_.splat_bytes)); // records are scattered
     Cycle& oldest = answered_[requests_++ % answered_.size()];
     self_.advance_to(oldest);
-    oldest = records.read(self_, map.splats, chunk.count * burst);
+    oldest = records.read(self_, map.splats, missed * burst);
     return oldest;
 }
 

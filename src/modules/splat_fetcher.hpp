@@ -4,6 +4,7 @@
 #include <systemc>
 
 #include "modules/render_job.hpp"
+#include "modules/reuse_cache.hpp"
 #include "modules/traffic.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
@@ -28,20 +29,26 @@ public:
     FifoPort<SortedRun> sorted;                   ///< until kNoTile
     FifoPort<TileNumber> cancel;                  ///< from the Tile Monitor
     sc_core::sc_vector<FifoPort<SplatChunk>> out; ///< the same stream to each reader
+    /// To the Tile Dispatcher: the readers have been handed the last chunk of the tile before.
+    /// Empty unless tiles are granted.
+    sc_core::sc_vector<FifoPort<TileRequest>> request;
     MemoryPort records;
 
     /// `instant`: records are there when the readers have room for them, see BuildOptions; the
-    /// memory is not asked. `announce_end`: a last chunk of kNoTile tells the readers that no tile
-    /// follows, for readers that cannot know which tiles are theirs.
+    /// memory is not asked. `granted`: tiles come one by one on request, and a last chunk of
+    /// kNoTile tells the readers, who cannot know which tiles are theirs, that none follows.
+    /// `cache`: records that it has are not read; null without one.
     SplatFetcher(const sc_core::sc_module_name& name, const Config& config,
                  const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
-                 std::size_t readers, bool instant, bool announce_end = false);
+                 std::size_t readers, bool instant, bool granted = false,
+                 ReuseCache* cache = nullptr);
 
     const Stats& stats() const { return stats_; }
 
 private:
     void end_of_elaboration() override;
     void run();
+    SortedRun next_run();
     void fetch(const SortedRun& run);
     void emit(const SplatChunk& chunk, Cycle ready);
     bool cancelled(TileNumber number);
@@ -50,7 +57,8 @@ private:
     Config config_;
     TrafficConfig traffic_;
     const RenderJob& job_;
-    bool instant_, announce_end_;
+    bool instant_, granted_;
+    ReuseCache* cache_;
     Process self_;
     TileNumber cancelled_before_ = 0; // tiles below this number are cancelled or over
     TileNumber skipped_ = kNoTile;    // its readers have been told that nothing follows

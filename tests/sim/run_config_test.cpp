@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "baselines/gbu_config.hpp"
 #include "modules/degs_config.hpp"
 #include "sim/run_config.hpp"
 #include "tlm/config_document.hpp"
@@ -24,7 +25,8 @@ DegsConfig load_degs(const std::string& name) {
 TEST(Configs, EveryFileLoads) {
     int files = 0;
     for (const auto& entry : fs::directory_iterator(DEGS_CONFIGS)) {
-        if (entry.path().stem().string().rfind("degs-", 0) != 0) {
+        const std::string name = entry.path().stem().string();
+        if (name.rfind("degs-", 0) != 0 && name.rfind("gbu-", 0) != 0) {
             continue;
         }
         SCOPED_TRACE(entry.path());
@@ -33,7 +35,7 @@ TEST(Configs, EveryFileLoads) {
         EXPECT_EQ(config.accelerator().name, entry.path().stem().string());
         ++files;
     }
-    EXPECT_GE(files, 5);
+    EXPECT_GE(files, 9);
 }
 
 TEST(Configs, Degs64IsTheDefault) {
@@ -70,6 +72,24 @@ TEST(Configs, ScalingPointsAreThoseOfThePaper) {
         EXPECT_EQ(config.contexts(), 1);
         EXPECT_EQ(config.span_lane_depth(), 32);
         EXPECT_EQ(config.feature_entries(), 64);
+    }
+}
+
+// DeGS paper, Table I: area and SRAM at 64 PEs; both follow the PEs where it shades them.
+TEST(Configs, GbuHasTheAreaAndTheMemoryOfTableI) {
+    for (const int pes : {16, 64, 256, 1024}) {
+        SCOPED_TRACE(pes);
+        const RunConfig loaded = load("gbu-" + std::to_string(pes));
+        const auto& config = dynamic_cast<const GbuConfig&>(loaded.accelerator());
+        if (pes == 64) {
+            EXPECT_EQ(resolved(config).dump(2), resolved(GbuConfig{}).dump(2));
+        }
+        EXPECT_EQ(config.pes(), pes);
+        EXPECT_EQ(config.engines.row_pes, config.tile_size);
+        EXPECT_EQ(config.contexts(), pes <= 64 ? 2 : 1);
+        EXPECT_NEAR(config.area.total(), 1.13 + 3.31 * pes / 64, 0.005);
+        EXPECT_LE(config.sram_bytes(), 91 * 1024 * pes / 64);
+        EXPECT_GE(config.sram_bytes(), 0.85 * 91 * 1024 * pes / 64);
     }
 }
 

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baselines/gbu.hpp"
+
+#include <algorithm>
+
+namespace degs {
+namespace {
+
+// Tokens and messages are wires, not buffers: deep enough never to push back.
+constexpr int kTokenDepth = 64;
+
+} // namespace
+
+Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Timebase& time,
+         RenderJob& job, const BuildOptions& options)
+    : RenderEngine(name), config_(config), time_(time), job_(job), options_(options),
+      nobody_(time) {
+    nobody_.finish();
+    build_front_end();
+    build_caches();
+    for (int e = 0; e < config_.engines.count; ++e) {
+        build_engine(e);
+        build_pixel_buffer(e);
+    }
+    build_frame_gate();
+    build_memory();
+}
+
+std::unique_ptr<RenderEngine> GbuConfig::build(const char* module, const Timebase& time,
+                                               RenderJob& job, const BuildOptions& options) const {
+    return std::make_unique<Gbu>(module, *this, time, job, options);
+}
+
+void Gbu::build_front_end() {
+    TileFrontEnd::Config front;
+    front.projection = config_.projection;
+    front.binning = config_.binning;
+    front.hierarchical = config_.sorting;
+    front.on_demand = true;
+    front.traffic = config_.traffic;
+    front.sort_capacity = static_cast<std::uint64_t>(config_.sort_capacity());
+    front.frames_in_flight = config_.frames_in_flight;
+    front.instant = options_.array_only;
+    front_end_ = std::make_unique<TileFrontEnd>("front_end", front, time_, job_);
+    const auto sorters = static_cast<std::size_t>(config_.sorting.count);
+    dispatcher_ = std::make_unique<TileDispatcher>("dispatcher", time_, job_, sorters,
+                                                   static_cast<std::size_t>(config_.engines.count));
+    for (std::size_t i = 0; i < sorters; ++i) {
+        auto& lists = ring(sorted_rings_, "sorted", 1, 1);
+        front_end_->sorted[i].bind(lists);
+        collectors_.push_back(
+            std::make_unique<ListCollector>(numbered("collector", i).c_str(), time_, job_));
+        collectors_[i]->in.bind(lists);
+        auto& complete = ring(list_rings_, "list", 1, 1);
+        collectors_[i]->out.bind(complete);
+        dispatcher_->in[i].bind(complete);
+    }
+    for (auto& listener : front_end_->cancel) {
+        auto& never = ring(cancel_rings_, "cancel", 1, 1);
+        never.connect_writer(nobody_);
+        listener.bind(never);
+    }
+}
+
+// Without memory time nothing depends on what is cached.
+void Gbu::build_caches() {
+    if (config_.reuse_cache.bytes == 0 || options_.array_only) {
+        return;
+    }
+    for (const FrameWorkload* frame : job_.frames) {
+        next_use_.emplace_back(*frame);
+    }
+    for (int e = 0; e < config_.engines.count; ++e) {
+        caches_.push_back(std::make_unique<ReuseCache>(
+            job_, next_use_, static_cast<std::size_t>(config_.cache_records())));
+    }
+}
+
+void Gbu::build_engine(int index) {
+    const auto e = static_cast<std::size_t>(index);
+    fetchers_.push_back(std::make_unique<SplatFetcher>(
+        numbered("fetcher", e).c_str(), config_.fetching, config_.traffic, time_, job_, 1,
+        options_.array_only, true, caches_.empty() ? nullptr : caches_[e].get()));
+    auto& requests = ring(request_rings_, "request", 2, 1);
+    fetchers_[e]->request[0].bind(requests);
+    dispatcher_->request[e].bind(requests);
+    auto& grants = ring(grant_rings_, "grant", 2, 1);
+    dispatcher_->out[e].bind(grants);
+    fetchers_[e]->sorted.bind(grants);
+
+    engines_.push_back(std::make_unique<TileEngine>(numbered("engine", e).c_str(), config_.engines,
+                                                    time_, job_, index * config_.contexts(),
+                                                    config_.contexts()));
+    auto& splats = ring(splat_rings_, "splat_buffer", config_.list_buffer.chunks, 1);
+    fetchers_[e]->out[0].bind(splats);
+    engines_[e]->in.bind(splats);
+
+    monitors_.push_back(std::make_unique<TileMonitor>(numbered("monitor", e).c_str(),
+                                                      config_.monitor, time_, job_, 1, 1, true));
+    auto& state = ring(state_rings_, "tile_state", kTokenDepth, 1);
+    engines_[e]->tile_state.bind(state);
+    monitors_[e]->in[0].bind(state);
+    auto& cancel = ring(cancel_rings_, "cancel", kTokenDepth, config_.monitor.latency_cycles);
+    monitors_[e]->out[0].bind(cancel);
+    fetchers_[e]->cancel.bind(cancel);
+}
+
+// An engine's share of the Pixel Buffer is read out at its share of the rate.
+void Gbu::build_pixel_buffer(int index) {
+    const auto e = static_cast<std::size_t>(index);
+    PixelBuffer::Config config = config_.pixel_buffer;
+    config.readout_pixels = std::max(1, config.readout_pixels / config_.engines.count);
+    PixelBuffer::Share share;
+    share.first_context = index * config_.contexts();
+    share.granted = true;
+    share.background = index == 0;
+    pixel_buffers_.push_back(std::make_unique<PixelBuffer>(
+        numbered("pixel_buffer", e).c_str(), config, config_.traffic, time_, job_, 1,
+        config_.contexts(), share, front_end_->frame_free.size() != 0, options_.array_only));
+    auto& done = ring(done_rings_, "tile_done", kTokenDepth, 1);
+    engines_[e]->tile_done.bind(done);
+    pixel_buffers_[e]->in[0].bind(done);
+    auto& contexts = ring(context_rings_, "context_free", kTokenDepth + config_.contexts(), 1);
+    pixel_buffers_[e]->context_free[0].bind(contexts);
+    engines_[e]->context_free.bind(contexts);
+}
+
+// Frames wait for each other only in runs of more frames than may be in flight.
+void Gbu::build_frame_gate() {
+    auto& listeners = front_end_->frame_free;
+    if (listeners.size() == 0) {
+        return;
+    }
+    frame_gate_ = std::make_unique<FrameGate>("frame_gate", time_, job_, pixel_buffers_.size(),
+                                              listeners.size(), 1);
+    for (std::size_t i = 0; i < pixel_buffers_.size(); ++i) {
+        auto& done = ring(frame_rings_, "frame_done", kTokenDepth, 1);
+        pixel_buffers_[i]->frame_done[0].bind(done);
+        frame_gate_->in[i].bind(done);
+    }
+    for (std::size_t i = 0; i < listeners.size(); ++i) {
+        auto& free = ring(frame_rings_, "frame_free", kTokenDepth, 1);
+        frame_gate_->out[i].bind(free);
+        listeners[i].bind(free);
+    }
+}
+
+void Gbu::build_memory() {
+    front_end_->connect_memory(streams_, fetchers_);
+    for (auto& unit : pixel_buffers_) {
+        streams_.connect(unit->frame_buffer, "frame_buffer");
+    }
+    streams_.build("memory", config_.memory, time_, options_.array_only);
+}
+
+std::size_t Gbu::finished_tiles() const {
+    return sum_of(pixel_buffers_, &PixelBuffer::Stats::tiles);
+}
+
+} // namespace degs

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <systemc>
+
+#include "baselines/gbu_config.hpp"
+#include "modules/collect.hpp"
+#include "modules/frame_gate.hpp"
+#include "modules/list_collector.hpp"
+#include "modules/memory_streams.hpp"
+#include "modules/reuse_cache.hpp"
+#include "modules/tile_dispatcher.hpp"
+#include "modules/tile_front_end.hpp"
+
+namespace degs {
+
+/// The standalone GBU with its memory:
+///
+///   Tile Front End -> List Collectors -> Tile Dispatcher -> per engine: Splat Fetcher with reuse
+///   cache -> tile engine -> Pixel Buffer -> memory
+///
+/// Engines ask for a tile when their fetcher has handed on the one before.
+class Gbu : public RenderEngine {
+public:
+    /// `job` supplies the work and receives the images. `config.problem()` must be empty.
+    Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Timebase& time,
+        RenderJob& job, const BuildOptions& options = {});
+
+    std::size_t finished_tiles() const override;
+    void collect(AcceleratorResult& result) const override;
+
+    const GbuConfig& config() const { return config_; }
+    const TileFrontEnd& front_end() const { return *front_end_; }
+    const TileDispatcher& dispatcher() const { return *dispatcher_; }
+    const std::vector<std::unique_ptr<SplatFetcher>>& fetchers() const { return fetchers_; }
+    const std::vector<std::unique_ptr<ReuseCache>>& caches() const { return caches_; }
+    const std::vector<std::unique_ptr<TileEngine>>& engines() const { return engines_; }
+    const std::vector<std::unique_ptr<PixelBuffer>>& pixel_buffers() const {
+        return pixel_buffers_;
+    }
+    const std::vector<std::unique_ptr<TileMonitor>>& monitors() const { return monitors_; }
+    const MemoryStreams& streams() const { return streams_; }
+    RingUse splat_buffer() const { return use_of(splat_rings_); }
+
+private:
+    template <class T>
+    using Rings = std::vector<std::unique_ptr<DatedFifo<T>>>;
+
+    template <class T>
+    DatedFifo<T>& ring(Rings<T>& rings, const char* name, int depth, int latency) {
+        return add_ring(rings, name, time_, depth, latency);
+    }
+    void build_front_end();
+    void build_caches();
+    void build_engine(int index);
+    void build_pixel_buffer(int index);
+    void build_frame_gate();
+    void build_memory();
+    void collect_slots(AcceleratorResult& result) const;
+    void collect_stages(AcceleratorResult& result) const;
+    void collect_buffers(AcceleratorResult& result) const;
+    void collect_laws(AcceleratorResult& result) const;
+
+    GbuConfig config_;
+    Timebase time_;
+    RenderJob& job_;
+    BuildOptions options_;
+
+    std::unique_ptr<TileFrontEnd> front_end_;
+    Process nobody_; // writes cancellations that never come: a granted list is sorted to its end
+    std::vector<std::unique_ptr<ListCollector>> collectors_;
+    std::unique_ptr<TileDispatcher> dispatcher_;
+    std::vector<NextUse> next_use_; // per frame; empty without caches
+    std::vector<std::unique_ptr<ReuseCache>> caches_;
+    std::vector<std::unique_ptr<SplatFetcher>> fetchers_;
+    std::vector<std::unique_ptr<TileEngine>> engines_;
+    std::vector<std::unique_ptr<PixelBuffer>> pixel_buffers_;
+    std::vector<std::unique_ptr<TileMonitor>> monitors_;
+    std::unique_ptr<FrameGate> frame_gate_;
+    MemoryStreams streams_;
+
+    Rings<SortedRun> sorted_rings_, list_rings_, grant_rings_;
+    Rings<TileRequest> request_rings_;
+    Rings<SplatChunk> splat_rings_;
+    Rings<SliceReport> done_rings_, state_rings_;
+    Rings<TileNumber> context_rings_, cancel_rings_;
+    Rings<std::uint32_t> frame_rings_;
+};
+
+} // namespace degs

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baselines/gbu_config.hpp"
+
+namespace degs {
+
+GbuConfig::GbuConfig() {
+    name = "gbu-64";
+    area = {1.13, 3.31}; // DeGS paper, Table I: unshaded and shaded rows
+    projection.latency_cycles = 128;
+    traffic.geometry_bytes = 44;
+    traffic.sh_value_bytes = 4;
+    traffic.sh = ShReads::All;
+    pixel_buffer.bytes = 32 * 1024;
+    pixel_buffer.state_bytes = 8;
+}
+
+void GbuConfig::ListBuffer::describe(ConfigVisitor& visitor) {
+    visitor.integer("bytes", bytes, 16, 1 << 30,
+                    "bytes for lists being sorted: what is left of 91 KB (DeGS paper, Table I) "
+                    "beside the other buffers [assumed]");
+    visitor.integer("chunks", chunks, 1, 1024,
+                    "chunks of splat records in front of each engine [assumed]");
+}
+
+void GbuConfig::Engines::describe(ConfigVisitor& visitor) {
+    visitor.integer("count", count, 1, 256,
+                    "tile engines, each on a tile of its own: PEs / rows of a tile [assumed]");
+    TileEngine::Config::describe(visitor);
+    visitor.integer("entry_bytes", entry_bytes, 1, 64,
+                    "bytes per row entry: splat 2, x0 and x1 2, x'' and threshold in FP16 4; "
+                    "counted as SRAM, limits nothing [assumed]");
+}
+
+void GbuConfig::Cache::describe(ConfigVisitor& visitor) {
+    visitor.integer("bytes", bytes, 0, 1 << 30,
+                    "bytes of splat records kept between tiles, all engines together (GBU: 32 KB); "
+                    "0: none");
+}
+
+void GbuConfig::describe(ConfigVisitor& visitor) {
+    describe_common(visitor);
+    visitor.integer("tile_size", tile_size, 4, 1024,
+                    "px; grows with the PEs like the tiles of DeGS [assumed]");
+    visitor.section("pipeline", pipeline, "what the data path computes");
+    visitor.section("traffic", traffic, "record layouts of the memory streams");
+    visitor.section("projection", projection, "GSCore's culling and conversion units");
+    visitor.section("binning", binning, "tile lists");
+    visitor.section("sorting", sorting, "GSCore's hierarchical sorting units");
+    visitor.section("list_buffer", list_buffer,
+                    "lists being sorted and splats in front of engines");
+    visitor.section("fetching", fetching, "Splat Fetchers, one per engine");
+    visitor.section("reuse_cache", reuse_cache, "splat records kept between tiles");
+    visitor.section("engines", engines, "row-centric tile engines");
+    visitor.section("pixel_buffer", pixel_buffer, "tiles in flight");
+    visitor.section("monitor", monitor, "cancellation of finished tiles");
+    visitor.section("memory", memory, "off-chip memory");
+}
+
+std::string GbuConfig::problem() const {
+    const auto need = [](const std::string& what, int has, int least) {
+        return what + " holds " + std::to_string(has) + ", but at least " + std::to_string(least) +
+               " must fit";
+    };
+    if (engines.row_pes > tile_size) {
+        return "engines.row_pes = " + std::to_string(engines.row_pes) +
+               " must not be above tile_size = " + std::to_string(tile_size);
+    }
+    if (contexts() < 1) {
+        return need("pixel_buffer.bytes / pixel_buffer.state_bytes per engine (tiles of tile_size)",
+                    contexts(), 1);
+    }
+    if (sort_capacity() < sorting.chunk) {
+        return need("list_buffer.bytes per sorting unit in list entries", sort_capacity(),
+                    sorting.chunk);
+    }
+    if (reuse_cache.bytes != 0 && cache_records() < 1) {
+        return need("reuse_cache.bytes per engine in splat records", cache_records(), 1);
+    }
+    return "";
+}
+
+} // namespace degs

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "baselines/tile_engine.hpp"
+#include "modules/hierarchical_sorter.hpp"
+#include "modules/pixel_buffer.hpp"
+#include "modules/projection_unit.hpp"
+#include "modules/render_engine.hpp"
+#include "modules/splat_fetcher.hpp"
+#include "modules/tile_binner.hpp"
+#include "modules/tile_monitor.hpp"
+#include "modules/traffic.hpp"
+#include "tlm/memory.hpp"
+
+namespace degs {
+
+/// The standalone GBU (Ye et al., HPCA 2025) with GSCore's projection and sorting, as the DeGS
+/// paper compares against it; defaults are its 64-PE design. What neither paper tells is [assumed].
+struct GbuConfig : AcceleratorConfig {
+    struct ListBuffer {
+        int bytes = 15 * 1024; ///< lists being sorted
+        int chunks = 4;        ///< splat chunks in front of an engine
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Engines : TileEngine::Config {
+        int count = 2;
+        int entry_bytes = 8; ///< per queued row entry
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Cache {
+        int bytes = 32 * 1024; ///< of all engines together; 0: none
+        void describe(ConfigVisitor& visitor);
+    };
+
+    int tile_size = 32;
+    PipelineConfig pipeline;
+    TrafficConfig traffic;
+    ProjectionUnit::Config projection;
+    TileBinner::Config binning;
+    HierarchicalSorter::Config sorting;
+    ListBuffer list_buffer;
+    SplatFetcher::Config fetching;
+    Cache reuse_cache;
+    Engines engines;
+    PixelBuffer::Config pixel_buffer;
+    TileMonitor::Config monitor;
+    Memory::Config memory;
+
+    GbuConfig();
+    std::unique_ptr<AcceleratorConfig> clone() const override {
+        return std::make_unique<GbuConfig>(*this);
+    }
+    void describe(ConfigVisitor& visitor) override;
+    std::string problem() const override;
+    int tile_size_px() const override { return tile_size; }
+    TileMode tile_mode() const override { return pipeline.tiles; }
+    DataPathOptions data_path() const override { return pipeline.data_path(); }
+    int tile_contexts() const override { return engines.count * contexts(); }
+    std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
+                                        const BuildOptions& options) const override;
+
+    // Derived sizes.
+    int pes() const override { return engines.count * engines.row_pes; }
+    /// Tile contexts of one engine.
+    int contexts() const { return pixel_buffer.contexts(tile_size) / engines.count; }
+    /// Keys that a sorter's share of the list buffer holds.
+    int sort_capacity() const {
+        return list_buffer.bytes / sorting.count / traffic.list_entry_bytes;
+    }
+    /// Records in the reuse cache of one engine.
+    int cache_records() const { return reuse_cache.bytes / engines.count / traffic.splat_bytes; }
+    int queue_bytes() const { return pes() * engines.queue_depth * engines.entry_bytes; }
+    int splat_buffer_bytes() const {
+        return engines.count * list_buffer.chunks * fetching.chunk * traffic.splat_bytes;
+    }
+    int sram_bytes() const {
+        return list_buffer.bytes + splat_buffer_bytes() + reuse_cache.bytes + queue_bytes() +
+               pixel_buffer.bytes;
+    }
+};
+
+} // namespace degs

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+
+#include "modules/render_job.hpp"
+#include "tlm/dated_fifo.hpp"
+
+namespace degs {
+
+/// Hands lists over tile by tile although the sorter hands them over run by run: takes the runs of
+/// a tile until its list is complete. It starts to when there is room for the list behind it.
+class ListCollector : public sc_core::sc_module {
+public:
+    FifoPort<SortedRun> in;  ///< from a sorter, until kNoTile
+    FifoPort<SortedRun> out; ///< one run per tile, then kNoTile
+
+    ListCollector(const sc_core::sc_module_name& name, const Timebase& time, const RenderJob& job)
+        : sc_core::sc_module(name), in("in"), out("out"), job_(job), self_(time) {
+        SC_HAS_PROCESS(ListCollector);
+        SC_THREAD(run);
+    }
+
+private:
+    void end_of_elaboration() override {
+        in->connect_reader(self_);
+        out->connect_writer(self_);
+    }
+    void run() {
+        SortedRun list;
+        do {
+            out->reserve(self_);
+            do {
+                list = in->get(self_);
+            } while (list.tile != kNoTile && list.end != job_.tiles[list.tile].count);
+            out->put(self_, list);
+        } while (list.tile != kNoTile);
+        self_.finish();
+    }
+
+    const RenderJob& job_;
+    Process self_;
+};
+
+} // namespace degs

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <systemc>
+
+#include "modules/render_job.hpp"
+#include "tlm/dated_fifo.hpp"
+
+namespace degs {
+
+/// Hands sorted tiles to engines that each work on a tile of their own: in tile order, the next
+/// complete list to the engine that asked first; of those that asked in the same cycle to the one
+/// with the lowest index. One tile per cycle.
+class TileDispatcher : public sc_core::sc_module {
+public:
+    struct Stats {
+        std::uint64_t tiles = 0;
+        Cycle list_wait = 0;    ///< an engine may have asked, but the next list was not sorted
+        Cycle request_wait = 0; ///< the next list was there, but no engine had asked
+    };
+
+    /// Complete lists, from List Collectors; tile t from port t modulo their number.
+    sc_core::sc_vector<FifoPort<SortedRun>> in;
+    sc_core::sc_vector<FifoPort<TileRequest>> request; ///< one per engine
+    sc_core::sc_vector<FifoPort<SortedRun>> out; ///< grants, one per engine; kNoTile at the end
+
+    TileDispatcher(const sc_core::sc_module_name& name, const Timebase& time, const RenderJob& job,
+                   std::size_t inputs, std::size_t engines);
+
+    const Stats& stats() const { return stats_; }
+
+private:
+    void end_of_elaboration() override;
+    void run();
+    std::size_t next_engine();
+
+    const RenderJob& job_;
+    Process self_;
+    std::vector<FifoBase*> requests_;
+    Stats stats_;
+};
+
+} // namespace degs
