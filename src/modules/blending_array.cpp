@@ -17,14 +17,14 @@ ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config
       tile_done("tile_done"), tile_state("tile_state"), config_(config), job_(job), index_(index),
       slices_(slices), segment_length_(segment_length),
       segments_per_row_((job.tile_size + segment_length - 1) / segment_length), self_(time),
-      contexts_(static_cast<std::size_t>(contexts)) {
-    const auto segments =
-        static_cast<std::size_t>((job.tile_size + slices - 1) / slices * segments_per_row_);
+      contexts_(static_cast<std::size_t>(contexts)),
+      segments_(
+          static_cast<std::size_t>((job.tile_size + slices - 1) / slices * segments_per_row_)) {
     for (Context& context : contexts_) {
-        context.live_in_segment.resize(segments);
-        context.ended_in_segment.resize(segments);
+        context.live_in_segment.resize(segments_);
+        context.ended_in_segment.resize(segments_);
     }
-    recent_.resize(segments * contexts_.size());
+    recent_.resize(segments_ * contexts_.size());
     port_of_listener_.resize(static_cast<std::size_t>(config.region_listeners), 0);
     std::size_t port = 0;
     for (int g = 0; g < config.region_listeners; ++g) {
@@ -39,9 +39,10 @@ ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config
 }
 
 void ArraySlice::end_of_elaboration() {
-    in->connect_reader(self_);
+    packets_ = in.operator->();
+    packets_->connect_reader(self_);
     if (!self_.strict()) {
-        self_.pump_with(*this, *in.operator->());
+        self_.pump_with(*this, *packets_);
     }
     terminated->connect_writer(self_);
     for (auto& listener : region_ended) {
@@ -58,13 +59,13 @@ void ArraySlice::run() {
 }
 
 void ArraySlice::pump() {
-    while (!in->empty()) {
+    while (!packets_->empty()) {
         step();
     }
 }
 
 void ArraySlice::step() {
-    const TaskPacket& packet = in->arrive(self_);
+    const TaskPacket& packet = packets_->arrive(self_);
     const bool executed = packet.tasks != 0;
     if (executed) {
         if (self_.local() != packet.slot) {
@@ -76,7 +77,7 @@ void ArraySlice::step() {
     }
     const bool ends = packet.ends_tile;
     const TileNumber tile = packet.ended_tile;
-    in->drop(self_);
+    packets_->drop(self_);
     if (ends) {
         end_tile(tile);
     }
@@ -127,8 +128,7 @@ void ArraySlice::execute(const TaskPacket& packet) {
 
 // The invariant the scoreboard exists for; see the tests that switch it off.
 void ArraySlice::check_reuse(const TaskRun& run, Cycle date) {
-    const std::size_t segments = contexts_[0].live_in_segment.size();
-    Recent& recent = recent_[static_cast<std::size_t>(run.task.context) * segments + run.domain];
+    Recent& recent = recent_[static_cast<std::size_t>(run.task.context) * segments_ + run.domain];
     if (recent.mask != 0 && date - recent.date < static_cast<Cycle>(config_.writeback_cycles)) {
         stats_.hazards +=
             static_cast<std::uint64_t>(__builtin_popcount(recent.mask & run.task.mask));

@@ -71,7 +71,9 @@ private:
     RenderJob& job_;
     int index_, slices_, segment_length_, segments_per_row_;
     Process self_;
+    DatedFifo<TaskPacket>* packets_ = nullptr; // what `in` is bound to
     std::vector<Context> contexts_;
+    std::size_t segments_; // of a context
     std::vector<std::size_t> port_of_listener_;
     std::vector<Recent> recent_; // per context and segment: pixels updated lately
     TileNumber tiles_done_ = 0;

@@ -5,27 +5,30 @@
 
 namespace degs {
 
-FeatureBuffer::FeatureBuffer(int entries) : entries_(static_cast<std::size_t>(entries)) {
-    for (int i = entries - 1; i >= 0; --i) {
-        free_.push_back(static_cast<std::uint16_t>(i));
+FeatureBuffer::FeatureBuffer(int entries)
+    : entries_(static_cast<std::size_t>(entries)), free_count_(entries_.size()) {
+    for (int i = 0; i < entries; ++i) {
+        free_.push_back({0, static_cast<std::uint16_t>(i)});
     }
 }
 
 bool FeatureBuffer::admit(TileNumber tile, std::uint32_t splat, Cycle now) {
-    if (has_current_ && entries_[current_].splat == splat && entries_[current_].tile == tile) {
+    if (has_current_ && splat_ == splat && tile_ == tile) {
         return true;
     }
     close(now);
-    collect(now);
-    if (free_.empty()) {
+    if (next_free() > now) {
         waits_ += waiting_ ? 0 : 1;
         waiting_ = true;
         return false;
     }
     waiting_ = false;
-    current_ = free_.back();
-    free_.pop_back();
-    entries_[current_] = {tile, splat, 0, now, true};
+    current_ = free_[first_free_].entry;
+    first_free_ = next(first_free_);
+    free_count_--;
+    entries_[current_] = {0, now, true};
+    tile_ = tile;
+    splat_ = splat;
     has_current_ = true;
     return true;
 }
@@ -51,14 +54,10 @@ void FeatureBuffer::close(Cycle now) {
 }
 
 void FeatureBuffer::retire(std::uint16_t entry, Cycle date) {
-    retiring_.push_back({retiring_.empty() ? date : std::max(date, retiring_.back().date), entry});
-}
-
-void FeatureBuffer::collect(Cycle now) {
-    while (!retiring_.empty() && retiring_.front().date <= now) {
-        free_.push_back(retiring_.front().entry);
-        retiring_.pop_front();
-    }
+    last_retired_ = std::max(last_retired_, date);
+    free_[end_free_] = {last_retired_, entry};
+    end_free_ = next(end_free_);
+    free_count_++;
 }
 
 } // namespace degs

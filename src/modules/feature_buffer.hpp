@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 #include "modules/messages.hpp"
@@ -28,28 +27,29 @@ public:
     /// No more rows of the current splat will come.
     void close(Cycle now);
     /// Date at which the next entry becomes free; kNever if none is on its way.
-    Cycle next_free() const { return retiring_.empty() ? kNever : retiring_.front().date; }
+    Cycle next_free() const { return free_count_ == 0 ? kNever : free_[first_free_].date; }
     /// Times that the bank had to wait for an entry, however often it asked meanwhile.
     std::uint64_t waits() const { return waits_; }
 
 private:
     struct Entry {
-        TileNumber tile = 0;
-        std::uint32_t splat = 0;
         std::uint32_t pending = 0;
         Cycle needed_until = 0;
         bool open = false;
     };
-    struct Retiring {
-        Cycle date;
+    struct Free {
+        Cycle date; // from which it may be taken
         std::uint16_t entry;
     };
     void retire(std::uint16_t entry, Cycle date);
-    void collect(Cycle now);
+    std::size_t next(std::size_t i) const { return i + 1 == free_.size() ? 0 : i + 1; }
 
     std::vector<Entry> entries_;
-    std::vector<std::uint16_t> free_;
-    std::deque<Retiring> retiring_; // dates do not fall
+    std::vector<Free> free_; // ring in order of dates, which do not fall
+    std::size_t first_free_ = 0, end_free_ = 0, free_count_;
+    Cycle last_retired_ = 0;
+    TileNumber tile_ = 0; // of the current splat
+    std::uint32_t splat_ = 0;
     std::uint16_t current_ = 0;
     bool has_current_ = false;
     bool waiting_ = false;

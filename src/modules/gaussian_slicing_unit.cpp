@@ -52,7 +52,8 @@ void GaussianSlicingUnit::end_of_elaboration() {
         port->connect_reader(self_);
     }
     for (auto& port : out) {
-        port->connect_writer(self_);
+        lanes_.push_back(port.operator->());
+        lanes_.back()->connect_writer(self_);
     }
 }
 
@@ -74,8 +75,8 @@ void GaussianSlicingUnit::run() {
         RowItem end;
         end.tile = number;
         end.end = true;
-        for (auto& port : out) {
-            port->put(self_, end);
+        for (DatedFifo<RowItem>* lane : lanes_) {
+            lane->put(self_, end);
         }
     }
     self_.finish();
@@ -155,7 +156,7 @@ void GaussianSlicingUnit::slice_splat(TileNumber number, std::uint32_t splat) {
             left = config_.rows_per_cycle - 1;
         }
         item.row = static_cast<std::int16_t>(row);
-        out[lane_of_row_[static_cast<std::size_t>(row)]]->put(self_, item);
+        lanes_[lane_of_row_[static_cast<std::size_t>(row)]]->put(self_, item);
         ++emitted;
     }
     self_.advance();

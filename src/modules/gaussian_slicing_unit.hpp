@@ -62,8 +62,9 @@ private:
     int segment_length_;
     Process self_;
     TileNumber cancelled_before_ = 0;
-    std::vector<std::size_t> lane_of_row_; // output port by row inside the tile
-    std::vector<std::uint64_t> ended_;     // per row of the tile being sliced: a bit per segment
+    std::vector<std::size_t> lane_of_row_;   // output port by row inside the tile
+    std::vector<DatedFifo<RowItem>*> lanes_; // what the ports are bound to
+    std::vector<std::uint64_t> ended_;       // per row of the tile being sliced: a bit per segment
     Stats stats_;
 };
 

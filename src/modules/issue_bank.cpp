@@ -21,8 +21,9 @@ int power_of_two(int least) {
     return size;
 }
 
+// Bits begin .. end - 1; 0 <= begin <= 32, end <= 32.
 std::uint32_t bits(int begin, int end) {
-    const auto upto = [](int n) { return n >= 32 ? ~0U : (1U << n) - 1U; };
+    const auto upto = [](int n) { return static_cast<std::uint32_t>((std::uint64_t{1} << n) - 1); };
     return upto(end) & ~upto(begin);
 }
 
@@ -36,8 +37,9 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
       tiles_in_flight_(tiles_in_queue(contexts)),
       slot_mask_(static_cast<TileNumber>(power_of_two(tiles_in_flight_)) - 1),
       segments_per_row_((job.tile_size + config.segment_length - 1) / config.segment_length),
-      self_(time), queue_(config.queue_depth, power_of_two(tiles_in_flight_),
-                          (job.tile_size + config.count - 1) / config.count * segments_per_row_),
+      by_pixel_(config.termination == TerminationGrain::Pixel), self_(time),
+      queue_(config.queue_depth, power_of_two(tiles_in_flight_),
+             (job.tile_size + config.count - 1) / config.count * segments_per_row_),
       features_(config.feature_entries), startable_(static_cast<TileNumber>(contexts)) {
     for (int row = 0; row < job.tile_size; ++row) {
         first_domain_of_row_.push_back(row / config.count * segments_per_row_);
@@ -49,41 +51,44 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
                                 static_cast<std::int16_t>(s * config.segment_length)});
         }
     }
-    inside_.resize(domains_.size() * (slot_mask_ + 1));
     SC_HAS_PROCESS(IssueBank);
     SC_THREAD(run);
 }
 
 void IssueBank::end_of_elaboration() {
     for (auto& port : in) {
-        port->connect_reader(self_);
+        inputs_.push_back(port.operator->());
+        inputs_.back()->connect_reader(self_);
     }
-    terminated->connect_reader(self_);
-    context_free->connect_reader(self_);
+    terminations_ = terminated.operator->();
+    terminations_->connect_reader(self_);
+    contexts_freed_ = context_free.operator->();
+    contexts_freed_->connect_reader(self_);
     packing->out->connect_writer(self_);
 }
 
 void IssueBank::run() {
-    while (oldest_tile_ < job_.tiles.size()) {
+    const auto tiles = static_cast<TileNumber>(job_.tiles.size());
+    while (oldest_tile_ < tiles) {
         const Cycle now = self_.local();
         see_terminations();
         see_contexts();
         accept(now);
-        const bool worked = issue(now) != 0;
-        finish_tiles();
+        const bool worked = issue(now);
+        finish_tiles(tiles);
         if (packing->due(now)) {
             packing->send_due(self_, idle_cause());
         }
-        const Cycle open = packing->open_until();
-        const Cycle next = oldest_tile_ < job_.tiles.size() ? next_date(now, worked)
-                           : open == kNever                 ? now + 1
-                                                            : std::max(open, now + 1);
-        if (next >= kNever) {
-            throw std::logic_error(std::string(name()) + ": nothing left to wait for, but tile " +
-                                   std::to_string(oldest_tile_) + " is not finished");
+        Cycle next = now + 1;
+        if (oldest_tile_ == tiles) {
+            const Cycle open = packing->open_until();
+            next = open == kNever ? next : std::max(open, next);
+        } else if (!worked && !(cutting_ && !queue_.full())) {
+            next = next_date(now);
+        } // else work is left, whatever arrives; proof is asked for where it matters
+        if (packing->leaves_slots(next)) {
+            packing->close_cycles(self_, next, idle_cause());
         }
-        packing->close_cycles(self_, next,
-                              packing->leaves_slots(next) ? idle_cause() : Idle::Starved);
         self_.advance_to(next);
     }
     packing->send_due(self_, Idle::Starved);
@@ -92,16 +97,16 @@ void IssueBank::run() {
 }
 
 void IssueBank::see_terminations() {
-    while (self_.arrived(*terminated.operator->())) {
-        end_pixels(terminated->take(self_));
+    while (self_.arrived(*terminations_)) {
+        end_pixels(terminations_->take(self_));
     }
 }
 
 void IssueBank::see_contexts() {
     // A context comes back only after this bank, too, has ended the tile that holds it.
     while (startable_ < oldest_tile_ + static_cast<TileNumber>(contexts_) &&
-           self_.arrived(*context_free.operator->())) {
-        startable_ = std::max(startable_, context_free->take(self_) + 1);
+           self_.arrived(*contexts_freed_)) {
+        startable_ = std::max(startable_, contexts_freed_->take(self_) + 1);
     }
 }
 
@@ -111,28 +116,22 @@ void IssueBank::end_pixels(const Termination& message) {
     }
     const int slot = slot_of(message.tile);
     const int domain = domain_of(message.row, message.column);
-    queue_.end_pixels(slot, domain, message.mask);
-    if (region_ended(message.tile, domain)) {
+    if (queue_.end_pixels(slot, domain, message.mask) == kAllPixels) {
         while (queue_.has_waiting(slot, domain)) {
             const Segment& segment = queue_.front(slot, domain);
             features_.release(segment.feature, self_.local());
-            drop(segment.mask);
+            drop(segment.run.task.mask);
             queue_.pop(slot, domain);
         }
     }
 }
 
-bool IssueBank::region_ended(TileNumber tile, int domain) {
-    const std::uint32_t pixels = inside(tile, domain);
-    return (queue_.ended(slot_of(tile), domain) & pixels) == pixels;
-}
-
-// Called when the first item of a tile is taken.
+// Called when the first item of a tile is taken. Pixels outside of the image count as ended.
 void IssueBank::enter_tile() {
     const int width = job_.tiles[entering_tile_].width;
     for (std::size_t d = 0; d < domains_.size(); ++d) {
-        inside(entering_tile_, static_cast<int>(d)) =
-            bits(0, std::clamp(width - domains_[d].column, 0, config_.segment_length));
+        const int inside = std::clamp(width - domains_[d].column, 0, config_.segment_length);
+        queue_.end_pixels(slot_of(entering_tile_), static_cast<int>(d), ~bits(0, inside));
     }
     entered_ = true;
 }
@@ -151,23 +150,22 @@ void IssueBank::accept(Cycle now) {
             break;
         }
     }
-    stats_.queue_high_water = std::max<std::uint64_t>(stats_.queue_high_water, queue_.size());
 }
 
 // Takes the earliest span that has arrived, ties by input; tile ends on the way cost nothing.
 bool IssueBank::open_span(Cycle now) {
     for (;;) {
-        FifoPort<SpanItem>* source = nullptr;
-        for (auto& port : in) {
-            if (self_.arrived(*port.operator->()) && takes(port->front().tile) &&
-                (source == nullptr || port->head_date() < (*source)->head_date())) {
-                source = &port;
+        DatedFifo<SpanItem>* source = nullptr;
+        for (DatedFifo<SpanItem>* input : inputs_) {
+            if (self_.arrived(*input) && takes(input->front().tile) &&
+                (source == nullptr || input->head_date() < source->head_date())) {
+                source = input;
             }
         }
         if (source == nullptr) {
             return false;
         }
-        const SpanItem& item = (*source)->front();
+        const SpanItem& item = source->front();
         features_full_ = !item.end && !features_.admit(item.tile, item.span.splat, now);
         if (features_full_) {
             return false;
@@ -175,121 +173,121 @@ bool IssueBank::open_span(Cycle now) {
         if (!entered_) {
             enter_tile();
         }
-        span_ = item;
-        (*source)->drop(self_);
-        if (!span_.end) {
-            break;
+        if (!item.end) {
+            start_span(item);
+            source->drop(self_);
+            return true;
         }
-        if (++ends_seen_ == static_cast<int>(in.size())) {
+        source->drop(self_);
+        if (++ends_seen_ == static_cast<int>(inputs_.size())) {
             features_.close(now);
             ends_seen_ = 0;
             ++entering_tile_;
             entered_ = false;
         }
     }
-    cutting_ = true;
-    cut_x_ = span_.span.x0;
-    stats_.spans++;
-    stats_.tasks_in += static_cast<std::uint64_t>(span_.span.length);
-    return true;
 }
 
+void IssueBank::start_span(const SpanItem& item) {
+    const RowSpan& span = item.span;
+    const int first = segment_of_column_[static_cast<std::size_t>(span.x0)];
+    column_ = first * config_.segment_length;
+    domain_ = first_domain_of_row_[static_cast<std::size_t>(span.y)] + first;
+    span_begin_ = span.x0;
+    span_end_ = span.x0 + span.length;
+    cutting_ = true;
+    BlendTask& task = segment_.run.task;
+    task.g0 = span.g0;
+    task.d0 = span.d0;
+    task.splat = span.splat;
+    task.row = span.y;
+    if (segment_.run.tile != item.tile) {
+        segment_.run.tile = item.tile;
+        task.context = static_cast<std::int16_t>(item.tile % static_cast<TileNumber>(contexts_));
+    }
+    segment_.feature = features_.current();
+    stats_.spans++;
+    stats_.tasks_in += static_cast<std::uint64_t>(span.length);
+}
+
+// False if the queue has no room; the segment is then cut later.
 bool IssueBank::cut_segment() {
-    const int slot = slot_of(span_.tile);
-    const int column =
-        segment_of_column_[static_cast<std::size_t>(cut_x_)] * config_.segment_length;
-    const int span_end = span_.span.x0 + span_.span.length;
-    const int domain = domain_of(span_.span.y, column);
-    const std::uint32_t mask =
-        bits(cut_x_ - column, std::min(span_end - column, config_.segment_length));
-    const std::uint32_t live =
-        config_.termination == TerminationGrain::Pixel ? mask & ~queue_.ended(slot, domain) : mask;
-    if (live == 0 || region_ended(span_.tile, domain)) {
+    const int slot = slot_of(segment_.run.tile);
+    const std::uint32_t mask = bits(std::max(span_begin_ - column_, 0),
+                                    std::min(span_end_ - column_, config_.segment_length));
+    if ((mask & live(slot, domain_)) == 0) {
         drop(mask);
     } else {
         if (queue_.full()) {
             return false;
         }
-        Segment segment;
-        segment.g0 = span_.span.g0;
-        segment.d0 = span_.span.d0;
-        segment.splat = span_.span.splat;
-        segment.mask = mask;
-        segment.offset = static_cast<std::int16_t>(column - span_.span.x0);
-        segment.feature = features_.current();
-        segment.sequence = sequence_++;
-        features_.hold(segment.feature);
-        queue_.push(slot, domain, segment);
+        segment_.run.domain = static_cast<std::uint32_t>(domain_);
+        segment_.run.task.mask = mask;
+        segment_.run.task.column = static_cast<std::int16_t>(column_);
+        segment_.run.task.offset = static_cast<std::int16_t>(column_ - span_begin_);
+        features_.hold(segment_.feature);
+        queue_.push(slot, domain_, segment_);
+        segment_.sequence++;
+        stats_.queue_high_water = std::max<std::uint64_t>(stats_.queue_high_water, queue_.size());
     }
-    cut_x_ = column + config_.segment_length;
-    cutting_ = cut_x_ < span_end;
+    column_ += config_.segment_length;
+    ++domain_;
+    cutting_ = column_ < span_end_;
     return true;
 }
 
-int IssueBank::issue(Cycle now) {
+// True if anything was issued.
+bool IssueBank::issue(Cycle now) {
     wait_until_ = kNever;
-    width_limited_ = false;
-    int issued = 0;
-    for (TileNumber tile = oldest_tile_;
-         tile < startable_ && in_flight(tile) && issued < config_.issue_width;) {
+    int left = config_.issue_width;
+    for (TileNumber tile = oldest_tile_; tile < startable_ && in_flight(tile) && left != 0;) {
         if (queue_.waiting(slot_of(tile)) != 0 && issue_one(now, tile)) {
-            ++issued;
+            --left;
         } else {
             ++tile;
         }
     }
-    width_limited_ = issued == config_.issue_width;
-    stats_.busy += issued != 0 ? 1 : 0;
+    width_limited_ = left == 0;
+    const bool issued = left != config_.issue_width;
+    stats_.busy += issued ? 1 : 0;
     return issued;
 }
 
 bool IssueBank::issue_one(Cycle now, TileNumber tile) {
     const int slot = slot_of(tile);
-    const Cycle execution = packing->next_execution(now);
-    const int domain = queue_.pick(slot, execution, config_.scan);
+    const int domain = queue_.pick(slot, packing->next_execution(now), config_.scan);
     if (domain < 0) {
         wait_until_ = std::min(wait_until_, queue_.next_ready(slot));
         return false;
     }
-    const Segment& segment = queue_.front(slot, domain);
-    TaskRun run;
-    BlendTask& task = run.task;
-    task.mask = config_.termination == TerminationGrain::Pixel
-                    ? segment.mask & ~queue_.ended(slot, domain)
-                    : segment.mask;
-    const int tasks = __builtin_popcount(task.mask);
+    Segment& segment = queue_.front(slot, domain);
+    const std::uint32_t mask = segment.run.task.mask;
+    const std::uint32_t wanted = mask & live(slot, domain);
+    const int tasks = __builtin_popcount(wanted);
     if (!packing->room(now, tasks)) {
         wait_until_ = now + 1;
         return false;
     }
     Cycle last = now;
     if (tasks != 0) {
-        task.g0 = segment.g0;
-        task.d0 = segment.d0;
-        task.splat = segment.splat;
-        task.row = domains_[static_cast<std::size_t>(domain)].row;
-        task.column = domains_[static_cast<std::size_t>(domain)].column;
-        task.offset = segment.offset;
-        task.context = static_cast<std::int16_t>(tile % static_cast<TileNumber>(contexts_));
-        run.tile = tile;
-        run.domain = static_cast<std::uint32_t>(domain);
-        last = packing->add(self_, run) + static_cast<Cycle>(config_.reuse_cycles);
+        segment.run.task.mask = wanted;
+        last = packing->add(self_, segment.run) + static_cast<Cycle>(config_.reuse_cycles);
         if (config_.scoreboard) {
             queue_.set_ready_at(slot, domain, last);
         }
     }
     stats_.segments_issued++;
     stats_.tasks_issued += static_cast<std::uint64_t>(tasks);
-    stats_.tasks_dropped += static_cast<std::uint64_t>(__builtin_popcount(segment.mask) - tasks);
+    stats_.tasks_dropped += static_cast<std::uint64_t>(__builtin_popcount(mask) - tasks);
     features_.release(segment.feature, last);
     queue_.pop(slot, domain);
     return true;
 }
 
-void IssueBank::finish_tiles() {
-    while (oldest_tile_ < job_.tiles.size() && oldest_tile_ < entering_tile_ &&
-           oldest_tile_ < startable_ && queue_.waiting(slot_of(oldest_tile_)) == 0 &&
-           !(cutting_ && span_.tile == oldest_tile_)) {
+void IssueBank::finish_tiles(TileNumber tiles) {
+    while (oldest_tile_ < entering_tile_ && oldest_tile_ < tiles && oldest_tile_ < startable_ &&
+           queue_.waiting(slot_of(oldest_tile_)) == 0 &&
+           !(cutting_ && segment_.run.tile == oldest_tile_)) {
         packing->end_tile(self_, oldest_tile_);
         queue_.clear(slot_of(oldest_tile_));
         ++oldest_tile_;
@@ -308,39 +306,48 @@ Idle IssueBank::idle_cause() const {
     return Idle::Blocked;
 }
 
-// The next cycle in which anything can change: at once if work is left for it, else when a domain
+// The next cycle in which anything can change, if there is nothing left to do at once: a domain
 // becomes ready, an open packet has to leave, a Feature Buffer entry is freed, or a message
 // arrives.
-Cycle IssueBank::next_date(Cycle now, bool worked) {
+Cycle IssueBank::next_date(Cycle now) {
     const Cycle next = now + 1;
-    Cycle limit = worked || (cutting_ && !queue_.full()) ? next : packing->open_until();
+    Cycle limit = packing->open_until();
     const Cycle latency = packing->next_execution(now) - now;
     if (wait_until_ != kNever) {
         limit = std::min(limit, std::max(next, wait_until_ > latency ? wait_until_ - latency : 0));
     }
     if (limit == next) {
-        return next; // there is work then, whatever arrives; proof is asked for where it matters
+        return next; // there is work then, whatever arrives
     }
     watched_.clear();
     if (!queue_.full() && !cutting_) {
         bool spans_waiting = false;
-        for (auto& port : in) {
-            spans_waiting = spans_waiting || (!port->empty() && takes(port->front().tile) &&
-                                              port->head_date() <= now);
-            if (port->empty() || (takes(port->front().tile) && port->head_date() > now)) {
-                watched_.push_back(port.operator->());
+        for (DatedFifo<SpanItem>* input : inputs_) {
+            if (input->empty()) {
+                watched_.push_back(input);
+            } else if (takes(input->front().tile)) {
+                if (input->head_date() > now) {
+                    watched_.push_back(input);
+                } else {
+                    spans_waiting = true;
+                }
             }
         }
         if (spans_waiting) { // more than a cycle's worth, or no Feature Buffer entry
             limit = std::min(limit, features_full_ ? std::max(next, features_.next_free()) : next);
         }
     }
-    watched_.push_back(terminated.operator->());
+    watched_.push_back(terminations_);
     // A context comes back only after this bank, too, has ended the tile that holds it.
     if (startable_ < oldest_tile_ + static_cast<TileNumber>(contexts_)) {
-        watched_.push_back(context_free.operator->());
+        watched_.push_back(contexts_freed_);
     }
-    return self_.next_arrival(watched_.data(), watched_.size(), next, std::max(next, limit));
+    limit = self_.next_arrival(watched_.data(), watched_.size(), next, std::max(next, limit));
+    if (limit >= kNever) {
+        throw std::logic_error(std::string(name()) + ": nothing left to wait for, but tile " +
+                               std::to_string(oldest_tile_) + " is not finished");
+    }
+    return limit;
 }
 
 } // namespace degs

@@ -56,32 +56,33 @@ public:
     std::uint64_t feature_waits() const { return features_.waits(); }
 
 private:
+    static constexpr std::uint32_t kAllPixels = ~0U;
     void end_of_elaboration() override;
     void run();
     void see_terminations();
     void see_contexts();
     void end_pixels(const Termination& message);
-    bool region_ended(TileNumber tile, int domain);
     void enter_tile();
     void accept(Cycle now);
     bool open_span(Cycle now);
     bool cut_segment();
+    void start_span(const SpanItem& item);
     void drop(std::uint32_t mask);
-    int issue(Cycle now);
+    bool issue(Cycle now);
     bool issue_one(Cycle now, TileNumber tile);
-    void finish_tiles();
+    void finish_tiles(TileNumber tiles);
     Idle idle_cause() const;
-    Cycle next_date(Cycle now, bool worked);
+    Cycle next_date(Cycle now);
 
     int slot_of(TileNumber tile) const { return static_cast<int>(tile & slot_mask_); }
     int domain_of(int row, int column) const {
         return first_domain_of_row_[static_cast<std::size_t>(row)] +
                segment_of_column_[static_cast<std::size_t>(column)];
     }
-    /// Pixels of a domain that lie inside the image.
-    std::uint32_t& inside(TileNumber tile, int domain) {
-        return inside_[static_cast<std::size_t>(slot_of(tile)) * domains_.size() +
-                       static_cast<std::size_t>(domain)];
+    /// Pixels of the domain that take tasks, as far as the bank knows and looks at.
+    std::uint32_t live(int slot, int domain) const {
+        const std::uint32_t ended = queue_.ended(slot, domain);
+        return by_pixel_ || ended == kAllPixels ? ~ended : kAllPixels;
     }
     bool takes(TileNumber tile) const { return tile == entering_tile_ && in_flight(tile); }
     bool in_flight(TileNumber tile) const {
@@ -95,13 +96,17 @@ private:
     int tiles_in_flight_;
     TileNumber slot_mask_; // slots are a power of two, at least tiles_in_flight_
     int segments_per_row_;
+    bool by_pixel_; // TerminationGrain::Pixel
     // Tables instead of divisions: this is the hot loop.
     struct Domain {
         std::int16_t row, column;
     };
     std::vector<Domain> domains_;
     std::vector<int> first_domain_of_row_, segment_of_column_;
-    std::vector<std::uint32_t> inside_; // per slot and domain
+    // What the ports are bound to.
+    std::vector<DatedFifo<SpanItem>*> inputs_;
+    DatedFifo<Termination>* terminations_ = nullptr;
+    DatedFifo<TileNumber>* contexts_freed_ = nullptr;
     Process self_;
     SegmentQueue queue_;
     FeatureBuffer features_;
@@ -110,13 +115,14 @@ private:
     TileNumber entering_tile_ = 0; // tile whose spans are accepted: one at a time, in order
     bool entered_ = false;         // something of entering_tile_ has been taken
     int ends_seen_ = 0;            // inputs that have delivered everything of entering_tile_
-    SpanItem span_;                // being cut
+    // The span being cut, in pixels of the tile, and its next segment.
+    Segment segment_;
+    int domain_ = 0;
+    int span_begin_ = 0, span_end_ = 0, column_ = 0;
     bool cutting_ = false;
-    int cut_x_ = 0;
     Cycle wait_until_ = kNever; // next date at which waiting work becomes ready
     bool width_limited_ = false;
-    bool features_full_ = false; // the next span waits for a Feature Buffer entry
-    std::uint64_t sequence_ = 0;
+    bool features_full_ = false;     // the next span waits for a Feature Buffer entry
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
     Stats stats_;
 };

@@ -4,10 +4,15 @@
 namespace degs {
 namespace {
 
-/// The lowest `count` set bits of `mask`.
+/// The lowest `count` set bits of `mask`, which has more than that.
 std::uint32_t lowest_bits(std::uint32_t mask, int count) {
+    const std::uint32_t lowest = mask & (0U - mask);
+    const std::uint32_t first = (lowest << count) - lowest;
+    if ((mask & first) == first) { // neighbours, as nearly always
+        return first;
+    }
     std::uint32_t picked = 0;
-    for (; count > 0 && mask != 0; --count) {
+    for (; count > 0; --count) {
         picked |= mask & (0U - mask);
         mask &= mask - 1;
     }
@@ -18,36 +23,44 @@ std::uint32_t lowest_bits(std::uint32_t mask, int count) {
 
 PackingUnit::PackingUnit(const sc_core::sc_module_name& name, const Config& config)
     : sc_core::sc_module(name), out("out"), config_(config),
-      latency_(static_cast<Cycle>(config.latency_cycles)) {}
+      latency_(static_cast<Cycle>(config.latency_cycles)), width_(static_cast<Cycle>(config.width)),
+      capacity_(width_ * static_cast<Cycle>(config.depth)) {}
 
 Cycle PackingUnit::add(Process& bank, const TaskRun& run) {
     std::uint32_t left = run.task.mask;
     int count = __builtin_popcount(left);
+    Cycle execution = 0;
     while (count != 0) {
         if (!open()) {
-            out->reserve(bank); // free by its dates; the host may not have emptied it yet
+            open_packet(bank);
         }
-        TaskPacket& packet = out->staged();
-        if (!open()) {
-            slot_ = next_execution(bank.local());
-            started_ = true;
-            idle_ += since_last_;
-            since_last_ = SlotAccount{};
-            packet.run_count = 0;
-            ends_tile_ = false;
-        }
+        execution = next_slot_;
         const int taken = std::min(count, config_.width - tasks_);
+        const std::uint32_t mask = taken == count ? left : lowest_bits(left, taken);
+        TaskPacket& packet = ring_->staged();
         TaskRun& packed = packet.runs[static_cast<std::size_t>(packet.run_count++)];
         packed = run;
-        packed.task.mask = taken == count ? left : lowest_bits(left, taken);
-        left &= ~packed.task.mask;
+        packed.task.mask = mask;
+        left ^= mask;
         count -= taken;
         tasks_ += taken;
         if (tasks_ == config_.width) {
             send(bank, Idle::Starved);
         }
     }
-    return slot_;
+    return execution;
+}
+
+void PackingUnit::open_packet(Process& bank) {
+    ring_->reserve(bank); // free by its dates; the host may not have emptied it yet
+    const Cycle slot = next_execution(bank.local());
+    if (slot > next_slot_) { // else nothing was idle
+        idle_ += since_last_;
+        since_last_ = SlotAccount{};
+    }
+    next_slot_ = slot;
+    ring_->staged().run_count = 0;
+    ends_tile_ = false;
 }
 
 void PackingUnit::end_tile(Process& bank, TileNumber tile) {
@@ -57,9 +70,9 @@ void PackingUnit::end_tile(Process& bank, TileNumber tile) {
         send(bank, Idle::Starved);
     }
     if (!open()) {
-        out->reserve(bank);
+        ring_->reserve(bank);
     }
-    TaskPacket& packet = out->staged();
+    TaskPacket& packet = ring_->staged();
     packet.ended_tile = tile;
     if (open()) {
         ends_tile_ = true;
@@ -67,7 +80,7 @@ void PackingUnit::end_tile(Process& bank, TileNumber tile) {
         packet.run_count = 0;
         packet.tasks = 0;
         packet.ends_tile = true;
-        out->put_staged(bank);
+        ring_->put_staged(bank);
     }
 }
 
@@ -78,19 +91,15 @@ void PackingUnit::send_due(Process& bank, Idle cause) {
 }
 
 void PackingUnit::close_cycles(Process& bank, Cycle until, Idle cause) {
-    if (!open() && started_) {
-        const Cycle first_idle = std::max(bank.local() + latency_, slot_ + 1);
-        const Cycle end_idle = until + latency_;
-        if (end_idle > first_idle) {
-            since_last_.idle(cause,
-                             (end_idle - first_idle) * static_cast<std::uint64_t>(config_.width));
-        }
+    if (leaves_slots(until)) {
+        const Cycle first_idle = next_execution(bank.local());
+        since_last_.idle(cause, (until + latency_ - first_idle) * width_);
     }
 }
 
 void PackingUnit::send(Process& bank, Idle cause) {
-    TaskPacket& packet = out->staged();
-    packet.slot = slot_;
+    TaskPacket& packet = ring_->staged();
+    packet.slot = next_slot_++;
     packet.tasks = tasks_;
     packet.ends_tile = ends_tile_;
     stats_.packets++;
@@ -98,7 +107,7 @@ void PackingUnit::send(Process& bank, Idle cause) {
     idle_.idle(cause, static_cast<std::uint64_t>(config_.width - tasks_));
     tasks_ = 0;
     ends_tile_ = false;
-    out->put_staged(bank);
+    ring_->put_staged(bank);
 }
 
 } // namespace degs

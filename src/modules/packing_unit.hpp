@@ -37,26 +37,19 @@ public:
     PackingUnit(const sc_core::sc_module_name& name, const Config& config);
 
     /// Execution date of the next task if it is packed at `now`.
-    Cycle next_execution(Cycle now) const {
-        if (open() && tasks_ < config_.width) {
-            return slot_;
-        }
-        const Cycle earliest = now + latency_;
-        return started_ ? std::max(earliest, slot_ + 1) : earliest;
-    }
+    Cycle next_execution(Cycle now) const { return std::max(now + latency_, next_slot_); }
     /// Packets' worth of room for `tasks` more tasks at `now`?
     bool room(Cycle now, int tasks) const {
-        const Cycle queued = started_ && slot_ > now ? slot_ - now - (open() ? 1 : 0) : 0;
+        const Cycle queued = next_slot_ > now + 1 ? next_slot_ - now - 1 : 0;
         // ceil((open + new) / width) more packets fit, without dividing.
-        return queued * static_cast<Cycle>(config_.width) + static_cast<Cycle>(tasks_ + tasks) <=
-               static_cast<Cycle>(config_.depth * config_.width);
+        return queued * width_ + static_cast<Cycle>(tasks_ + tasks) <= capacity_;
     }
     /// Packs the tasks of one segment; returns the execution date of the last one.
     Cycle add(Process& bank, const TaskRun& run);
     /// Tells the array that the bank has nothing more for `tile`.
     void end_tile(Process& bank, TileNumber tile);
     /// Must an open packet go at `now`?
-    bool due(Cycle now) const { return open() && slot_ <= now + latency_; }
+    bool due(Cycle now) const { return open() && next_slot_ <= now + latency_; }
     /// Hands over an open packet whose time has come, its empty slots accounted for by `cause`.
     /// Before the bank asks for its next date: others trust that it does nothing until then.
     void send_due(Process& bank, Idle cause);
@@ -64,11 +57,11 @@ public:
     /// given by open_until(). Accounts for those in which the array gets nothing, by `cause`.
     void close_cycles(Process& bank, Cycle until, Idle cause);
     /// Latest date up to which the bank may sleep: an open packet has to go then. kNever if none.
-    Cycle open_until() const { return open() ? slot_ - latency_ : kNever; }
+    Cycle open_until() const { return open() ? next_slot_ - latency_ : kNever; }
     /// Would close_cycles(bank, until, ...) account for empty slots? Else its cause does not
     /// matter.
     bool leaves_slots(Cycle until) const {
-        return !open() && started_ && until + latency_ > slot_ + 1;
+        return !open() && started() && until + latency_ > next_slot_;
     }
 
     const Stats& stats() const { return stats_; }
@@ -76,16 +69,22 @@ public:
     const SlotAccount& idle() const { return idle_; }
 
 private:
+    void end_of_elaboration() override { ring_ = out.operator->(); }
     bool open() const { return tasks_ != 0; }
+    bool started() const { return next_slot_ != 0; } // a packet has been sent or opened
+    void open_packet(Process& bank);
     void send(Process& bank, Idle cause);
 
     Config config_;
     Cycle latency_;
+    Cycle width_, capacity_; // tasks: of a packet, of the Packing Buffer
+    DatedFifo<TaskPacket>* ring_ = nullptr;
     // The open packet is filled in its cell of the ring.
     int tasks_ = 0;          // in the open packet; 0: none is open
     bool ends_tile_ = false; // the open packet carries the end of a tile
-    Cycle slot_ = 0;         // execution date of the open packet, else of the one before
-    bool started_ = false;   // a packet has been sent or opened
+    // Execution date of the open packet; else the first that the next one may have. An open packet
+    // goes before now + latency passes its date, so next_execution() need not ask which.
+    Cycle next_slot_ = 0;
     SlotAccount idle_;
     SlotAccount since_last_; // idle after the last packet; counts once another one comes
     Stats stats_;

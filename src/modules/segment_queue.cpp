@@ -26,14 +26,16 @@ SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile)
         slot.wheel.assign(words_ * kWheel, 0);
     }
     for (int i = depth - 1; i >= 0; --i) {
-        free_.push_back(i);
+        entries_[static_cast<std::size_t>(i)].next = free_;
+        free_ = i;
     }
 }
 
 void SegmentQueue::push(int slot, int domain, const Segment& segment) {
-    const std::int32_t index = free_.back();
-    free_.pop_back();
+    const std::int32_t index = free_;
     Entry& entry = entries_[static_cast<std::size_t>(index)];
+    free_ = entry.next;
+    size_++;
     entry.segment = segment;
     entry.next = kNone;
     List& list = lists_[at(slot, domain)];
@@ -53,8 +55,12 @@ void SegmentQueue::push(int slot, int domain, const Segment& segment) {
 void SegmentQueue::pop(int slot, int domain) {
     List& list = lists_[at(slot, domain)];
     Slot& tile = slots_[static_cast<std::size_t>(slot)];
-    free_.push_back(list.head);
-    list.head = entries_[static_cast<std::size_t>(list.head)].next;
+    Entry& entry = entries_[static_cast<std::size_t>(list.head)];
+    const std::int32_t second = entry.next;
+    entry.next = free_;
+    free_ = list.head;
+    size_--;
+    list.head = second;
     list.length--;
     tile.waiting--;
     if (list.head == kNone) {
@@ -101,8 +107,7 @@ int SegmentQueue::pick(int slot, Cycle date, DomainScan scan) {
     std::uint64_t best_key = ~std::uint64_t{0};
     int best = -1;
     for (std::size_t w = 0; w < words_; ++w) {
-        for (std::uint64_t bits = tile.occupied[w] & ~tile.cooling[w]; bits != 0;
-             bits &= bits - 1) {
+        for (std::uint64_t bits = ready(tile, w); bits != 0; bits &= bits - 1) {
             const int domain = static_cast<int>(w) * 64 + __builtin_ctzll(bits);
             const List& list = lists[domain];
             const std::uint64_t inverse_length = (~std::uint64_t{list.length} & 0xFFFFU) << 48;
@@ -116,35 +121,47 @@ int SegmentQueue::pick(int slot, Cycle date, DomainScan scan) {
 
 // The first ready domain from the cursor on, round the end if need be.
 int SegmentQueue::pick_next(Slot& slot) const {
-    const std::size_t start = word_of(slot.cursor);
-    const std::uint64_t from_cursor = ~(bit_of(slot.cursor) - 1);
-    for (std::size_t step = 0; step <= words_; ++step) {
-        const std::size_t w = start + step < words_ ? start + step : start + step - words_;
-        std::uint64_t bits = slot.occupied[w] & ~slot.cooling[w];
-        if (step == 0) {
-            bits &= from_cursor;
-        } else if (step == words_) {
-            bits &= ~from_cursor;
+    int domain = -1;
+    if (words_ == 1) { // as a rule: then without a branch that depends on the data
+        const auto cursor = static_cast<unsigned>(slot.cursor);
+        const std::uint64_t bits = ready(slot, 0);
+        if (bits == 0) {
+            return -1;
         }
-        if (bits != 0) {
-            const int domain = static_cast<int>(w) * 64 + __builtin_ctzll(bits);
-            slot.cursor = domain + 1 < domains_ ? domain + 1 : 0;
-            return domain;
+        const std::uint64_t rotated = bits >> cursor | bits << ((64 - cursor) % 64);
+        domain = (__builtin_ctzll(rotated) + slot.cursor) % 64;
+    } else {
+        std::size_t w = word_of(slot.cursor);
+        std::uint64_t bits = ready(slot, w) & ~(bit_of(slot.cursor) - 1);
+        for (std::size_t step = 0; bits == 0 && step < words_; ++step) {
+            w = w + 1 < words_ ? w + 1 : 0;
+            bits = ready(slot, w); // last the cursor's word, where nothing is left above the cursor
         }
+        if (bits == 0) {
+            return -1;
+        }
+        domain = static_cast<int>(w) * 64 + __builtin_ctzll(bits);
     }
-    return -1;
+    slot.cursor = domain + 1 < domains_ ? domain + 1 : 0;
+    return domain;
 }
 
 Cycle SegmentQueue::next_ready(int slot) const {
     const Slot& tile = slots_[static_cast<std::size_t>(slot)];
-    for (Cycle date = tile.turned + 1; date < tile.turned + kWheel; ++date) {
+    std::uint64_t waiting = 0;
+    for (std::size_t w = 0; w < words_; ++w) {
+        waiting |= tile.cooling[w] & tile.occupied[w];
+    }
+    if (waiting == 0) {
+        return kNever;
+    }
+    for (Cycle date = tile.turned + 1;; ++date) {
         for (std::size_t w = 0; w < words_; ++w) {
             if ((tile.wheel[date % kWheel * words_ + w] & tile.occupied[w]) != 0) {
                 return date;
             }
         }
     }
-    return kNever;
 }
 
 void SegmentQueue::clear(int slot) {

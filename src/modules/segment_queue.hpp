@@ -4,19 +4,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "tlm/clock_domain.hpp"
+#include "modules/messages.hpp"
 
 namespace degs {
 
 /// Part of a row span inside one fixed-stride segment: the minimum scheduling unit (paper, Sec.
-/// IV-B).
+/// IV-B). Its tasks are put together when it is cut, as the Packing Unit wants them.
 struct Segment {
-    double g0 = 0, d0 = 0; ///< of the span
-    std::uint32_t splat = 0;
-    std::uint32_t mask = 0;     ///< pixels, bit 0 = first pixel of the segment's stride
-    std::int16_t offset = 0;    ///< n of mask bit 0 relative to the span's x0
-    std::uint16_t feature = 0;  ///< Feature Buffer entry
+    TaskRun run;
     std::uint64_t sequence = 0; ///< arrival order in the bank
+    std::uint16_t feature = 0;  ///< Feature Buffer entry
 };
 
 /// Which ready conflict domain issues first. `RoundRobin`: the next one after the last that issued.
@@ -31,13 +28,13 @@ class SegmentQueue {
 public:
     SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile);
 
-    bool full() const { return free_.empty(); }
-    bool empty() const { return free_.size() == entries_.size(); }
-    std::size_t size() const { return entries_.size() - free_.size(); }
+    bool full() const { return free_ == kNone; }
+    bool empty() const { return size_ == 0; }
+    std::size_t size() const { return size_; }
     std::size_t waiting(int slot) const { return slots_[static_cast<std::size_t>(slot)].waiting; }
 
     void push(int slot, int domain, const Segment& segment);
-    const Segment& front(int slot, int domain) const {
+    Segment& front(int slot, int domain) {
         return entries_[static_cast<std::size_t>(lists_[at(slot, domain)].head)].segment;
     }
     void pop(int slot, int domain);
@@ -88,11 +85,15 @@ private:
     }
     void turn_wheel(Slot& slot, Cycle date) const;
     int pick_next(Slot& slot) const;
+    static std::uint64_t ready(const Slot& slot, std::size_t word) {
+        return slot.occupied[word] & ~slot.cooling[word];
+    }
 
     int domains_;
     std::size_t words_;
     std::vector<Entry> entries_;
-    std::vector<std::int32_t> free_;
+    std::int32_t free_ = kNone; // first of the list of free entries
+    std::size_t size_ = 0;
     std::vector<List> lists_;
     std::vector<Slot> slots_;
 };

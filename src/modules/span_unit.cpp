@@ -36,25 +36,27 @@ SpanUnit::SpanUnit(const sc_core::sc_module_name& name, const Config& config, co
 }
 
 void SpanUnit::end_of_elaboration() {
-    in->connect_reader(self_);
+    rows_ = in.operator->();
+    rows_->connect_reader(self_);
     if (!self_.strict()) {
-        self_.pump_with(*this, *in.operator->());
+        self_.pump_with(*this, *rows_);
     }
     for (auto& port : out) {
-        port->connect_writer(self_);
+        rings_.push_back(port.operator->());
+        rings_.back()->connect_writer(self_);
     }
 }
 
 void SpanUnit::run() {
     while (tiles_done_ < job_.tiles.size()) {
-        take(in->get(self_));
+        take(rows_->get(self_));
         deliver();
     }
 }
 
 void SpanUnit::pump() {
-    while (deliver() && !in->empty()) {
-        take(in->get(self_));
+    while (deliver() && !rows_->empty()) {
+        take(rows_->get(self_));
     }
 }
 
@@ -85,14 +87,14 @@ void SpanUnit::take(const RowItem& item) {
 // Hands the held result over; false if a ring has no room yet (without a thread only).
 bool SpanUnit::deliver() {
     while (holding_) {
-        DatedFifo<SpanItem>& ring = *out[next_port_].operator->();
-        if (!self_.strict() && ring.full()) {
+        DatedFifo<SpanItem>& ring = *rings_[next_port_];
+        if (ring.full() && !self_.strict()) {
             self_.hold_for(&ring);
             return false;
         }
         self_.hold_for(nullptr);
         ring.put(self_, held_);
-        holding_ = held_.end && ++next_port_ < out.size();
+        holding_ = held_.end && ++next_port_ < rings_.size();
         if (!held_.end) {
             self_.advance(static_cast<Cycle>(config_.cycles_per_row));
         } else if (!holding_ && ++tiles_done_ == job_.tiles.size()) {

@@ -45,6 +45,9 @@ private:
     Config config_;
     const RenderJob& job_;
     Process self_;
+    // What the ports are bound to.
+    DatedFifo<RowItem>* rows_ = nullptr;
+    std::vector<DatedFifo<SpanItem>*> rings_;
     std::vector<std::size_t> port_of_row_; // by row inside the tile
     SpanItem held_;                        // the result of the item taken last
     std::size_t next_port_ = 0;            // where it goes; an end goes to all ports in turn

@@ -40,13 +40,14 @@ public:
               Cycle forward_latency = 1, Cycle release_latency = 0)
         : sc_core::sc_module(name),
           FifoBase(forward_latency, release_latency), time_{time.clock, Fidelity::Exact},
-          values_(std::max<std::size_t>(depth, 1)), dates_(values_.size(), 0),
-          written_(values_.size(), 0), read_(values_.size(), 0) {
-        depth_ = values_.size();
-        free_ = dates_.data();
+          cells_(std::max<std::size_t>(depth, 1)), end_(cells_.data() + cells_.size()),
+          front_(cells_.data()), tail_(cells_.data()), earlier_(cells_.data()) {
+        depth_ = cells_.size();
+        head_ = &front_->date;
+        free_ = &tail_->date;
     }
 
-    std::size_t depth() const { return values_.size(); }
+    std::size_t depth() const { return depth_; }
     const Stats& stats() const { return stats_; }
     const char* fifo_name() const override { return sc_core::sc_object::name(); }
 
@@ -54,10 +55,10 @@ public:
     void reserve(Process& writer) {
         writer_ = &writer;
         const Cycle ready = writer.local();
-        while (filled_ == values_.size()) {
+        while (filled_ == depth_) {
             writer.block_on_room(*this);
         }
-        writer.advance_to(dates_[tail_]);
+        writer.advance_to(tail_->date);
         stats_.full_cycles += writer.local() - ready;
     }
     void put(Process& writer, const T& value) { put_at(writer, value, 0); }
@@ -65,15 +66,13 @@ public:
     /// way).
     void put_at(Process& writer, const T& value, Cycle ready) {
         reserve(writer);
-        values_[tail_] = value;
+        tail_->value = value;
         commit(writer, ready);
     }
     /// The cell that put_staged() will hand over, to be filled in place after reserve().
-    T& staged() { return values_[tail_]; }
-    void put_staged(Process& writer) {
-        reserve(writer);
-        commit(writer, 0);
-    }
+    T& staged() { return tail_->value; }
+    /// After reserve(), at the same date or later.
+    void put_staged(Process& writer) { commit(writer, 0); }
     /// The oldest item; moves the reader to the date from which it may be read.
     T get(Process& reader) {
         const T value = arrive(reader);
@@ -85,26 +84,28 @@ public:
     const T& arrive(Process& reader) {
         wait_for_item(reader);
         const Cycle ready = reader.local();
-        reader.advance_to(dates_[front_]);
+        reader.advance_to(front_->date);
         stats_.empty_cycles += reader.local() - ready;
-        return values_[front_];
+        return front_->value;
     }
     /// The oldest item without removing it. Only if not empty().
-    const T& front() const { return values_[front_]; }
+    const T& front() const { return front_->value; }
     /// Removes the oldest item, which must be readable at the reader's date.
     T take(Process& reader) {
-        const T value = values_[front_];
+        const T value = front_->value;
         drop(reader);
         return value;
     }
     void drop(Process& reader) {
+        const Cycle now = reader.local();
         stats_.items++;
-        stats_.occupied_cycles += reader.local() - written_[front_];
-        count_fill(reader.local());
-        dates_[front_] = reader.local() + release_latency_;
-        const bool was_full = filled_-- == values_.size();
+        stats_.occupied_cycles += now - front_->written;
+        count_fill();
+        front_->read = now;
+        front_->date = now + release_latency_;
+        const bool was_full = filled_-- == depth_;
         front_ = next(front_);
-        head_ = &dates_[front_];
+        head_ = &front_->date;
         if (foreign_listens_) {
             announce();
         }
@@ -133,8 +134,7 @@ public:
         return true;
     }
     bool nb_can_put(tlm::tlm_tag<T>* = nullptr) const override {
-        return filled_ < values_.size() &&
-               time_.clock.at(dates_[tail_]) <= sc_core::sc_time_stamp();
+        return filled_ < depth_ && time_.clock.at(tail_->date) <= sc_core::sc_time_stamp();
     }
     const sc_core::sc_event& ok_to_put(tlm::tlm_tag<T>* = nullptr) const override {
         listen();
@@ -154,7 +154,7 @@ public:
         return true;
     }
     bool nb_can_get(tlm::tlm_tag<T>* = nullptr) const override {
-        return filled_ != 0 && time_.clock.at(dates_[front_]) <= sc_core::sc_time_stamp();
+        return filled_ != 0 && time_.clock.at(front_->date) <= sc_core::sc_time_stamp();
     }
     const sc_core::sc_event& ok_to_get(tlm::tlm_tag<T>* = nullptr) const override {
         listen();
@@ -164,15 +164,15 @@ public:
         auto& self = const_cast<DatedFifo&>(*this);
         Process& process = self.foreign(self.foreign_reader_);
         self.wait_for_item(process);
-        process.advance_to(dates_[front_]);
+        process.advance_to(front_->date);
         process.sync();
-        return values_[front_];
+        return front_->value;
     }
     bool nb_peek(T& value) const override {
         if (!nb_can_peek()) {
             return false;
         }
-        value = values_[front_];
+        value = front_->value;
         return true;
     }
     bool nb_can_peek(tlm::tlm_tag<T>* = nullptr) const override { return nb_can_get(); }
@@ -182,15 +182,18 @@ public:
     }
 
 private:
+    struct Cell {
+        Cycle date = 0; // filled: readable from; free: writable from
+        Cycle written = 0;
+        Cycle read = kNever;
+        T value{};
+    };
     void commit(Process& writer, Cycle ready) {
-        written_[tail_] = writer.local();
-        dates_[tail_] = std::max(writer.local() + forward_latency_, ready);
+        tail_->written = writer.local();
+        tail_->date = std::max(writer.local() + forward_latency_, ready);
         const bool was_empty = filled_++ == 0;
-        if (was_empty) {
-            head_ = &dates_[tail_];
-        }
         tail_ = next(tail_);
-        free_ = &dates_[tail_];
+        free_ = &tail_->date;
         if (foreign_listens_) {
             announce();
         }
@@ -199,19 +202,19 @@ private:
             reader_->wake();
         }
     }
-    /// Items inside at the date at which the item now read was written: itself and those before it
-    /// that were read later. Told by dates alone, because how full the ring is depends on how far
-    /// the host lets its sides run ahead. An item read at the very date is gone.
-    void count_fill(Cycle read) {
-        inside_++;
-        while (inside_ > 1 && read_[oldest_] <= written_[front_]) {
-            oldest_ = next(oldest_);
-            inside_--;
+    /// Raises the high-water mark if more items than that were inside when the item now read was
+    /// written: itself, and those before it that were read later. Told by dates alone, because how
+    /// full the ring is depends on how far the host lets its sides run ahead. An item read at the
+    /// very date is gone. Items are read in order, so it is enough to ask whether the item that
+    /// many places before was still inside; the mark rises by one item at a time.
+    void count_fill() {
+        if (earlier_->read > front_->written) {
+            stats_.high_water++; // the next item asks for the same cell, one place further back
+        } else {
+            earlier_ = next(earlier_);
         }
-        stats_.high_water = std::max(stats_.high_water, inside_);
-        read_[front_] = read;
     }
-    std::size_t next(std::size_t i) const { return i + 1 == values_.size() ? 0 : i + 1; }
+    Cell* next(Cell* cell) { return ++cell == end_ ? cells_.data() : cell; }
     void listen() const {
         foreign_listens_ = true;
         announce();
@@ -220,10 +223,10 @@ private:
     /// are announced anew whenever a side has moved or a foreign block starts to listen.
     void announce() const {
         if (filled_ != 0) {
-            notify_foreign(foreign_item_, dates_[front_]);
+            notify_foreign(foreign_item_, front_->date);
         }
-        if (filled_ < values_.size()) {
-            notify_foreign(foreign_room_, dates_[tail_]);
+        if (filled_ < depth_) {
+            notify_foreign(foreign_room_, tail_->date);
         }
     }
     void notify_foreign(sc_core::sc_event& event, Cycle date) const {
@@ -241,14 +244,11 @@ private:
     }
 
     Timebase time_;
-    std::vector<T> values_;
-    std::vector<Cycle> dates_; // filled cell: readable from; free cell: writable from
-    std::vector<Cycle> written_;
-    std::vector<Cycle> read_;
-    std::size_t oldest_ = 0; // cell of the oldest item that count_fill() finds inside
-    std::size_t inside_ = 0;
-    std::size_t front_ = 0;
-    std::size_t tail_ = 0;
+    std::vector<Cell> cells_;
+    Cell* end_;
+    Cell* front_;
+    Cell* tail_;
+    Cell* earlier_; // stats_.high_water places before front_, see count_fill()
     Stats stats_;
     std::unique_ptr<Process> foreign_writer_;
     std::unique_ptr<Process> foreign_reader_;
