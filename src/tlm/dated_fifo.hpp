@@ -75,7 +75,7 @@ public:
     void put_staged(Process& writer) { commit(writer, 0); }
     /// The oldest item; moves the reader to the date from which it may be read.
     T get(Process& reader) {
-        const T value = arrive(reader);
+        T value = arrive(reader);
         drop(reader);
         return value;
     }
@@ -92,7 +92,7 @@ public:
     const T& front() const { return front_->value; }
     /// Removes the oldest item, which must be readable at the reader's date.
     T take(Process& reader) {
-        const T value = front_->value;
+        T value = front_->value;
         drop(reader);
         return value;
     }
