@@ -29,7 +29,9 @@ std::size_t lines_of(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-TEST(SmallRunCompare, AgreesWithSingleRuns) {
+// Not a SmallRun: the address sanitizer warns on stderr when a forked child leaves from a stack of
+// SystemC's, and these runs must be silent there.
+TEST(CompareRuns, AgreesWithSingleRuns) {
     const Folder folder;
     const Outcome outcome =
         compare({config("degs-16"), config("degs-64")}, folder / "c",
@@ -80,7 +82,7 @@ TEST(SmallRunCompare, AgreesWithSingleRuns) {
                 2e9 / (ends[2].get<double>() - ends[0].get<double>()), 1e-3);
 }
 
-TEST(SmallRunCompare, DoesNotDependOnJobs) {
+TEST(CompareRuns, DoesNotDependOnJobs) {
     const Folder folder;
     std::vector<nlohmann::json> results;
     for (const char* jobs : {"1", "3"}) {
@@ -99,7 +101,7 @@ TEST(SmallRunCompare, DoesNotDependOnJobs) {
     EXPECT_EQ(results[0]["runs"][2]["config"], "c");
 }
 
-TEST(SmallRunCompare, LeavesOutWhatIsNotAskedFor) {
+TEST(CompareRuns, LeavesOutWhatIsNotAskedFor) {
     const Folder folder;
     std::ofstream(folder / "utilization.svg") << "of an earlier comparison";
     const Outcome outcome = compare({config("degs-64")}, folder / ".",
