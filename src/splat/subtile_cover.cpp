@@ -53,7 +53,9 @@ SubtileMask SubtileGrid::inside(int width, int height) const {
 SubtileMask SubtileGrid::meeting(const OrientedBox& box, int x, int y) const {
     SubtileMask mask = 0;
     for (int s = 0; s < count(); ++s) {
-        if (box.meets(x + s % per_side_ * side_, y + s / per_side_ * side_, side_)) {
+        const int column = s % per_side_;
+        const int row = s / per_side_;
+        if (box.meets(x + column * side_, y + row * side_, side_)) {
             mask |= SubtileMask{1} << s;
         }
     }
