@@ -115,13 +115,20 @@ void ArraySlice::execute(const TaskPacket& packet) {
             start_tile(next_tile_);
         }
         check_reuse(run, now);
-        const BlendOutcome outcome = job_.path->blend(run.task);
-        stats_.slots.useful += static_cast<std::uint64_t>(__builtin_popcount(outcome.useful));
-        stats_.slots.boundary += static_cast<std::uint64_t>(__builtin_popcount(outcome.boundary));
-        stats_.slots.terminated +=
-            static_cast<std::uint64_t>(__builtin_popcount(outcome.terminated));
-        if (outcome.ended != 0) {
-            pixels_ended(run, outcome.ended);
+        // A segment is blended when its first task executes: nobody else touches its pixels before
+        // its last one, so each packet only has to take its part of the outcome.
+        const std::uint32_t first_task = run.task.mask & (0U - run.task.mask);
+        if ((run.part & first_task) != 0) {
+            outcome_ = job_.path->blend(run.task);
+            const auto count = [](std::uint32_t mask) {
+                return static_cast<std::uint64_t>(__builtin_popcount(mask));
+            };
+            stats_.slots.useful += count(outcome_.useful);
+            stats_.slots.boundary += count(outcome_.boundary);
+            stats_.slots.terminated += count(outcome_.terminated);
+        }
+        if ((outcome_.ended & run.part) != 0) {
+            pixels_ended(run, outcome_.ended & run.part);
         }
     }
 }
@@ -130,11 +137,10 @@ void ArraySlice::execute(const TaskPacket& packet) {
 void ArraySlice::check_reuse(const TaskRun& run, Cycle date) {
     Recent& recent = recent_[static_cast<std::size_t>(run.task.context) * segments_ + run.domain];
     if (recent.mask != 0 && date - recent.date < static_cast<Cycle>(config_.writeback_cycles)) {
-        stats_.hazards +=
-            static_cast<std::uint64_t>(__builtin_popcount(recent.mask & run.task.mask));
-        recent.mask |= run.task.mask;
+        stats_.hazards += static_cast<std::uint64_t>(__builtin_popcount(recent.mask & run.part));
+        recent.mask |= run.part;
     } else {
-        recent.mask = run.task.mask;
+        recent.mask = run.part;
     }
     recent.date = date;
 }

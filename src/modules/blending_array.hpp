@@ -76,6 +76,7 @@ private:
     std::size_t segments_; // of a context
     std::vector<std::size_t> port_of_listener_;
     std::vector<Recent> recent_; // per context and segment: pixels updated lately
+    BlendOutcome outcome_;       // of the segment whose tasks execute
     TileNumber tiles_done_ = 0;
     TileNumber next_tile_ = 0; // first tile that has not started here
     Stats stats_;

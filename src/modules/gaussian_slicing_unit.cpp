@@ -142,9 +142,6 @@ void GaussianSlicingUnit::slice_splat(TileNumber number, std::uint32_t splat) {
     int emitted = 0;
     int left = config_.rows_per_cycle; // of this cycle
     Cycle busy = 1;
-    RowItem item;
-    item.tile = number;
-    item.splat = splat;
     for (int row = first; row <= last; row += config_.count) {
         if ((below & ~ended_[static_cast<std::size_t>(row)]) == 0) {
             stats_.rows_skipped++;
@@ -155,8 +152,14 @@ void GaussianSlicingUnit::slice_splat(TileNumber number, std::uint32_t splat) {
             ++busy;
             left = config_.rows_per_cycle - 1;
         }
+        DatedFifo<RowItem>& lane = *lanes_[lane_of_row_[static_cast<std::size_t>(row)]];
+        lane.reserve(self_);
+        RowItem& item = lane.staged();
+        item.tile = number;
+        item.splat = splat;
         item.row = static_cast<std::int16_t>(row);
-        lanes_[lane_of_row_[static_cast<std::size_t>(row)]]->put(self_, item);
+        item.end = false;
+        lane.put_staged(self_);
         ++emitted;
     }
     self_.advance();

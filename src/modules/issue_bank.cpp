@@ -21,12 +21,6 @@ int power_of_two(int least) {
     return size;
 }
 
-// Bits begin .. end - 1; 0 <= begin <= 32, end <= 32.
-std::uint32_t bits(int begin, int end) {
-    const auto upto = [](int n) { return static_cast<std::uint32_t>((std::uint64_t{1} << n) - 1); };
-    return upto(end) & ~upto(begin);
-}
-
 } // namespace
 
 IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
@@ -36,21 +30,12 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
       context_free("context_free"), config_(config), job_(job), contexts_(contexts),
       tiles_in_flight_(tiles_in_queue(contexts)),
       slot_mask_(static_cast<TileNumber>(power_of_two(tiles_in_flight_)) - 1),
-      segments_per_row_((job.tile_size + config.segment_length - 1) / config.segment_length),
       by_pixel_(config.termination == TerminationGrain::Pixel), self_(time),
+      segmenter_(job.tile_size, config.segment_length, index, config.count, contexts),
       queue_(config.queue_depth, power_of_two(tiles_in_flight_),
-             (job.tile_size + config.count - 1) / config.count * segments_per_row_),
+             Segmenter::domains_per_tile(job.tile_size, config.segment_length, config.count),
+             config.scan),
       features_(config.feature_entries), startable_(static_cast<TileNumber>(contexts)) {
-    for (int row = 0; row < job.tile_size; ++row) {
-        first_domain_of_row_.push_back(row / config.count * segments_per_row_);
-        segment_of_column_.push_back(row / config.segment_length);
-    }
-    for (int row = index; row < job.tile_size; row += config.count) {
-        for (int s = 0; s < segments_per_row_; ++s) {
-            domains_.push_back({static_cast<std::int16_t>(row),
-                                static_cast<std::int16_t>(s * config.segment_length)});
-        }
-    }
     SC_HAS_PROCESS(IssueBank);
     SC_THREAD(run);
 }
@@ -83,7 +68,7 @@ void IssueBank::run() {
         if (oldest_tile_ == tiles) {
             const Cycle open = packing->open_until();
             next = open == kNever ? next : std::max(open, next);
-        } else if (!worked && !(cutting_ && !queue_.full())) {
+        } else if (!worked && !(segmenter_.cutting() && !queue_.full())) {
             next = next_date(now);
         } // else work is left, whatever arrives; proof is asked for where it matters
         if (packing->leaves_slots(next)) {
@@ -115,7 +100,7 @@ void IssueBank::end_pixels(const Termination& message) {
         return; // the tile is over for this bank
     }
     const int slot = slot_of(message.tile);
-    const int domain = domain_of(message.row, message.column);
+    const int domain = segmenter_.domain_of(message.row, message.column);
     if (queue_.end_pixels(slot, domain, message.mask) == kAllPixels) {
         while (queue_.has_waiting(slot, domain)) {
             const Segment& segment = queue_.front(slot, domain);
@@ -129,9 +114,10 @@ void IssueBank::end_pixels(const Termination& message) {
 // Called when the first item of a tile is taken. Pixels outside of the image count as ended.
 void IssueBank::enter_tile() {
     const int width = job_.tiles[entering_tile_].width;
-    for (std::size_t d = 0; d < domains_.size(); ++d) {
-        const int inside = std::clamp(width - domains_[d].column, 0, config_.segment_length);
-        queue_.end_pixels(slot_of(entering_tile_), static_cast<int>(d), ~bits(0, inside));
+    const std::vector<Segmenter::Domain>& domains = segmenter_.domains();
+    for (std::size_t d = 0; d < domains.size(); ++d) {
+        const int inside = std::clamp(width - domains[d].column, 0, config_.segment_length);
+        queue_.end_pixels(slot_of(entering_tile_), static_cast<int>(d), ~bits_between(0, inside));
     }
     entered_ = true;
 }
@@ -143,7 +129,7 @@ void IssueBank::drop(std::uint32_t mask) {
 
 void IssueBank::accept(Cycle now) {
     for (int budget = config_.segments_per_cycle; budget > 0; --budget) {
-        if (!cutting_ && !open_span(now)) {
+        if (!segmenter_.cutting() && !open_span(now)) {
             break;
         }
         if (!cut_segment()) {
@@ -174,7 +160,9 @@ bool IssueBank::open_span(Cycle now) {
             enter_tile();
         }
         if (!item.end) {
-            start_span(item);
+            segmenter_.start(item);
+            stats_.spans++;
+            stats_.tasks_in += static_cast<std::uint64_t>(item.span.length);
             source->drop(self_);
             return true;
         }
@@ -188,51 +176,24 @@ bool IssueBank::open_span(Cycle now) {
     }
 }
 
-void IssueBank::start_span(const SpanItem& item) {
-    const RowSpan& span = item.span;
-    const int first = segment_of_column_[static_cast<std::size_t>(span.x0)];
-    column_ = first * config_.segment_length;
-    domain_ = first_domain_of_row_[static_cast<std::size_t>(span.y)] + first;
-    span_begin_ = span.x0;
-    span_end_ = span.x0 + span.length;
-    cutting_ = true;
-    BlendTask& task = segment_.run.task;
-    task.g0 = span.g0;
-    task.d0 = span.d0;
-    task.splat = span.splat;
-    task.row = span.y;
-    if (segment_.run.tile != item.tile) {
-        segment_.run.tile = item.tile;
-        task.context = static_cast<std::int16_t>(item.tile % static_cast<TileNumber>(contexts_));
-    }
-    segment_.feature = features_.current();
-    stats_.spans++;
-    stats_.tasks_in += static_cast<std::uint64_t>(span.length);
-}
-
 // False if the queue has no room; the segment is then cut later.
 bool IssueBank::cut_segment() {
-    const int slot = slot_of(segment_.run.tile);
-    const std::uint32_t mask = bits(std::max(span_begin_ - column_, 0),
-                                    std::min(span_end_ - column_, config_.segment_length));
-    if ((mask & live(slot, domain_)) == 0) {
+    const int slot = slot_of(segmenter_.tile());
+    const int domain = segmenter_.domain();
+    const std::uint32_t mask = segmenter_.mask();
+    if ((mask & live(slot, domain)) == 0) {
         drop(mask);
     } else {
         if (queue_.full()) {
             return false;
         }
-        segment_.run.domain = static_cast<std::uint32_t>(domain_);
-        segment_.run.task.mask = mask;
-        segment_.run.task.column = static_cast<std::int16_t>(column_);
-        segment_.run.task.offset = static_cast<std::int16_t>(column_ - span_begin_);
-        features_.hold(segment_.feature);
-        queue_.push(slot, domain_, segment_);
-        segment_.sequence++;
+        Segment& segment = queue_.push(slot, domain, sequence_++);
+        segment.feature = features_.current();
+        features_.hold(segment.feature);
+        segmenter_.fill(segment.run, mask);
         stats_.queue_high_water = std::max<std::uint64_t>(stats_.queue_high_water, queue_.size());
     }
-    column_ += config_.segment_length;
-    ++domain_;
-    cutting_ = column_ < span_end_;
+    segmenter_.next();
     return true;
 }
 
@@ -240,7 +201,8 @@ bool IssueBank::cut_segment() {
 bool IssueBank::issue(Cycle now) {
     wait_until_ = kNever;
     int left = config_.issue_width;
-    for (TileNumber tile = oldest_tile_; tile < startable_ && in_flight(tile) && left != 0;) {
+    const TileNumber end = tiles_to_issue();
+    for (TileNumber tile = oldest_tile_; tile < end && left != 0;) {
         if (queue_.waiting(slot_of(tile)) != 0 && issue_one(now, tile)) {
             --left;
         } else {
@@ -255,12 +217,12 @@ bool IssueBank::issue(Cycle now) {
 
 bool IssueBank::issue_one(Cycle now, TileNumber tile) {
     const int slot = slot_of(tile);
-    const int domain = queue_.pick(slot, packing->next_execution(now), config_.scan);
+    const int domain = queue_.pick(slot, packing->next_execution(now));
     if (domain < 0) {
         wait_until_ = std::min(wait_until_, queue_.next_ready(slot));
         return false;
     }
-    Segment& segment = queue_.front(slot, domain);
+    const Segment& segment = queue_.front(slot, domain);
     const std::uint32_t mask = segment.run.task.mask;
     const std::uint32_t wanted = mask & live(slot, domain);
     const int tasks = __builtin_popcount(wanted);
@@ -270,8 +232,7 @@ bool IssueBank::issue_one(Cycle now, TileNumber tile) {
     }
     Cycle last = now;
     if (tasks != 0) {
-        segment.run.task.mask = wanted;
-        last = packing->add(self_, segment.run) + static_cast<Cycle>(config_.reuse_cycles);
+        last = packing->add(self_, segment.run, wanted) + static_cast<Cycle>(config_.reuse_cycles);
         if (config_.scoreboard) {
             queue_.set_ready_at(slot, domain, last);
         }
@@ -287,7 +248,7 @@ bool IssueBank::issue_one(Cycle now, TileNumber tile) {
 void IssueBank::finish_tiles(TileNumber tiles) {
     while (oldest_tile_ < entering_tile_ && oldest_tile_ < tiles && oldest_tile_ < startable_ &&
            queue_.waiting(slot_of(oldest_tile_)) == 0 &&
-           !(cutting_ && segment_.run.tile == oldest_tile_)) {
+           !(segmenter_.cutting() && segmenter_.tile() == oldest_tile_)) {
         packing->end_tile(self_, oldest_tile_);
         queue_.clear(slot_of(oldest_tile_));
         ++oldest_tile_;
@@ -298,7 +259,7 @@ Idle IssueBank::idle_cause() const {
     if (queue_.empty()) {
         return Idle::Starved;
     }
-    for (TileNumber tile = oldest_tile_; tile < startable_ && in_flight(tile); ++tile) {
+    for (TileNumber tile = oldest_tile_; tile < tiles_to_issue(); ++tile) {
         if (queue_.waiting(slot_of(tile)) != 0) {
             return width_limited_ ? Idle::Starved : Idle::Conflict;
         }
@@ -320,7 +281,7 @@ Cycle IssueBank::next_date(Cycle now) {
         return next; // there is work then, whatever arrives
     }
     watched_.clear();
-    if (!queue_.full() && !cutting_) {
+    if (!queue_.full() && !segmenter_.cutting()) {
         bool spans_waiting = false;
         for (DatedFifo<SpanItem>* input : inputs_) {
             if (input->empty()) {

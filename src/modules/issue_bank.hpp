@@ -7,6 +7,7 @@
 #include "modules/packing_unit.hpp"
 #include "modules/render_job.hpp"
 #include "modules/segment_queue.hpp"
+#include "modules/segmenter.hpp"
 #include "tlm/config.hpp"
 #include "tlm/dated_fifo.hpp"
 
@@ -66,7 +67,6 @@ private:
     void accept(Cycle now);
     bool open_span(Cycle now);
     bool cut_segment();
-    void start_span(const SpanItem& item);
     void drop(std::uint32_t mask);
     bool issue(Cycle now);
     bool issue_one(Cycle now, TileNumber tile);
@@ -75,16 +75,16 @@ private:
     Cycle next_date(Cycle now);
 
     int slot_of(TileNumber tile) const { return static_cast<int>(tile & slot_mask_); }
-    int domain_of(int row, int column) const {
-        return first_domain_of_row_[static_cast<std::size_t>(row)] +
-               segment_of_column_[static_cast<std::size_t>(column)];
-    }
     /// Pixels of the domain that take tasks, as far as the bank knows and looks at.
     std::uint32_t live(int slot, int domain) const {
         const std::uint32_t ended = queue_.ended(slot, domain);
         return by_pixel_ || ended == kAllPixels ? ~ended : kAllPixels;
     }
     bool takes(TileNumber tile) const { return tile == entering_tile_ && in_flight(tile); }
+    /// Tiles below this number may be issued from.
+    TileNumber tiles_to_issue() const {
+        return std::min(startable_, oldest_tile_ + static_cast<TileNumber>(tiles_in_flight_));
+    }
     bool in_flight(TileNumber tile) const {
         return tile >= oldest_tile_ &&
                tile < oldest_tile_ + static_cast<TileNumber>(tiles_in_flight_);
@@ -95,19 +95,13 @@ private:
     int contexts_;
     int tiles_in_flight_;
     TileNumber slot_mask_; // slots are a power of two, at least tiles_in_flight_
-    int segments_per_row_;
-    bool by_pixel_; // TerminationGrain::Pixel
-    // Tables instead of divisions: this is the hot loop.
-    struct Domain {
-        std::int16_t row, column;
-    };
-    std::vector<Domain> domains_;
-    std::vector<int> first_domain_of_row_, segment_of_column_;
+    bool by_pixel_;        // TerminationGrain::Pixel
     // What the ports are bound to.
     std::vector<DatedFifo<SpanItem>*> inputs_;
     DatedFifo<Termination>* terminations_ = nullptr;
     DatedFifo<TileNumber>* contexts_freed_ = nullptr;
     Process self_;
+    Segmenter segmenter_;
     SegmentQueue queue_;
     FeatureBuffer features_;
     TileNumber oldest_tile_ = 0;   // first tile that is not over for this bank
@@ -115,12 +109,8 @@ private:
     TileNumber entering_tile_ = 0; // tile whose spans are accepted: one at a time, in order
     bool entered_ = false;         // something of entering_tile_ has been taken
     int ends_seen_ = 0;            // inputs that have delivered everything of entering_tile_
-    // The span being cut, in pixels of the tile, and its next segment.
-    Segment segment_;
-    int domain_ = 0;
-    int span_begin_ = 0, span_end_ = 0, column_ = 0;
-    bool cutting_ = false;
-    Cycle wait_until_ = kNever; // next date at which waiting work becomes ready
+    std::uint64_t sequence_ = 0;   // segments so far
+    Cycle wait_until_ = kNever;    // next date at which waiting work becomes ready
     bool width_limited_ = false;
     bool features_full_ = false;     // the next span waits for a Feature Buffer entry
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep

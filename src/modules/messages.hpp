@@ -55,19 +55,21 @@ struct SpanItem {
     bool end = false; ///< end of the tile instead of a span
 };
 
-/// Tasks of one segment on their way to the array; each set bit of the mask is one task.
+/// Tasks of one segment on their way to the array. A packet may carry a part of them; the others
+/// follow in the next packets, and nothing of the same conflict domain comes between them.
 struct TaskRun {
-    BlendTask task;
+    BlendTask task;         ///< all tasks of the segment, one per set bit of the mask
+    std::uint32_t part = 0; ///< those in this packet
     TileNumber tile = 0;
     std::uint32_t domain = 0; ///< conflict domain inside the bank's part of the tile
 };
 
 /// A fixed-width packet of tasks, Packing Unit -> Blending Array.
 struct TaskPacket {
-    static constexpr int kMaxRuns = 32;
+    static constexpr int kMaxRuns = 8;
     int run_count = 0;
     Cycle slot = 0;         ///< cycle in which the array executes it
-    int tasks = 0;          ///< set bits over all runs, <= PEs per array slice
+    int tasks = 0;          ///< set bits over all parts, <= PEs per array slice
     bool ends_tile = false; ///< the bank has nothing more for `ended_tile`
     TileNumber ended_tile = 0;
     std::array<TaskRun, kMaxRuns> runs{}; ///< the first run_count count

@@ -26,8 +26,8 @@ PackingUnit::PackingUnit(const sc_core::sc_module_name& name, const Config& conf
       latency_(static_cast<Cycle>(config.latency_cycles)), width_(static_cast<Cycle>(config.width)),
       capacity_(width_ * static_cast<Cycle>(config.depth)) {}
 
-Cycle PackingUnit::add(Process& bank, const TaskRun& run) {
-    std::uint32_t left = run.task.mask;
+Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask) {
+    std::uint32_t left = mask;
     int count = __builtin_popcount(left);
     Cycle execution = 0;
     while (count != 0) {
@@ -36,12 +36,13 @@ Cycle PackingUnit::add(Process& bank, const TaskRun& run) {
         }
         execution = next_slot_;
         const int taken = std::min(count, config_.width - tasks_);
-        const std::uint32_t mask = taken == count ? left : lowest_bits(left, taken);
+        const std::uint32_t part = taken == count ? left : lowest_bits(left, taken);
         TaskPacket& packet = ring_->staged();
         TaskRun& packed = packet.runs[static_cast<std::size_t>(packet.run_count++)];
         packed = run;
         packed.task.mask = mask;
-        left ^= mask;
+        packed.part = part;
+        left ^= part;
         count -= taken;
         tasks_ += taken;
         if (tasks_ == config_.width) {

@@ -44,8 +44,9 @@ public:
         // ceil((open + new) / width) more packets fit, without dividing.
         return queued * width_ + static_cast<Cycle>(tasks_ + tasks) <= capacity_;
     }
-    /// Packs the tasks of one segment; returns the execution date of the last one.
-    Cycle add(Process& bank, const TaskRun& run);
+    /// Packs those tasks of a segment that `mask` names, at least one; returns the execution date
+    /// of the last one.
+    Cycle add(Process& bank, const TaskRun& run, std::uint32_t mask);
     /// Tells the array that the bank has nothing more for `tile`.
     void end_tile(Process& bank, TileNumber tile);
     /// Must an open packet go at `now`?

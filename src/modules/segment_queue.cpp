@@ -15,15 +15,20 @@ std::size_t word_of(int domain) {
 
 } // namespace
 
-SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile)
+SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan)
     : domains_(domains_per_tile), words_((static_cast<std::size_t>(domains_per_tile) + 63) / 64),
+      scan_(scan), by_length_(scan == DomainScan::Deepest ? ~std::uint64_t{0} : 0),
+      bits_(static_cast<std::size_t>(tiles_in_flight) * words_ * (2 + kWheel)),
+      keys_(static_cast<std::size_t>(tiles_in_flight * domains_per_tile)),
       entries_(static_cast<std::size_t>(depth)),
       lists_(static_cast<std::size_t>(tiles_in_flight * domains_per_tile)),
       slots_(static_cast<std::size_t>(tiles_in_flight)) {
+    std::uint64_t* bits = bits_.data();
     for (Slot& slot : slots_) {
-        slot.occupied.assign(words_, 0);
-        slot.cooling.assign(words_, 0);
-        slot.wheel.assign(words_ * kWheel, 0);
+        slot.occupied = bits;
+        slot.cooling = bits + words_;
+        slot.wheel = bits + 2 * words_;
+        bits += words_ * (2 + kWheel);
     }
     for (int i = depth - 1; i >= 0; --i) {
         entries_[static_cast<std::size_t>(i)].next = free_;
@@ -31,25 +36,28 @@ SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile)
     }
 }
 
-void SegmentQueue::push(int slot, int domain, const Segment& segment) {
+Segment& SegmentQueue::push(int slot, int domain, std::uint64_t sequence) {
     const std::int32_t index = free_;
     Entry& entry = entries_[static_cast<std::size_t>(index)];
     free_ = entry.next;
     size_++;
-    entry.segment = segment;
+    entry.segment.sequence = sequence;
     entry.next = kNone;
     List& list = lists_[at(slot, domain)];
     Slot& tile = slots_[static_cast<std::size_t>(slot)];
+    std::uint64_t& head_key = keys_[at(slot, domain)];
+    list.length++;
+    tile.waiting++;
     if (list.head == kNone) {
         list.head = index;
-        list.head_sequence = segment.sequence;
+        head_key = key(sequence, list.length);
         tile.occupied[word_of(domain)] |= bit_of(domain);
     } else {
         entries_[static_cast<std::size_t>(list.tail)].next = index;
+        head_key = key(head_key & kSequence, list.length);
     }
     list.tail = index;
-    list.length++;
-    tile.waiting++;
+    return entry.segment;
 }
 
 void SegmentQueue::pop(int slot, int domain) {
@@ -67,7 +75,7 @@ void SegmentQueue::pop(int slot, int domain) {
         tile.occupied[word_of(domain)] &= ~bit_of(domain);
     } else {
         const Entry& head = entries_[static_cast<std::size_t>(list.head)];
-        list.head_sequence = head.segment.sequence;
+        keys_[at(slot, domain)] = key(head.segment.sequence, list.length);
         __builtin_prefetch(&entries_[static_cast<std::size_t>(std::max(head.next, 0))]);
     }
 }
@@ -78,10 +86,14 @@ void SegmentQueue::set_ready_at(int slot, int domain, Cycle date) {
     tile.wheel[date % kWheel * words_ + word_of(domain)] |= bit_of(domain);
 }
 
+void SegmentQueue::release_all(Slot& slot) const {
+    std::fill_n(slot.cooling, words_, 0);
+    std::fill_n(slot.wheel, words_ * kWheel, 0);
+}
+
 void SegmentQueue::turn_wheel(Slot& slot, Cycle date) const {
     if (date >= slot.turned + kWheel) {
-        std::fill(slot.wheel.begin(), slot.wheel.end(), 0);
-        std::fill(slot.cooling.begin(), slot.cooling.end(), 0);
+        release_all(slot);
         slot.turned = date;
     }
     while (slot.turned < date) {
@@ -94,26 +106,22 @@ void SegmentQueue::turn_wheel(Slot& slot, Cycle date) const {
     }
 }
 
-int SegmentQueue::pick(int slot, Cycle date, DomainScan scan) {
+int SegmentQueue::pick(int slot, Cycle date) {
     Slot& tile = slots_[static_cast<std::size_t>(slot)];
     turn_wheel(tile, date);
-    if (scan == DomainScan::RoundRobin) {
+    if (scan_ == DomainScan::RoundRobin) {
         return pick_next(tile);
     }
-    // Smallest key wins: arrival order, below (inverse) length where that comes first. Selected
-    // without branches, which would be mispredicted half the time.
-    const List* lists = &lists_[at(slot, 0)];
-    const std::uint64_t by_length = scan == DomainScan::Deepest ? ~std::uint64_t{0} : 0;
+    // Selected without branches, which would be mispredicted half the time.
+    const std::uint64_t* keys = &keys_[at(slot, 0)];
     std::uint64_t best_key = ~std::uint64_t{0};
     int best = -1;
     for (std::size_t w = 0; w < words_; ++w) {
         for (std::uint64_t bits = ready(tile, w); bits != 0; bits &= bits - 1) {
             const int domain = static_cast<int>(w) * 64 + __builtin_ctzll(bits);
-            const List& list = lists[domain];
-            const std::uint64_t inverse_length = (~std::uint64_t{list.length} & 0xFFFFU) << 48;
-            const std::uint64_t key = list.head_sequence | (inverse_length & by_length);
-            best = key < best_key ? domain : best;
-            best_key = key < best_key ? key : best_key;
+            const std::uint64_t head_key = keys[domain];
+            best = head_key < best_key ? domain : best;
+            best_key = head_key < best_key ? head_key : best_key;
         }
     }
     return best;
@@ -169,8 +177,7 @@ void SegmentQueue::clear(int slot) {
     for (int d = 0; d < domains_; ++d) {
         lists_[at(slot, d)] = List{};
     }
-    std::fill(tile.wheel.begin(), tile.wheel.end(), 0);
-    std::fill(tile.cooling.begin(), tile.cooling.end(), 0);
+    release_all(tile);
     tile.cursor = 0;
 }
 

@@ -26,14 +26,18 @@ enum class DomainScan { RoundRobin, Oldest, Deepest };
 /// ended and the date from which the array may touch it again (the scoreboard).
 class SegmentQueue {
 public:
-    SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile);
+    SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan);
+    SegmentQueue(const SegmentQueue&) = delete; // slots point into bits_
+    SegmentQueue& operator=(const SegmentQueue&) = delete;
 
     bool full() const { return free_ == kNone; }
     bool empty() const { return size_ == 0; }
     std::size_t size() const { return size_; }
     std::size_t waiting(int slot) const { return slots_[static_cast<std::size_t>(slot)].waiting; }
 
-    void push(int slot, int domain, const Segment& segment);
+    /// Queues a segment that arrived as number `sequence`; the caller fills in its run and feature,
+    /// in place: copying what was just written costs more than all else in here.
+    Segment& push(int slot, int domain, std::uint64_t sequence);
     Segment& front(int slot, int domain) {
         return entries_[static_cast<std::size_t>(lists_[at(slot, domain)].head)].segment;
     }
@@ -49,9 +53,9 @@ public:
     void set_ready_at(int slot, int domain, Cycle date);
     bool has_waiting(int slot, int domain) const { return lists_[at(slot, domain)].head != kNone; }
 
-    /// A domain of `slot` that has a segment and may execute at `date`, chosen by `scan`; -1 if
-    /// none. Dates of successive calls do not fall.
-    int pick(int slot, Cycle date, DomainScan scan);
+    /// A domain of `slot` that has a segment and may execute at `date`, chosen by the scan rule; -1
+    /// if none. Dates of successive calls do not fall.
+    int pick(int slot, Cycle date);
     /// Earliest date at which a waiting domain of `slot` becomes ready; kNever if none is cooling.
     Cycle next_ready(int slot) const;
     static constexpr int kWheel = 128;
@@ -69,28 +73,39 @@ private:
         std::int32_t head = kNone, tail = kNone;
         std::uint32_t ended = 0;
         std::uint32_t length = 0;
-        std::uint64_t head_sequence = 0; // of the head segment, so that a scan stays in this array
     };
     /// What a tile in flight has in the queue. Bit sets run over domains, words_ words each.
     struct Slot {
         std::size_t waiting = 0;
-        int cursor = 0;                      // domain after the last that was picked
-        Cycle turned = 0;                    // the wheel has released everything up to this date
-        std::vector<std::uint64_t> occupied; // has segments
-        std::vector<std::uint64_t> cooling;  // within the reuse distance
-        std::vector<std::uint64_t> wheel;    // kWheel sets: released at date mod kWheel
+        int cursor = 0;                    // domain after the last that was picked
+        Cycle turned = 0;                  // the wheel has released everything up to this date
+        std::uint64_t* occupied = nullptr; // has segments
+        std::uint64_t* cooling = nullptr;  // within the reuse distance
+        std::uint64_t* wheel = nullptr;    // kWheel sets: released at date mod kWheel
     };
     std::size_t at(int slot, int domain) const {
         return static_cast<std::size_t>(slot * domains_ + domain);
     }
+    /// Arrival order of the head, below (inverse) length where that comes first: the smallest key
+    /// of the ready domains is the one to pick. Kept by itself, so that a scan stays in one array.
+    std::uint64_t key(std::uint64_t head_sequence, std::uint32_t length) const {
+        return head_sequence | (std::uint64_t{~length & 0xFFFFU} << kSequenceBits & by_length_);
+    }
+    void release_all(Slot& slot) const;
     void turn_wheel(Slot& slot, Cycle date) const;
     int pick_next(Slot& slot) const;
     static std::uint64_t ready(const Slot& slot, std::size_t word) {
         return slot.occupied[word] & ~slot.cooling[word];
     }
 
+    static constexpr int kSequenceBits = 48;
+    static constexpr std::uint64_t kSequence = (std::uint64_t{1} << kSequenceBits) - 1;
+
     int domains_;
     std::size_t words_;
+    DomainScan scan_;
+    std::uint64_t by_length_; // all ones if the length counts
+    std::vector<std::uint64_t> bits_, keys_;
     std::vector<Entry> entries_;
     std::int32_t free_ = kNone; // first of the list of free entries
     std::size_t size_ = 0;

@@ -49,35 +49,43 @@ void SpanUnit::end_of_elaboration() {
 
 void SpanUnit::run() {
     while (tiles_done_ < job_.tiles.size()) {
-        take(rows_->get(self_));
+        take();
         deliver();
     }
 }
 
 void SpanUnit::pump() {
     while (deliver() && !rows_->empty()) {
-        take(rows_->get(self_));
+        take();
     }
 }
 
-// Solves a row; the result waits in held_.
-void SpanUnit::take(const RowItem& item) {
-    held_.tile = item.tile;
-    held_.end = item.end;
-    if (item.end) {
-        next_port_ = 0;
+// Solves a row. The result waits in the cell it will be sent in, or in held_ while there is none.
+// Items are read and written in place: a copy of what was just written waits for the write.
+void SpanUnit::take() {
+    const RowItem& item = rows_->arrive(self_);
+    const TileNumber tile_number = item.tile;
+    const std::uint32_t splat = item.splat;
+    const int row = item.row;
+    const bool end = item.end;
+    rows_->drop(self_);
+    next_port_ = end ? 0 : port_of_row_[static_cast<std::size_t>(row)];
+    DatedFifo<SpanItem>& ring = *rings_[next_port_];
+    result_ = end || ring.full() ? &held_ : &ring.staged();
+    result_->tile = tile_number;
+    result_->end = end;
+    if (end) {
         holding_ = true;
         return;
     }
-    const JobTile& tile = job_.tiles[item.tile];
+    const JobTile& tile = job_.tiles[tile_number];
     stats_.rows++;
     stats_.busy += static_cast<Cycle>(config_.cycles_per_row);
-    holding_ = job_.path->solve_row(item.splat, tile.y + item.row, tile.x, tile.x + tile.width,
-                                    tile.y, held_.span);
+    holding_ = job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y,
+                                    result_->span);
     if (holding_) {
         stats_.spans++;
-        stats_.tasks += static_cast<std::uint64_t>(held_.span.length);
-        next_port_ = port_of_row_[static_cast<std::size_t>(item.row)];
+        stats_.tasks += static_cast<std::uint64_t>(result_->span.length);
     } else {
         stats_.empty_rows++;
         self_.advance(static_cast<Cycle>(config_.cycles_per_row));
@@ -93,9 +101,14 @@ bool SpanUnit::deliver() {
             return false;
         }
         self_.hold_for(nullptr);
-        ring.put(self_, held_);
-        holding_ = held_.end && ++next_port_ < rings_.size();
-        if (!held_.end) {
+        ring.reserve(self_);
+        if (result_ == &held_) {
+            ring.staged() = held_;
+        }
+        const bool end = result_->end;
+        ring.put_staged(self_);
+        holding_ = end && ++next_port_ < rings_.size();
+        if (!end) {
             self_.advance(static_cast<Cycle>(config_.cycles_per_row));
         } else if (!holding_ && ++tiles_done_ == job_.tiles.size()) {
             self_.finish();

@@ -50,6 +50,7 @@ struct Bench {
         });
         sc_core::sc_start();
     }
+    Cycle add(const TaskRun& run) { return unit.add(bank, run, run.task.mask); }
     /// What the bank does at the end of a cycle.
     void next_cycle(Cycle until) {
         unit.send_due(bank, Idle::Conflict);
@@ -70,7 +71,7 @@ TEST(PackingUnit, CompactsSegmentsInOrder) {
         bench.bank.advance(10);
         Cycle last[4];
         for (std::int16_t i = 0; i < 4; ++i) {
-            last[i] = bench.unit.add(bench.bank, run_of(masks[i], i));
+            last[i] = bench.add(run_of(masks[i], i));
         }
         EXPECT_EQ(last[0], 12U); // execution date of the last task of each segment
         EXPECT_EQ(last[1], 14U); // 1 + 4 + 1
@@ -86,10 +87,10 @@ TEST(PackingUnit, CompactsSegmentsInOrder) {
         EXPECT_EQ(packet.slot, bench.got[p].date);
         EXPECT_EQ(packet.tasks, 4);
         for (int r = 0; r < packet.run_count; ++r) {
-            const BlendTask& task = packet.runs[static_cast<std::size_t>(r)].task;
+            const TaskRun& run = packet.runs[static_cast<std::size_t>(r)];
             for (int bit = 0; bit < 32; ++bit) {
-                if ((task.mask >> bit & 1U) != 0) {
-                    tasks.emplace_back(task.row, bit);
+                if ((run.part >> bit & 1U) != 0) {
+                    tasks.emplace_back(run.task.row, bit);
                 }
             }
         }
@@ -113,19 +114,19 @@ TEST(PackingUnit, AnOpenPacketGoesWhenItsSlotComes) {
     Bench bench;
     bench.drive([&] {
         EXPECT_EQ(bench.unit.open_until(), kNever);
-        EXPECT_EQ(bench.unit.add(bench.bank, run_of(0xFFF)), kLatency + 2); // slots 2, 3, 4
+        EXPECT_EQ(bench.add(run_of(0xFFF)), kLatency + 2); // slots 2, 3, 4
         EXPECT_EQ(bench.unit.next_execution(0), 5U);
-        bench.unit.add(bench.bank, run_of(0x1)); // opens slot 5
+        bench.add(run_of(0x1)); // opens slot 5
         EXPECT_EQ(bench.unit.open_until(), 3U);
         EXPECT_FALSE(bench.unit.due(2));
         EXPECT_TRUE(bench.unit.due(3));
         bench.next_cycle(2);
-        EXPECT_EQ(bench.unit.add(bench.bank, run_of(0x2)), 5U); // joins
+        EXPECT_EQ(bench.add(run_of(0x2)), 5U); // joins
         bench.next_cycle(3);
         bench.next_cycle(9);
         EXPECT_EQ(bench.unit.open_until(), kNever);
         EXPECT_EQ(bench.unit.next_execution(9), 9 + kLatency);
-        bench.unit.add(bench.bank, run_of(0xF));
+        bench.add(run_of(0xF));
         bench.next_cycle(10);
     });
     ASSERT_EQ(bench.got.size(), 5U);
@@ -143,7 +144,7 @@ TEST(PackingUnit, NothingIsIdleAfterTheLastPacket) {
     Bench bench;
     bench.drive([&] {
         bench.next_cycle(50);
-        bench.unit.add(bench.bank, run_of(0xF));
+        bench.add(run_of(0xF));
         bench.next_cycle(90);
     });
     EXPECT_EQ(bench.got.size(), 1U);
@@ -156,7 +157,7 @@ TEST(PackingUnit, RoomIsTheBufferMinusWhatIsQueued) {
     bench.drive([&] {
         EXPECT_TRUE(bench.unit.room(0, 32));
         EXPECT_FALSE(bench.unit.room(0, 33));
-        bench.unit.add(bench.bank, run_of(0xFFFFFF)); // 6 packets, slots 2 to 7
+        bench.add(run_of(0xFFFFFF)); // 6 packets, slots 2 to 7
         const Cycle last = kLatency + 5;
         for (Cycle now = 0; now < 12; ++now) {
             const int queued = now < last ? static_cast<int>(last - now) : 0;
@@ -174,9 +175,9 @@ TEST(PackingUnit, EndsOfTilesCostNothing) {
     Bench bench;
     bench.drive([&] {
         bench.unit.end_tile(bench.bank, 0); // alone
-        bench.unit.add(bench.bank, run_of(0x3, 0, 1));
+        bench.add(run_of(0x3, 0, 1));
         bench.unit.end_tile(bench.bank, 1); // with its tasks
-        bench.unit.add(bench.bank, run_of(0x4, 0, 2));
+        bench.add(run_of(0x4, 0, 2));
         bench.unit.end_tile(bench.bank, 2); // the open packet has an end already
         bench.next_cycle(1);
     });
@@ -189,7 +190,7 @@ TEST(PackingUnit, EndsOfTilesCostNothing) {
         EXPECT_EQ(bench.got[i].packet.ended_tile, i);
     }
     EXPECT_EQ(bench.got[1].date, kLatency);
-    EXPECT_EQ(bits(bench.got[1].packet.runs[1].task.mask), 1);
+    EXPECT_EQ(bits(bench.got[1].packet.runs[1].part), 1);
 }
 
 } // namespace

@@ -10,17 +10,11 @@
 namespace degs {
 namespace {
 
-Segment segment(std::uint64_t sequence) {
-    Segment s;
-    s.sequence = sequence;
-    return s;
-}
-
 TEST(SegmentQueue, KeepsOrderInsideADomain) {
-    SegmentQueue queue(4, 1, 3);
+    SegmentQueue queue(4, 1, 3, DomainScan::Oldest);
     for (std::uint64_t i = 0; i < 4; ++i) {
         EXPECT_FALSE(queue.full());
-        queue.push(0, 1, segment(i));
+        queue.push(0, 1, i);
     }
     EXPECT_TRUE(queue.full());
     EXPECT_EQ(queue.size(), 4U);
@@ -31,43 +25,58 @@ TEST(SegmentQueue, KeepsOrderInsideADomain) {
         queue.pop(0, 1);
     }
     EXPECT_TRUE(queue.empty());
-    EXPECT_EQ(queue.pick(0, 100, DomainScan::Oldest), -1);
+    EXPECT_EQ(queue.pick(0, 100), -1);
 }
 
-TEST(SegmentQueue, ScansChooseByTheirRule) {
-    SegmentQueue queue(8, 1, 4);
-    queue.push(0, 2, segment(0));
-    queue.push(0, 1, segment(1));
-    queue.push(0, 3, segment(2));
-    queue.push(0, 3, segment(3));
-    EXPECT_EQ(queue.pick(0, 0, DomainScan::Oldest), 2);
-    EXPECT_EQ(queue.pick(0, 0, DomainScan::Deepest), 3);
-    // Round robin starts at domain 0 and goes on behind the last one picked.
+void fill_three_domains(SegmentQueue& queue) {
+    queue.push(0, 2, 0);
+    queue.push(0, 1, 1);
+    queue.push(0, 3, 2);
+    queue.push(0, 3, 3);
+}
+
+TEST(SegmentQueue, OldestPicksTheFirstHead) {
+    SegmentQueue queue(8, 1, 4, DomainScan::Oldest);
+    fill_three_domains(queue);
+    EXPECT_EQ(queue.pick(0, 0), 2);
+    queue.pop(0, 2);
+    EXPECT_EQ(queue.pick(0, 0), 1);
+}
+
+TEST(SegmentQueue, DeepestPicksTheLongestListThenTheOldest) {
+    SegmentQueue queue(8, 1, 4, DomainScan::Deepest);
+    fill_three_domains(queue);
+    EXPECT_EQ(queue.pick(0, 0), 3);
+    queue.pop(0, 3); // equally deep now
+    EXPECT_EQ(queue.pick(0, 0), 2);
+}
+
+TEST(SegmentQueue, RoundRobinGoesOnBehindTheLastPick) {
+    SegmentQueue queue(8, 1, 4, DomainScan::RoundRobin);
+    fill_three_domains(queue);
     for (const int expected : {1, 2, 3, 1}) {
-        EXPECT_EQ(queue.pick(0, 0, DomainScan::RoundRobin), expected);
+        EXPECT_EQ(queue.pick(0, 0), expected);
     }
-    queue.pop(0, 3); // equally deep now: the oldest head
-    EXPECT_EQ(queue.pick(0, 0, DomainScan::Deepest), 2);
 }
 
 TEST(SegmentQueue, BlockedAtTMinusOneLegalAtT) {
     for (const DomainScan scan :
          {DomainScan::RoundRobin, DomainScan::Oldest, DomainScan::Deepest}) {
-        SegmentQueue queue(8, 1, 2);
-        queue.push(0, 0, segment(0));
-        queue.push(0, 0, segment(1));
-        EXPECT_EQ(queue.pick(0, 10, scan), 0);
+        SegmentQueue queue(8, 1, 2, scan);
+        queue.push(0, 0, 0);
+        queue.push(0, 0, 1);
+        EXPECT_EQ(queue.pick(0, 10), 0);
         queue.set_ready_at(0, 0, 14);
         queue.pop(0, 0);
         EXPECT_EQ(queue.next_ready(0), 14U);
-        EXPECT_EQ(queue.pick(0, 13, scan), -1);
-        EXPECT_EQ(queue.pick(0, 14, scan), 0);
+        EXPECT_EQ(queue.pick(0, 13), -1);
+        EXPECT_EQ(queue.pick(0, 14), 0);
         EXPECT_EQ(queue.next_ready(0), kNever);
     }
 }
 
 TEST(SegmentQueue, EndedPixelsAddUpUntilTheSlotIsCleared) {
-    SegmentQueue queue(4, 2, 2);
+    SegmentQueue queue(4, 2, 2, DomainScan::Oldest);
     EXPECT_EQ(queue.end_pixels(1, 0, 0x3), 0x3U);
     EXPECT_EQ(queue.end_pixels(1, 0, 0x6), 0x7U);
     EXPECT_EQ(queue.ended(1, 0), 0x7U);
@@ -76,8 +85,8 @@ TEST(SegmentQueue, EndedPixelsAddUpUntilTheSlotIsCleared) {
     queue.set_ready_at(1, 0, 50);
     queue.clear(1);
     EXPECT_EQ(queue.ended(1, 0), 0U);
-    queue.push(1, 0, segment(0));
-    EXPECT_EQ(queue.pick(1, 1, DomainScan::Oldest), 0); // nor is it within a reuse distance
+    queue.push(1, 0, 0);
+    EXPECT_EQ(queue.pick(1, 1), 0); // nor is it within a reuse distance
 }
 
 /// The same rules with plain lists and a date per domain.
@@ -130,7 +139,7 @@ class SegmentQueueOf : public ::testing::TestWithParam<DomainScan> {};
 TEST_P(SegmentQueueOf, BehavesAsPlainLists) {
     for (const int count : {1, 5, 64, 65, 200}) {
         std::mt19937 random(static_cast<unsigned>(count));
-        SegmentQueue queue(24, 2, count);
+        SegmentQueue queue(24, 2, count, GetParam());
         Model model(static_cast<std::size_t>(count));
         std::uint64_t sequence = 0;
         Cycle date = 0;
@@ -138,11 +147,11 @@ TEST_P(SegmentQueueOf, BehavesAsPlainLists) {
             if (!queue.full() && random() % 2 == 0) {
                 const auto domain =
                     static_cast<std::size_t>(random() % static_cast<unsigned>(count));
-                queue.push(1, static_cast<int>(domain), segment(sequence));
+                queue.push(1, static_cast<int>(domain), sequence);
                 model.domains[domain].waiting.push_back(sequence++);
             }
             date += random() % 50 == 0 ? random() % 400 : random() % 3;
-            const int domain = queue.pick(1, date, GetParam());
+            const int domain = queue.pick(1, date);
             ASSERT_EQ(domain, model.pick(date, GetParam())) << step;
             ASSERT_EQ(queue.next_ready(1), model.next_ready(date)) << step;
             if (domain >= 0 && random() % 4 != 0) {

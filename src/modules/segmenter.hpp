@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "modules/messages.hpp"
+
+namespace degs {
+
+/// Bits begin .. end - 1; 0 <= begin <= 32, end <= 32.
+inline std::uint32_t bits_between(int begin, int end) {
+    const auto upto = [](int n) { return static_cast<std::uint32_t>((std::uint64_t{1} << n) - 1); };
+    return upto(end) & ~upto(begin);
+}
+
+/// Cuts row spans at the fixed strides of their tile, columns 0 .. length - 1 and so on (paper,
+/// Sec. IV-B), and numbers the conflict domains (row x segment) of one bank's rows of a tile. No
+/// process: the Issue Bank asks for one segment after the other.
+class Segmenter {
+public:
+    struct Domain {
+        std::int16_t row, column; ///< inside the tile; the column is that of its first pixel
+    };
+
+    /// For bank `index` of `banks`, which owns every row y with y mod banks = index.
+    Segmenter(int tile_size, int length, int index, int banks, int contexts)
+        : length_(length), contexts_(static_cast<TileNumber>(contexts)) {
+        const int per_row = (tile_size + length - 1) / length;
+        for (int i = 0; i < tile_size; ++i) {
+            first_domain_of_row_.push_back(i / banks * per_row);
+            segment_of_column_.push_back(i / length);
+        }
+        for (int row = index; row < tile_size; row += banks) {
+            for (int s = 0; s < per_row; ++s) {
+                domains_.push_back(
+                    {static_cast<std::int16_t>(row), static_cast<std::int16_t>(s * length)});
+            }
+        }
+    }
+
+    /// Upper bound of the domains that any bank has in a tile.
+    static int domains_per_tile(int tile_size, int length, int banks) {
+        return (tile_size + banks - 1) / banks * ((tile_size + length - 1) / length);
+    }
+    const std::vector<Domain>& domains() const { return domains_; }
+    int domain_of(int row, int column) const {
+        return first_domain_of_row_[static_cast<std::size_t>(row)] +
+               segment_of_column_[static_cast<std::size_t>(column)];
+    }
+
+    void start(const SpanItem& item) {
+        const RowSpan& span = item.span;
+        const int first = segment_of_column_[static_cast<std::size_t>(span.x0)];
+        column_ = first * length_;
+        domain_ = first_domain_of_row_[static_cast<std::size_t>(span.y)] + first;
+        begin_ = span.x0;
+        end_ = span.x0 + span.length;
+        g0_ = span.g0;
+        d0_ = span.d0;
+        splat_ = span.splat;
+        row_ = span.y;
+        if (tile_ != item.tile) {
+            tile_ = item.tile;
+            context_ = static_cast<std::int16_t>(item.tile % contexts_);
+        }
+    }
+    /// Is a segment of the span left?
+    bool cutting() const { return column_ < end_; }
+    TileNumber tile() const { return tile_; }
+    /// Of the next segment.
+    int domain() const { return domain_; }
+    std::uint32_t mask() const {
+        return bits_between(std::max(begin_ - column_, 0), std::min(end_ - column_, length_));
+    }
+    /// Puts the tasks `mask` of the next segment together. Field by field: a copy of what was just
+    /// written would wait for the write.
+    void fill(TaskRun& run, std::uint32_t mask) const {
+        run.tile = tile_;
+        run.domain = static_cast<std::uint32_t>(domain_);
+        run.task.g0 = g0_;
+        run.task.d0 = d0_;
+        run.task.splat = splat_;
+        run.task.mask = mask;
+        run.task.row = row_;
+        run.task.column = static_cast<std::int16_t>(column_);
+        run.task.offset = static_cast<std::int16_t>(column_ - begin_);
+        run.task.context = context_;
+    }
+    void next() {
+        column_ += length_;
+        ++domain_;
+    }
+
+private:
+    int length_;
+    TileNumber contexts_;
+    // Tables instead of divisions: this is the hot loop.
+    std::vector<Domain> domains_;
+    std::vector<int> first_domain_of_row_, segment_of_column_;
+    // The span being cut, in pixels of the tile, and its next segment.
+    TileNumber tile_ = kNoTile;
+    std::uint32_t splat_ = 0;
+    double g0_ = 0, d0_ = 0;
+    int begin_ = 0, end_ = 0, column_ = 0, domain_ = 0;
+    std::int16_t row_ = 0, context_ = 0;
+};
+
+} // namespace degs
