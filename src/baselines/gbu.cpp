@@ -22,7 +22,7 @@ Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Tim
         build_engine(e);
         build_pixel_buffer(e);
     }
-    build_frame_gate();
+    frame_gating_.build(time_, job_, pixel_buffers_, front_end_->frame_free, 1);
     build_memory();
 }
 
@@ -123,26 +123,6 @@ void Gbu::build_pixel_buffer(int index) {
     auto& contexts = ring(context_rings_, "context_free", kTokenDepth + config_.contexts(), 1);
     pixel_buffers_[e]->context_free[0].bind(contexts);
     engines_[e]->context_free.bind(contexts);
-}
-
-// Frames wait for each other only in runs of more frames than may be in flight.
-void Gbu::build_frame_gate() {
-    auto& listeners = front_end_->frame_free;
-    if (listeners.size() == 0) {
-        return;
-    }
-    frame_gate_ = std::make_unique<FrameGate>("frame_gate", time_, job_, pixel_buffers_.size(),
-                                              listeners.size(), 1);
-    for (std::size_t i = 0; i < pixel_buffers_.size(); ++i) {
-        auto& done = ring(frame_rings_, "frame_done", kTokenDepth, 1);
-        pixel_buffers_[i]->frame_done[0].bind(done);
-        frame_gate_->in[i].bind(done);
-    }
-    for (std::size_t i = 0; i < listeners.size(); ++i) {
-        auto& free = ring(frame_rings_, "frame_free", kTokenDepth, 1);
-        frame_gate_->out[i].bind(free);
-        listeners[i].bind(free);
-    }
 }
 
 void Gbu::build_memory() {

@@ -57,7 +57,6 @@ private:
     void build_caches();
     void build_engine(int index);
     void build_pixel_buffer(int index);
-    void build_frame_gate();
     void build_memory();
     void collect_slots(AcceleratorResult& result) const;
     void collect_stages(AcceleratorResult& result) const;
@@ -79,7 +78,7 @@ private:
     std::vector<std::unique_ptr<TileEngine>> engines_;
     std::vector<std::unique_ptr<PixelBuffer>> pixel_buffers_;
     std::vector<std::unique_ptr<TileMonitor>> monitors_;
-    std::unique_ptr<FrameGate> frame_gate_;
+    FrameGating frame_gating_;
     MemoryStreams streams_;
 
     Rings<SortedRun> sorted_rings_, list_rings_, grant_rings_;
@@ -87,7 +86,6 @@ private:
     Rings<SplatChunk> splat_rings_;
     Rings<SliceReport> done_rings_, state_rings_;
     Rings<TileNumber> context_rings_, cancel_rings_;
-    Rings<std::uint32_t> frame_rings_;
 };
 
 } // namespace degs

@@ -27,7 +27,9 @@ Gcc::Gcc(const sc_core::sc_module_name& name, const GccConfig& config, const Tim
     } else {
         build_stages();
     }
-    build_frame_gate();
+    if (grouping_) {
+        frame_gating_.build(time_, job_, image_buffers_, grouping_->frame_free, 1);
+    }
     build_memory();
 }
 
@@ -70,7 +72,7 @@ void Gcc::build_stages() {
                                                        config_.traffic, time_, job_);
     colour_ = std::make_unique<GccColourStage>("colour", config_.colour, config_.traffic, time_,
                                                job_, config_.projection.groups_ahead);
-    auto& grouped = add_ring(frame_rings_, "grouped", time_, kTokenDepth, 1);
+    auto& grouped = add_ring(grouped_rings_, "grouped", time_, kTokenDepth, 1);
     grouping_->out.bind(grouped);
     projection_->start.bind(grouped);
     auto& groups = add_ring(projected_rings_, "projected", time_, config_.projection.groups_ahead,
@@ -105,20 +107,6 @@ void Gcc::build_source() {
     fetcher_->sorted.bind(lists);
     fetcher_->out[0].bind(*splat_rings_[0]);
     bind_cancel(fetcher_->cancel);
-}
-
-// Frames wait for each other only in runs of more frames than may be in flight.
-void Gcc::build_frame_gate() {
-    if (!gated_) {
-        return;
-    }
-    frame_gate_ = std::make_unique<FrameGate>("frame_gate", time_, job_, 1, 1, 1);
-    auto& done = add_ring(frame_rings_, "frame_done", time_, kTokenDepth, 1);
-    image_buffers_[0]->frame_done[0].bind(done);
-    frame_gate_->in[0].bind(done);
-    auto& free = add_ring(frame_rings_, "frame_free", time_, kTokenDepth, 1);
-    frame_gate_->out[0].bind(free);
-    grouping_->frame_free[0].bind(free);
 }
 
 void Gcc::build_memory() {

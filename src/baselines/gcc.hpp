@@ -50,7 +50,6 @@ private:
     void build_array();
     void build_stages();
     void build_source();
-    void build_frame_gate();
     void build_memory();
     void bind_cancel(FifoPort<TileNumber>& listener);
     void collect_stages(AcceleratorResult& result) const;
@@ -70,12 +69,12 @@ private:
     std::unique_ptr<GccWindowArray> array_;
     PixelBuffers image_buffers_; // one
     std::unique_ptr<TileMonitor> monitor_;
-    std::unique_ptr<FrameGate> frame_gate_;
+    FrameGating frame_gating_;
+    Rings<std::uint32_t> grouped_rings_;
     MemoryStreams streams_;
     bool gated_;
     std::size_t listeners_ = 0; // of cancellation, while wiring
 
-    Rings<std::uint32_t> frame_rings_;
     Rings<SplatChunk> projected_rings_, splat_rings_;
     Rings<SortedRun> sorted_rings_;
     Rings<GccBlockEnded> block_rings_;

@@ -22,7 +22,7 @@ Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const 
     build_span_engine();
     build_scheduler();
     build_array();
-    build_frame_gate();
+    frame_gating_.build(time_, job_, pixel_buffers_, front_end_->frame_free, pixel_buffers_.size());
     build_memory();
 }
 
@@ -201,26 +201,6 @@ void Degs::connect_region_feedback(int slice, int listeners) {
             const auto listener = static_cast<std::size_t>(g);
             slicing_[listener]->region_ended[next_region_port_[listener]++].bind(rows);
         }
-    }
-}
-
-// Frames wait for each other only in runs of more frames than may be in flight.
-void Degs::build_frame_gate() {
-    auto& listeners = front_end_->frame_free;
-    if (listeners.size() == 0) {
-        return;
-    }
-    frame_gate_ = std::make_unique<FrameGate>("frame_gate", time_, job_, pixel_buffers_.size(),
-                                              listeners.size(), pixel_buffers_.size());
-    for (std::size_t i = 0; i < pixel_buffers_.size(); ++i) {
-        auto& done = ring(frame_rings_, "frame_done", kTokenDepth, 1);
-        pixel_buffers_[i]->frame_done[0].bind(done);
-        frame_gate_->in[i].bind(done);
-    }
-    for (std::size_t i = 0; i < listeners.size(); ++i) {
-        auto& free = ring(frame_rings_, "frame_free", kTokenDepth, 1);
-        frame_gate_->out[i].bind(free);
-        listeners[i].bind(free);
     }
 }
 

@@ -62,7 +62,6 @@ private:
     void build_array();
     void build_pixel_buffer();
     void connect_region_feedback(int slice, int listeners);
-    void build_frame_gate();
     void build_memory();
     void collect_slots(AcceleratorResult& result) const;
     void collect_stages(AcceleratorResult& result) const;
@@ -84,11 +83,10 @@ private:
     std::vector<std::unique_ptr<ArraySlice>> slices_;
     std::vector<std::unique_ptr<PixelBuffer>> pixel_buffers_; // one, or one per bank
     std::unique_ptr<TileMonitor> monitor_;
-    std::unique_ptr<FrameGate> frame_gate_;
+    FrameGating frame_gating_;
     MemoryStreams streams_;
 
     Rings<SortedRun> sorted_rings_;
-    Rings<std::uint32_t> frame_rings_;
     Rings<SplatChunk> gaussian_rings_;
     Rings<RowItem> span_rings_;
     Rings<SpanItem> crossbar_rings_;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <systemc>
 
+#include "modules/pixel_buffer.hpp"
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
 
@@ -65,6 +67,21 @@ private:
 
     Process self_;
     std::vector<std::uint64_t> missing_; // reports, per frame
+};
+
+/// The gate of an accelerator with its rings: from every Pixel Buffer to every block of the front
+/// end that waits for frames. Nothing where nobody waits: in runs of no more frames than may be in
+/// flight.
+class FrameGating {
+public:
+    /// `reports`: see FrameGate.
+    void build(const Timebase& time, const RenderJob& job,
+               const std::vector<std::unique_ptr<PixelBuffer>>& buffers,
+               sc_core::sc_vector<FifoPort<std::uint32_t>>& listeners, std::uint64_t reports);
+
+private:
+    std::unique_ptr<FrameGate> gate_;
+    std::vector<std::unique_ptr<DatedFifo<std::uint32_t>>> rings_;
 };
 
 } // namespace degs

@@ -15,7 +15,7 @@ TileArrayEngine::TileArrayEngine(const sc_core::sc_module_name& name, const Part
     parts_.front.instant = array_only_;
     build_front_end(time);
     build_pixels(time);
-    build_frame_gate(time);
+    frame_gating_.build(time, job_, pixel_buffers_, front_end_->frame_free, 1);
     front_end_->connect_memory(streams_, fetchers_);
     streams_.connect(pixel_buffers_.front()->frame_buffer, "frame_buffer");
     streams_.build("memory", parts_.memory, time, array_only_);
@@ -56,23 +56,6 @@ void TileArrayEngine::build_pixels(const Timebase& time) {
     pixels.in[0].bind(add_ring(report_rings_, "tile_done", time, tokens, parts_.writeback_cycles));
     monitor_->in[0].bind(add_ring(report_rings_, "tile_state", time, tokens, 1));
     pixels.context_free[0].bind(add_ring(context_rings_, "context_free", time, tokens, 1));
-}
-
-// Frames wait for each other only in runs of more frames than may be in flight.
-void TileArrayEngine::build_frame_gate(const Timebase& time) {
-    auto& listeners = front_end_->frame_free;
-    if (listeners.size() == 0) {
-        return;
-    }
-    frame_gate_ = std::make_unique<FrameGate>("frame_gate", time, job_, 1, listeners.size(), 1);
-    auto& done = add_ring(frame_rings_, "frame_done", time, kTokenDepth, 1);
-    pixel_buffers_.front()->frame_done[0].bind(done);
-    frame_gate_->in[0].bind(done);
-    for (std::size_t i = 0; i < listeners.size(); ++i) {
-        auto& free = add_ring(frame_rings_, "frame_free", time, kTokenDepth, 1);
-        frame_gate_->out[i].bind(free);
-        listeners[i].bind(free);
-    }
 }
 
 std::size_t TileArrayEngine::finished_tiles() const {

@@ -72,7 +72,6 @@ private:
 
     void build_front_end(const Timebase& time);
     void build_pixels(const Timebase& time);
-    void build_frame_gate(const Timebase& time);
 
     Parts parts_;
     RenderJob& job_;
@@ -81,14 +80,13 @@ private:
     std::vector<std::unique_ptr<SplatFetcher>> fetchers_;
     PixelBuffers pixel_buffers_; // one
     std::unique_ptr<TileMonitor> monitor_;
-    std::unique_ptr<FrameGate> frame_gate_;
+    FrameGating frame_gating_;
     MemoryStreams streams_;
 
     Rings<SortedRun> sorted_rings_;
     Rings<SplatChunk> splat_rings_;
     Rings<SliceReport> report_rings_; // to the Pixel Buffer, to the Tile Monitor
     Rings<TileNumber> context_rings_, cancel_rings_;
-    Rings<std::uint32_t> frame_rings_;
 };
 
 } // namespace degs

@@ -2,7 +2,6 @@
 // Any accelerator on frames made by hand, and what must hold of every run.
 #pragma once
 
-#include <cstring>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -10,9 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "modules/render_engine.hpp"
-#include "splat/reference_renderer.hpp"
-#include "tests/modules/workload_fixture.hpp"
+#include "tests/modules/accelerator_fixture.hpp"
 
 namespace degs::test {
 
@@ -23,7 +20,7 @@ public:
               const std::vector<const FrameWorkload*>& frames, Fidelity fidelity = Fidelity::Exact,
               const BuildOptions& options = {})
         : time_{ClockDomain(config.clock_ghz), fidelity}, job_(make_render_job(frames, config)),
-          pes_(static_cast<std::uint64_t>(config.pes())) {
+          pes_(config.pes()) {
         EXPECT_EQ(config.problem(), "");
         engine_ = config.build(name.c_str(), time_, job_, options);
     }
@@ -37,37 +34,17 @@ public:
 
     /// The laws that the engine states itself, slots by window, tiles.
     void expect_sound() const {
-        const AcceleratorResult r = result();
         EXPECT_EQ(engine_->finished_tiles(), job_.tiles.size());
-        EXPECT_EQ(r.slots.total(), r.window.cycles() * pes_);
-        EXPECT_EQ(r.hazards, 0U);
-        for (const Conservation& c : r.conservation) {
-            EXPECT_EQ(c.left, c.right) << c.law;
-        }
+        expect_laws(result(), pes_);
     }
-    /// In double precision with the reference's stop rule: the same pixel updates, and the same
-    /// image but for the rounding to float, which may take the last bit either way.
-    void expect_reference() const {
-        std::uint64_t fragments = 0;
-        for (std::size_t f = 0; f < job_.frames.size(); ++f) {
-            ReferenceCounts counts;
-            const Image reference = render_reference(*job_.frames[f], counts);
-            fragments += counts.fragments;
-            ASSERT_EQ(image(f).fragments, reference.fragments) << "frame " << f;
-            for (std::size_t i = 0; i < reference.rgb.size(); ++i) {
-                const double value = reference.rgb[i];
-                ASSERT_NEAR(image(f).rgb[i], value, 1e-12 + 0x1p-23 * std::abs(value));
-            }
-        }
-        EXPECT_EQ(result().slots.useful, fragments);
-    }
+    void expect_reference() const { expect_reference_pixels(job_, result().slots.useful); }
     /// Every number of the result in words, to compare runs by.
     std::string words() const;
 
 private:
     Timebase time_;
     RenderJob job_;
-    std::uint64_t pes_;
+    int pes_;
     std::unique_ptr<RenderEngine> engine_;
 };
 
@@ -103,15 +80,6 @@ inline std::string EngineRun::words() const {
     out << r.tiles << ' ' << r.background_tiles << ' ' << r.tiles_cancelled << ' '
         << r.memory_utilization << '\n';
     return out.str();
-}
-
-inline bool same_bytes(const Image& a, const Image& b) {
-    const auto same = [](const auto& x, const auto& y) {
-        return x.size() == y.size() &&
-               (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
-    };
-    return same(a.rgb, b.rgb) && same(a.transmittance, b.transmittance) &&
-           same(a.fragments, b.fragments);
 }
 
 } // namespace degs::test

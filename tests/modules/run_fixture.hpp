@@ -2,17 +2,8 @@
 // Whole accelerators on frames made by hand, and what must hold of every run.
 #pragma once
 
-#include <cstring>
-#include <memory>
-#include <string>
-#include <type_traits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "modules/degs.hpp"
-#include "splat/reference_renderer.hpp"
-#include "tests/modules/workload_fixture.hpp"
+#include "tests/modules/accelerator_fixture.hpp"
 
 namespace degs::test {
 
@@ -47,29 +38,20 @@ inline DegsConfig shaped(DegsConfig config, const Shape& shape) {
     return config;
 }
 
-/// One accelerator with its job. Several may live in one elaboration.
-class DegsRun {
+class DegsRun : public AcceleratorRun<Degs, DegsConfig> {
 public:
-    DegsRun(const std::string& name, const DegsConfig& config,
-            const std::vector<const FrameWorkload*>& frames, Fidelity fidelity = Fidelity::Exact,
-            const BuildOptions& options = {})
-        : time_{ClockDomain(config.clock_ghz), fidelity}, job_(make_render_job(frames, config)) {
-        EXPECT_EQ(config.problem(), "");
-        degs_ = std::make_unique<Degs>(name.c_str(), config, time_, job_, options);
-    }
-    const Degs& degs() const { return *degs_; }
-    const RenderJob& job() const { return job_; }
-    const Image& image(std::size_t frame = 0) const { return job_.images[frame]; }
+    using AcceleratorRun::AcceleratorRun;
+    const Degs& degs() const { return engine(); }
 
     /// Slots of the whole blending window, by class; see architecture, slot accounting.
     SlotAccount slots() const {
-        const auto width = static_cast<std::uint64_t>(degs_->config().array.pes_per_bank);
+        const auto width = static_cast<std::uint64_t>(degs().config().array.pes_per_bank);
         const ActiveWindow all = window();
         SlotAccount sum;
-        for (std::size_t b = 0; b < degs_->slices().size(); ++b) {
-            const ActiveWindow& own = degs_->slices()[b]->stats().window;
-            sum += degs_->slices()[b]->stats().slots;
-            sum += degs_->packing()[b]->idle();
+        for (std::size_t b = 0; b < degs().slices().size(); ++b) {
+            const ActiveWindow& own = degs().slices()[b]->stats().window;
+            sum += degs().slices()[b]->stats().slots;
+            sum += degs().packing()[b]->idle();
             if (own.empty()) {
                 sum.drain += all.cycles() * width;
             } else {
@@ -81,7 +63,7 @@ public:
     }
     ActiveWindow window() const {
         ActiveWindow all;
-        for (const auto& slice : degs_->slices()) {
+        for (const auto& slice : degs().slices()) {
             if (!slice->stats().window.empty()) {
                 all.include(slice->stats().window);
             }
@@ -91,7 +73,7 @@ public:
     template <class Field>
     std::uint64_t slices(Field ArraySlice::Stats::*field) const {
         std::uint64_t sum = 0;
-        for (const auto& slice : degs_->slices()) {
+        for (const auto& slice : degs().slices()) {
             sum += slice->stats().*field;
         }
         return sum;
@@ -99,7 +81,7 @@ public:
     template <class Field>
     std::uint64_t banks(Field IssueBank::Stats::*field) const {
         std::uint64_t sum = 0;
-        for (const auto& bank : degs_->banks()) {
+        for (const auto& bank : degs().banks()) {
             sum += bank->stats().*field;
         }
         return sum;
@@ -108,87 +90,46 @@ public:
     std::uint64_t packets() const { return slices(&ArraySlice::Stats::packets); }
     std::uint64_t span_tasks() const {
         std::uint64_t sum = 0;
-        for (const auto& unit : degs_->spans()) {
+        for (const auto& unit : degs().spans()) {
             sum += unit->stats().tasks;
         }
         return sum;
     }
 
-    /// The statistics of one block: 64-bit counters, whatever their names are.
-    struct Words {
-        std::string name;
-        std::vector<std::uint64_t> values;
-    };
-    std::vector<Words> signature() const;
-
-private:
-    Timebase time_;
-    RenderJob job_;
-    std::unique_ptr<Degs> degs_;
+    /// Every counter of every block.
+    Signature signature() const;
 };
 
-inline std::vector<DegsRun::Words> DegsRun::signature() const {
-    std::vector<Words> list;
-    const auto add = [&list](const std::string& name, const auto& stats) {
-        using Stats = std::decay_t<decltype(stats)>;
-        static_assert(std::is_trivially_copyable_v<Stats> && sizeof(Stats) % 8 == 0);
-        Words words{name, std::vector<std::uint64_t>(sizeof(Stats) / 8)};
-        std::memcpy(words.values.data(), &stats, sizeof(Stats));
-        list.push_back(words);
-    };
-    const auto all = [&](const auto& units) {
-        for (const auto& unit : units) {
-            add(unit->name(), unit->stats());
-        }
-    };
-    add("finished", degs_->finished());
-    all(degs_->front_end().projection());
-    if (degs_->front_end().binner() != nullptr) {
-        add("binner", degs_->front_end().binner()->stats());
+inline Signature DegsRun::signature() const {
+    Signature words;
+    words.add("finished", degs().finished());
+    words.add_units("projection", degs().front_end().projection());
+    words.add_unit("binner", degs().front_end().binner());
+    words.add_units("sorting", degs().front_end().sorting());
+    words.add_units("fetchers", degs().fetchers());
+    words.add_units("slicing", degs().slicing());
+    words.add_units("spans", degs().spans());
+    words.add_units("banks", degs().banks());
+    words.add_units("packing", degs().packing());
+    words.add_units("slices", degs().slices());
+    words.add_units("pixel buffers", degs().pixel_buffers());
+    words.add_unit("monitor", &degs().monitor());
+    for (const auto& unit : degs().packing()) {
+        words.add("idle slots", unit->idle());
     }
-    all(degs_->front_end().sorting());
-    all(degs_->fetchers());
-    all(degs_->slicing());
-    all(degs_->spans());
-    all(degs_->banks());
-    all(degs_->packing());
-    all(degs_->slices());
-    all(degs_->pixel_buffers());
-    add("monitor", degs_->monitor().stats());
-    for (const auto& unit : degs_->packing()) {
-        add("idle slots", unit->idle());
+    for (const auto& bank : degs().banks()) {
+        words.add("feature waits", bank->feature_waits());
     }
-    for (const auto& bank : degs_->banks()) {
-        add("feature waits", bank->feature_waits());
-    }
-    const MemoryStreams& streams = degs_->streams();
-    for (std::size_t i = 0; i < streams.names().size(); ++i) {
-        add(streams.names()[i], streams.memory().stats(i));
-    }
-    add("gaussian buffer", degs_->gaussian_buffer());
-    add("span buffer", degs_->span_buffer());
-    add("crossbar", degs_->crossbar());
-    add("packing buffer", degs_->packing_buffer());
-    return list;
+    words.add_streams(degs().streams());
+    words.add("gaussian buffer", degs().gaussian_buffer());
+    words.add("span buffer", degs().span_buffer());
+    words.add("crossbar", degs().crossbar());
+    words.add("packing buffer", degs().packing_buffer());
+    return words;
 }
 
-/// Every counter of every block.
 inline void expect_same_statistics(const DegsRun& a, const DegsRun& b) {
-    const auto left = a.signature();
-    const auto right = b.signature();
-    ASSERT_EQ(left.size(), right.size());
-    for (std::size_t i = 0; i < left.size(); ++i) {
-        EXPECT_EQ(left[i].values, right[i].values) << left[i].name;
-    }
-}
-
-inline bool same_bytes(const Image& a, const Image& b) {
-    const auto same = [](const auto& x, const auto& y) {
-        return x.size() == y.size() &&
-               (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
-    };
-    return same(a.rgb, b.rgb) && same(a.transmittance, b.transmittance) &&
-           same(a.fragments, b.fragments);
+    a.signature().expect_same(b.signature());
 }
 
 /// Conservation laws of every finished run.
