@@ -66,7 +66,7 @@ struct TaskRun {
 
 /// A fixed-width packet of tasks, Packing Unit -> Blending Array.
 struct TaskPacket {
-    static constexpr int kMaxRuns = 8;
+    static constexpr int kMaxRuns = 32;
     int run_count = 0;
     Cycle slot = 0;         ///< cycle in which the array executes it
     int tasks = 0;          ///< set bits over all parts, <= PEs per array slice
