@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tlm/lpddr5_channel.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace degs {
 namespace {
-
-// What wins among commands that are ready at one date; then the oldest access. ACT-2 precedes
-// other row commands so that it keeps its deadline tAAD: a burst leaves every other CK to them.
-constexpr std::uint64_t kRank = std::uint64_t{1} << 60U;
-
-constexpr std::uint64_t rank_of(Lpddr5Command command) {
-    return is_column(command) ? kRank : command == Lpddr5Command::Act2 ? 2 * kRank : 3 * kRank;
-}
 
 unsigned entries(double share, int depth) {
     return static_cast<unsigned>(std::floor(share * depth + 0.5));
@@ -33,6 +27,19 @@ Lpddr5Channel::Lpddr5Channel(const Lpddr5Timing& timing, const Lpddr5RuleTable& 
       refresh_due_(config.refresh == Lpddr5Refresh::None
                        ? kNoDate
                        : refresh_period() - std::min(phase, refresh_period())) {}
+
+void Lpddr5Channel::Stats::add(const Stats& other) {
+    std::transform(commands.begin(), commands.end(), other.commands.begin(), commands.begin(),
+                   std::plus<>());
+    for (std::size_t s = 0; s < bursts.size(); ++s) {
+        bursts[s] += other.bursts[s];
+        accesses[s] += other.accesses[s];
+    }
+    forwarded += other.forwarded;
+    merged += other.merged;
+    drains += other.drains;
+    open += other.open;
+}
 
 Ck Lpddr5Channel::refresh_period() const {
     const auto all_banks = static_cast<Ck>(timing_->refi);
@@ -114,7 +121,7 @@ void Lpddr5Channel::enqueue(Lpddr5Queue& to, const Lpddr5Access& access) {
     to.push(access);
     if (&to == &queue()) {
         find_candidate(access.bank);
-        chosen_ = false;
+        offer_candidate(access.bank);
     }
 }
 
@@ -147,38 +154,6 @@ void Lpddr5Channel::choose_direction() {
         find_candidates();
         chosen_ = false;
     }
-}
-
-void Lpddr5Channel::find_candidates() {
-    for (unsigned bank = 0; bank < kLpddr5Banks; ++bank) {
-        find_candidate(bank);
-    }
-}
-
-void Lpddr5Channel::find_candidate(unsigned bank) {
-    constexpr std::uint8_t kNone = Lpddr5Queue::kNone;
-    const Lpddr5Queue& waiting = queue();
-    const Bank& state = banks_[bank];
-    Candidate& candidate = candidates_[bank];
-    candidate.slot = waiting.oldest(bank);
-    if (state.state == BankState::Activating) {
-        candidate.command = Command::Act2;
-    } else if (candidate.slot == kNone) {
-        pending_ &= ~(1U << bank);
-        return;
-    } else if (state.state == BankState::Closed) {
-        candidate.command = Command::Act1;
-    } else {
-        // A younger conflict does not close a row that an older access, or any hit, still wants.
-        const std::uint8_t hit = scheduler_.hits_first ? waiting.oldest_of_row(bank, state.row)
-                                 : waiting[candidate.slot].access.row == state.row ? candidate.slot
-                                                                                   : kNone;
-        candidate.command = hit == kNone ? Command::Pre : writing_ ? Command::Wr : Command::Rd;
-        candidate.slot = hit == kNone ? candidate.slot : hit;
-    }
-    const std::uint64_t age = candidate.slot == kNone ? 0 : waiting[candidate.slot].age;
-    candidate.order = rank_of(candidate.command) + age;
-    pending_ |= 1U << bank;
 }
 
 void Lpddr5Channel::perform(Lpddr5Outcome& outcome) {
@@ -237,6 +212,9 @@ void Lpddr5Channel::row_command(const Choice& choice) {
         find_candidates();
     } else {
         find_candidate(bank);
+        if (choice.command == Command::RefPb) {
+            find_candidate(bank ^ kLpddr5RefreshPartner);
+        }
     }
 }
 

@@ -52,6 +52,7 @@ public:
         std::uint64_t forwarded = 0, merged = 0; ///< accesses that never reached the DRAM
         std::uint64_t drains = 0;                ///< turns from reads to writes
         Ck open = 0;                             ///< CK with a row open, up to the last change
+        void add(const Stats& other);
     };
 
     /// `phase`: CK by which the first refresh comes early. The table outlives the channel.
@@ -85,10 +86,14 @@ private:
         BankState state = BankState::Closed;
         std::uint32_t row = 0;
     };
-    struct Candidate { // what a bank would do next for the current direction
-        Command command = Command::Pre;
-        std::uint8_t slot = Lpddr5Queue::kNone;
+    /// What keeps a candidate back beside its own bank; column commands have one lane per group.
+    enum Lane : std::uint8_t { kColumnLane, kAct1Lane = 4, kAct2Lane, kPreLane, kLanes };
+    struct Candidate {           // what a bank would do next for the current direction
+        Ck date = 0;             // as far as its own bank is concerned
         std::uint64_t order = 0; // rank, then age
+        Command command = Command::Pre;
+        std::uint8_t lane = kPreLane;
+        std::uint8_t slot = Lpddr5Queue::kNone;
     };
     struct Choice {
         Ck date = kNoDate;
@@ -109,10 +114,12 @@ private:
 
     void find_candidates();
     void find_candidate(unsigned bank);
+    void find_open(unsigned bank, Candidate& candidate) const;
     void choose();
     void choose_ordinary();
     void choose_refresh();
     void offer(Command command, unsigned bank, std::uint8_t slot, std::uint64_t order);
+    void offer_candidate(unsigned bank);
     std::uint32_t held_banks() const;
 
     void perform(Lpddr5Outcome& outcome);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tlm/lpddr5_channels.hpp"
 
+#include <algorithm>
+
 namespace degs {
 
 void Lpddr5Config::describe(ConfigVisitor& visitor) {
@@ -56,6 +58,7 @@ void Lpddr5Channels::split(const Lpddr5Request& request, std::uint32_t id) {
 
 void Lpddr5Channels::push_access(unsigned channel, const Lpddr5Access& access) {
     channels_[channel].push(access);
+    writes_somewhere_ = writes_somewhere_ || access.write;
     if ((access.id & kPredicted) != 0) {
         ++asked_[channel];
         return;
@@ -82,9 +85,7 @@ Ck Lpddr5Channels::due() const {
 
 // Where a write may wait, a read may be answered from it at once, so nothing can stay behind.
 Ck Lpddr5Channels::due_of(bool write, Ck date) const {
-    const bool at_once = exactly_ || write ||
-                         std::any_of(channels_.begin(), channels_.end(),
-                                     [](const Lpddr5Channel& c) { return c.has_writes(); });
+    const bool at_once = exactly_ || write || writes_somewhere_;
     return at_once ? date : date + timing_.read_latency() - 1;
 }
 
@@ -103,6 +104,8 @@ void Lpddr5Channels::run(Ck until) {
             run_channel(c, until);
         }
     }
+    writes_somewhere_ = std::any_of(channels_.begin(), channels_.end(),
+                                    [](const Lpddr5Channel& c) { return c.has_writes(); });
 }
 
 void Lpddr5Channels::run_channel(std::size_t channel, Ck until) {

@@ -96,6 +96,7 @@ private:
     std::vector<Lpddr5Answer> completed_;
     std::vector<std::uint32_t> admitted_;
     bool exactly_ = false;
+    bool writes_somewhere_ = false;
     std::uint32_t tickets_ = 0;
     std::unique_ptr<Lpddr5Channel> copy_; // for predictions
     Lpddr5Outcome outcome_;

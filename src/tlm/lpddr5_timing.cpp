@@ -152,9 +152,10 @@ std::vector<Lpddr5Rule> lpddr5_rules(const Lpddr5Timing& timing) {
 Lpddr5RuleTable::Lpddr5RuleTable(const Lpddr5Timing& timing)
     : group_shift_(timing.groups() == 1 ? 4 : 2), faw_(static_cast<Ck>(timing.faw)) {
     for (const Lpddr5Rule& rule : lpddr5_rules(timing)) {
-        steps_[static_cast<std::size_t>(rule.previous)][static_cast<std::size_t>(rule.scope)]
-            .push_back(
-                {static_cast<std::uint8_t>(rule.next), static_cast<std::uint16_t>(rule.gap)});
+        Steps& steps =
+            steps_[static_cast<std::size_t>(rule.previous)][static_cast<std::size_t>(rule.scope)];
+        steps.step.at(steps.count++) = {static_cast<std::uint16_t>(rule.next),
+                                        static_cast<std::uint16_t>(rule.gap)};
     }
 }
 

@@ -88,10 +88,15 @@ std::vector<Lpddr5Rule> lpddr5_rules(const Lpddr5Timing& timing);
 class Lpddr5RuleTable {
 public:
     struct Step {
-        std::uint8_t next = 0;
+        std::uint16_t next = 0;
         std::uint16_t gap = 0;
     };
-    using Steps = std::vector<Step>;
+    struct Steps { // contiguous, since every command walks three of them
+        std::uint32_t count = 0;
+        std::array<Step, 7> step{};
+        const Step* begin() const { return step.data(); }
+        const Step* end() const { return step.data() + count; }
+    };
 
     explicit Lpddr5RuleTable(const Lpddr5Timing& timing);
     const Steps& after(Lpddr5Command previous, Lpddr5Scope scope) const {
@@ -113,10 +118,16 @@ public:
     explicit Lpddr5Dates(const Lpddr5RuleTable& table) : table_(&table) {}
 
     Ck earliest(Lpddr5Command command, unsigned bank) const {
+        return std::max(of_bank(command, bank), of_others(command, table_->group_of(bank)));
+    }
+    /// The two parts of it: what the bank itself demands changes only with commands to the bank.
+    Ck of_bank(Lpddr5Command command, unsigned bank) const { return bank_[kind(command)][bank]; }
+    Ck of_others(Lpddr5Command command, unsigned group) const {
         const std::size_t c = kind(command);
-        const Ck date = std::max({bank_[c][bank], group_[c][table_->group_of(bank)], channel_[c]});
+        const Ck date = std::max(group_[c][group], channel_[c]);
         return command == Lpddr5Command::Act1 ? std::max(date, window_[oldest_]) : date;
     }
+    unsigned group_of(unsigned bank) const { return table_->group_of(bank); }
     void issue(Lpddr5Command command, unsigned bank, Ck date);
 
 private:
