@@ -6,6 +6,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "tlm/memory.hpp"
+
 namespace degs {
 namespace {
 

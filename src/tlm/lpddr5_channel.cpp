@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace degs {
 namespace {
@@ -12,7 +11,32 @@ unsigned entries(double share, int depth) {
     return static_cast<unsigned>(std::floor(share * depth + 0.5));
 }
 
+/// Applies `change` to every counter of `stats` and its counterpart.
+template <class Change>
+void each_counter(Lpddr5Channel::Stats& stats, const Lpddr5Channel::Stats& other,
+                  const Change& change) {
+    for (std::size_t c = 0; c < stats.commands.size(); ++c) {
+        change(stats.commands[c], other.commands[c]);
+    }
+    for (std::size_t s = 0; s < stats.bursts.size(); ++s) {
+        change(stats.bursts[s], other.bursts[s]);
+        change(stats.accesses[s], other.accesses[s]);
+    }
+    change(stats.forwarded, other.forwarded);
+    change(stats.merged, other.merged);
+    change(stats.drains, other.drains);
+    change(stats.open, other.open);
+}
+
 } // namespace
+
+void Lpddr5Channel::Stats::add(const Stats& other) {
+    each_counter(*this, other, [](std::uint64_t& mine, std::uint64_t its) { mine += its; });
+}
+
+void Lpddr5Channel::Stats::subtract(const Stats& earlier) {
+    each_counter(*this, earlier, [](std::uint64_t& mine, std::uint64_t its) { mine -= its; });
+}
 
 Lpddr5Channel::Lpddr5Channel(const Lpddr5Timing& timing, const Lpddr5RuleTable& rules,
                              const Lpddr5ControllerConfig& config, Ck phase)
@@ -27,19 +51,6 @@ Lpddr5Channel::Lpddr5Channel(const Lpddr5Timing& timing, const Lpddr5RuleTable& 
       refresh_due_(config.refresh == Lpddr5Refresh::None
                        ? kNoDate
                        : refresh_period() - std::min(phase, refresh_period())) {}
-
-void Lpddr5Channel::Stats::add(const Stats& other) {
-    std::transform(commands.begin(), commands.end(), other.commands.begin(), commands.begin(),
-                   std::plus<>());
-    for (std::size_t s = 0; s < bursts.size(); ++s) {
-        bursts[s] += other.bursts[s];
-        accesses[s] += other.accesses[s];
-    }
-    forwarded += other.forwarded;
-    merged += other.merged;
-    drains += other.drains;
-    open += other.open;
-}
 
 Ck Lpddr5Channel::refresh_period() const {
     const auto all_banks = static_cast<Ck>(timing_->refi);

@@ -53,6 +53,7 @@ public:
         std::uint64_t drains = 0;                ///< turns from reads to writes
         Ck open = 0;                             ///< CK with a row open, up to the last change
         void add(const Stats& other);
+        void subtract(const Stats& earlier);
     };
 
     /// `phase`: CK by which the first refresh comes early. The table outlives the channel.

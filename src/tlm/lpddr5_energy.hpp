@@ -13,6 +13,12 @@ struct Lpddr5Energy {
         return activate_nj + read_nj + write_nj + refresh_nj + background_nj;
     }
 
+    Lpddr5Energy operator-(const Lpddr5Energy& earlier) const {
+        return {activate_nj - earlier.activate_nj, read_nj - earlier.read_nj,
+                write_nj - earlier.write_nj, refresh_nj - earlier.refresh_nj,
+                background_nj - earlier.background_nj};
+    }
+
     /// What an event costs. Vendors publish no currents beside timings: derived from the maxima of
     /// a 16 Gb LPDDR5X sheet, less what typical parts draw; see docs/lpddr5.md.
     struct Config {
