@@ -10,6 +10,7 @@ void add_run_command(CLI::App& program);
 void add_compare_command(CLI::App& program);
 void add_render_command(CLI::App& program);
 void add_scene_command(CLI::App& program);
+void add_memory_command(CLI::App& program);
 void add_config_command(CLI::App& program);
 
 } // namespace degs::sim

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two pictures of a comparison, 800 px wide, in colours that people with any colour vision can
+// The two pictures of a comparison and that of a memory, 800 px wide, in colours that people with any colour vision can
 // tell apart (M. Okabe, K. Ito, Color Universal Design, 2008).
 #pragma once
 
@@ -52,5 +52,14 @@ struct UtilizationPanel {
 
 /// Utilization over the number of PEs, which doubles from tick to tick; two panels side by side.
 std::string utilization_svg(const std::string& title, const std::vector<UtilizationPanel>& panels);
+
+/// A point of a load-latency curve; shares of the peak.
+struct LoadPoint {
+    double offered = 0, carried = 0;
+    double mean_ns = 0, p95_ns = 0;
+};
+
+/// Mean and 95th percentile of the latency over the load that is carried.
+std::string load_latency_svg(const std::string& title, const std::vector<LoadPoint>& points);
 
 } // namespace degs::sim

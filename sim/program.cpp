@@ -51,6 +51,7 @@ void add_commands(CLI::App& program) {
     add_compare_command(program);
     add_render_command(program);
     add_scene_command(program);
+    add_memory_command(program);
     add_config_command(program);
 }
 

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace degs {
+
+/// Durations in ns, kept as counts: the mean is exact, percentiles are right to 1/32 of their value
+/// (and to 1/32 ns below one). An increment per sample.
+class LatencyHistogram {
+public:
+    void add(double ns) {
+        ++counts_[bucket_of(ns)];
+        ++samples_;
+        sum_ns_ += ns;
+        largest_ns_ = ns > largest_ns_ ? ns : largest_ns_;
+    }
+    void add(const LatencyHistogram& other) {
+        for (std::size_t b = 0; b < kBuckets; ++b) {
+            counts_[b] += other.counts_[b];
+        }
+        samples_ += other.samples_;
+        sum_ns_ += other.sum_ns_;
+        largest_ns_ = other.largest_ns_ > largest_ns_ ? other.largest_ns_ : largest_ns_;
+    }
+    std::uint64_t samples() const { return samples_; }
+    double mean_ns() const { return samples_ == 0 ? 0 : sum_ns_ / static_cast<double>(samples_); }
+    double largest_ns() const { return largest_ns_; }
+    /// The smallest value that `share` (0 .. 1) of the samples do not exceed; 0 without samples.
+    double percentile_ns(double share) const {
+        const double wanted = share * static_cast<double>(samples_);
+        std::uint64_t seen = 0;
+        for (std::size_t b = 0; b < kBuckets; ++b) {
+            seen += counts_[b];
+            if (counts_[b] != 0 && static_cast<double>(seen) >= wanted) {
+                const double upper = upper_end(b);
+                return upper < largest_ns_ ? upper : largest_ns_;
+            }
+        }
+        return largest_ns_;
+    }
+
+private:
+    // 32 buckets per power of two of 1/32 ns.
+    static constexpr unsigned kSubBits = 5;
+    static constexpr std::uint64_t kPerNs = 32;
+    static constexpr std::size_t kBuckets = (64 - kSubBits) << kSubBits;
+
+    static std::size_t bucket_of(double ns) {
+        const auto value = static_cast<std::uint64_t>(ns * static_cast<double>(kPerNs));
+        if (value < (std::uint64_t{1} << kSubBits)) {
+            return value;
+        }
+        const unsigned top = 63U - static_cast<unsigned>(__builtin_clzll(value));
+        const unsigned shift = top - kSubBits;
+        return (static_cast<std::size_t>(shift) << kSubBits) + (value >> shift);
+    }
+    static double upper_end(std::size_t bucket) {
+        if (bucket < (std::size_t{2} << kSubBits)) {
+            return static_cast<double>(bucket + 1) / static_cast<double>(kPerNs);
+        }
+        const std::size_t shift = (bucket >> kSubBits) - 1;
+        const std::size_t mantissa = bucket - (shift << kSubBits) + 1;
+        return static_cast<double>(mantissa) * static_cast<double>(std::uint64_t{1} << shift) /
+               static_cast<double>(kPerNs);
+    }
+
+    std::array<std::uint64_t, kBuckets> counts_{};
+    std::uint64_t samples_ = 0;
+    double sum_ns_ = 0;
+    double largest_ns_ = 0;
+};
+
+} // namespace degs

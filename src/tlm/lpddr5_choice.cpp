@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which command a channel sends next, and when. The other half of lpddr5_channel.cpp.
+#include "tlm/lpddr5_channel.hpp"
+
+namespace degs {
+namespace {
+
+// A candidate's order is its rank and, below that, its age; a date goes above both. Column commands
+// win, then ACT-2, so that it keeps its deadline tAAD: a burst leaves every other CK to it.
+constexpr unsigned kAgeBits = 42;
+constexpr unsigned kOrderBits = kAgeBits + 2;
+constexpr std::uint64_t kNoOrder = ~std::uint64_t{0};
+
+constexpr std::uint64_t rank_of(Lpddr5Command command) {
+    const std::uint64_t rank = is_column(command) ? 1 : command == Lpddr5Command::Act2 ? 2 : 3;
+    return rank << kAgeBits;
+}
+
+} // namespace
+
+void Lpddr5Channel::find_candidates() {
+    for (unsigned bank = 0; bank < kLpddr5Banks; ++bank) {
+        find_candidate(bank);
+    }
+}
+
+void Lpddr5Channel::find_candidate(unsigned bank) {
+    constexpr std::uint8_t kNone = Lpddr5Queue::kNone;
+    const Lpddr5Queue& waiting = queue();
+    const Bank& state = banks_[bank];
+    Candidate& candidate = candidates_[bank];
+    candidate.slot = waiting.oldest(bank);
+    if (state.state == BankState::Activating) {
+        candidate.command = Command::Act2;
+        candidate.lane = kAct2Lane;
+    } else if (candidate.slot == kNone) {
+        pending_ &= ~(1U << bank);
+        return;
+    } else if (state.state == BankState::Closed) {
+        candidate.command = Command::Act1;
+        candidate.lane = kAct1Lane;
+    } else {
+        find_open(bank, candidate);
+    }
+    const std::uint64_t age = candidate.slot == kNone ? 0 : waiting[candidate.slot].age;
+    candidate.order = rank_of(candidate.command) + age;
+    candidate.date = dates_.of_bank(candidate.command, bank);
+    pending_ |= 1U << bank;
+}
+
+// A younger conflict does not close a row that an older access, or any hit, still wants.
+void Lpddr5Channel::find_open(unsigned bank, Candidate& candidate) const {
+    const Lpddr5Queue& waiting = writing_ ? writes_ : reads_;
+    const std::uint32_t row = banks_[bank].row;
+    const std::uint8_t hit = scheduler_.hits_first ? waiting.oldest_of_row(bank, row)
+                             : waiting[candidate.slot].access.row == row ? candidate.slot
+                                                                         : Lpddr5Queue::kNone;
+    if (hit == Lpddr5Queue::kNone) {
+        candidate.command = Command::Pre;
+        candidate.lane = kPreLane;
+    } else {
+        candidate.command = writing_ ? Command::Wr : Command::Rd;
+        candidate.lane = static_cast<std::uint8_t>(kColumnLane + dates_.group_of(bank));
+        candidate.slot = hit;
+    }
+}
+
+void Lpddr5Channel::choose() {
+    choice_ = Choice{};
+    best_order_ = kNoOrder;
+    if (refreshing_) {
+        choose_refresh();
+    }
+    choose_ordinary();
+    if (!refreshing_ && choice_.date >= refresh_due_) {
+        choice_ = Choice{};
+        choice_.date = std::max(refresh_due_, clock_);
+        choice_.start_refresh = true;
+        best_order_ = 0;
+    }
+    chosen_ = true;
+}
+
+void Lpddr5Channel::offer(Command command, unsigned bank, std::uint8_t slot, std::uint64_t order) {
+    const Ck date = std::max(dates_.earliest(command, bank), clock_);
+    if (date < choice_.date || (date == choice_.date && order < best_order_)) {
+        choice_.date = date;
+        choice_.command = command;
+        choice_.bank = static_cast<std::uint8_t>(bank);
+        choice_.slot = slot;
+        choice_.start_refresh = false;
+        best_order_ = order;
+    }
+}
+
+// A new access can change the candidate of its bank only, so the choice among the others stands.
+void Lpddr5Channel::offer_candidate(unsigned bank) {
+    if (!chosen_ || scheduler_.oldest_only || choice_.bank == bank) {
+        chosen_ = false;
+    } else if ((held_banks() & 1U << bank) == 0) {
+        const Candidate& candidate = candidates_[bank];
+        offer(candidate.command, bank, candidate.slot, candidate.order);
+    }
+}
+
+void Lpddr5Channel::choose_ordinary() {
+    std::uint32_t banks = pending_ & ~held_banks();
+    if (scheduler_.oldest_only && queue().size() != 0) {
+        banks &= 1U << queue().oldest_bank() | activating_;
+    }
+    if (banks == 0) {
+        return;
+    }
+    std::array<Ck, kLanes> floor;
+    const Command column = writing_ ? Command::Wr : Command::Rd;
+    for (unsigned group = 0; group < 4; ++group) {
+        floor[kColumnLane + group] = std::max(clock_, dates_.of_others(column, group));
+    }
+    floor[kAct1Lane] = std::max(clock_, dates_.of_others(Command::Act1, 0));
+    floor[kAct2Lane] = clock_;
+    floor[kPreLane] = std::max(clock_, dates_.of_others(Command::Pre, 0));
+    std::uint64_t best = kNoOrder;
+    unsigned best_bank = 0;
+    for (; banks != 0; banks &= banks - 1) {
+        const auto bank = static_cast<unsigned>(__builtin_ctz(banks));
+        const Candidate& candidate = candidates_[bank];
+        const Ck wait = std::max(candidate.date, floor[candidate.lane]) - clock_;
+        const std::uint64_t key = (wait << kOrderBits) + candidate.order;
+        best_bank = key < best ? bank : best_bank;
+        best = std::min(key, best);
+    }
+    const Candidate& candidate = candidates_[best_bank];
+    offer(candidate.command, best_bank, candidate.slot, candidate.order);
+}
+
+std::uint32_t Lpddr5Channel::held_banks() const {
+    if (!refreshing_) {
+        return 0;
+    }
+    return config_.refresh == Lpddr5Refresh::AllBank
+               ? ~0U
+               : 1U << refresh_bank_ | 1U << (refresh_bank_ + kLpddr5RefreshPartner);
+}
+
+// Once a refresh is due its banks take nothing else: they finish an activation, close, refresh.
+void Lpddr5Channel::choose_refresh() {
+    const bool all = config_.refresh == Lpddr5Refresh::AllBank;
+    const std::uint32_t banks = held_banks();
+    if (const std::uint32_t activating = banks & activating_; activating != 0) {
+        return offer(Command::Act2, static_cast<unsigned>(__builtin_ctz(activating)),
+                     Lpddr5Queue::kNone, 0);
+    }
+    if (all) {
+        return offer(open_banks_ != 0 ? Command::PreAb : Command::RefAb, 0, Lpddr5Queue::kNone, 0);
+    }
+    const unsigned partner = refresh_bank_ + kLpddr5RefreshPartner;
+    for (const unsigned bank : {refresh_bank_, partner}) {
+        if (banks_[bank].state == BankState::Open) {
+            return offer(Command::Pre, bank, Lpddr5Queue::kNone, 0);
+        }
+    }
+    const bool partner_later =
+        dates_.earliest(Command::RefPb, partner) > dates_.earliest(Command::RefPb, refresh_bank_);
+    offer(Command::RefPb, partner_later ? partner : refresh_bank_, Lpddr5Queue::kNone, 0);
+}
+
+} // namespace degs
