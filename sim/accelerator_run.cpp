@@ -2,6 +2,7 @@
 #include "sim/accelerator_run.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "sim/stopwatch.hpp"
@@ -55,7 +56,8 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     result.tiles_listed = job.tiles.size();
     result.stopped = time.clock.ceil(sc_core::sc_time_stamp());
     engine->collect(result);
-    result.images = std::move(job.images);
+    result.images.assign(std::make_move_iterator(job.images.begin()),
+                         std::make_move_iterator(job.images.end()));
     check_result(result);
     return result;
 }

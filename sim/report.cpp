@@ -89,6 +89,12 @@ ordered_json slots_json(const AcceleratorResult& run) {
             {"hazards", run.hazards}};
 }
 
+ordered_json energy_json(const Lpddr5Energy& energy) {
+    return {{"activate", energy.activate_nj},     {"read", energy.read_nj},
+            {"write", energy.write_nj},           {"refresh", energy.refresh_nj},
+            {"background", energy.background_nj}, {"total", energy.total_nj()}};
+}
+
 ordered_json dram_json(const AcceleratorResult& run) {
     std::uint64_t read = 0;
     std::uint64_t written = 0;
@@ -99,6 +105,11 @@ ordered_json dram_json(const AcceleratorResult& run) {
         streams[stream.name] = {{"bytes_read", stream.bytes_read},
                                 {"bytes_written", stream.bytes_written},
                                 {"requests", stream.requests}};
+        if (stream.read_latency.samples() != 0) {
+            streams[stream.name]["read_latency_ns"] = {
+                {"mean", stream.read_latency.mean_ns()},
+                {"p95", stream.read_latency.percentile_ns(0.95)}};
+        }
     }
     return {{"bytes_read", read},
             {"bytes_written", written},
@@ -106,7 +117,8 @@ ordered_json dram_json(const AcceleratorResult& run) {
              run.memory_gb_per_s > 0 ? ordered_json(run.memory_gb_per_s) : ordered_json()},
             {"utilization",
              run.memory_gb_per_s > 0 ? ordered_json(run.memory_utilization) : ordered_json()},
-            {"row_hit_rate", nullptr},
+            {"row_hit_rate", run.row_hit_rate ? ordered_json(*run.row_hit_rate) : ordered_json()},
+            {"energy_nj", run.dram_energy ? energy_json(*run.dram_energy) : ordered_json()},
             {"streams", std::move(streams)}};
 }
 

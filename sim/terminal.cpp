@@ -95,7 +95,8 @@ std::string memory_line(const AcceleratorResult& run) {
     }
     return scaled(read) + "B read, " + scaled(written) + "B written" + kDot +
            percent(run.memory_utilization, 0) + " % of " +
-           config_words::number(run.memory_gb_per_s) + " GB/s";
+           config_words::number(run.memory_gb_per_s) + " GB/s" +
+           (run.row_hit_rate ? kDot + ("row hits " + percent(*run.row_hit_rate, 0) + " %") : "");
 }
 
 std::string image_line(const RunResult& result, const std::string& image_path) {

@@ -13,8 +13,8 @@ constexpr int kTokenDepth = 64;
 
 Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Timebase& time,
          RenderJob& job, const BuildOptions& options)
-    : RenderEngine(name), config_(config), time_(time), job_(job), options_(options),
-      nobody_(time) {
+    : RenderEngine(name), config_(config), time_(time), job_(job), options_(options), nobody_(time),
+      next_uses_(job) {
     nobody_.finish();
     build_front_end();
     build_caches();
@@ -22,7 +22,8 @@ Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Tim
         build_engine(e);
         build_pixel_buffer(e);
     }
-    frame_gating_.build(time_, job_, pixel_buffers_, front_end_->frame_free, 1);
+    frame_ends_.build(time_, config_.traffic, job_, pixel_buffers_, front_end_->frame_free, 1,
+                      options_);
     build_memory();
 }
 
@@ -67,12 +68,9 @@ void Gbu::build_caches() {
     if (config_.reuse_cache.bytes == 0 || options_.array_only) {
         return;
     }
-    for (const FrameWorkload* frame : job_.frames) {
-        next_use_.emplace_back(*frame);
-    }
     for (int e = 0; e < config_.engines.count; ++e) {
         caches_.push_back(std::make_unique<ReuseCache>(
-            job_, next_use_, static_cast<std::size_t>(config_.cache_records())));
+            job_, next_uses_, static_cast<std::size_t>(config_.cache_records())));
     }
 }
 
@@ -113,10 +111,10 @@ void Gbu::build_pixel_buffer(int index) {
     PixelBuffer::Share share;
     share.first_context = index * config_.contexts();
     share.granted = true;
-    share.background = index == 0;
     pixel_buffers_.push_back(std::make_unique<PixelBuffer>(
         numbered("pixel_buffer", e).c_str(), config, config_.traffic, time_, job_, 1,
-        config_.contexts(), share, front_end_->frame_free.size() != 0, options_.array_only));
+        config_.contexts(), share, FrameEnds::awaited(front_end_->frame_free, options_),
+        options_.array_only));
     auto& done = ring(done_rings_, "tile_done", kTokenDepth, 1);
     engines_[e]->tile_done.bind(done);
     pixel_buffers_[e]->in[0].bind(done);
@@ -130,7 +128,8 @@ void Gbu::build_memory() {
     for (auto& unit : pixel_buffers_) {
         streams_.connect(unit->frame_buffer, "frame_buffer");
     }
-    streams_.build("memory", config_.memory, time_, options_.array_only);
+    frame_ends_.connect_memory(streams_);
+    streams_.build("memory", config_.memory, time_, options_);
 }
 
 std::size_t Gbu::finished_tiles() const {

@@ -8,7 +8,7 @@
 
 #include "baselines/gbu_config.hpp"
 #include "modules/collect.hpp"
-#include "modules/frame_gate.hpp"
+#include "modules/frame_ends.hpp"
 #include "modules/list_collector.hpp"
 #include "modules/memory_streams.hpp"
 #include "modules/reuse_cache.hpp"
@@ -72,13 +72,13 @@ private:
     Process nobody_; // writes cancellations that never come: a granted list is sorted to its end
     std::vector<std::unique_ptr<ListCollector>> collectors_;
     std::unique_ptr<TileDispatcher> dispatcher_;
-    std::vector<NextUse> next_use_; // per frame; empty without caches
+    NextUses next_uses_;
     std::vector<std::unique_ptr<ReuseCache>> caches_;
     std::vector<std::unique_ptr<SplatFetcher>> fetchers_;
     std::vector<std::unique_ptr<TileEngine>> engines_;
     std::vector<std::unique_ptr<PixelBuffer>> pixel_buffers_;
     std::vector<std::unique_ptr<TileMonitor>> monitors_;
-    FrameGating frame_gating_;
+    FrameEnds frame_ends_;
     MemoryStreams streams_;
 
     Rings<SortedRun> sorted_rings_, list_rings_, grant_rings_;

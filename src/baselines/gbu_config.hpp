@@ -5,6 +5,7 @@
 
 #include "baselines/tile_engine.hpp"
 #include "modules/hierarchical_sorter.hpp"
+#include "modules/main_memory.hpp"
 #include "modules/pixel_buffer.hpp"
 #include "modules/projection_unit.hpp"
 #include "modules/render_engine.hpp"
@@ -12,7 +13,6 @@
 #include "modules/tile_binner.hpp"
 #include "modules/tile_monitor.hpp"
 #include "modules/traffic.hpp"
-#include "tlm/memory.hpp"
 
 namespace degs {
 
@@ -46,7 +46,7 @@ struct GbuConfig : AcceleratorConfig {
     Engines engines;
     PixelBuffer::Config pixel_buffer;
     TileMonitor::Config monitor;
-    Memory::Config memory;
+    MainMemoryConfig memory;
 
     GbuConfig();
     std::unique_ptr<AcceleratorConfig> clone() const override {

@@ -107,7 +107,7 @@ void Gbu::collect_laws(AcceleratorResult& result) const {
 }
 
 void Gbu::collect(AcceleratorResult& result) const {
-    collect_frames(result, pixel_buffers_);
+    collect_frames(result, pixel_buffers_, frame_ends_.background());
     result.tiles = finished_tiles();
     result.tiles_cancelled = sum_of(monitors_, &TileMonitor::Stats::tiles_cancelled);
     collect_slots(result);

@@ -27,9 +27,9 @@ Gcc::Gcc(const sc_core::sc_module_name& name, const GccConfig& config, const Tim
     } else {
         build_stages();
     }
-    if (grouping_) {
-        frame_gating_.build(time_, job_, image_buffers_, grouping_->frame_free, 1);
-    }
+    sc_core::sc_vector<FifoPort<std::uint32_t>> nobody;
+    frame_ends_.build(time_, config_.traffic.common(), job_, image_buffers_,
+                      grouping_ ? grouping_->frame_free : nobody, 1, options_);
     build_memory();
 }
 
@@ -42,7 +42,7 @@ void Gcc::build_array() {
                                               mask ? 1 : 0, config_.colour.block);
     image_buffers_.push_back(std::make_unique<PixelBuffer>(
         "image_buffer", config_.image_buffer, config_.traffic.common(), time_, job_, 1, contexts,
-        PixelBuffer::Share{}, gated_, options_.array_only));
+        PixelBuffer::Share{}, gated_ || options_.finished != nullptr, options_.array_only));
     monitor_ = std::make_unique<TileMonitor>("monitor", config_.monitor, time_, job_, 1,
                                              options_.array_only ? 1 : 3);
     auto& done = add_ring(done_rings_, "tile_done", time_, tokens, writeback);
@@ -88,7 +88,8 @@ void Gcc::build_stages() {
         // that is on the way to it; a full ring could stop both for ever.
         const int per_row = (config_.view_size + config_.colour.block - 1) / config_.colour.block;
         const int ahead = config_.chunks_ahead() + config_.projection.groups_ahead + 3;
-        const int views = std::clamp(static_cast<int>(job_.tiles.size()), 1, ahead);
+        const int views =
+            job_.joined ? ahead : std::clamp(static_cast<int>(job_.tiles.size()), 1, ahead);
         auto& blocks = add_ring(block_rings_, "block_ended", time_, per_row * per_row * views,
                                 config_.array.writeback_cycles + config_.colour.feedback_cycles);
         array_->block_ended[0].bind(blocks);
@@ -120,7 +121,8 @@ void Gcc::build_memory() {
         streams_.connect(fetcher_->records, "splats_read");
     }
     streams_.connect(image_buffers_[0]->frame_buffer, "frame_buffer");
-    streams_.build("memory", config_.memory, time_, options_.array_only);
+    frame_ends_.connect_memory(streams_);
+    streams_.build("memory", config_.memory, time_, options_);
 }
 
 } // namespace degs

@@ -8,7 +8,7 @@
 
 #include "baselines/gcc_config.hpp"
 #include "modules/collect.hpp"
-#include "modules/frame_gate.hpp"
+#include "modules/frame_ends.hpp"
 #include "modules/list_source.hpp"
 #include "modules/memory_streams.hpp"
 
@@ -69,7 +69,7 @@ private:
     std::unique_ptr<GccWindowArray> array_;
     PixelBuffers image_buffers_; // one
     std::unique_ptr<TileMonitor> monitor_;
-    FrameGating frame_gating_;
+    FrameEnds frame_ends_;
     Rings<std::uint32_t> grouped_rings_;
     MemoryStreams streams_;
     bool gated_;

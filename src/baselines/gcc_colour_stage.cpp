@@ -50,7 +50,7 @@ void GccColourStage::end_of_elaboration() {
 
 // A group enters when the one before has asked for its SH and a place behind it is free.
 void GccColourStage::fetch() {
-    for (TileNumber views = 0; views < job_.tiles.size();) {
+    for (TileNumber views = 0; !job_.over(views);) {
         SplatChunk group = in->get(fetcher_);
         views += group.last ? 1 : 0;
         fetched_.reserve(fetcher_);
@@ -61,7 +61,7 @@ void GccColourStage::fetch() {
         }
         const Survivors survivors = filter(group);
         if (survivors.count != 0 || group.last) {
-            const GccMemoryMap map(traffic_, job_.frame_of(job_.tiles[group.tile]));
+            const GccMemoryMap map(traffic_, job_, job_.tiles[group.tile].frame);
             const Cycle ready = sh.read(fetcher_, map.sh, sh_bytes(survivors));
             fetched_.put_at(fetcher_, survivors, ready);
         }
@@ -124,7 +124,7 @@ std::uint64_t GccColourStage::sh_bytes(const Survivors& survivors) const {
 
 void GccColourStage::shade() {
     const auto units = static_cast<std::uint64_t>(config_.units);
-    for (TileNumber views = 0; views < job_.tiles.size();) {
+    for (TileNumber views = 0; !job_.over(views);) {
         const Survivors survivors = fetched_.get(shader_);
         views += survivors.group.last ? 1 : 0;
         const Cycle colour =

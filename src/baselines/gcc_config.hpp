@@ -5,11 +5,11 @@
 #include "baselines/gcc_grouping.hpp"
 #include "baselines/gcc_projection_stage.hpp"
 #include "baselines/gcc_window_array.hpp"
+#include "modules/main_memory.hpp"
 #include "modules/pixel_buffer.hpp"
 #include "modules/render_engine.hpp"
 #include "modules/splat_fetcher.hpp"
 #include "modules/tile_monitor.hpp"
-#include "tlm/memory.hpp"
 
 namespace degs {
 
@@ -27,7 +27,7 @@ struct GccConfig : AcceleratorConfig {
     GccWindowArray::Config array;          ///< Stage IV
     PixelBuffer::Config image_buffer;
     TileMonitor::Config monitor;
-    Memory::Config memory;
+    MainMemoryConfig memory;
 
     GccConfig();
     std::unique_ptr<AcceleratorConfig> clone() const override {

@@ -55,12 +55,12 @@ void GccGrouping::end_of_elaboration() {
 void GccGrouping::fetch() {
     const auto chunk = static_cast<std::uint64_t>(config_.chunk);
     const std::uint64_t record = traffic_.stage_one_bytes();
-    for (std::uint32_t f = 0; f < job_.frames.size(); ++f) {
+    for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); ++f) {
         if (frames_in_flight_ != 0 && f >= frames_in_flight_) {
             frame_free[0]->get(fetcher_);
         }
         const FrameWorkload& frame = *job_.frames[f];
-        const GccMemoryMap map(traffic_, frame);
+        const GccMemoryMap map(traffic_, job_, f);
         for (std::uint64_t first = 0; first < frame.gaussians; first += chunk) {
             const std::uint64_t count = std::min(chunk, frame.gaussians - first);
             fetched_.reserve(fetcher_);
@@ -73,7 +73,7 @@ void GccGrouping::fetch() {
 }
 
 void GccGrouping::group() {
-    for (std::uint32_t f = 0; f < job_.frames.size(); ++f) {
+    for (std::uint32_t f = 0; job_.has_frame(grouper_, f); ++f) {
         const FrameWorkload& frame = *job_.frames[f];
         region_written_ = 0;
         const std::uint64_t chunks =
@@ -83,7 +83,7 @@ void GccGrouping::group() {
         }
         grouper_.advance_to(last_write_); // lists are read back from memory: they must be there
         if (config_.lists == GccLists::Regrouped && frame.tiles() > 1) {
-            regroup(frame);
+            regroup(f);
         }
         stats_.view_entries += frame.tile_pairs();
         frames_grouped_.push_back(grouper_.local());
@@ -94,7 +94,7 @@ void GccGrouping::group() {
 
 void GccGrouping::group_chunk(std::uint32_t f, const Chunk& chunk) {
     const FrameWorkload& frame = *job_.frames[f];
-    const GccMemoryMap map(traffic_, frame);
+    const GccMemoryMap map(traffic_, job_, f);
     const auto& ids = frame.visible_of;
     const auto rank = [&](std::uint64_t id) {
         return static_cast<std::uint32_t>(std::lower_bound(ids.begin(), ids.end(), id) -
@@ -111,8 +111,9 @@ void GccGrouping::group_chunk(std::uint32_t f, const Chunk& chunk) {
 }
 
 // Entries of the image's groups come back near to far, as many requests ahead as for the means.
-void GccGrouping::regroup(const FrameWorkload& frame) {
-    const GccMemoryMap map(traffic_, frame);
+void GccGrouping::regroup(std::uint32_t f) {
+    const FrameWorkload& frame = *job_.frames[f];
+    const GccMemoryMap map(traffic_, job_, f);
     const auto chunk = static_cast<std::size_t>(config_.chunk);
     const std::size_t visible = frame.splats.size();
     const std::size_t pieces = (visible + chunk - 1) / chunk;

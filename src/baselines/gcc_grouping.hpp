@@ -62,7 +62,7 @@ private:
     void fetch();
     void group();
     void group_chunk(std::uint32_t frame, const Chunk& chunk);
-    void regroup(const FrameWorkload& frame);
+    void regroup(std::uint32_t f);
     void write(std::uint64_t region, std::uint64_t entries, Cycle least_cycles);
 
     Config config_;

@@ -53,7 +53,7 @@ void GccProjectionStage::end_of_elaboration() {
 
 void GccProjectionStage::load() {
     std::uint32_t frames_started = 0;
-    for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
+    for (TileNumber number = 0; job_.has_tile(loader_, number); ++number) {
         for (; frames_started <= job_.tiles[number].frame; ++frames_started) {
             start->get(loader_);
         }
@@ -64,7 +64,7 @@ void GccProjectionStage::load() {
 
 void GccProjectionStage::load_view(TileNumber number) {
     const JobTile& view = job_.tiles[number];
-    const GccMemoryMap map(traffic_, job_.frame_of(view));
+    const GccMemoryMap map(traffic_, job_, view.frame);
     SplatChunk group;
     group.tile = number;
     for (std::uint64_t done = 0; done < view.count;) {
@@ -91,7 +91,7 @@ void GccProjectionStage::load_view(TileNumber number) {
 
 void GccProjectionStage::fetch() {
     const auto record = static_cast<std::uint64_t>(traffic_.shape_bytes);
-    for (TileNumber views = 0; views < job_.tiles.size();) {
+    for (TileNumber views = 0; !job_.over(views);) {
         SplatChunk group = loaded_.get(fetcher_);
         views += group.last ? 1 : 0;
         fetched_.reserve(fetcher_);
@@ -107,7 +107,8 @@ void GccProjectionStage::fetch() {
                 const std::uint32_t splat = frame.tile_splats[group.first + i];
                 bytes += traffic_.scattered(record, frame.splats[splat].id);
             }
-            ready = shapes.read(fetcher_, GccMemoryMap(traffic_, frame).shapes, bytes);
+            ready = shapes.read(
+                fetcher_, GccMemoryMap(traffic_, job_, job_.tiles[group.tile].frame).shapes, bytes);
         }
         if (group.count != 0 || group.last) {
             fetched_.put_at(fetcher_, group, ready);
@@ -118,7 +119,7 @@ void GccProjectionStage::fetch() {
 
 void GccProjectionStage::project() {
     const auto units = static_cast<Cycle>(config_.units);
-    for (TileNumber views = 0; views < job_.tiles.size();) {
+    for (TileNumber views = 0; !job_.over(views);) {
         const SplatChunk group = fetched_.get(projector_);
         views += group.last ? 1 : 0;
         const Cycle busy =

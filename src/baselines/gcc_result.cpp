@@ -8,7 +8,7 @@
 namespace degs {
 
 void Gcc::collect(AcceleratorResult& result) const {
-    collect_frames(result, image_buffers_);
+    collect_frames(result, image_buffers_, frame_ends_.background());
     result.tiles = finished_tiles();
     result.tiles_cancelled = monitor_->stats().tiles_cancelled;
     result.slots = array_->stats().slots;

@@ -31,17 +31,13 @@ TrafficConfig GccTraffic::common() const {
     return common;
 }
 
-GccMemoryMap::GccMemoryMap(const GccTraffic& traffic, const FrameWorkload& frame) {
-    const auto aligned = [](std::uint64_t bytes) { return (bytes + 4095) / 4096 * 4096; };
-    const MemoryMap common(traffic.common(), frame);
+GccMemoryMap::GccMemoryMap(const GccTraffic& traffic, const RenderJob& job, std::uint32_t frame) {
+    const MemoryMap common = job.map(frame, traffic.common());
     means = common.geometry;
+    shapes = means + (job.frames[frame]->gaussians * traffic.stage_one_bytes() + 63) / 64 * 64;
     sh = common.sh;
     views = common.lists;
-    const auto pixels = static_cast<std::uint64_t>(frame.camera.width) *
-                        static_cast<std::uint64_t>(frame.camera.height);
-    shapes =
-        common.frame_buffer + aligned(pixels * static_cast<std::uint64_t>(traffic.pixel_bytes));
-    groups = shapes + aligned(frame.gaussians * static_cast<std::uint64_t>(traffic.shape_bytes));
+    groups = views + (job.frames[frame]->tile_pairs() * traffic.entry_bytes() + 63) / 64 * 64;
 }
 
 } // namespace degs

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "modules/traffic.hpp"
+#include "modules/render_job.hpp"
 
 namespace degs {
 
@@ -32,10 +32,11 @@ struct GccTraffic {
     }
 };
 
-/// Where GCC's streams live; the regions follow the common ones.
+/// Where GCC's streams live: a Gaussian's stages in the geometry region, lists of groups behind the
+/// lists of views.
 struct GccMemoryMap {
     std::uint64_t means = 0, shapes = 0, sh = 0, groups = 0, views = 0;
-    GccMemoryMap(const GccTraffic& traffic, const FrameWorkload& frame);
+    GccMemoryMap(const GccTraffic& traffic, const RenderJob& job, std::uint32_t frame);
 };
 
 } // namespace degs

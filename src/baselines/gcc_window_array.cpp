@@ -59,7 +59,7 @@ void GccWindowArray::end_of_elaboration() {
 }
 
 void GccWindowArray::run() {
-    for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
+    for (TileNumber number = 0; !job_.over(number); ++number) {
         SplatChunk chunk = next_chunk(number);
         await_context(number);
         start_view(number);

@@ -5,6 +5,7 @@
 
 #include "baselines/lockstep_array.hpp"
 #include "modules/hierarchical_sorter.hpp"
+#include "modules/main_memory.hpp"
 #include "modules/pipeline_config.hpp"
 #include "modules/pixel_buffer.hpp"
 #include "modules/projection_unit.hpp"
@@ -13,7 +14,6 @@
 #include "modules/tile_binner.hpp"
 #include "modules/tile_monitor.hpp"
 #include "modules/traffic.hpp"
-#include "tlm/memory.hpp"
 
 namespace degs {
 
@@ -37,7 +37,7 @@ struct GscoreConfig : AcceleratorConfig {
     LockstepArray::Config array;
     PixelBuffer::Config pixel_buffer;
     TileMonitor::Config monitor;
-    Memory::Config memory;
+    MainMemoryConfig memory;
 
     GscoreConfig();
     std::unique_ptr<AcceleratorConfig> clone() const override {

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "modules/slot_account.hpp"
 #include "splat/image.hpp"
+#include "tlm/latency_histogram.hpp"
+#include "tlm/lpddr5_energy.hpp"
 
 namespace degs {
 
@@ -38,6 +41,7 @@ struct BufferUse {
 struct StreamUse {
     std::string name;
     std::uint64_t bytes_read = 0, bytes_written = 0, requests = 0;
+    LatencyHistogram read_latency; ///< date of a request to its last byte; empty on a plain bus
 };
 
 /// A law that must hold between two counters of a run.
@@ -67,8 +71,11 @@ struct AcceleratorResult {
     std::vector<StageUse> stages;
     std::vector<BufferUse> buffers;
     std::vector<StreamUse> streams;
-    double memory_utilization = 0;  ///< share of the run in which the data bus was occupied
-    double memory_gb_per_s = 0;     ///< peak; 0: unlimited
+    double memory_utilization = 0; ///< share of the run in which the data bus was occupied
+    double memory_gb_per_s = 0;    ///< peak; 0: unlimited
+    // Only of a memory with banks and rows.
+    std::optional<double> row_hit_rate; ///< share of accesses that found their row open
+    std::optional<Lpddr5Energy> dram_energy;
     std::uint64_t tiles_listed = 0; ///< that the accelerator has to render
     std::uint64_t tiles = 0;        ///< that it has rendered
     std::uint64_t background_tiles = 0, tiles_cancelled = 0;

@@ -53,7 +53,7 @@ void ArraySlice::end_of_elaboration() {
 }
 
 void ArraySlice::run() {
-    while (tiles_done_ < job_.tiles.size()) {
+    while (!job_.over(tiles_done_)) {
         step();
     }
 }
@@ -84,7 +84,7 @@ void ArraySlice::step() {
     if (executed) {
         self_.advance();
     }
-    if (ends && ++tiles_done_ == job_.tiles.size()) {
+    if (ends && job_.over(++tiles_done_)) {
         self_.finish();
     }
 }

@@ -5,15 +5,25 @@
 
 namespace degs {
 
-void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers) {
+namespace {
+
+void collect_written(AcceleratorResult& result, const std::vector<Cycle>& written) {
+    result.frames.resize(std::max(result.frames.size(), written.size()));
+    for (std::size_t f = 0; f < written.size(); ++f) {
+        result.frames[f].finished = std::max(result.frames[f].finished, written[f]);
+    }
+}
+
+} // namespace
+
+void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
+                    const BackgroundWriter& background) {
+    collect_written(result, background.frames_written());
+    result.cycles = background.stats().finished;
+    result.background_tiles = background.stats().tiles;
     for (const auto& buffer : buffers) {
-        const std::vector<Cycle>& written = buffer->frames_written();
-        result.frames.resize(std::max(result.frames.size(), written.size()));
-        for (std::size_t f = 0; f < written.size(); ++f) {
-            result.frames[f].finished = std::max(result.frames[f].finished, written[f]);
-        }
+        collect_written(result, buffer->frames_written());
         result.cycles = std::max(result.cycles, buffer->stats().finished);
-        result.background_tiles += buffer->stats().background_tiles;
     }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "modules/accelerator_result.hpp"
+#include "modules/background_writer.hpp"
 #include "modules/pixel_buffer.hpp"
 #include "tlm/dated_fifo.hpp"
 
@@ -85,7 +86,8 @@ using PixelBuffers = std::vector<std::unique_ptr<PixelBuffer>>;
 
 /// Dates of the frames, cycles of the run and background tiles; comes first, because everything
 /// that is relative to the run needs its cycles.
-void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers);
+void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
+                    const BackgroundWriter& background);
 /// `bytes`: of all instances together.
 void add_pixel_buffer(AcceleratorResult& result, int bytes, int contexts,
                       const PixelBuffers& buffers);

@@ -22,7 +22,8 @@ Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const 
     build_span_engine();
     build_scheduler();
     build_array();
-    frame_gating_.build(time_, job_, pixel_buffers_, front_end_->frame_free, pixel_buffers_.size());
+    frame_ends_.build(time_, config_.traffic, job_, pixel_buffers_, front_end_->frame_free,
+                      pixel_buffers_.size(), options_);
     build_memory();
 }
 
@@ -178,11 +179,11 @@ void Degs::build_pixel_buffer() {
         PixelBuffer::Share share;
         share.first_row = b;
         share.row_stride = banked ? banks : 1;
-        share.background = b == 0;
         pixel_buffers_.push_back(std::make_unique<PixelBuffer>(
             numbered("pixel_buffer", pixel_buffers_.size()).c_str(), config_.pixel_buffer,
             config_.traffic, time_, job_, static_cast<std::size_t>(banked ? 1 : banks),
-            config_.contexts(), share, front_end_->frame_free.size() != 0, options_.array_only));
+            config_.contexts(), share, FrameEnds::awaited(front_end_->frame_free, options_),
+            options_.array_only));
     }
 }
 
@@ -209,11 +210,12 @@ void Degs::build_memory() {
     for (auto& unit : pixel_buffers_) {
         streams_.connect(unit->frame_buffer, "frame_buffer");
     }
-    streams_.build("memory", config_.memory, time_, options_.array_only);
+    frame_ends_.connect_memory(streams_);
+    streams_.build("memory", config_.memory, time_, options_);
 }
 
 Cycle Degs::finished() const {
-    Cycle last = 0;
+    Cycle last = frame_ends_.background().stats().finished;
     for (const auto& unit : pixel_buffers_) {
         last = std::max(last, unit->stats().finished);
     }

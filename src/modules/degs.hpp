@@ -8,7 +8,7 @@
 
 #include "modules/collect.hpp"
 #include "modules/degs_config.hpp"
-#include "modules/frame_gate.hpp"
+#include "modules/frame_ends.hpp"
 #include "modules/memory_streams.hpp"
 #include "modules/tile_front_end.hpp"
 
@@ -83,7 +83,7 @@ private:
     std::vector<std::unique_ptr<ArraySlice>> slices_;
     std::vector<std::unique_ptr<PixelBuffer>> pixel_buffers_; // one, or one per bank
     std::unique_ptr<TileMonitor> monitor_;
-    FrameGating frame_gating_;
+    FrameEnds frame_ends_;
     MemoryStreams streams_;
 
     Rings<SortedRun> sorted_rings_;

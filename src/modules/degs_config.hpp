@@ -7,6 +7,7 @@
 #include "modules/blending_array.hpp"
 #include "modules/gaussian_slicing_unit.hpp"
 #include "modules/issue_bank.hpp"
+#include "modules/main_memory.hpp"
 #include "modules/pixel_buffer.hpp"
 #include "modules/projection_unit.hpp"
 #include "modules/render_engine.hpp"
@@ -16,7 +17,6 @@
 #include "modules/tile_binner.hpp"
 #include "modules/tile_monitor.hpp"
 #include "modules/traffic.hpp"
-#include "tlm/memory.hpp"
 
 namespace degs {
 
@@ -86,7 +86,7 @@ struct DegsConfig : AcceleratorConfig {
     Array array;
     PixelBuffer::Config pixel_buffer;
     TileMonitor::Config monitor;
-    Memory::Config memory;
+    MainMemoryConfig memory;
 
     DegsConfig() {
         name = "degs-64";

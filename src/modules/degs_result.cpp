@@ -111,7 +111,7 @@ void Degs::explain(AcceleratorResult& result) const {
 }
 
 void Degs::collect(AcceleratorResult& result) const {
-    collect_frames(result, pixel_buffers_);
+    collect_frames(result, pixel_buffers_, frame_ends_.background());
     result.tiles = finished_tiles();
     result.tiles_cancelled = monitor_->stats().tiles_cancelled;
     collect_slots(result);

@@ -58,7 +58,7 @@ void GaussianSlicingUnit::end_of_elaboration() {
 }
 
 void GaussianSlicingUnit::run() {
-    for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
+    for (TileNumber number = 0; !job_.over(number); ++number) {
         ended_.assign(static_cast<std::size_t>(job_.tile_size), 0);
         FifoPort<SplatChunk>& source = in[number % in.size()];
         for (bool last = false; !last;) {

@@ -56,11 +56,10 @@ void HierarchicalSorter::end_of_elaboration() {
 void HierarchicalSorter::coarse() {
     const auto entry = static_cast<std::uint64_t>(traffic_.list_entry_bytes);
     const auto rate = static_cast<std::uint64_t>(config_.keys_per_cycle);
-    for (std::size_t t = index_; t < job_.tiles.size();
-         t += static_cast<std::size_t>(config_.count)) {
+    for (std::size_t t = index_; !job_.over(t); t += static_cast<std::size_t>(config_.count)) {
         const TileNumber number = loaded_.get(partitioner_);
         const JobTile& tile = job_.tiles[number];
-        const MemoryMap map(traffic_, job_.frame_of(tile));
+        const MemoryMap map = job_.map(tile.frame, traffic_);
         const Cycle level = (tile.count + rate - 1) / rate;
         const std::uint64_t outside = levels(tile.count, capacity_);
         const std::uint64_t address = map.lists + tile.first * entry;
@@ -83,8 +82,7 @@ void HierarchicalSorter::coarse() {
 }
 
 void HierarchicalSorter::fine() {
-    for (std::size_t t = index_; t < job_.tiles.size();
-         t += static_cast<std::size_t>(config_.count)) {
+    for (std::size_t t = index_; !job_.over(t); t += static_cast<std::size_t>(config_.count)) {
         sort_chunks(partitioned_.get(sorter_));
     }
     sorted->put(sorter_, {kNoTile, 0});
@@ -102,7 +100,7 @@ void HierarchicalSorter::sort_chunks(TileNumber number) {
             done = tile.count; // the fetcher knows, too, and reads nothing of it
         } else {
             if (through_memory(tile)) {
-                const MemoryMap map(traffic_, job_.frame_of(tile));
+                const MemoryMap map = job_.map(tile.frame, traffic_);
                 sorter_.advance_to(
                     chunks.read(sorter_, map.lists + (tile.first + done) * entry, count * entry));
             }

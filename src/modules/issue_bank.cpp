@@ -53,19 +53,18 @@ void IssueBank::end_of_elaboration() {
 }
 
 void IssueBank::run() {
-    const auto tiles = static_cast<TileNumber>(job_.tiles.size());
-    while (oldest_tile_ < tiles) {
+    while (!job_.over(oldest_tile_)) {
         const Cycle now = self_.local();
         see_terminations();
         see_contexts();
         accept(now);
         const bool worked = issue(now);
-        finish_tiles(tiles);
+        finish_tiles();
         if (packing->due(now)) {
             packing->send_due(self_, idle_cause());
         }
         Cycle next = now + 1;
-        if (oldest_tile_ == tiles) {
+        if (job_.over(oldest_tile_)) {
             const Cycle open = packing->open_until();
             next = open == kNever ? next : std::max(open, next);
         } else if (!worked && !(segmenter_.cutting() && !queue_.full())) {
@@ -245,8 +244,8 @@ bool IssueBank::issue_one(Cycle now, TileNumber tile) {
     return true;
 }
 
-void IssueBank::finish_tiles(TileNumber tiles) {
-    while (oldest_tile_ < entering_tile_ && oldest_tile_ < tiles && oldest_tile_ < startable_ &&
+void IssueBank::finish_tiles() {
+    while (oldest_tile_ < entering_tile_ && !job_.over(oldest_tile_) && oldest_tile_ < startable_ &&
            queue_.waiting(slot_of(oldest_tile_)) == 0 &&
            !(segmenter_.cutting() && segmenter_.tile() == oldest_tile_)) {
         packing->end_tile(self_, oldest_tile_);

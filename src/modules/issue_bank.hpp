@@ -70,7 +70,7 @@ private:
     void drop(std::uint32_t mask);
     bool issue(Cycle now);
     bool issue_one(Cycle now, TileNumber tile);
-    void finish_tiles(TileNumber tiles);
+    void finish_tiles();
     Idle idle_cause() const;
     Cycle next_date(Cycle now);
 

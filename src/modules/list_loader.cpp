@@ -20,13 +20,13 @@ void ListLoader::end_of_elaboration() {
 void ListLoader::run() {
     const auto entry = static_cast<std::uint64_t>(traffic_.list_entry_bytes);
     std::uint32_t frames_started = 0;
-    for (std::size_t t = first_; t < job_.tiles.size(); t += stride_) {
+    for (std::size_t t = first_; job_.has_tile(self_, t); t += stride_) {
         const JobTile& tile = job_.tiles[t];
         while (frames_started <= tile.frame) {
             start->get(self_);
             ++frames_started;
         }
-        const MemoryMap map(traffic_, job_.frame_of(tile));
+        const MemoryMap map = job_.map(tile.frame, traffic_);
         out->reserve(self_);
         const Cycle ready = lists.read(self_, map.lists + tile.first * entry, tile.count * entry);
         out->put_at(self_, static_cast<TileNumber>(t), ready);

@@ -25,7 +25,7 @@ public:
 private:
     void end_of_elaboration() override { sorted->connect_writer(self_); }
     void run() {
-        for (std::size_t t = index_; t < job_.tiles.size(); t += sources_) {
+        for (std::size_t t = index_; job_.has_tile(self_, t); t += sources_) {
             sorted->put(self_, {static_cast<TileNumber>(t), job_.tiles[t].count});
         }
         sorted->put(self_, {kNoTile, 0});

@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "modules/accelerator_result.hpp"
-#include "tlm/memory.hpp"
+#include "modules/main_memory.hpp"
+#include "modules/memory_gateway.hpp"
+#include "modules/render_engine.hpp"
 #include "tlm/memory_port.hpp"
 
 namespace degs {
@@ -14,18 +16,28 @@ namespace degs {
 /// ports that carry the same kind of record share the name of their stream in reports.
 class MemoryStreams {
 public:
+    /// What one initiator has transferred.
+    struct Traffic {
+        std::uint64_t reads = 0, writes = 0;
+        std::uint64_t bytes_read = 0, bytes_written = 0; ///< as occupied on the bus
+    };
+
     /// Initiators are numbered, and ties in time resolved, in the order of these calls.
     void connect(MemoryPort& port, const char* stream) {
         ports_.push_back(&port);
         names_.push_back(stream);
     }
-    /// Elaborates the memory for all connected ports. `unlimited`: neither latency nor bandwidth
-    /// count, see BuildOptions.
-    void build(const char* name, Memory::Config config, const Timebase& time, bool unlimited);
+    /// Elaborates the memory for all connected ports, or binds them to the gateway of `options`.
+    /// With arrays alone neither latency nor bandwidth count.
+    void build(const char* name, const MainMemoryConfig& config, const Timebase& time,
+               const BuildOptions& options);
 
-    const Memory& memory() const { return *memory_; }
-    /// What an initiator reads or writes; index = Memory initiator.
+    /// What an initiator reads or writes; index = initiator.
     const std::vector<const char*>& names() const { return names_; }
+    Traffic traffic(std::size_t initiator) const;
+    Traffic total() const;
+    /// Nanoseconds in which the data bus, or the mean channel, was occupied.
+    double busy_ns() const;
     /// Fills streams, peak and utilisation; the cycles of `result` must be known.
     void collect(AcceleratorResult& result) const;
 
@@ -33,7 +45,10 @@ private:
     std::vector<MemoryPort*> ports_;
     std::vector<const char*> names_;
     double peak_gb_per_s_ = 0;
-    std::unique_ptr<Memory> memory_;
+    // One of them.
+    std::unique_ptr<Memory> bus_;
+    std::unique_ptr<Lpddr5> lpddr5_;
+    MemoryGateway* gateway_ = nullptr;
 };
 
 } // namespace degs

@@ -75,16 +75,11 @@ void PixelBuffer::end_of_elaboration() {
 }
 
 void PixelBuffer::run() {
-    if (share_.background) {
-        write_background();
-    }
-    frames_written_.resize(job_.frames.size(), 0);
     TileNumber number = 0;
-    while ((share_.granted || stats_.tiles < job_.tiles.size()) && take_tile(number)) {
+    while ((share_.granted || !job_.over(stats_.tiles)) && take_tile(number)) {
         finish_tile(number);
     }
-    stats_.finished = std::max(written_, read_out_); // granted tiles: the last message comes later
-    finish_frames();
+    frames_written_.resize(std::max(frames_written_.size(), job_.frames.size()), 0);
     self_.finish();
 }
 
@@ -96,48 +91,10 @@ bool PixelBuffer::take_tile(TileNumber& number) {
     return number != kNoTile;
 }
 
-// A frame without tiles of its own ends with the one before it.
-void PixelBuffer::finish_frames() {
-    Cycle last = 0;
-    for (Cycle& date : frames_written_) {
-        date = last = std::max(last, date);
-    }
-    if (!frames_written_.empty()) {
-        frames_written_.back() = stats_.finished;
-    }
-}
-
 // Of a granted tile: before it is counted.
 int PixelBuffer::context_of(TileNumber number) const {
     const std::uint64_t turn = share_.granted ? stats_.tiles : number;
     return share_.first_context + static_cast<int>(turn % static_cast<std::uint64_t>(contexts_));
-}
-
-// Rows of background tiles are long runs of equal bytes; one posted write per tile row of the
-// image.
-void PixelBuffer::write_background() {
-    std::size_t next = 0;
-    for (std::uint32_t f = 0; f < job_.frames.size(); ++f) {
-        const FrameWorkload& frame = *job_.frames[f];
-        const MemoryMap map(traffic_, frame);
-        std::uint64_t pixels = static_cast<std::uint64_t>(frame.camera.width) *
-                               static_cast<std::uint64_t>(frame.camera.height);
-        std::uint64_t busy_tiles = 0;
-        for (; next < job_.tiles.size() && job_.tiles[next].frame == f; ++next, ++busy_tiles) {
-            pixels -= static_cast<std::uint64_t>(job_.tiles[next].width * job_.tiles[next].height);
-        }
-        stats_.background_tiles += static_cast<std::uint64_t>(frame.tiles()) - busy_tiles;
-        constexpr std::uint64_t kPiece = 1U << 16U;
-        for (std::uint64_t bytes =
-                 instant_ ? 0 : pixels * static_cast<std::uint64_t>(traffic_.pixel_bytes);
-             bytes != 0;) {
-            const std::uint64_t piece = std::min(bytes, kPiece);
-            written_ = frame_buffer.write(self_, map.frame_buffer, piece);
-            self_.advance();
-            bytes -= piece;
-        }
-    }
-    read_out_ = self_.local();
 }
 
 void PixelBuffer::finish_tile(TileNumber number) {
@@ -152,13 +109,17 @@ void PixelBuffer::finish_tile(TileNumber number) {
     stats_.readout_busy += read_out_ - start;
     clear(context_of(number));
     const std::uint32_t frame = job_.tiles[number].frame;
+    if (frame >= frames_written_.size()) {
+        frames_written_.resize(frame + 1, 0);
+    }
     frames_written_[frame] = std::max(written_, read_out_);
     for (auto& port : frame_done) {
         port->put_at(self_, frame, oldest);
     }
+    stats_.finished = std::max(written_, read_out_);
     stats_.tiles++;
     const TileNumber next = number + static_cast<TileNumber>(contexts_);
-    if (share_.granted || next < job_.tiles.size()) {
+    if (share_.granted || !job_.over(next)) {
         for (auto& port : context_free) {
             port->put(self_, next);
         }
@@ -170,7 +131,7 @@ void PixelBuffer::finish_tile(TileNumber number) {
 Cycle PixelBuffer::write_rows(TileNumber number) {
     constexpr int kRowsPerCycle = 2;
     const JobTile& tile = job_.tiles[number];
-    const MemoryMap map(traffic_, job_.frame_of(tile));
+    const MemoryMap map = job_.map(tile.frame, traffic_);
     const auto pixel_bytes = static_cast<std::uint64_t>(traffic_.pixel_bytes);
     const auto frame_width = static_cast<std::uint64_t>(job_.frame_of(tile).camera.width);
     const int per_cycle = std::max(1, config_.readout_pixels / share_.row_stride);

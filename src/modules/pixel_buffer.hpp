@@ -19,7 +19,7 @@ enum class ContextRelease { Tile, Bank };
 /// Holds the pixels of the tiles in flight (paper Table I, "Pixel Buffer") and writes finished
 /// tiles to the frame buffer in memory as RGBA8 or RGBA16F. A context is free again once every
 /// slice has finished its tile and the pixels have been read out; the write itself is
-/// posted. Tiles that no splat touches are written as background while the pipeline starts.
+/// posted.
 /// One instance serves a share of the pixels: all of them, one bank's rows, or the tiles that are
 /// granted to one engine.
 class PixelBuffer : public sc_core::sc_module {
@@ -38,7 +38,7 @@ public:
         Cycle readout_busy = 0;
         Cycle write_wait = 0; ///< ready to read out, but too many writes were in flight
         Cycle finished = 0;   ///< date at which the last pixel was in memory
-        std::uint64_t tiles = 0, background_tiles = 0;
+        std::uint64_t tiles = 0;
     };
     /// Which pixels are this instance's, and where it keeps them.
     struct Share {
@@ -47,7 +47,6 @@ public:
         /// Tiles come one by one, ascending, until kNoTile, and use this instance's contexts in
         /// turn; else all tiles of the job come, and tile t uses context t modulo the contexts.
         bool granted = false;
-        bool background = true; ///< writes the tiles that no splat touches
     };
 
     sc_core::sc_vector<FifoPort<SliceReport>> in; ///< one per array slice
@@ -72,10 +71,8 @@ private:
     void end_of_elaboration() override;
     void run();
     void clear(int context);
-    void write_background();
     bool take_tile(TileNumber& number);
     void finish_tile(TileNumber number);
-    void finish_frames();
     int context_of(TileNumber number) const;
     Cycle write_rows(TileNumber number);
     const std::vector<unsigned char>& read_out(TileNumber number, int y);

@@ -49,11 +49,11 @@ void ProjectionUnit::end_of_elaboration() {
 void ProjectionUnit::fetch() {
     const auto chunk = static_cast<std::uint64_t>(config_.chunk);
     const std::uint64_t stride = chunk * static_cast<std::uint64_t>(config_.count);
-    for (std::uint32_t f = 0; f < job_.frames.size(); ++f) {
+    for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); ++f) {
         if (frames_in_flight_ != 0 && f >= frames_in_flight_) {
             frame_free[0]->get(fetcher_);
         }
-        const MemoryMap map(traffic_, *job_.frames[f]);
+        const MemoryMap map = job_.map(f, traffic_);
         const std::uint64_t total = job_.frames[f]->gaussians;
         for (std::uint64_t first = chunk * static_cast<std::uint64_t>(index_); first < total;
              first += stride) {
@@ -70,7 +70,7 @@ void ProjectionUnit::fetch() {
 }
 
 void ProjectionUnit::project() {
-    for (std::uint32_t f = 0; f < job_.frames.size(); ++f) {
+    for (std::uint32_t f = 0; job_.has_frame(projector_, f); ++f) {
         const FrameWorkload& frame = *job_.frames[f];
         const auto chunk = static_cast<std::uint64_t>(config_.chunk);
         for (std::uint64_t first = chunk * static_cast<std::uint64_t>(index_);
@@ -90,15 +90,15 @@ void ProjectionUnit::project() {
             stats_.project_busy += busy;
             stats_.gaussians += in.count;
             projected_.reserve(projector_);
-            projected_.put_at(projector_, result, read_sh(frame, in, result));
+            projected_.put_at(projector_, result, read_sh(f, in, result));
         }
     }
     projector_.finish();
 }
 
-Cycle ProjectionUnit::read_sh(const FrameWorkload& frame, const Chunk& chunk,
-                              const ProjectedChunk& visible) {
-    const MemoryMap map(traffic_, frame);
+Cycle ProjectionUnit::read_sh(std::uint32_t f, const Chunk& chunk, const ProjectedChunk& visible) {
+    const FrameWorkload& frame = *job_.frames[f];
+    const MemoryMap map = job_.map(f, traffic_);
     if (traffic_.sh == ShReads::All) {
         const std::uint64_t record = traffic_.sh_bytes(frame.sh_degree);
         return sh.read(projector_, map.sh + chunk.first * record, chunk.count * record);
@@ -125,7 +125,7 @@ std::uint64_t ProjectionUnit::sh_bursts(const FrameWorkload& frame,
 }
 
 void ProjectionUnit::shade() {
-    for (std::uint32_t f = 0; f < job_.frames.size(); ++f) {
+    for (std::uint32_t f = 0; job_.has_frame(shader_, f); ++f) {
         const auto chunk = static_cast<std::uint64_t>(config_.chunk);
         for (std::uint64_t first = chunk * static_cast<std::uint64_t>(index_);
              first < job_.frames[f]->gaussians;

@@ -55,7 +55,7 @@ private:
     void fetch();
     void project();
     void shade();
-    Cycle read_sh(const FrameWorkload& frame, const Chunk& chunk, const ProjectedChunk& visible);
+    Cycle read_sh(std::uint32_t f, const Chunk& chunk, const ProjectedChunk& visible);
     std::uint64_t sh_bursts(const FrameWorkload& frame, const ProjectedChunk& chunk) const;
 
     Config config_;

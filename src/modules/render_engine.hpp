@@ -9,9 +9,12 @@
 #include "modules/accelerator_result.hpp"
 #include "modules/pipeline_config.hpp"
 #include "modules/render_job.hpp"
+#include "tlm/dated_fifo.hpp"
 #include "tlm/process.hpp"
 
 namespace degs {
+
+class MemoryGateway;
 
 /// An accelerator with its memory, as whoever runs it sees it: built for a job, run by the kernel,
 /// asked for its counters when nothing is left to happen.
@@ -29,6 +32,11 @@ struct BuildOptions {
     /// The rasterisation array alone: depth-ordered lists are there at once and memory is
     /// unlimited, so that arrays can be compared without their front ends.
     bool array_only = false;
+    /// Gets the number of every frame once its last pixel is in memory. Its writer is the engine.
+    DatedFifo<std::uint32_t>* finished = nullptr;
+    /// Memory that is not the accelerator's: its streams go there instead of to a memory of its
+    /// own.
+    MemoryGateway* gateway = nullptr;
 };
 
 /// Silicon area, for comparisons at equal area.

@@ -25,36 +25,43 @@ std::vector<std::uint64_t> prefix_of_pairs(const FrameWorkload& frame) {
 
 } // namespace
 
+void RenderJob::add(const FrameWorkload& frame, const MemoryBases& base) {
+    const auto f = static_cast<std::uint32_t>(frames.size());
+    frames.push_back(&frame);
+    bases.push_back(base);
+    first_splat.push_back(path->add_frame(frame));
+    pair_prefix.push_back(prefix_of_pairs(frame));
+    images.emplace_back(frame.camera.width, frame.camera.height);
+    const std::size_t before = tiles.size();
+    for (int t = 0; t < frame.tiles(); ++t) {
+        const std::uint64_t begin = frame.tile_begin[static_cast<std::size_t>(t)];
+        const std::uint64_t end = frame.tile_begin[static_cast<std::size_t>(t) + 1];
+        if (begin == end) {
+            continue;
+        }
+        JobTile tile;
+        tile.frame = f;
+        tile.x = (t % frame.tiles_x) * tile_size;
+        tile.y = (t / frame.tiles_x) * tile_size;
+        tile.width = std::min(tile_size, frame.camera.width - tile.x);
+        tile.height = std::min(tile_size, frame.camera.height - tile.y);
+        tile.first = begin;
+        tile.count = end - begin;
+        tiles.push_back(tile);
+    }
+    tiles_of_frame.push_back(tiles.size() - before);
+    if (tiles.size() != before) {
+        tiles.back().last_of_frame = true;
+    }
+}
+
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
                           const DataPathOptions& options, int contexts) {
     RenderJob job;
-    job.frames = frames;
     job.tile_size = frames.at(0)->tile_size;
     job.path = make_data_path(options, job.tile_size, contexts);
-    for (std::uint32_t f = 0; f < frames.size(); ++f) {
-        const FrameWorkload& frame = *frames[f];
-        job.first_splat.push_back(job.path->add_frame(frame));
-        job.pair_prefix.push_back(prefix_of_pairs(frame));
-        job.images.emplace_back(frame.camera.width, frame.camera.height);
-        for (int t = 0; t < frame.tiles(); ++t) {
-            const std::uint64_t begin = frame.tile_begin[static_cast<std::size_t>(t)];
-            const std::uint64_t end = frame.tile_begin[static_cast<std::size_t>(t) + 1];
-            if (begin == end) {
-                continue;
-            }
-            JobTile tile;
-            tile.frame = f;
-            tile.x = (t % frame.tiles_x) * job.tile_size;
-            tile.y = (t / frame.tiles_x) * job.tile_size;
-            tile.width = std::min(job.tile_size, frame.camera.width - tile.x);
-            tile.height = std::min(job.tile_size, frame.camera.height - tile.y);
-            tile.first = begin;
-            tile.count = end - begin;
-            job.tiles.push_back(tile);
-        }
-        if (!job.tiles.empty() && job.tiles.back().frame == f) {
-            job.tiles.back().last_of_frame = true;
-        }
+    for (const FrameWorkload* frame : frames) {
+        job.add(*frame);
     }
     return job;
 }

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <vector>
 
+#include <systemc>
+
 #include "modules/messages.hpp"
+#include "modules/traffic.hpp"
 #include "splat/frame_workload.hpp"
 #include "splat/image.hpp"
+#include "tlm/process.hpp"
 
 namespace degs {
 
@@ -24,17 +29,52 @@ struct JobTile {
 struct RenderJob {
     std::vector<const FrameWorkload*> frames;
     std::vector<std::uint32_t> first_splat; ///< DataPath index of each frame's splat 0
-    std::vector<JobTile> tiles;             ///< raster order within each frame
-    std::vector<Image> images;              ///< one per frame, filled by the Pixel Buffer
+    std::deque<JobTile> tiles;              ///< raster order within each frame; they do not move
+    std::vector<std::uint64_t> tiles_of_frame;
+    std::deque<Image> images; ///< one per frame, filled by the Pixel Buffer
     std::unique_ptr<DataPath> path;
     int tile_size = 0;
     /// Per frame: tile pairs of the first n visible Gaussians in scene order, for n = 0..visible.
     std::vector<std::vector<std::uint64_t>> pair_prefix;
+    /// Per frame: where its streams live, if not where MemoryMap puts them.
+    std::vector<MemoryBases> bases;
+    /// Set while more frames may join; notified when one has.
+    std::unique_ptr<sc_core::sc_event> joined;
 
     std::uint64_t pairs_before(std::uint32_t frame, std::uint32_t visible_rank) const {
         return pair_prefix[frame][visible_rank];
     }
     const FrameWorkload& frame_of(const JobTile& tile) const { return *frames[tile.frame]; }
+    MemoryMap map(std::uint32_t frame, const TrafficConfig& traffic) const {
+        return MemoryMap(traffic, *frames[frame], bases[frame]);
+    }
+
+    /// Is there a frame / a tile of this number? Sleeps until it joins, if more may come, and moves
+    /// the process to the date at which it did.
+    bool has_frame(Process& process, std::uint32_t frame) const {
+        return there(process, [this, frame] { return frame < frames.size(); });
+    }
+    bool has_tile(Process& process, std::size_t tile) const {
+        return there(process, [this, tile] { return tile < tiles.size(); });
+    }
+    /// Will there never be a tile of this number?
+    bool over(std::size_t tile) const { return joined == nullptr && tile >= tiles.size(); }
+
+    /// Lists the tiles of a frame and loads its splats into the data path.
+    void add(const FrameWorkload& frame, const MemoryBases& base = {});
+
+private:
+    template <class There>
+    bool there(Process& process, const There& exists) const {
+        while (!exists()) {
+            if (joined == nullptr) {
+                return false;
+            }
+            sc_core::wait(*joined);
+            process.advance_to(process.clock().ceil(sc_core::sc_time_stamp()));
+        }
+        return true;
+    }
 };
 
 /// Lists the tiles and loads the data path. All workloads must have the same tile size.

@@ -18,9 +18,8 @@ NextUse::NextUse(const FrameWorkload& frame) : next_(frame.tile_splats.size(), k
     }
 }
 
-ReuseCache::ReuseCache(const RenderJob& job, const std::vector<NextUse>& next_use,
-                       std::size_t records)
-    : job_(job), next_use_(next_use), capacity_(records) {}
+ReuseCache::ReuseCache(const RenderJob& job, NextUses& next_uses, std::size_t records)
+    : job_(job), next_uses_(next_uses), capacity_(records) {}
 
 std::uint32_t ReuseCache::request(TileNumber tile, std::uint64_t first, std::uint32_t count) {
     if (tile != tile_) {
@@ -52,7 +51,7 @@ void ReuseCache::start_tile(TileNumber number) {
             continue;
         }
         while (use < tile.first) {
-            use = next_use_[frame_].after(use);
+            use = next_uses_.of(frame_).after(use);
         }
         if (use == NextUse::kNone) {
             --resident_;
@@ -66,7 +65,7 @@ void ReuseCache::start_tile(TileNumber number) {
 
 bool ReuseCache::look_up(std::uint64_t entry) {
     const std::uint32_t splat = job_.frames[frame_]->tile_splats[entry];
-    const std::uint32_t use = next_use_[frame_].after(entry);
+    const std::uint32_t use = next_uses_.of(frame_).after(entry);
     const bool hit = use_of_[splat] != kNowhere;
     if (hit) {
         use_of_[splat] = kNowhere;

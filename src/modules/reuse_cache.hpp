@@ -27,6 +27,23 @@ private:
     std::vector<std::uint32_t> next_;
 };
 
+/// Next uses of all frames of a job, made when a frame is first asked for. Shared by all caches.
+class NextUses {
+public:
+    explicit NextUses(const RenderJob& job) : job_(job) {}
+    /// Lasts until the next call with a frame that was never asked for.
+    const NextUse& of(std::uint32_t frame) {
+        for (auto f = static_cast<std::uint32_t>(frames_.size()); f <= frame; ++f) {
+            frames_.emplace_back(*job_.frames[f]);
+        }
+        return frames_[frame];
+    }
+
+private:
+    const RenderJob& job_;
+    std::vector<NextUse> frames_;
+};
+
 /// The Gaussian reuse cache of GBU: keeps splat records between the tiles of one engine. Which
 /// record gives way is decided by reuse distances that binning has computed in advance: the one
 /// whose next use is farthest away, which may be the record that has just been read. Next uses are
@@ -40,8 +57,8 @@ public:
         std::uint64_t hits = 0, misses = 0;
     };
 
-    /// `next_use`: one per frame of the job; both outlive the cache. `records`: capacity, >= 1.
-    ReuseCache(const RenderJob& job, const std::vector<NextUse>& next_use, std::size_t records);
+    /// Both outlive the cache. `records`: capacity, >= 1.
+    ReuseCache(const RenderJob& job, NextUses& next_uses, std::size_t records);
 
     /// Looks up `count` list entries from `first` on; tiles never go back. The number of records
     /// that have to be read.
@@ -60,7 +77,7 @@ private:
     const Rank& farthest();
 
     const RenderJob& job_;
-    const std::vector<NextUse>& next_use_;
+    NextUses& next_uses_;
     std::size_t capacity_;
     TileNumber tile_ = kNoTile;
     std::uint32_t frame_ = 0;

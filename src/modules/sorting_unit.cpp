@@ -44,11 +44,10 @@ std::uint64_t SortingUnit::passes(std::uint64_t keys) const {
 void SortingUnit::sort() {
     const auto entry = static_cast<std::uint64_t>(traffic_.list_entry_bytes);
     const auto rate = static_cast<std::uint64_t>(config_.keys_per_cycle);
-    for (std::size_t t = index_; t < job_.tiles.size();
-         t += static_cast<std::size_t>(config_.count)) {
+    for (std::size_t t = index_; !job_.over(t); t += static_cast<std::size_t>(config_.count)) {
         const TileNumber number = loaded_.get(sorter_);
         const JobTile& tile = job_.tiles[number];
-        const MemoryMap map(traffic_, job_.frame_of(tile));
+        const MemoryMap map = job_.map(tile.frame, traffic_);
         const std::uint64_t runs = (tile.count + sort_capacity_ - 1) / sort_capacity_;
         const Cycle busy =
             (tile.count * passes(std::min(tile.count, sort_capacity_)) + rate - 1) / rate;

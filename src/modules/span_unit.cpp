@@ -48,7 +48,7 @@ void SpanUnit::end_of_elaboration() {
 }
 
 void SpanUnit::run() {
-    while (tiles_done_ < job_.tiles.size()) {
+    while (!job_.over(tiles_done_)) {
         take();
         deliver();
     }
@@ -110,7 +110,7 @@ bool SpanUnit::deliver() {
         holding_ = end && ++next_port_ < rings_.size();
         if (!end) {
             self_.advance(static_cast<Cycle>(config_.cycles_per_row));
-        } else if (!holding_ && ++tiles_done_ == job_.tiles.size()) {
+        } else if (!holding_ && job_.over(++tiles_done_)) {
             self_.finish();
         }
     }

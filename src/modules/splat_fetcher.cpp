@@ -74,7 +74,7 @@ Cycle SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
     if (missed == 0) {
         return self_.local();
     }
-    const MemoryMap map(traffic_, job_.frame_of(tile));
+    const MemoryMap map = job_.map(tile.frame, traffic_);
     const auto burst = static_cast<std::uint64_t>(
         std::max(traffic_.burst_bytes, traffic_.splat_bytes)); // records are scattered
     Cycle& oldest = answered_[requests_++ % answered_.size()];

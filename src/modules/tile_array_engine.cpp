@@ -11,14 +11,16 @@ constexpr int kTokenDepth = 64;
 
 TileArrayEngine::TileArrayEngine(const sc_core::sc_module_name& name, const Parts& parts,
                                  const Timebase& time, RenderJob& job, const BuildOptions& options)
-    : RenderEngine(name), parts_(parts), job_(job), array_only_(options.array_only) {
-    parts_.front.instant = array_only_;
+    : RenderEngine(name), parts_(parts), job_(job), options_(options) {
+    parts_.front.instant = options_.array_only;
     build_front_end(time);
     build_pixels(time);
-    frame_gating_.build(time, job_, pixel_buffers_, front_end_->frame_free, 1);
+    frame_ends_.build(time, parts_.front.traffic, job_, pixel_buffers_, front_end_->frame_free, 1,
+                      options_);
     front_end_->connect_memory(streams_, fetchers_);
     streams_.connect(pixel_buffers_.front()->frame_buffer, "frame_buffer");
-    streams_.build("memory", parts_.memory, time, array_only_);
+    frame_ends_.connect_memory(streams_);
+    streams_.build("memory", parts_.memory, time, options_);
 }
 
 void TileArrayEngine::build_front_end(const Timebase& time) {
@@ -35,7 +37,7 @@ void TileArrayEngine::build_front_end(const Timebase& time) {
     for (std::size_t i = 0; i < fetchers; ++i) {
         fetchers_.push_back(std::make_unique<SplatFetcher>(numbered("fetcher", i).c_str(),
                                                            parts_.fetching, parts_.front.traffic,
-                                                           time, job_, 1, array_only_));
+                                                           time, job_, 1, options_.array_only));
         auto& lists = add_ring(sorted_rings_, "sorted", time, 1, 1);
         front_end_->sorted[i].bind(lists);
         fetchers_[i]->sorted.bind(lists);
@@ -51,7 +53,8 @@ void TileArrayEngine::build_pixels(const Timebase& time) {
     const int tokens = kTokenDepth + parts_.contexts;
     pixel_buffers_.push_back(std::make_unique<PixelBuffer>(
         "pixel_buffer", parts_.pixel_buffer, parts_.front.traffic, time, job_, 1, parts_.contexts,
-        PixelBuffer::Share{}, front_end_->frame_free.size() != 0, array_only_));
+        PixelBuffer::Share{}, FrameEnds::awaited(front_end_->frame_free, options_),
+        options_.array_only));
     PixelBuffer& pixels = *pixel_buffers_.front();
     pixels.in[0].bind(add_ring(report_rings_, "tile_done", time, tokens, parts_.writeback_cycles));
     monitor_->in[0].bind(add_ring(report_rings_, "tile_state", time, tokens, 1));
@@ -71,7 +74,7 @@ std::uint64_t TileArrayEngine::list_entries() const {
 }
 
 void TileArrayEngine::collect(AcceleratorResult& result) const {
-    collect_frames(result, pixel_buffers_);
+    collect_frames(result, pixel_buffers_, frame_ends_.background());
     result.tiles = finished_tiles();
     result.tiles_cancelled = monitor_->stats().tiles_cancelled;
     front_end_->collect(result);

@@ -7,7 +7,8 @@
 #include <systemc>
 
 #include "modules/collect.hpp"
-#include "modules/frame_gate.hpp"
+#include "modules/frame_ends.hpp"
+#include "modules/main_memory.hpp"
 #include "modules/memory_streams.hpp"
 #include "modules/render_engine.hpp"
 #include "modules/tile_front_end.hpp"
@@ -29,7 +30,7 @@ public:
         SplatFetcher::Config fetching;
         PixelBuffer::Config pixel_buffer;
         TileMonitor::Config monitor;
-        Memory::Config memory;
+        MainMemoryConfig memory;
         int contexts = 1;         ///< tiles whose pixels are on chip
         int splat_chunks = 1;     ///< that each fetcher's share of the buffer holds
         int buffer_bytes = 0;     ///< of that buffer, for reports
@@ -75,12 +76,12 @@ private:
 
     Parts parts_;
     RenderJob& job_;
-    bool array_only_;
+    BuildOptions options_;
     std::unique_ptr<TileFrontEnd> front_end_;
     std::vector<std::unique_ptr<SplatFetcher>> fetchers_;
     PixelBuffers pixel_buffers_; // one
     std::unique_ptr<TileMonitor> monitor_;
-    FrameGating frame_gating_;
+    FrameEnds frame_ends_;
     MemoryStreams streams_;
 
     Rings<SortedRun> sorted_rings_;

@@ -34,8 +34,8 @@ void TileBinner::end_of_elaboration() {
 }
 
 void TileBinner::run() {
-    for (std::uint32_t f = 0; f < job_.frames.size(); ++f) {
-        const MemoryMap map(traffic_, *job_.frames[f]);
+    for (std::uint32_t f = 0; job_.has_frame(self_, f); ++f) {
+        const MemoryMap map = job_.map(f, traffic_);
         const std::uint64_t chunks = (job_.frames[f]->gaussians + chunk_ - 1) / chunk_;
         for (std::uint64_t c = 0; c < chunks; ++c) {
             bin(in[c % in.size()]->get(self_), map);

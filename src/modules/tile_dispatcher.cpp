@@ -25,7 +25,7 @@ void TileDispatcher::end_of_elaboration() {
 }
 
 void TileDispatcher::run() {
-    for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
+    for (TileNumber number = 0; !job_.over(number); ++number) {
         const Cycle ready = self_.local();
         const SortedRun list = in[number % in.size()]->get(self_);
         stats_.list_wait += self_.local() - ready;

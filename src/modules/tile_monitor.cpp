@@ -30,7 +30,7 @@ void TileMonitor::end_of_elaboration() {
 }
 
 void TileMonitor::run() {
-    while ((granted_ || stats_.tiles < job_.tiles.size()) && watch_tile()) {
+    while ((granted_ || !job_.over(stats_.tiles)) && watch_tile()) {
     }
     self_.finish();
 }

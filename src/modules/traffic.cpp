@@ -19,15 +19,32 @@ void TrafficConfig::describe(ConfigVisitor& visitor) {
                     "bytes; scattered records are read in whole bursts of this size");
 }
 
-MemoryMap::MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame) {
-    const auto aligned = [](std::uint64_t bytes) { return (bytes + 4095) / 4096 * 4096; };
-    const auto times = [](std::uint64_t count, int bytes) {
-        return count * static_cast<std::uint64_t>(bytes);
-    };
-    sh = geometry + aligned(times(frame.gaussians, traffic.geometry_bytes));
-    splats = sh + aligned(frame.gaussians * traffic.sh_bytes(frame.sh_degree));
+namespace {
+
+std::uint64_t aligned(std::uint64_t bytes) {
+    return (bytes + 4095) / 4096 * 4096;
+}
+std::uint64_t times(std::uint64_t count, int bytes) {
+    return count * static_cast<std::uint64_t>(bytes);
+}
+
+} // namespace
+
+MemoryMap::MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame,
+                     const MemoryBases& bases)
+    : geometry(bases.geometry), sh(bases.sh), splats(bases.workspace),
+      frame_buffer(bases.frame_buffer) {
+    if (!bases.given) {
+        sh = geometry + aligned(times(frame.gaussians, traffic.geometry_bytes));
+        splats = sh + aligned(frame.gaussians * traffic.sh_bytes(frame.sh_degree));
+        frame_buffer = splats + workspace_bytes(traffic, frame);
+    }
     lists = splats + aligned(times(frame.gaussians, traffic.splat_bytes));
-    frame_buffer = lists + 2 * aligned(times(frame.tile_pairs(), traffic.list_entry_bytes));
+}
+
+std::uint64_t MemoryMap::workspace_bytes(const TrafficConfig& traffic, const FrameWorkload& frame) {
+    return aligned(times(frame.gaussians, traffic.splat_bytes)) +
+           2 * aligned(times(frame.tile_pairs(), traffic.list_entry_bytes));
 }
 
 } // namespace degs

@@ -28,11 +28,23 @@ struct TrafficConfig {
     }
 };
 
-/// Where the streams live in memory; regions follow each other, aligned to 4 KiB.
+/// Where a platform wants the streams of a frame. Without bases the regions follow each other from
+/// address 0.
+struct MemoryBases {
+    bool given = false;
+    std::uint64_t geometry = 0, sh = 0;
+    std::uint64_t workspace = 0; ///< splat records and lists
+    std::uint64_t frame_buffer = 0;
+};
+
+/// Where the streams live in memory; regions are aligned to 4 KiB.
 struct MemoryMap {
     std::uint64_t geometry = 0, sh = 0, splats = 0, lists = 0, frame_buffer = 0;
     MemoryMap() = default;
-    MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame);
+    MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame,
+              const MemoryBases& bases = {});
+    /// Bytes from the first splat record to the end of the lists.
+    static std::uint64_t workspace_bytes(const TrafficConfig& traffic, const FrameWorkload& frame);
 };
 
 } // namespace degs

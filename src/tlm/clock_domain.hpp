@@ -30,6 +30,8 @@ public:
     Cycle ceil(const sc_core::sc_time& time) const {
         return (time.value() + period_.value() - 1) / period_.value();
     }
+    /// Last cycle that starts at or before `time`.
+    Cycle floor(const sc_core::sc_time& time) const { return time.value() / period_.value(); }
 
 private:
     sc_core::sc_time period_;

@@ -15,7 +15,9 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
     if (data == nullptr) {
         scratch_.resize(std::max<std::size_t>(scratch_.size(), bytes));
         data = scratch_.data();
-        payload.set_extension(&timing_only_);
+        if (!observer_ || command != tlm::TLM_READ_COMMAND) {
+            payload.set_extension(&timing_only_);
+        }
     }
     payload.set_command(command);
     payload.set_address(address);
@@ -35,6 +37,11 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
                                  std::to_string(bytes) + " bytes at address " +
                                  std::to_string(address));
     }
+    if (observer_ && command == tlm::TLM_READ_COMMAND) {
+        observer_(address, data, bytes);
+    }
+    // A memory that waits for its answer has moved the kernel on; the process cannot stay behind.
+    process.advance_to(clock_->floor(sc_core::sc_time_stamp()));
     return clock_->ceil(sc_core::sc_time_stamp() + delay);
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include <systemc>
@@ -36,6 +38,12 @@ public:
                       const_cast<unsigned char*>(data.data()), data.size());
     }
 
+    /// Called with the bytes of every read, which then really come from the memory. For memories
+    /// that hold what is read; before the simulation starts.
+    using Observer =
+        std::function<void(std::uint64_t address, const unsigned char* data, std::uint64_t bytes)>;
+    void observe_reads(Observer observer) { observer_ = std::move(observer); }
+
     /// Puts real bytes there without taking time (debug transport). Throws std::runtime_error if
     /// the memory takes fewer.
     void poke(std::uint64_t address, const std::vector<unsigned char>& data);
@@ -47,6 +55,7 @@ private:
     const ClockDomain* clock_;
     std::vector<unsigned char> scratch_;
     TimingOnly timing_only_;
+    Observer observer_;
 };
 
 } // namespace degs

@@ -92,7 +92,7 @@ struct BruteForce {
 
 std::uint64_t misses_of(const FrameWorkload& frame, std::size_t capacity, unsigned skip = 1) {
     const RenderJob job = job_of({&frame});
-    const std::vector<NextUse> uses{NextUse(frame)};
+    NextUses uses(job);
     ReuseCache cache(job, uses, capacity);
     for (TileNumber t = 0; t < job.tiles.size(); t += skip) {
         cache.request(t, job.tiles[t].first, static_cast<std::uint32_t>(job.tiles[t].count));
@@ -129,7 +129,7 @@ TEST(ReuseCache, HitsAsOftenAsAnOptimalCacheThatSeesTheFuture) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         const FrameWorkload frame = random_lists(seed, 4 + seed, 12, 20);
         const RenderJob job = job_of({&frame});
-        const std::vector<NextUse> uses{NextUse(frame)};
+        NextUses uses(job);
         for (const std::size_t capacity : {1U, 2U, 3U, 7U, 16U}) {
             ReuseCache cache(job, uses, capacity);
             BruteForce brute{frame, capacity, {}};
@@ -148,7 +148,7 @@ TEST(ReuseCache, PassedTilesAreNoUses) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         const FrameWorkload frame = random_lists(100 + seed, 4 + seed, 20, 12);
         const RenderJob job = job_of({&frame});
-        const std::vector<NextUse> uses{NextUse(frame)};
+        NextUses uses(job);
         ReuseCache cache(job, uses, 5);
         BruteForce brute{frame, 5, {}};
         std::mt19937 random(seed);
@@ -177,7 +177,7 @@ TEST(ReuseCache, MoreRoomNeverHitsLess) {
 TEST(ReuseCache, ChunksOfAListAndCancelledRestsChangeNothingElse) {
     const FrameWorkload frame = lists_of({{0, 1, 2, 3}, {0, 1, 2, 3}, {3, 2, 1, 0}}, 4);
     const RenderJob job = job_of({&frame});
-    const std::vector<NextUse> uses{NextUse(frame)};
+    NextUses uses(job);
     ReuseCache cache(job, uses, 4);
     EXPECT_EQ(cache.request(0, 0, 2), 2U);
     EXPECT_EQ(cache.request(0, 2, 1), 1U); // the tile ends here: splat 3 is never read
@@ -190,7 +190,7 @@ TEST(ReuseCache, FramesShareNothing) {
     const FrameWorkload one = lists_of({{0, 1}, {0, 1}}, 2);
     const FrameWorkload two = lists_of({{1, 0}, {1, 0}}, 2);
     const RenderJob job = job_of({&one, &two});
-    const std::vector<NextUse> uses{NextUse(one), NextUse(two)};
+    NextUses uses(job);
     ReuseCache cache(job, uses, 8);
     EXPECT_EQ(cache.request(0, 0, 2), 2U);
     EXPECT_EQ(cache.request(1, 2, 2), 0U);

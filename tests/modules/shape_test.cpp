@@ -85,7 +85,7 @@ TEST_P(ShapeOfMemory, TimeFollowsTheBandwidth) {
     sc_core::sc_start();
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const auto cycles = static_cast<double>(runs[i]->degs().finished());
-        const Memory::Stats& traffic = runs[i]->degs().streams().memory().total();
+        const MemoryStreams::Traffic traffic = runs[i]->degs().streams().total();
         EXPECT_GE(cycles, traffic.busy_ns);
         EXPECT_NEAR(traffic.busy_ns * bandwidths[i],
                     static_cast<double>(traffic.bytes_read + traffic.bytes_written), 1);
@@ -94,7 +94,7 @@ TEST_P(ShapeOfMemory, TimeFollowsTheBandwidth) {
         }
     }
     // At 1 GB/s the bus is what limits.
-    EXPECT_GT(runs[0]->degs().streams().memory().total().busy_ns,
+    EXPECT_GT(runs[0]->degs().streams().busy_ns(),
               0.8 * static_cast<double>(runs[0]->degs().finished()));
 }
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+#include <vector>
+
+#include "modules/render_job.hpp"
+#include "modules/traffic.hpp"
+#include "tlm/dated_fifo.hpp"
+#include "tlm/memory_port.hpp"
+
+namespace degs {
+
+/// Writes the pixels of the tiles that list no splat, as soon as their frame starts: they never
+/// enter the pipeline. One posted write per cycle, each a row of neighbouring background tiles
+/// [assumed].
+class BackgroundWriter : public sc_core::sc_module {
+public:
+    struct Stats {
+        std::uint64_t tiles = 0;
+        Cycle finished = 0; ///< date at which the last background pixel was in memory
+    };
+
+    /// The frame, once its background is in memory; empty if nobody wants to know.
+    sc_core::sc_vector<FifoPort<std::uint32_t>> frame_done;
+    MemoryPort frame_buffer;
+
+    /// `instant`: nothing is written, see BuildOptions.
+    BackgroundWriter(const sc_core::sc_module_name& name, const TrafficConfig& traffic,
+                     const Timebase& time, const RenderJob& job, bool reports, bool instant);
+
+    const Stats& stats() const { return stats_; }
+    /// Dates at which each frame's background was in memory.
+    const std::vector<Cycle>& frames_written() const { return frames_written_; }
+
+private:
+    void end_of_elaboration() override;
+    void run();
+    Cycle write_frame(std::uint32_t frame);
+    Cycle write_run(std::uint32_t frame, int tile_row, int begin, int end);
+
+    TrafficConfig traffic_;
+    const RenderJob& job_;
+    bool instant_;
+    Process self_;
+    std::vector<Cycle> frames_written_;
+    Stats stats_;
+};
+
+} // namespace degs
