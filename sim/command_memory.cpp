@@ -31,8 +31,8 @@ MemoryConfig load(const MemoryOptions& options) {
         config.memory.controller.read_queue = options.queue;
         config.memory.controller.write_queue = options.queue;
     }
-    // Lines of requests stand in the initiators, one for each channel, not in the memory.
-    config.memory.waiting_requests = 1;
+    // The traffic itself bounds what waits in a closed loop; with an offered load nothing does.
+    config.memory.waiting_requests = traffic_window(config.memory, options.shape.request_bytes);
     return config;
 }
 

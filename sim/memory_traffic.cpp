@@ -9,10 +9,23 @@
 
 namespace degs::sim {
 
+int traffic_window(const Lpddr5Config& config, int request_bytes) {
+    const Lpddr5Timing& timing = config.timing;
+    const int extra = static_cast<int>(std::ceil(config.controller_latency_ns / timing.ck_ns()));
+    const int bytes_per_ck = kLpddr5BytesPerBeat * kLpddr5BeatsPerCk;
+    constexpr int kAccess = kLpddr5AccessBytes;
+    const int access_ck = std::min(request_bytes + bytes_per_ck - 1, kAccess) / bytes_per_ck;
+    const int latency = static_cast<int>(timing.read_latency()) + extra;
+    const int accesses = config.controller.read_queue + (latency + access_ck - 1) / access_ck;
+    const int per_request = (request_bytes + kAccess - 1) / kAccess;
+    return (accesses + per_request - 1) / per_request + 1;
+}
+
 MemoryTraffic::MemoryTraffic(const sc_core::sc_module_name& name, Lpddr5& memory,
                              const Lpddr5Config& config, const TrafficShape& shape)
     : sc_core::sc_module(name), out("out", static_cast<std::size_t>(config.channels)),
       memory_(&memory), shape_(shape), peak_gb_per_s_(config.peak_gb_per_s()),
+      window_(traffic_window(config, shape.request_bytes)),
       dealer_(shape, memory.channels().mapping(), static_cast<std::size_t>(config.channels)),
       lines_(static_cast<std::size_t>(config.channels)),
       no_data_(static_cast<std::size_t>(shape.request_bytes)) {
@@ -102,7 +115,7 @@ bool MemoryTraffic::send(std::size_t line) {
         }
         std::tie(item, date) = arrived.front();
         arrived.pop_front();
-    } else if (!sending_ || !dealer_.next_of(line, item)) {
+    } else if (!sending_ || lines_[line].under_way >= window_ || !dealer_.next_of(line, item)) {
         return false;
     }
     tlm::tlm_generic_payload* payload = new_payload();
@@ -115,19 +128,23 @@ bool MemoryTraffic::send(std::size_t line) {
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
     const auto answer = out[line]->nb_transport_fw(*payload, phase, delay);
     lines_[line].requesting = answer == tlm::TLM_ACCEPTED;
+    ++lines_[line].under_way;
     return true;
 }
 
 tlm::tlm_sync_enum MemoryTraffic::backward(int line, tlm::tlm_generic_payload& payload,
                                            tlm::tlm_phase& phase, sc_core::sc_time& /*delay*/) {
-    if (phase == tlm::END_REQ) {
-        lines_[static_cast<std::size_t>(line)].requesting = false;
-        send_all(static_cast<std::size_t>(line));
-        return tlm::TLM_ACCEPTED;
+    const auto own = static_cast<std::size_t>(line);
+    const bool response = phase == tlm::BEGIN_RESP;
+    if (response) {
+        --lines_[own].under_way;
+        answered(payload);
+        payload.release();
+    } else {
+        lines_[own].requesting = false;
     }
-    answered(payload);
-    payload.release();
-    return tlm::TLM_COMPLETED;
+    send_all(own);
+    return response ? tlm::TLM_COMPLETED : tlm::TLM_ACCEPTED;
 }
 
 void MemoryTraffic::answered(const tlm::tlm_generic_payload& payload) {

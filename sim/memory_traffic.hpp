@@ -28,10 +28,14 @@ struct TrafficResult {
     double gb_per_s() const { return static_cast<double>(bytes) / seconds / 1e9; }
 };
 
+/// Requests under way per channel that saturate it: what fills the read queue, and those whose data
+/// are on their way back.
+int traffic_window(const Lpddr5Config& config, int request_bytes);
+
 /// AT initiators for a memory, one per channel, so that every channel has its own line of requests
-/// and none waits for another's queue. Latency counts from the date at which a request is made: in
-/// a closed loop its BEGIN_REQ, which is sent as soon as the protocol allows; with an offered load
-/// its arrival (Poisson), whether or not the line is free.
+/// and none waits for another's queue. In a closed loop each keeps traffic_window() requests under
+/// way, a little more than the read queue and the data bus hold. With an offered load requests come
+/// at random (Poisson), and latency counts from that date, whether or not the line is free.
 class MemoryTraffic : public sc_core::sc_module {
 public:
     sc_core::sc_vector<tlm_utils::simple_initiator_socket_tagged<MemoryTraffic>> out;
@@ -57,6 +61,7 @@ private:
     };
     struct Line {                // one initiator
         bool requesting = false; // between BEGIN_REQ and END_REQ
+        int under_way = 0;       // not answered
         std::deque<std::pair<TrafficItem, sc_core::sc_time>> arrived; // offered load only
     };
     struct Snapshot {
@@ -80,6 +85,7 @@ private:
     Lpddr5* memory_;
     TrafficShape shape_;
     double peak_gb_per_s_;
+    int window_;
     TrafficDealer dealer_;
     std::vector<Line> lines_;
     Manager manager_;

@@ -67,6 +67,8 @@ public:
     void run(Ck until, Lpddr5Outcome& outcome);
     /// The earliest date at which something happens if nothing more comes.
     Ck next_date();
+    /// No access that waits for room in a queue, or for its date, gets in before this.
+    Ck admission_bound();
 
     /// Nothing is queued, or waits for a queue.
     bool idle() const;
@@ -106,6 +108,7 @@ private:
 
     Lpddr5Queue& queue() { return writing_ ? writes_ : reads_; }
     Ck refresh_period() const;
+    Ck column_bound() const;
     Ck next_admission() const;
     void enqueue(Lpddr5Queue& to, const Lpddr5Access& access);
     void admit(Ck date, Lpddr5Outcome& outcome);

@@ -23,7 +23,8 @@ void Lpddr5Config::describe(ConfigVisitor& visitor) {
 
 Lpddr5Channels::Lpddr5Channels(const Lpddr5Config& config)
     : timing_(config.timing), rules_(config.timing),
-      mapping_(config.mapping, config.timing, static_cast<unsigned>(config.channels)) {
+      mapping_(config.mapping, config.timing, static_cast<unsigned>(config.channels)),
+      posted_writes_(config.controller.posted_writes) {
     const auto count = static_cast<std::size_t>(config.channels);
     channels_.reserve(count);
     for (std::size_t c = 0; c < count; ++c) {
@@ -92,7 +93,7 @@ Ck Lpddr5Channels::due_of(bool write, Ck date) const {
 void Lpddr5Channels::watch_admissions(bool exactly) {
     if (exactly && !exactly_) {
         for (std::size_t c = 0; c < size(); ++c) {
-            due_[c] = live_[c] == 0 ? kNoDate : std::min(due_[c], channels_[c].next_date());
+            due_[c] = live_[c] == 0 ? kNoDate : std::min(due_[c], channel_due(channels_[c]));
         }
     }
     exactly_ = exactly;
@@ -129,10 +130,16 @@ void Lpddr5Channels::run_channel(std::size_t channel, Ck until) {
             completed_.push_back({answer.id, progress.last});
         }
     }
-    const bool at_once = (exactly_ && runner.waiting() != 0) || runner.has_writes();
-    due_[channel] = live_[channel] == 0 ? kNoDate
-                    : at_once           ? runner.next_date()
-                                        : runner.next_date() + timing_.read_latency() - 1;
+    due_[channel] = live_[channel] == 0 ? kNoDate : channel_due(runner);
+}
+
+// Who waits for a queue is noticed by its initiator, and may be a read that a queued write answers
+// at once; who is in it, when the data come.
+Ck Lpddr5Channels::channel_due(Lpddr5Channel& channel) const {
+    const Ck data = posted_writes_ ? timing_.read_latency()
+                                   : std::min(timing_.read_latency(), timing_.write_latency());
+    const Ck due = channel.next_date() + data - 1;
+    return exactly_ || channel.has_writes() ? std::min(due, channel.admission_bound()) : due;
 }
 
 std::uint32_t Lpddr5Channels::push_for_prediction(const Lpddr5Request& request) {

@@ -83,11 +83,13 @@ private:
     void split(const Lpddr5Request& request, std::uint32_t id);
     void push_access(unsigned channel, const Lpddr5Access& access);
     void run_channel(std::size_t channel, Ck until);
+    Ck channel_due(Lpddr5Channel& channel) const;
     void predict_channel(std::size_t channel, std::uint32_t first, std::vector<Ck>& dates);
 
     Lpddr5Timing timing_;
     Lpddr5RuleTable rules_;
     Lpddr5Mapping mapping_;
+    bool posted_writes_;
     std::vector<Lpddr5Channel> channels_;
     std::vector<Ck> due_;              // by channel
     std::vector<std::uint32_t> live_;  // by channel: accesses of push() without answer

@@ -164,4 +164,30 @@ void Lpddr5Channel::choose_refresh() {
     offer(Command::RefPb, partner_later ? partner : refresh_bank_, Lpddr5Queue::kNone, 0);
 }
 
+Ck Lpddr5Channel::admission_bound() {
+    if (waiting() == 0) {
+        return kNoDate;
+    }
+    if (!chosen_) {
+        choose();
+    }
+    const bool full =
+        (reads_.full() && !reads_in_.empty()) || (writes_.full() && !writes_in_.empty());
+    return full ? std::min(next_admission(), column_bound()) : next_admission();
+}
+
+// Room comes with a column command. A bank that has not begun to open its row is tRCD away from it.
+Ck Lpddr5Channel::column_bound() const {
+    const Command column = writing_ ? Command::Wr : Command::Rd;
+    Ck bound = choice_.date + static_cast<Ck>(timing_->rcd);
+    for (std::uint32_t banks = pending_; banks != 0; banks &= banks - 1) {
+        const auto bank = static_cast<unsigned>(__builtin_ctz(banks));
+        const std::uint8_t lane = candidates_[bank].lane;
+        if (lane < kAct1Lane || lane == kAct2Lane) {
+            bound = std::min(bound, dates_.of_bank(column, bank));
+        }
+    }
+    return std::max(bound, choice_.date);
+}
+
 } // namespace degs

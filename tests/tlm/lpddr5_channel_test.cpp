@@ -94,9 +94,9 @@ TEST_P(Lpddr5Latency, ActivationsAreLimitedByTheirWindow) {
 TEST_P(Lpddr5Latency, RandomRowsAreLimitedByTheCommandBus) {
     ChannelBench bench(config({"timing.faw=4", "timing.rrd=1"}));
     std::mt19937 random(4);
-    const Ck all = span(bench, 2001, [&](int) {
-        return std::pair(static_cast<unsigned>(random() % 16), static_cast<unsigned>(random() % 999));
-    }, 3);
+    const Ck all = span(
+        bench, 2001,
+        [&](int) { return std::pair(test::below(random, 16), test::below(random, 999)); }, 3);
     EXPECT_GE(all, 5U * 2000 - 200);
     EXPECT_LE(all, 5U * 2000 * 12 / 10);
 }
@@ -160,8 +160,8 @@ TEST(Lpddr5Channel, SchedulersDifferInTheirOrder) {
 
 // Reads wait for a write batch; the batch goes from the high watermark down to the low one.
 TEST(Lpddr5Channel, WritesGoInBatches) {
-    ChannelBench bench(plain({"controller.write_queue=20", "controller.write_high=0.5",
-                              "controller.write_low=0.2"}));
+    ChannelBench bench(plain(
+        {"controller.write_queue=20", "controller.write_high=0.5", "controller.write_low=0.2"}));
     for (unsigned i = 0; i < 30; ++i) {
         bench.push(0, i % 16, 0, false, 3, i / 16);
     }
@@ -216,8 +216,8 @@ TEST(Lpddr5Channel, WritesToOnePlaceBecomeOne) {
 
 TEST(Lpddr5Channel, PostedWritesAreAnsweredByTheQueue) {
     for (const bool posted : {true, false}) {
-        ChannelBench bench(plain({posted ? "controller.posted_writes=true"
-                                         : "controller.posted_writes=false"}));
+        ChannelBench bench(
+            plain({posted ? "controller.posted_writes=true" : "controller.posted_writes=false"}));
         const auto write = bench.push(100, 0, 0, true);
         bench.run_out();
         EXPECT_EQ(bench.answers[write], posted ? 101U : 100U + 15 + 9 + 2);
@@ -241,7 +241,8 @@ TEST(Lpddr5Channel, CopiesPredict) {
     ChannelBench bench(plain());
     std::mt19937 random(8);
     for (int i = 0; i < 40; ++i) {
-        bench.push(10, random() % 16, random() % 3, random() % 4 == 0, 3);
+        bench.push(10, test::below(random, 16), test::below(random, 3), test::below(random, 4) == 0,
+                   3);
     }
     bench.run(60);
     Lpddr5Channel copy = bench.channel;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -141,14 +142,21 @@ private:
     }
 };
 
+/// 0 .. `end` - 1, the same everywhere.
+inline unsigned below(std::mt19937& random, unsigned end) {
+    return static_cast<unsigned>(random()) % end;
+}
+
 /// A channel that is fed by hand and remembers every command and answer.
 class ChannelBench {
 public:
     explicit ChannelBench(const Lpddr5Config& config)
-        : config(config), rules_(config.timing), channel(this->config.timing, rules_,
-                                                        config.controller) {
+        : timing_(config.timing), rules_(timing_), channel(timing_, rules_, config.controller) {
         channel.observe([this](const Lpddr5Issued& issued) { trace.push_back(issued); });
     }
+    ChannelBench(const ChannelBench&) = delete;
+    ChannelBench& operator=(const ChannelBench&) = delete;
+    ~ChannelBench() = default;
     std::uint32_t push(Ck date, unsigned bank, unsigned row, bool write = false,
                        unsigned bursts = 1, unsigned block = 0) {
         Lpddr5Access access;
@@ -177,9 +185,8 @@ public:
     }
     std::uint32_t pushed() const { return next_id_; }
 
-    Lpddr5Config config;
-
 private:
+    Lpddr5Timing timing_;
     Lpddr5RuleTable rules_;
     std::uint32_t next_id_ = 0;
 
@@ -198,9 +205,9 @@ inline void check_trace(const std::vector<Lpddr5Issued>& trace, const Lpddr5Refe
             const Lpddr5Issued& a = trace[j];
             const bool pair = a.command == Command::RefPb || b.command == Command::RefPb;
             const bool same_bank = a.bank == b.bank || (pair && (a.bank ^ 8U) == b.bank);
-            const Relation relation = same_bank                      ? Relation::SameBank
+            const Relation relation = same_bank                  ? Relation::SameBank
                                       : a.bank / 4 == b.bank / 4 ? Relation::SameGroup
-                                                                     : Relation::Other;
+                                                                 : Relation::Other;
             const int gap = reference.gap(a.command, b.command, relation);
             ASSERT_GE(b.date, a.date + static_cast<Ck>(gap))
                 << lpddr5_command_name(a.command) << " of bank " << a.bank << " at " << a.date

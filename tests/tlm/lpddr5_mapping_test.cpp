@@ -98,9 +98,9 @@ TEST(Lpddr5Mapping, StreamsApartByPowersOfTwoShareNoBank) {
 
 TEST(Lpddr5Mapping, RefusesAnOrderThatIsNone) {
     Lpddr5Config config;
-    for (const char* order : {"", "column group bank", "column group bank row column:1",
-                              "column:9 group bank row", "column:x group bank row",
-                              "column group bank rows", "column: group bank row"}) {
+    for (const char* order :
+         {"", "column group bank", "column group bank row column:1", "column:9 group bank row",
+          "column:x group bank row", "column group bank rows", "column: group bank row"}) {
         config.mapping.order = order;
         EXPECT_THROW(default_mapping(config), ConfigError) << order;
     }

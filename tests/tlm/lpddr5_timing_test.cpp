@@ -39,8 +39,7 @@ TEST_P(Lpddr5Speeds, EveryRuleIsNeededSomewhere) {
     const Lpddr5Reference reference = Lpddr5Reference::of(GetParam());
     for (const Lpddr5Rule& rule : lpddr5_rules(config.timing)) {
         int longest = 0; // among the relations that the rule's scope covers
-        for (const Relation relation :
-             {Relation::SameBank, Relation::SameGroup, Relation::Other}) {
+        for (const Relation relation : {Relation::SameBank, Relation::SameGroup, Relation::Other}) {
             if (static_cast<int>(relation) <= static_cast<int>(rule.scope)) {
                 longest = std::max(longest, reference.gap(rule.previous, rule.next, relation));
             }
@@ -72,9 +71,9 @@ TEST(Lpddr5Config, SpeedsHaveTheirPeaks) {
 }
 
 TEST(Lpddr5Config, RejectsWhatCannotBe) {
-    for (const char* wrong : {"timing.burst_length=32", "timing.rows=1000", "channels=12",
-                              "timing.refi=200", "mapping.interleave_bytes=96",
-                              "controller.write_low=0.9", "controller.read_queue=65"}) {
+    for (const char* wrong :
+         {"timing.burst_length=32", "timing.rows=1000", "channels=12", "timing.refi=200",
+          "mapping.interleave_bytes=96", "controller.write_low=0.9", "controller.read_queue=65"}) {
         EXPECT_THROW(test::lpddr5_config("lpddr5-6400x256", {wrong}), ConfigError) << wrong;
     }
 }

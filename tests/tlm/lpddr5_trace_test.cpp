@@ -21,8 +21,11 @@ void feed(ChannelBench& bench, unsigned seed) {
     Ck date = 0;
     for (int i = 0; i < 4000; ++i) {
         date += random() % 16 == 0 ? random() % 300 : random() % 6;
-        const unsigned bursts = 1 + random() % 3;
-        bench.push(date, random() % 16, random() % 5, random() % 3 == 0, bursts, random() % 4);
+        const unsigned bursts = 1 + test::below(random, 3);
+        const unsigned bank = test::below(random, 16);
+        const unsigned row = test::below(random, 5);
+        const bool write = test::below(random, 3) == 0;
+        bench.push(date, bank, row, write, bursts, test::below(random, 4));
     }
 }
 
@@ -47,10 +50,10 @@ TEST_P(Lpddr5Trace, KeepsEveryRule) {
 // The same work in one go or in steps of any size.
 TEST_P(Lpddr5Trace, DoesNotDependOnHowOftenItIsRun) {
     const auto& [file, scheduler, page, refresh] = GetParam();
-    const Lpddr5Config config = test::lpddr5_config(
-        file, {std::string("controller.scheduler=") + scheduler,
-               std::string("controller.page_policy=") + page,
-               std::string("controller.refresh=") + refresh});
+    const Lpddr5Config config =
+        test::lpddr5_config(file, {std::string("controller.scheduler=") + scheduler,
+                                   std::string("controller.page_policy=") + page,
+                                   std::string("controller.refresh=") + refresh});
     ChannelBench once(config);
     ChannelBench steps(config);
     feed(once, 12);
@@ -66,18 +69,17 @@ TEST_P(Lpddr5Trace, DoesNotDependOnHowOftenItIsRun) {
     EXPECT_EQ(once.answers, steps.answers);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, Lpddr5Trace,
-    ::testing::Combine(::testing::Values("lpddr5-6400x256", "lpddr5-3200x128"),
-                       ::testing::Values("frfcfs", "bank_fcfs", "fcfs"),
-                       ::testing::Values("open", "closed"),
-                       ::testing::Values("none", "all_bank", "per_bank")));
+INSTANTIATE_TEST_SUITE_P(All, Lpddr5Trace,
+                         ::testing::Combine(::testing::Values("lpddr5-6400x256", "lpddr5-3200x128"),
+                                            ::testing::Values("frfcfs", "bank_fcfs", "fcfs"),
+                                            ::testing::Values("open", "closed"),
+                                            ::testing::Values("none", "all_bank", "per_bank")));
 
 // The checker itself must be able to fail.
 TEST(Lpddr5TraceChecker, SeesAGapThatIsTooShort) {
     const auto reference = test::Lpddr5Reference::of("lpddr5-6400x256");
-    EXPECT_NO_FATAL_FAILURE(test::check_trace(
-        {{Command::Act1, 0, 0, 1}, {Command::Rd, 15, 0, 1}}, reference));
+    EXPECT_NO_FATAL_FAILURE(
+        test::check_trace({{Command::Act1, 0, 0, 1}, {Command::Rd, 15, 0, 1}}, reference));
     static const std::vector<Lpddr5Issued> wrong{{Command::Act1, 0, 0, 1}, {Command::Rd, 14, 0, 1}};
     EXPECT_GE(reference.gap(wrong[0].command, wrong[1].command, test::Relation::SameBank), 15);
 }
