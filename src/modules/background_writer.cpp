@@ -68,10 +68,12 @@ Cycle BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, 
     const int width = std::min(end * work.tile_size, work.camera.width) - left;
     const int top = tile_row * work.tile_size;
     const int bottom = std::min(top + work.tile_size, work.camera.height);
+    // Rows as wide as the image follow each other.
+    const int rows = width == work.camera.width ? bottom - top : 1;
     const auto pixel_bytes = static_cast<std::uint64_t>(traffic_.pixel_bytes);
-    const std::vector<unsigned char> zeros(static_cast<std::size_t>(width) * pixel_bytes, 0);
+    const std::vector<unsigned char> zeros(static_cast<std::size_t>(rows * width) * pixel_bytes, 0);
     const std::uint64_t base = job_.map(frame, traffic_).frame_buffer;
-    for (int y = top; y < bottom; ++y) {
+    for (int y = top; y < bottom; y += rows) {
         const std::uint64_t pixel =
             static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(work.camera.width) +
             static_cast<std::uint64_t>(left);

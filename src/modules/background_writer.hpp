@@ -12,8 +12,8 @@
 namespace degs {
 
 /// Writes the pixels of the tiles that list no splat, as soon as their frame starts: they never
-/// enter the pipeline. One posted write per cycle, each a row of neighbouring background tiles
-/// [assumed].
+/// enter the pipeline. One posted write per cycle [assumed], each a row of pixels of neighbouring
+/// background tiles; all their rows where they are as wide as the image.
 class BackgroundWriter : public sc_core::sc_module {
 public:
     struct Stats {

@@ -25,6 +25,11 @@ void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
         collect_written(result, buffer->frames_written());
         result.cycles = std::max(result.cycles, buffer->stats().finished);
     }
+    // Images leave in order, even if engines had the tiles of a later frame done before.
+    for (std::size_t f = 1; f < result.frames.size(); ++f) {
+        result.frames[f].finished =
+            std::max(result.frames[f].finished, result.frames[f - 1].finished);
+    }
 }
 
 void add_pixel_buffer(AcceleratorResult& result, int bytes, int contexts,

@@ -58,6 +58,9 @@ MemoryStreams::Traffic MemoryStreams::total() const {
 }
 
 double MemoryStreams::busy_ns() const {
+    if (bus_) {
+        return bus_->total().busy_ns;
+    }
     const Traffic sum = total();
     return peak_gb_per_s_ > 0
                ? static_cast<double>(sum.bytes_read + sum.bytes_written) / peak_gb_per_s_

@@ -40,8 +40,9 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
     if (observer_ && command == tlm::TLM_READ_COMMAND) {
         observer_(address, data, bytes);
     }
-    // A memory that waits for its answer has moved the kernel on; the process cannot stay behind.
-    process.advance_to(clock_->floor(sc_core::sc_time_stamp()));
+    // A memory that waits for its answer has moved the kernel on; a process must not stay more than
+    // a cycle behind.
+    process.advance_to(std::max<Cycle>(clock_->floor(sc_core::sc_time_stamp()), 1) - 1);
     return clock_->ceil(sc_core::sc_time_stamp() + delay);
 }
 
