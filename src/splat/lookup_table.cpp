@@ -99,14 +99,13 @@ double LookupTable::curve(double reduced) const {
         return exact(reduced);
     }
     // Roots of the mantissa rise; the fractions of exponentials fall.
-    return spec_.function == TableFunction::SqrtOneMinus ? std::sqrt(reduced)
-                                                         : std::exp2(-reduced);
+    return spec_.function == TableFunction::SqrtOneMinus ? std::sqrt(reduced) : std::exp2(-reduced);
 }
 
 double LookupTable::look_up(double reduced) const {
     const double at = (reduced - low_) / width_;
-    const int cell = static_cast<int>(
-        std::clamp(std::floor(at), 0.0, static_cast<double>(spec_.entries - 1)));
+    const int cell =
+        static_cast<int>(std::clamp(std::floor(at), 0.0, static_cast<double>(spec_.entries - 1)));
     const auto i = static_cast<std::size_t>(cell);
     if (spec_.interpolation == Interpolation::Nearest) {
         return values_[i];

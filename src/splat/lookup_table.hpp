@@ -16,9 +16,9 @@ enum class TableFunction {
     Exp2,         ///< 2^-x, x >= 0
 };
 
-/// `Exact`: no table; the function is rounded once to the format of the values. `Nearest`: one value per
-/// cell, the middle of the function's range there. `Linear`: value and fall per cell, moved by half
-/// the largest distance between chord and curve.
+/// `Exact`: no table; the function is rounded once to the format of the values. `Nearest`: one
+/// value per cell, the middle of the function's range there. `Linear`: value and fall per cell,
+/// moved by half the largest distance between chord and curve.
 enum class Interpolation { Exact, Nearest, Linear };
 
 /// `None`: cells of equal width from 0 to `range`. `Binary`: sqrt(1 - x) takes the leading zeros of
@@ -30,8 +30,8 @@ struct TableSpec {
     TableFunction function = TableFunction::SqrtOneMinus;
     Interpolation interpolation = Interpolation::Exact;
     Reduction reduction = Reduction::None;
-    int entries = 0;    ///< cells, 1 .. 4096
-    double range = 1;   ///< of x with Reduction::None; beyond it the last cell counts
+    int entries = 0;      ///< cells, 1 .. 4096
+    double range = 1;     ///< of x with Reduction::None; beyond it the last cell counts
     ValueFormat values;   ///< of entries, of the product in Linear, and of their difference
     ValueFormat argument; ///< of x log2(e) / 2, which ExpHalf forms for Reduction::Binary
 

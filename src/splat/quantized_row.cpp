@@ -57,7 +57,9 @@ void QuantizedRow::derive(const ProjectedSplat& splat, QuantizedSplat& out) cons
     out.c_prime = c_prime_(unit_ / splat.cov_c);
     out.a = conic_(unit_ * splat.conic_a());
     out.radius = radius_(std::sqrt(splat.q_threshold * (splat.det / splat.cov_c)));
-    out.inverse_radius2 = inverse_radius2_(1 / (splat.cov_c * splat.q_threshold));
+    // Finite also if the splat has no more than its mean's pixel (Q_th = 0): 0 * inf is no number.
+    out.inverse_radius2 = std::min(inverse_radius2_(1 / (splat.cov_c * splat.q_threshold)),
+                                   set_.inverse_radius2.max());
 }
 
 void QuantizedRow::derive_literally(const ProjectedSplat& splat, QuantizedSplat& out) const {
@@ -95,9 +97,8 @@ QuantizedSpan QuantizedRow::solve(const QuantizedSplat& splat, int y, int x_begi
     if (!(left <= right)) {
         return span;
     }
-    const double base = set_.base == Base::Start
-                            ? left
-                            : std::clamp(std::nearbyint(centre), left, right);
+    const double base =
+        set_.base == Base::Start ? left : std::clamp(std::nearbyint(centre), left, right);
     const double u = distance_(base - centre);
     const double rise = square_(square_(splat.a * u) * u);
     span.g0 = g0_(level_(rise + level(splat, row)));
@@ -150,7 +151,7 @@ double QuantizedRow::times(double value, int integer) const {
     if (set_.multiplier == IntegerMultiplier::Whole) {
         return term_(value * integer);
     }
-    const int low = integer & 15;
+    const int low = integer % 16; // of the magnitude, with the integer's sign
     return term_(term_(value * low) + term_(value * (integer - low)));
 }
 

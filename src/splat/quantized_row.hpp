@@ -33,9 +33,9 @@ struct QuantizedPixel {
     double rgb[3] = {0, 0, 0};
 };
 
-/// The row path of DeGS in the formats of a number set, value by value: record, Span Unit, PE. Every
-/// operation is carried out in double and rounded once to the format of its result. This is the
-/// definition; quantized_lanes.hpp computes pixels faster.
+/// The row path of DeGS in the formats of a number set, value by value: record, Span Unit, PE.
+/// Every operation is carried out in double and rounded once to the format of its result. This is
+/// the definition; quantized_lanes.hpp computes pixels faster.
 class QuantizedRow {
 public:
     explicit QuantizedRow(NumberSet set);

@@ -11,8 +11,8 @@ constexpr double kAlphaMin = 1.0 / 255.0;
 constexpr double kAlphaMax = 0.99;
 constexpr double kLog2e = 1.4426950408889634;
 
-/// 0 .. 1, the same on every machine: the engine's bits are fixed by the standard, its distributions
-/// are not.
+/// 0 .. 1, the same on every machine: the engine's bits are fixed by the standard, its
+/// distributions are not.
 double unit(std::mt19937_64& random) {
     return std::ldexp(static_cast<double>(random() >> 11), -53);
 }
@@ -22,8 +22,7 @@ double between(std::mt19937_64& random, double low, double high) {
 
 } // namespace
 
-AlphaMap direct_alpha(const ProjectedSplat& splat, WindowCorner corner,
-                      const ValueFormat& format) {
+AlphaMap direct_alpha(const ProjectedSplat& splat, WindowCorner corner, const ValueFormat& format) {
     const Rounder r(format);
     const double mu_x = r(splat.mu_x);
     const double mu_y = r(splat.mu_y);
