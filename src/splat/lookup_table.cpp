@@ -10,6 +10,13 @@ namespace degs {
 namespace {
 
 constexpr double kHalfLog2e = 0.72134752044448170;
+constexpr double kMostShift = 126; // what a float's exponent can take
+
+/// x limited to low .. high; high if x is no number.
+double within(double x, double low, double high) {
+    const double below = x < high ? x : high;
+    return below > low ? below : low;
+}
 
 const char* function_name(TableFunction function) {
     switch (function) {
@@ -104,32 +111,34 @@ double LookupTable::curve(double reduced) const {
 
 double LookupTable::look_up(double reduced) const {
     const double at = (reduced - low_) / width_;
-    const int cell =
-        static_cast<int>(std::clamp(std::floor(at), 0.0, static_cast<double>(spec_.entries - 1)));
+    const double last = spec_.entries - 1;
+    const double cell = std::floor(within(at, 0, last));
     const auto i = static_cast<std::size_t>(cell);
     if (spec_.interpolation == Interpolation::Nearest) {
         return values_[i];
     }
-    const double part = round_(falls_[i] * std::clamp(at - cell, 0.0, 1.0));
+    const double part = round_(falls_[i] * within(at - cell, 0, 1));
     const bool rises =
         spec_.reduction == Reduction::Binary && spec_.function == TableFunction::SqrtOneMinus;
     return round_(rises ? values_[i] + part : values_[i] - part);
 }
 
-double LookupTable::evaluate_reduced(double x) const {
-    if (spec_.function == TableFunction::SqrtOneMinus) {
-        const double left = 1 - x;
-        if (!(left > 0)) {
-            return 0;
-        }
-        int exponent = 0;
-        const double mantissa = std::frexp(left, &exponent); // 1/2 <= mantissa < 1
-        const int pairs = -(exponent >= 0 ? 0 : (-exponent) / 2);
-        return std::ldexp(look_up(std::ldexp(mantissa, exponent - 2 * pairs)), pairs);
+double LookupTable::reduced_root(double x) const {
+    const double left = 1 - x;
+    if (!(left > 0)) {
+        return 0;
     }
+    int exponent = 0;
+    std::frexp(left, &exponent); // left is 2^exponent times 1/2 .. 1
+    const int pairs = exponent < 0 ? -exponent / 2 : 0;
+    return std::ldexp(look_up(std::ldexp(left, 2 * pairs)), -pairs);
+}
+
+double LookupTable::reduced_exponential(double x) const {
+    const bool natural = spec_.function == TableFunction::ExpHalf;
     const double binary =
-        spec_.function == TableFunction::Exp2 ? x : round_argument_(x * kHalfLog2e);
-    const double whole = std::floor(std::min(binary, 126.0));
+        within(natural ? round_argument_(x * kHalfLog2e) : x, -kMostShift, kMostShift);
+    const double whole = std::floor(binary);
     return std::ldexp(look_up(binary - whole), -static_cast<int>(whole));
 }
 
@@ -139,7 +148,10 @@ double LookupTable::operator()(double x) const {
             spec_.reduction == Reduction::Binary && spec_.function == TableFunction::ExpHalf;
         return round_(binary ? std::exp2(-round_argument_(x * kHalfLog2e)) : exact(x));
     }
-    return spec_.reduction == Reduction::Binary ? evaluate_reduced(x) : look_up(x);
+    if (spec_.reduction == Reduction::None) {
+        return look_up(x);
+    }
+    return spec_.function == TableFunction::SqrtOneMinus ? reduced_root(x) : reduced_exponential(x);
 }
 
 double LookupTable::shape_error() const {

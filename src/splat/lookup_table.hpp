@@ -62,7 +62,8 @@ private:
     double exact(double x) const;
     double curve(double reduced) const; // what the cells tabulate
     double look_up(double reduced) const;
-    double evaluate_reduced(double x) const;
+    double reduced_root(double x) const;
+    double reduced_exponential(double x) const;
 
     TableSpec spec_;
     Rounder round_, round_argument_;

@@ -205,7 +205,7 @@ Rounder::Rounder(const ValueFormat& format)
 
 double Rounder::outside(double x) const {
     if (std::isnan(x)) {
-        return fixed_ ? 0.0 : x;
+        return fixed_ ? max_ : x;
     }
     const double over = fixed_ ? max_ : std::numeric_limits<double>::infinity();
     if (x > 0) {
@@ -222,11 +222,13 @@ LaneRounding::LaneRounding(const ValueFormat& format) {
     const bool fixed = format.kind == ValueFormat::Kind::Fixed;
     max = bits_of(format.max());
     over = fixed ? max : over;
-    nan = fixed ? 0 : nan;
+    nan = fixed ? max : nan;
     sign = format.has_sign ? sign : 0;
     if (fixed) {
         min_normal = INT32_MAX;
         magic = static_cast<float>(std::ldexp(format.quantum(), 23));
+        high = static_cast<float>(format.max());
+        low = format.has_sign ? -high : 0.0F;
         return;
     }
     shift = 23 - format.fraction_bits;

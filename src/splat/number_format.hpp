@@ -14,8 +14,8 @@ namespace degs {
 /// Float: IEEE 754 in shape. Stored exponent 0 holds subnormals, the highest infinities and NaN;
 /// rounding is to nearest, ties to even; what is too large becomes infinite. Fixed: multiples of
 /// 2^-fraction_bits; too large saturates at the largest value of either sign (the lowest two's
-/// complement code is not used), NaN becomes 0. An unsigned format has no sign bit, and what is
-/// negative becomes 0.
+/// complement code is not used), NaN at the positive one. An unsigned format has no sign bit, and
+/// what is negative becomes 0.
 struct ValueFormat {
     enum class Kind { Float, Fixed };
     Kind kind = Kind::Float;
@@ -96,6 +96,7 @@ struct LaneRounding {
     std::int32_t nan = 0x7FC00000;
     std::int32_t sign = INT32_MIN; ///< mask of the sign bit
     float magic = 0;               ///< 2^23 units
+    float low = 0, high = 0;       ///< Fixed: where values saturate
 
     LaneRounding() = default; ///< to fp32: keeps everything
     /// InputError unless format.fits_float().
