@@ -146,7 +146,8 @@ double LookupTable::operator()(double x) const {
     if (spec_.interpolation == Interpolation::Exact) {
         const bool binary =
             spec_.reduction == Reduction::Binary && spec_.function == TableFunction::ExpHalf;
-        return round_(binary ? std::exp2(-round_argument_(x * kHalfLog2e)) : exact(x));
+        return round_(binary ? std::exp2(-round_argument_(x * round_argument_(kHalfLog2e)))
+                             : exact(x));
     }
     if (spec_.reduction == Reduction::None) {
         return look_up(x);

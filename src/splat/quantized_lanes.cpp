@@ -119,7 +119,8 @@ LaneNumbers::LaneNumbers(const NumberSet& set)
     : term(set.term), q(set.q), alpha(set.alpha), transmittance(set.transmittance),
       weight(set.weight), sum(set.sum), table(set.exp.values) {
     if (!lanes_can(set)) {
-        throw InputError("The number set '" + set.name + "' has formats or tables that the lanes "
+        throw InputError("The number set '" + set.name +
+                         "' has formats or tables that the lanes "
                          "of the array cannot compute.");
     }
     if (!set.exp.argument.is_fp64()) { // else nothing is rounded to it

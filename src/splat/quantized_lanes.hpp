@@ -19,14 +19,14 @@ enum class LaneFamily { Any, Fixed, Half };
 struct LaneNumbers {
     LaneFamily family = LaneFamily::Any;
     LaneRounding term, q, alpha, transmittance, weight, sum;
-    LaneRounding table, argument; ///< of the exponential's table
-    float q_mask = 0;             ///< q above it draws nothing; infinite without a mask
-    float q_limit = 0;            ///< q at which alpha = 1/255: tasks beyond it are boundary
-    float alpha_max = 0;          ///< 0.99 in the format of alpha
-    bool natural = false;         ///< ExpHalf: q log2(e) / 2 is formed first
+    LaneRounding table, argument;  ///< of the exponential's table
+    float q_mask = 0;              ///< q above it draws nothing; infinite without a mask
+    float q_limit = 0;             ///< q at which alpha = 1/255: tasks beyond it are boundary
+    float alpha_max = 0;           ///< 0.99 in the format of alpha
+    bool natural = false;          ///< ExpHalf: q log2(e) / 2 is formed first
     float to_binary = 0.72134752F; ///< log2(e) / 2
-    bool reduced = false;         ///< Reduction::Binary
-    bool from_start = true;       ///< Base::Start: g0 + n d0 first
+    bool reduced = false;          ///< Reduction::Binary
+    bool from_start = true;        ///< Base::Start: g0 + n d0 first
     bool half_lookup = false;
     float cells_per_unit = 1;
     std::int32_t last_cell = 0;

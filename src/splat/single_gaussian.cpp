@@ -30,6 +30,7 @@ AlphaMap direct_alpha(const ProjectedSplat& splat, WindowCorner corner, const Va
     const double b = r(splat.conic_b());
     const double c = r(splat.conic_c());
     const double opacity = r(splat.opacity);
+    const double log2e = r(kLog2e);
     AlphaMap map;
     for (int j = 0; j < kAlphaWindow; ++j) {
         const double dy = r(mu_y - (corner.y + j));
@@ -38,8 +39,8 @@ AlphaMap direct_alpha(const ProjectedSplat& splat, WindowCorner corner, const Va
             const double dx = r(mu_x - (corner.x + i));
             const double squares = r(r(r(a * dx) * dx) + vertical);
             const double power = r(r(-0.5 * squares) - r(r(b * dx) * dy));
-            // Units for FP16 compute 2^x; exp(x) costs them a product with log2 e.
-            const double alpha = r(opacity * r(std::exp2(r(power * kLog2e))));
+            // Units for FP16 compute 2^x; exp(x) costs them a product with their log2 e.
+            const double alpha = r(opacity * r(std::exp2(r(power * log2e))));
             map.at(i, j) = alpha < kAlphaMin ? 0.0 : std::min(r(kAlphaMax), alpha);
         }
     }
