@@ -11,5 +11,6 @@ void add_compare_command(CLI::App& program);
 void add_render_command(CLI::App& program);
 void add_scene_command(CLI::App& program);
 void add_config_command(CLI::App& program);
+void add_accuracy_command(CLI::App& program);
 
 } // namespace degs::sim

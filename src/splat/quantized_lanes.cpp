@@ -8,6 +8,7 @@
 #include "splat/error.hpp"
 
 #if defined(__x86_64__)
+#include <cpuid.h>
 #include <immintrin.h>
 #define DEGS_HAS_WIDE_LANES 1
 #endif
@@ -57,7 +58,13 @@ namespace {
 
 bool has_wide_numbers() {
 #ifdef DEGS_HAS_WIDE_LANES
-    return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("f16c") != 0;
+    constexpr unsigned kF16c = 1U << 29; // not all compilers know the name
+    unsigned eax = 0;
+    unsigned ebx = 0;
+    unsigned ecx = 0;
+    unsigned edx = 0;
+    return __builtin_cpu_supports("avx2") != 0 && __get_cpuid(1, &eax, &ebx, &ecx, &edx) != 0 &&
+           (ecx & kF16c) != 0;
 #else
     return false;
 #endif

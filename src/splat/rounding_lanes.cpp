@@ -22,7 +22,7 @@ void round_array(const LaneRounding& to, float* values, std::size_t count) {
 #pragma GCC push_options
 #pragma GCC target("avx2")
 namespace wide_rounding {
-#include "splat/rounding.inc"
+#include "splat/rounding.inc" // NOLINT(readability-duplicate-include): once per instruction set
 using Value = float __attribute__((vector_size(32)));
 using Bits = std::int32_t __attribute__((vector_size(32)));
 void round_array(const LaneRounding& to, float* values, std::size_t count) {

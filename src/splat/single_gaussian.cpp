@@ -117,7 +117,7 @@ ProjectedSplat window_splat(double x, double y, double major, double minor, doub
 }
 
 ProjectedSplat isotropic_splat(std::mt19937_64& random) {
-    const double middle = kAlphaWindow / 2;
+    constexpr double middle = 0.5 * kAlphaWindow;
     const double x = between(random, middle - 1, middle);
     const double y = between(random, middle - 1, middle);
     return window_splat(x, y, 3, 3, 0, 1);
