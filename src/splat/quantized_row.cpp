@@ -74,7 +74,6 @@ void QuantizedRow::derive_literally(const ProjectedSplat& splat, QuantizedSplat&
 
 QuantizedSpan QuantizedRow::solve(const QuantizedSplat& splat, int y, int x_begin,
                                   int x_end) const {
-    QuantizedSpan span;
     Row row{};
     row.dy = distance_((y - splat.pixel_y) - splat.mean_y);
     row.x = ratio_(set_.vertical == Vertical::Squared
@@ -82,25 +81,26 @@ QuantizedSpan QuantizedRow::solve(const QuantizedSplat& splat, int y, int x_begi
                        : square_(row.dy * splat.inverse_radius2) * row.dy);
     row.left = ratio_(1 - row.x);
     if (!(row.x <= 1)) {
-        return span;
+        return {};
     }
     const double centre = edge_(splat.mean_x + edge_(splat.slope * row.dy));
     double left = 0;
     double right = 0;
     if (!ends(splat, row, centre, left, right)) {
-        return span;
+        return {};
     }
-    const double low = x_begin - splat.pixel_x;
-    const double high = x_end - 1 - splat.pixel_x;
-    left = std::max(left, low);
-    right = std::min(right, high);
-    if (!(left <= right)) {
-        return span;
-    }
+    left = std::max(left, x_begin - splat.pixel_x);
+    right = std::min(right, x_end - 1 - splat.pixel_x);
+    return left <= right ? span_vector(splat, row, centre, left, right) : QuantizedSpan{};
+}
+
+QuantizedSpan QuantizedRow::span_vector(const QuantizedSplat& splat, const Row& row, double centre,
+                                        double left, double right) const {
     const double base =
         set_.base == Base::Start ? left : std::clamp(std::nearbyint(centre), left, right);
     const double u = distance_(base - centre);
     const double rise = square_(square_(splat.a * u) * u);
+    QuantizedSpan span;
     span.g0 = g0_(level_(rise + level(splat, row)));
     span.d0 = d0_(splat.a * square_(2 * u + 1));
     const int origin = to_int(splat.pixel_x);

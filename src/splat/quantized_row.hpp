@@ -59,6 +59,8 @@ private:
     void derive_literally(const ProjectedSplat& splat, QuantizedSplat& out) const;
     bool ends(const QuantizedSplat& splat, const Row& row, double centre, double& left,
               double& right) const;
+    QuantizedSpan span_vector(const QuantizedSplat& splat, const Row& row, double centre,
+                              double left, double right) const;
     double level(const QuantizedSplat& splat, const Row& row) const;
     double times(double value, int integer) const;
 
