@@ -108,6 +108,53 @@ TEST(QuantizedRow, LiteralFp16LosesRowsBeyond256) {
     EXPECT_TRUE(half.solve(half.record(splat), 260, 0, 32).empty());
 }
 
+/// A half by definition: whole multiples of its unit.
+double half(double x) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    const int unit = std::max(exponent - 11, -24);
+    return std::ldexp(std::nearbyint(std::ldexp(x, -unit)), unit);
+}
+
+// Eq. 10-15 and 18 a second time, operation by operation in FP16; sqrt(1 - x) is one, as in the
+// paper.
+TEST(QuantizedRow, LiteralFp16RoundsEveryOperation) {
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> unit(0, 1);
+    const QuantizedRow row(number_set("fp16"));
+    const double limit = half(2 * std::log(255.0));
+    for (int trial = 0; trial < 2000; ++trial) {
+        const ProjectedSplat s =
+            test::make_splat(8 + 16 * unit(random), 8 + 16 * unit(random), 2 + 3 * unit(random),
+                             2 + unit(random), 6.3 * unit(random), 0.1 + 0.9 * unit(random));
+        const double a = half(s.conic_a());
+        const double b = half(s.conic_b());
+        const double q_th = half(s.q_threshold);
+        const double c_prime = half(half(s.conic_c()) - half(half(b * b) / a));
+        const double inverse = half(c_prime / q_th);
+        const int y = static_cast<int>(32 * unit(random));
+        const double dy = half(y - half(s.mu_y));
+        const double x = half(half(dy * dy) * inverse);
+        const QuantizedSpan span = row.solve(row.record(s), y, 0, 32);
+        if (x > 1) {
+            ASSERT_TRUE(span.empty());
+            continue;
+        }
+        const double w = half(half(std::sqrt(half(q_th / a))) * half(std::sqrt(1 - x)));
+        const double centre = half(half(s.mu_x) + half(half(-b / a) * dy));
+        const double left = std::max(0.0, std::floor(half(centre - w)));
+        ASSERT_EQ(span.x0, left);
+        ASSERT_EQ(span.x1, std::min(31.0, std::ceil(half(centre + w))));
+        const double u = half(left - centre);
+        const double level = half(half(half(dy * dy) * c_prime) + half(limit - q_th));
+        ASSERT_EQ(span.g0, half(half(half(a * u) * u) + level));
+        ASSERT_EQ(span.d0, half(a * half(2 * u + 1)));
+        const double q =
+            half(half(span.g0 + half(span.d0 * 5)) + half(a * 20)); // n = 5, n(n-1) = 20
+        ASSERT_EQ(row.q(a, span.g0, span.d0, 5), q);
+    }
+}
+
 TEST(QuantizedRow, OutwardEndsAreTheNextPixels) {
     NumberSet set = number_set("ideal");
     const ProjectedSplat splat = test::make_splat(10.3, 5, 2, 2, 0, 1);
