@@ -12,5 +12,6 @@ void add_render_command(CLI::App& program);
 void add_scene_command(CLI::App& program);
 void add_memory_command(CLI::App& program);
 void add_config_command(CLI::App& program);
+void add_accuracy_command(CLI::App& program);
 
 } // namespace degs::sim

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace degs {
+
+/// The values that a register, a record field or a result of the data path can take.
+///
+/// Float: IEEE 754 in shape. Stored exponent 0 holds subnormals, the highest infinities and NaN;
+/// rounding is to nearest, ties to even; what is too large becomes infinite. Fixed: multiples of
+/// 2^-fraction_bits; too large saturates at the largest value of either sign (the lowest two's
+/// complement code is not used), NaN at the positive one. An unsigned format has no sign bit, and
+/// what is negative becomes 0.
+struct ValueFormat {
+    enum class Kind { Float, Fixed };
+    Kind kind = Kind::Float;
+    bool has_sign = true;
+    int exponent_bits = 11; ///< Float: 2..8, or 11 for fp64
+    int bias = 1023;        ///< Float: the exponent stored for values in [1, 2)
+    int integer_bits = 0;   ///< Fixed: the sign included, as in Q notation
+    int fraction_bits = 52; ///< Float: of the mantissa, as stored
+
+    int storage_bits() const;
+    /// Largest finite value.
+    double max() const;
+    /// Smallest positive value; of a fixed format the distance of all neighbours.
+    double quantum() const;
+    /// Float: smallest value with a full mantissa.
+    double min_normal() const;
+    bool is_fp64() const { return kind == Kind::Float && exponent_bits == 11; }
+    /// All values are floats, and lanes of floats can be rounded to it: fixed formats up to 23 bits
+    /// without the sign.
+    bool fits_float() const;
+    /// The name that parse_format reads.
+    std::string name() const;
+};
+
+bool operator==(const ValueFormat& a, const ValueFormat& b);
+inline bool operator!=(const ValueFormat& a, const ValueFormat& b) {
+    return !(a == b);
+}
+
+/// "fp64", "fp32", "fp16", "bf16"; "e6m9", "e5m10b29", "ue5m11b29": exponent and mantissa bits,
+/// bias (2^(E-1) - 1 if not given), u without sign; "q4.12", "uq0.16": integer bits (sign included)
+/// and fraction bits. InputError tells what is allowed.
+ValueFormat parse_format(const std::string& name);
+
+/// Rounds doubles to a format; the constants are worked out once.
+class Rounder {
+public:
+    Rounder() = default; ///< to fp64: keeps everything
+    explicit Rounder(const ValueFormat& format);
+
+    double operator()(double x) const {
+        if (exact_) {
+            return x;
+        }
+        // Adding and subtracting 1.5 * 2^52 units rounds to whole units. The unit is that of x's
+        // exponent, but neither finer nor coarser than the format's.
+        std::uint64_t exponent = 0;
+        std::memcpy(&exponent, &x, sizeof exponent);
+        exponent &= std::uint64_t{0x7FF} << 52;
+        exponent = exponent < low_ ? low_ : exponent > high_ ? high_ : exponent;
+        exponent += to_magic_;
+        double magic = 0;
+        std::memcpy(&magic, &exponent, sizeof magic);
+        magic *= 1.5;
+        const double y = (x + magic) - magic;
+        return y >= min_ && y <= max_ ? y : outside(x);
+    }
+
+private:
+    double outside(double x) const;
+
+    bool exact_ = true;
+    bool fixed_ = false;
+    std::uint64_t low_ = 0, high_ = 0, to_magic_ = 0; // exponent fields of doubles
+    double min_ = 0, max_ = 0;
+};
+
+/// Constants of the integer rounding of float lanes (rounding.inc): bit patterns without their sign
+/// are compared with them and cut by them.
+struct LaneRounding {
+    std::int32_t shift = 0;         ///< mantissa bits that are cut off
+    std::int32_t half_less_one = 0; ///< added before the cut, and so is the last bit that is kept
+    std::int32_t odd = 0;           ///< 1 if anything is cut off
+    std::int32_t keep = 0x7FFFFFFF; ///< mask of what is left
+    std::int32_t min_normal = 0; ///< what lies below is rounded to a unit, by adding `magic` to it
+    std::int32_t max = 0x7F800000; ///< what lies above becomes `over`
+    std::int32_t over = 0x7F800000;
+    std::int32_t nan = 0x7FC00000;
+    std::int32_t sign = INT32_MIN; ///< mask of the sign bit
+    float magic = 0;               ///< 2^23 units
+    float low = 0, high = 0;       ///< Fixed: where values saturate
+
+    LaneRounding() = default; ///< to fp32: keeps everything
+    /// InputError unless format.fits_float().
+    explicit LaneRounding(const ValueFormat& format);
+};
+
+/// Rounds an array in place, every value once.
+using RoundFunction = void (*)(const LaneRounding& rounding, float* values, std::size_t count);
+/// With the widest vectors of the machine it runs on; the same bits at any width.
+RoundFunction round_function();
+/// All variants this build has, narrow first; those the machine cannot run are left out. For tests.
+std::vector<RoundFunction> round_variants();
+
+} // namespace degs
