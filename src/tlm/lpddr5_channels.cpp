@@ -2,6 +2,7 @@
 #include "tlm/lpddr5_channels.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace degs {
 
@@ -121,6 +122,7 @@ void Lpddr5Channels::run_channel(std::size_t channel, Ck until) {
     }
     for (const Lpddr5Answer& answer : outcome_.answers) {
         if ((answer.id & kPredicted) != 0) {
+            take_prediction(channel, answer);
             continue;
         }
         --live_[channel];
@@ -142,45 +144,46 @@ Ck Lpddr5Channels::channel_due(Lpddr5Channel& channel) const {
     return exactly_ || channel.has_writes() ? std::min(due, channel.admission_bound()) : due;
 }
 
-std::uint32_t Lpddr5Channels::push_for_prediction(const Lpddr5Request& request) {
-    const std::uint32_t ticket = tickets_;
-    tickets_ = (tickets_ + 1) & ~kPredicted;
+void Lpddr5Channels::push_for_prediction(const Lpddr5Request& request) {
+    const auto ticket = first_ticket_ + static_cast<std::uint32_t>(predictions_.size());
+    predictions_.push_back(0);
     split(request, ticket | kPredicted);
-    return ticket;
 }
 
-std::vector<Ck> Lpddr5Channels::predict(std::uint32_t first, Ck known) {
-    std::vector<Ck> dates((tickets_ - first) & ~kPredicted, 0);
+std::vector<Ck> Lpddr5Channels::predict(Ck known) {
     for (std::size_t c = 0; c < size(); ++c) {
         if (asked_[c] != 0) {
-            run_channel(c, known);
-            predict_channel(c, first, dates);
-            asked_[c] = 0;
+            run_channel(c, known); // may answer some already
+            predict_channel(c);
         }
     }
-    return dates;
+    first_ticket_ = (first_ticket_ + static_cast<std::uint32_t>(predictions_.size())) & ~kPredicted;
+    return std::exchange(predictions_, {});
 }
 
-void Lpddr5Channels::predict_channel(std::size_t channel, std::uint32_t first,
-                                     std::vector<Ck>& dates) {
+void Lpddr5Channels::predict_channel(std::size_t channel) {
     if (copy_ == nullptr) {
         copy_ = std::make_unique<Lpddr5Channel>(channels_[channel]);
     } else {
         *copy_ = channels_[channel];
     }
     copy_->observe({});
-    std::uint32_t missing = asked_[channel];
-    while (missing != 0) {
+    while (asked_[channel] != 0) {
         outcome_.answers.clear();
         outcome_.admitted.clear();
         copy_->run(copy_->next_date(), outcome_);
         for (const Lpddr5Answer& answer : outcome_.answers) {
-            const std::uint32_t index = (answer.id - first) & ~kPredicted;
-            if ((answer.id & kPredicted) != 0 && index < dates.size()) {
-                dates[index] = std::max(dates[index], answer.date);
-                --missing;
-            }
+            take_prediction(channel, answer);
         }
+    }
+}
+
+/// Unless it is an answer to an earlier prediction, which has long been given.
+void Lpddr5Channels::take_prediction(std::size_t channel, const Lpddr5Answer& answer) {
+    const std::uint32_t index = (answer.id - first_ticket_) & ~kPredicted;
+    if ((answer.id & kPredicted) != 0 && index < predictions_.size()) {
+        predictions_[index] = std::max(predictions_[index], answer.date);
+        --asked_[channel];
     }
 }
 
