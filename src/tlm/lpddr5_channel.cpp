@@ -50,7 +50,9 @@ Lpddr5Channel::Lpddr5Channel(const Lpddr5Timing& timing, const Lpddr5RuleTable& 
       writes_(static_cast<unsigned>(config.write_queue)),
       refresh_due_(config.refresh == Lpddr5Refresh::None
                        ? kNoDate
-                       : refresh_period() - std::min(phase, refresh_period())) {}
+                       : refresh_period() - std::min(phase, refresh_period())) {
+    keys_.rest.fill(~0U);
+}
 
 Ck Lpddr5Channel::refresh_period() const {
     const auto all_banks = static_cast<Ck>(timing_->refi);

@@ -89,14 +89,17 @@ private:
         BankState state = BankState::Closed;
         std::uint32_t row = 0;
     };
-    /// What keeps a candidate back beside its own bank; column commands have one lane per group.
-    enum Lane : std::uint8_t { kColumnLane, kAct1Lane = 4, kAct2Lane, kPreLane, kLanes };
     struct Candidate {           // what a bank would do next for the current direction
-        Ck date = 0;             // as far as its own bank is concerned
         std::uint64_t order = 0; // rank, then age
         Command command = Command::Pre;
-        std::uint8_t lane = kPreLane;
         std::uint8_t slot = Lpddr5Queue::kNone;
+    };
+    /// The same once more, one array each and in 32 bits: all banks are compared at once. Masks say
+    /// what holds a bank back beside itself.
+    struct Keys {
+        using PerBank = std::array<std::uint32_t, kLpddr5Banks>;
+        alignas(16) PerBank date{}, age{}, column{}, act1{}, pre{};
+        PerBank rest{}; // rank and bank, the same bits as in a key; all ones: no candidate
     };
     struct Choice {
         Ck date = kNoDate;
@@ -121,6 +124,8 @@ private:
     void find_open(unsigned bank, Candidate& candidate) const;
     void choose();
     void choose_ordinary();
+    unsigned first_of_all() const;
+    unsigned first_of(std::uint32_t banks) const;
     void choose_refresh();
     void offer(Command command, unsigned bank, std::uint8_t slot, std::uint64_t order);
     void offer_candidate(unsigned bank);
@@ -149,6 +154,7 @@ private:
     bool writing_ = false;
 
     std::array<Candidate, kLpddr5Banks> candidates_{};
+    Keys keys_;                 // of banks without a candidate: absent
     std::uint32_t pending_ = 0; // banks with a candidate
     Choice choice_;
     std::uint64_t best_order_ = 0; // of choice_

@@ -41,6 +41,7 @@ public:
         tail_.fill(kNone);
     }
     unsigned size() const { return size_; }
+    std::uint64_t arrivals() const { return arrivals_; } ///< so far; the next one's age
     bool full() const { return free_ == 0; }
     /// Banks for which something waits, as a mask.
     std::uint32_t banks() const { return banks_; }
