@@ -59,7 +59,7 @@ void Lpddr5Channels::split(const Lpddr5Request& request, std::uint32_t id) {
 }
 
 void Lpddr5Channels::push_access(unsigned channel, const Lpddr5Access& access) {
-    channels_[channel].push(access);
+    const bool early = channels_[channel].push(access);
     writes_somewhere_ = writes_somewhere_ || access.write;
     if ((access.id & kPredicted) != 0) {
         ++asked_[channel];
@@ -68,8 +68,7 @@ void Lpddr5Channels::push_access(unsigned channel, const Lpddr5Access& access) {
     ++live_[channel];
     ++progress_[access.id].unanswered;
     ++progress_[access.id].waiting;
-    const bool at_once = exactly_ || channels_[channel].has_writes();
-    const Ck due = at_once ? access.date : access.date + timing_.read_latency() - 1;
+    const Ck due = exactly_ || early ? access.date : access.date + data_latency() - 1;
     due_[channel] = std::min(due_[channel], due);
 }
 
@@ -88,7 +87,7 @@ Ck Lpddr5Channels::due() const {
 // Where a write may wait, a read may be answered from it at once, so nothing can stay behind.
 Ck Lpddr5Channels::due_of(bool write, Ck date) const {
     const bool at_once = exactly_ || write || writes_somewhere_;
-    return at_once ? date : date + timing_.read_latency() - 1;
+    return at_once ? date : date + data_latency() - 1;
 }
 
 void Lpddr5Channels::watch_admissions(bool exactly) {
@@ -135,13 +134,18 @@ void Lpddr5Channels::run_channel(std::size_t channel, Ck until) {
     due_[channel] = live_[channel] == 0 ? kNoDate : channel_due(runner);
 }
 
-// Who waits for a queue is noticed by its initiator, and may be a read that a queued write answers
-// at once; who is in it, when the data come.
+// From a command to the earliest end of its data.
+Ck Lpddr5Channels::data_latency() const {
+    return posted_writes_ ? timing_.read_latency()
+                          : std::min(timing_.read_latency(), timing_.write_latency());
+}
+
+// Who waits for a queue may be answered, or noticed by its initiator, when it gets in; who is in
+// it, when the data come.
 Ck Lpddr5Channels::channel_due(Lpddr5Channel& channel) const {
-    const Ck data = posted_writes_ ? timing_.read_latency()
-                                   : std::min(timing_.read_latency(), timing_.write_latency());
-    const Ck due = channel.next_date() + data - 1;
-    return exactly_ || channel.has_writes() ? std::min(due, channel.admission_bound()) : due;
+    const Ck due = channel.next_date() + data_latency() - 1;
+    return exactly_ || channel.answers_at_admission() ? std::min(due, channel.admission_bound())
+                                                      : due;
 }
 
 void Lpddr5Channels::push_for_prediction(const Lpddr5Request& request) {

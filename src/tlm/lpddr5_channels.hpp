@@ -38,7 +38,7 @@ struct Lpddr5Request {
 /// All channels: cuts requests into accesses and puts their answers together. Plain arithmetic.
 ///
 /// A channel is run only when somebody could notice: a read shows no earlier than RL + BL/n after
-/// its command, so a channel without writes may stay that far behind.
+/// its command, so a channel may stay that far behind unless an answer can come from its queues.
 class Lpddr5Channels {
 public:
     explicit Lpddr5Channels(const Lpddr5Config& config);
@@ -83,6 +83,7 @@ private:
     void push_access(unsigned channel, const Lpddr5Access& access);
     void run_channel(std::size_t channel, Ck until);
     Ck channel_due(Lpddr5Channel& channel) const;
+    Ck data_latency() const;
     void predict_channel(std::size_t channel);
     void take_prediction(std::size_t channel, const Lpddr5Answer& answer);
 

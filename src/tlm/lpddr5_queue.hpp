@@ -17,6 +17,7 @@ struct Lpddr5Access {
     std::uint8_t block = 0;  ///< of 64 bytes in the row
     std::uint8_t bursts = 1; ///< mask: which bursts of the block
     bool write = false;
+    bool after_write = false; ///< a read: an older write to the block may be waiting
 };
 
 /// What the row buffer held when an access was first served.
