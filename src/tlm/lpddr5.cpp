@@ -120,9 +120,7 @@ tlm::tlm_sync_enum Lpddr5::begin_request(std::uint32_t socket, Payload& payload,
         return tlm::TLM_UPDATED;
     }
     // The count may be behind, but only too high. Everything dated before now is certain.
-    if (now() != 0) {
-        advance(now() - 1);
-    }
+    settle();
     const bool held_back = initiator.waiting > limit;
     if (held_back) {
         initiator.held_back = &payload;
