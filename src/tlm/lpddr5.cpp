@@ -120,12 +120,11 @@ tlm::tlm_sync_enum Lpddr5::begin_request(std::uint32_t socket, Payload& payload,
         return tlm::TLM_UPDATED;
     }
     // The count may be behind, but only too high. Everything dated before now is certain.
-    if (now() != 0) {
-        advance(now() - 1);
-    }
+    settle();
     const bool held_back = initiator.waiting > limit;
     if (held_back) {
         initiator.held_back = &payload;
+        initiator.held_date = arrival.date;
         ++held_back_;
         channels_.watch_admissions(true);
     }
@@ -164,7 +163,7 @@ void Lpddr5::take_in(Arrival& arrival) {
     request.write = arrival.payload->is_write();
     request.id = arrival.id;
     if (arrival.direct != nullptr) {
-        arrival.ticket = channels_.push_for_prediction(request);
+        channels_.push_for_prediction(request);
     } else {
         channels_.push(request);
     }
@@ -179,8 +178,7 @@ void Lpddr5::predict(std::vector<Arrival>::iterator first, std::vector<Arrival>:
     if (first == last) {
         return;
     }
-    const std::uint32_t ticket = first->ticket;
-    const std::vector<Ck> dates = channels_.predict(ticket, known);
+    const std::vector<Ck> dates = channels_.predict(known);
     for (std::size_t next = 0; first != last; ++first) {
         if (first->direct != nullptr) {
             first->direct->done = sc_core::sc_time::from_value((dates[next++] + extra_) * ck_);
@@ -203,7 +201,8 @@ void Lpddr5::release_held_back() {
         initiator.held_back = nullptr;
         --held_back_;
         tlm::tlm_phase phase = tlm::END_REQ;
-        sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+        const std::uint64_t early = std::max(initiator.held_date, now()) - now();
+        sc_core::sc_time delay = sc_core::sc_time::from_value(early);
         in[i]->nb_transport_bw(*payload, phase, delay);
     }
     channels_.watch_admissions(held_back_ != 0);

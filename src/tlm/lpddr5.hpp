@@ -74,12 +74,12 @@ private:
         Payload* payload = nullptr;
         Direct* direct = nullptr; // or, if null,
         std::uint32_t id = 0;
-        std::uint32_t ticket = 0; // of a prediction
     };
     struct Initiator {
         std::uint64_t sequence = 0;
         unsigned waiting = 0;         // requests not yet in the queues
         Payload* held_back = nullptr; // its END_REQ is withheld
+        std::uint64_t held_date = 0;  // of it, kernel time units
         bool responding = false;      // between BEGIN_RESP and END_RESP
         sc_core::sc_time resume;      // the date of END_RESP
         std::deque<std::uint32_t> responses;

@@ -50,7 +50,9 @@ Lpddr5Channel::Lpddr5Channel(const Lpddr5Timing& timing, const Lpddr5RuleTable& 
       writes_(static_cast<unsigned>(config.write_queue)),
       refresh_due_(config.refresh == Lpddr5Refresh::None
                        ? kNoDate
-                       : refresh_period() - std::min(phase, refresh_period())) {}
+                       : refresh_period() - std::min(phase, refresh_period())) {
+    keys_.rest.fill(~0U);
+}
 
 Ck Lpddr5Channel::refresh_period() const {
     const auto all_banks = static_cast<Ck>(timing_->refi);
@@ -63,6 +65,18 @@ bool Lpddr5Channel::idle() const {
 
 Ck Lpddr5Channel::open_until(Ck date) const {
     return stats_.open + (open_banks_ != 0 && date > open_since_ ? date - open_since_ : 0);
+}
+
+bool Lpddr5Channel::push(Lpddr5Access access) {
+    if (access.write) {
+        ++writes_of_hash_[hash(access)];
+        writes_in_.push_back(access);
+        return config_.posted_writes;
+    }
+    access.after_write = writes_of_hash_[hash(access)] != 0;
+    after_writes_ += access.after_write ? 1 : 0;
+    reads_in_.push_back(access);
+    return access.after_write;
 }
 
 void Lpddr5Channel::run(Ck until, Lpddr5Outcome& outcome) {
@@ -118,7 +132,8 @@ void Lpddr5Channel::admit(Ck date, Lpddr5Outcome& outcome) {
         const Lpddr5Access access = reads_in_.front();
         reads_in_.pop_front();
         outcome.admitted.push_back(access.id);
-        if (writes_.size() != 0 && forward(access)) {
+        after_writes_ -= access.after_write ? 1 : 0;
+        if (access.after_write && forward(access)) {
             ++stats_.forwarded;
             outcome.answers.push_back({access.id, date + 1});
         } else {
@@ -148,6 +163,7 @@ bool Lpddr5Channel::merge(const Lpddr5Access& access) {
     }
     writes_[slot].access.bursts |= access.bursts;
     writes_[slot].left |= access.bursts;
+    --writes_of_hash_[hash(access)];
     ++stats_.merged;
     return true;
 }
@@ -245,6 +261,9 @@ void Lpddr5Channel::column(Lpddr5Outcome& outcome) {
             outcome.answers.push_back({entry.access.id, choice_.date + timing_->read_latency()});
         } else if (!config_.posted_writes) {
             outcome.answers.push_back({entry.access.id, choice_.date + timing_->write_latency()});
+        }
+        if (writing_) {
+            --writes_of_hash_[hash(entry.access)];
         }
         from.remove(choice_.slot);
         if (auto_precharge_ && from.oldest_of_row(bank, banks_[bank].row) == Lpddr5Queue::kNone) {

@@ -60,10 +60,9 @@ public:
     Lpddr5Channel(const Lpddr5Timing& timing, const Lpddr5RuleTable& rules,
                   const Lpddr5ControllerConfig& config, Ck phase = 0);
 
-    /// Dates never fall per direction, and are later than any `until` so far.
-    void push(const Lpddr5Access& access) {
-        (access.write ? writes_in_ : reads_in_).push_back(access);
-    }
+    /// Dates never fall per direction, and are later than any `until` so far. True if the answer
+    /// may come as soon as the queues have it, not only with the data.
+    bool push(Lpddr5Access access);
     void run(Ck until, Lpddr5Outcome& outcome);
     /// The earliest date at which something happens if nothing more comes.
     Ck next_date();
@@ -75,6 +74,8 @@ public:
     /// Accesses that wait for room in a queue, or for their date.
     std::size_t waiting() const { return reads_in_.size() + writes_in_.size(); }
     bool has_writes() const { return writes_.size() != 0 || !writes_in_.empty(); }
+    /// What waits for room may be answered when it gets in.
+    bool answers_at_admission() const { return after_writes_ != 0 || !writes_in_.empty(); }
     const Stats& stats() const { return stats_; }
     Ck open_until(Ck date) const; ///< CK with a row open, up to `date`
     /// Called with every command; a copy of the channel has it too unless it is taken away.
@@ -89,14 +90,17 @@ private:
         BankState state = BankState::Closed;
         std::uint32_t row = 0;
     };
-    /// What keeps a candidate back beside its own bank; column commands have one lane per group.
-    enum Lane : std::uint8_t { kColumnLane, kAct1Lane = 4, kAct2Lane, kPreLane, kLanes };
     struct Candidate {           // what a bank would do next for the current direction
-        Ck date = 0;             // as far as its own bank is concerned
         std::uint64_t order = 0; // rank, then age
         Command command = Command::Pre;
-        std::uint8_t lane = kPreLane;
         std::uint8_t slot = Lpddr5Queue::kNone;
+    };
+    /// The same once more, one array each and in 32 bits: all banks are compared at once. Masks say
+    /// what holds a bank back beside itself.
+    struct Keys {
+        using PerBank = std::array<std::uint32_t, kLpddr5Banks>;
+        alignas(16) PerBank date{}, age{}, column{}, act1{}, pre{};
+        PerBank rest{}; // rank and bank, the same bits as in a key; all ones: no candidate
     };
     struct Choice {
         Ck date = kNoDate;
@@ -113,6 +117,9 @@ private:
     void enqueue(Lpddr5Queue& to, const Lpddr5Access& access);
     void admit(Ck date, Lpddr5Outcome& outcome);
     bool forward(const Lpddr5Access& access) const;
+    static std::size_t hash(const Lpddr5Access& access) {
+        return (access.row * 37U + access.bank * 11U + access.block) % 256;
+    }
     bool merge(const Lpddr5Access& access);
     void choose_direction();
 
@@ -121,6 +128,8 @@ private:
     void find_open(unsigned bank, Candidate& candidate) const;
     void choose();
     void choose_ordinary();
+    unsigned first_of_all() const;
+    unsigned first_of(std::uint32_t banks) const;
     void choose_refresh();
     void offer(Command command, unsigned bank, std::uint8_t slot, std::uint64_t order);
     void offer_candidate(unsigned bank);
@@ -147,8 +156,12 @@ private:
     Lpddr5Queue reads_, writes_;
     std::deque<Lpddr5Access> reads_in_, writes_in_; // wait for their date or for room
     bool writing_ = false;
+    // How many waiting writes have a hash; tells at arrival that a read has nothing to wait for.
+    std::array<std::uint16_t, 256> writes_of_hash_{};
+    std::size_t after_writes_ = 0; // reads in reads_in_ with after_write
 
     std::array<Candidate, kLpddr5Banks> candidates_{};
+    Keys keys_;                 // of banks without a candidate: absent
     std::uint32_t pending_ = 0; // banks with a candidate
     Choice choice_;
     std::uint64_t best_order_ = 0; // of choice_

@@ -2,6 +2,7 @@
 #include "tlm/lpddr5_channels.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace degs {
 
@@ -58,7 +59,7 @@ void Lpddr5Channels::split(const Lpddr5Request& request, std::uint32_t id) {
 }
 
 void Lpddr5Channels::push_access(unsigned channel, const Lpddr5Access& access) {
-    channels_[channel].push(access);
+    const bool early = channels_[channel].push(access);
     writes_somewhere_ = writes_somewhere_ || access.write;
     if ((access.id & kPredicted) != 0) {
         ++asked_[channel];
@@ -67,8 +68,7 @@ void Lpddr5Channels::push_access(unsigned channel, const Lpddr5Access& access) {
     ++live_[channel];
     ++progress_[access.id].unanswered;
     ++progress_[access.id].waiting;
-    const bool at_once = exactly_ || channels_[channel].has_writes();
-    const Ck due = at_once ? access.date : access.date + timing_.read_latency() - 1;
+    const Ck due = exactly_ || early ? access.date : access.date + data_latency() - 1;
     due_[channel] = std::min(due_[channel], due);
 }
 
@@ -87,7 +87,7 @@ Ck Lpddr5Channels::due() const {
 // Where a write may wait, a read may be answered from it at once, so nothing can stay behind.
 Ck Lpddr5Channels::due_of(bool write, Ck date) const {
     const bool at_once = exactly_ || write || writes_somewhere_;
-    return at_once ? date : date + timing_.read_latency() - 1;
+    return at_once ? date : date + data_latency() - 1;
 }
 
 void Lpddr5Channels::watch_admissions(bool exactly) {
@@ -121,6 +121,7 @@ void Lpddr5Channels::run_channel(std::size_t channel, Ck until) {
     }
     for (const Lpddr5Answer& answer : outcome_.answers) {
         if ((answer.id & kPredicted) != 0) {
+            take_prediction(channel, answer);
             continue;
         }
         --live_[channel];
@@ -133,54 +134,60 @@ void Lpddr5Channels::run_channel(std::size_t channel, Ck until) {
     due_[channel] = live_[channel] == 0 ? kNoDate : channel_due(runner);
 }
 
-// Who waits for a queue is noticed by its initiator, and may be a read that a queued write answers
-// at once; who is in it, when the data come.
+// From a command to the earliest end of its data.
+Ck Lpddr5Channels::data_latency() const {
+    return posted_writes_ ? timing_.read_latency()
+                          : std::min(timing_.read_latency(), timing_.write_latency());
+}
+
+// Who waits for a queue may be answered, or noticed by its initiator, when it gets in; who is in
+// it, when the data come.
 Ck Lpddr5Channels::channel_due(Lpddr5Channel& channel) const {
-    const Ck data = posted_writes_ ? timing_.read_latency()
-                                   : std::min(timing_.read_latency(), timing_.write_latency());
-    const Ck due = channel.next_date() + data - 1;
-    return exactly_ || channel.has_writes() ? std::min(due, channel.admission_bound()) : due;
+    const Ck due = channel.next_date() + data_latency() - 1;
+    return exactly_ || channel.answers_at_admission() ? std::min(due, channel.admission_bound())
+                                                      : due;
 }
 
-std::uint32_t Lpddr5Channels::push_for_prediction(const Lpddr5Request& request) {
-    const std::uint32_t ticket = tickets_;
-    tickets_ = (tickets_ + 1) & ~kPredicted;
+void Lpddr5Channels::push_for_prediction(const Lpddr5Request& request) {
+    const auto ticket = first_ticket_ + static_cast<std::uint32_t>(predictions_.size());
+    predictions_.push_back(0);
     split(request, ticket | kPredicted);
-    return ticket;
 }
 
-std::vector<Ck> Lpddr5Channels::predict(std::uint32_t first, Ck known) {
-    std::vector<Ck> dates((tickets_ - first) & ~kPredicted, 0);
+std::vector<Ck> Lpddr5Channels::predict(Ck known) {
     for (std::size_t c = 0; c < size(); ++c) {
         if (asked_[c] != 0) {
-            run_channel(c, known);
-            predict_channel(c, first, dates);
-            asked_[c] = 0;
+            run_channel(c, known); // may answer some already
+            predict_channel(c);
         }
     }
-    return dates;
+    first_ticket_ = (first_ticket_ + static_cast<std::uint32_t>(predictions_.size())) & ~kPredicted;
+    return std::exchange(predictions_, {});
 }
 
-void Lpddr5Channels::predict_channel(std::size_t channel, std::uint32_t first,
-                                     std::vector<Ck>& dates) {
+void Lpddr5Channels::predict_channel(std::size_t channel) {
     if (copy_ == nullptr) {
         copy_ = std::make_unique<Lpddr5Channel>(channels_[channel]);
     } else {
         *copy_ = channels_[channel];
     }
     copy_->observe({});
-    std::uint32_t missing = asked_[channel];
-    while (missing != 0) {
+    while (asked_[channel] != 0) {
         outcome_.answers.clear();
         outcome_.admitted.clear();
         copy_->run(copy_->next_date(), outcome_);
         for (const Lpddr5Answer& answer : outcome_.answers) {
-            const std::uint32_t index = (answer.id - first) & ~kPredicted;
-            if ((answer.id & kPredicted) != 0 && index < dates.size()) {
-                dates[index] = std::max(dates[index], answer.date);
-                --missing;
-            }
+            take_prediction(channel, answer);
         }
+    }
+}
+
+/// Unless it is an answer to an earlier prediction, which has long been given.
+void Lpddr5Channels::take_prediction(std::size_t channel, const Lpddr5Answer& answer) {
+    const std::uint32_t index = (answer.id - first_ticket_) & ~kPredicted;
+    if ((answer.id & kPredicted) != 0 && index < predictions_.size()) {
+        predictions_[index] = std::max(predictions_[index], answer.date);
+        --asked_[channel];
     }
 }
 

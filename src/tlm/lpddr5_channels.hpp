@@ -38,7 +38,7 @@ struct Lpddr5Request {
 /// All channels: cuts requests into accesses and puts their answers together. Plain arithmetic.
 ///
 /// A channel is run only when somebody could notice: a read shows no earlier than RL + BL/n after
-/// its command, so a channel without writes may stay that far behind.
+/// its command, so a channel may stay that far behind unless an answer can come from its queues.
 class Lpddr5Channels {
 public:
     explicit Lpddr5Channels(const Lpddr5Config& config);
@@ -61,11 +61,10 @@ public:
     std::vector<std::uint32_t>& admitted() { return admitted_; }
 
     /// Like push(), for a requester who wants the answer at once; nothing of it is told later.
-    /// Returns the ticket for predict().
-    std::uint32_t push_for_prediction(const Lpddr5Request& request);
-    /// When the requests since ticket `first` would be complete if nothing more came, by running
-    /// copies of the channels. All dates up to `known` have been pushed.
-    std::vector<Ck> predict(std::uint32_t first, Ck known);
+    void push_for_prediction(const Lpddr5Request& request);
+    /// When the requests pushed so since the last call are complete if nothing more comes, by
+    /// running copies of the channels. All dates up to `known` have been pushed.
+    std::vector<Ck> predict(Ck known);
 
     /// Brings statistics up to `until`.
     void settle(Ck until);
@@ -84,7 +83,9 @@ private:
     void push_access(unsigned channel, const Lpddr5Access& access);
     void run_channel(std::size_t channel, Ck until);
     Ck channel_due(Lpddr5Channel& channel) const;
-    void predict_channel(std::size_t channel, std::uint32_t first, std::vector<Ck>& dates);
+    Ck data_latency() const;
+    void predict_channel(std::size_t channel);
+    void take_prediction(std::size_t channel, const Lpddr5Answer& answer);
 
     Lpddr5Timing timing_;
     Lpddr5RuleTable rules_;
@@ -93,13 +94,14 @@ private:
     std::vector<Lpddr5Channel> channels_;
     std::vector<Ck> due_;              // by channel
     std::vector<std::uint32_t> live_;  // by channel: accesses of push() without answer
-    std::vector<std::uint32_t> asked_; // by channel: accesses since the last prediction
+    std::vector<std::uint32_t> asked_; // by channel: accesses without prediction
     std::vector<Progress> progress_;   // by id
     std::vector<Lpddr5Answer> completed_;
     std::vector<std::uint32_t> admitted_;
     bool exactly_ = false;
     bool writes_somewhere_ = false;
-    std::uint32_t tickets_ = 0;
+    std::uint32_t first_ticket_ = 0; // ids of the requests in predictions_
+    std::vector<Ck> predictions_;
     std::unique_ptr<Lpddr5Channel> copy_; // for predictions
     Lpddr5Outcome outcome_;
 };

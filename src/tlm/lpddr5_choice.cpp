@@ -5,16 +5,18 @@
 namespace degs {
 namespace {
 
-// A candidate's order is its rank and, below that, its age; a date goes above both. Column commands
-// win, then ACT-2, so that it keeps its deadline tAAD: a burst leaves every other CK to it.
-constexpr unsigned kAgeBits = 42;
-constexpr unsigned kOrderBits = kAgeBits + 2;
+// Column commands win, then ACT-2, so that it keeps its deadline tAAD: a burst leaves every other
+// CK to it. Then the oldest access.
+constexpr std::uint64_t rank_of(Lpddr5Command command) {
+    return is_column(command) ? 1 : command == Lpddr5Command::Act2 ? 2 : 3;
+}
+constexpr unsigned kAgeBits = 60;
 constexpr std::uint64_t kNoOrder = ~std::uint64_t{0};
 
-constexpr std::uint64_t rank_of(Lpddr5Command command) {
-    const std::uint64_t rank = is_column(command) ? 1 : command == Lpddr5Command::Act2 ? 2 : 3;
-    return rank << kAgeBits;
-}
+// A key of 32 bits is wait, rank, age, bank from high to low. No gap is longer than kMostWait, see
+// Lpddr5Timing; ages are those of the latest arrivals, which all older ones share the first of.
+constexpr unsigned kRankShift = 18, kWaitShift = 20, kKeyAgeShift = 4;
+constexpr std::int32_t kMostWait = 4095, kMostAge = 16383;
 
 } // namespace
 
@@ -32,19 +34,25 @@ void Lpddr5Channel::find_candidate(unsigned bank) {
     candidate.slot = waiting.oldest(bank);
     if (state.state == BankState::Activating) {
         candidate.command = Command::Act2;
-        candidate.lane = kAct2Lane;
     } else if (candidate.slot == kNone) {
         pending_ &= ~(1U << bank);
+        keys_.rest[bank] = ~0U;
         return;
     } else if (state.state == BankState::Closed) {
         candidate.command = Command::Act1;
-        candidate.lane = kAct1Lane;
     } else {
         find_open(bank, candidate);
     }
     const std::uint64_t age = candidate.slot == kNone ? 0 : waiting[candidate.slot].age;
-    candidate.order = rank_of(candidate.command) + age;
-    candidate.date = dates_.of_bank(candidate.command, bank);
+    const std::uint64_t rank = rank_of(candidate.command);
+    candidate.order = (rank << kAgeBits) + age;
+    keys_.date[bank] =
+        static_cast<std::uint32_t>(std::max(dates_.of_bank(candidate.command, bank), clock_));
+    keys_.age[bank] = static_cast<std::uint32_t>(age);
+    keys_.column[bank] = is_column(candidate.command) ? ~0U : 0U;
+    keys_.act1[bank] = candidate.command == Command::Act1 ? ~0U : 0U;
+    keys_.pre[bank] = candidate.command == Command::Pre ? ~0U : 0U;
+    keys_.rest[bank] = static_cast<std::uint32_t>(rank) << kRankShift | bank;
     pending_ |= 1U << bank;
 }
 
@@ -57,10 +65,8 @@ void Lpddr5Channel::find_open(unsigned bank, Candidate& candidate) const {
                                                                          : Lpddr5Queue::kNone;
     if (hit == Lpddr5Queue::kNone) {
         candidate.command = Command::Pre;
-        candidate.lane = kPreLane;
     } else {
         candidate.command = writing_ ? Command::Wr : Command::Rd;
-        candidate.lane = static_cast<std::uint8_t>(kColumnLane + dates_.group_of(bank));
         candidate.slot = hit;
     }
 }
@@ -111,26 +117,56 @@ void Lpddr5Channel::choose_ordinary() {
     if (banks == 0) {
         return;
     }
-    std::array<Ck, kLanes> floor;
-    const Command column = writing_ ? Command::Wr : Command::Rd;
+    const unsigned bank = banks == pending_ ? first_of_all() : first_of(banks);
+    const Candidate& candidate = candidates_[bank];
+    offer(candidate.command, bank, candidate.slot, candidate.order);
+}
+
+// The hot loop of a simulation: no branches, so that the compiler takes four banks at once.
+unsigned Lpddr5Channel::first_of_all() const {
+    const auto wait_of = [this](Command command, unsigned group) {
+        const Ck date = std::max(dates_.of_others(command, group), clock_);
+        return static_cast<std::uint32_t>(date - clock_);
+    };
+    const Command command = writing_ ? Command::Wr : Command::Rd;
+    const std::uint32_t act1 = wait_of(Command::Act1, 0);
+    const std::uint32_t pre = wait_of(Command::Pre, 0);
+    const auto now = static_cast<std::uint32_t>(clock_);
+    const auto latest = static_cast<std::uint32_t>((writing_ ? writes_ : reads_).arrivals());
+    std::uint32_t best = ~0U;
     for (unsigned group = 0; group < 4; ++group) {
-        floor[kColumnLane + group] = std::max(clock_, dates_.of_others(column, group));
+        const std::uint32_t column = wait_of(command, group);
+        for (unsigned b = 4 * group; b < 4 * group + 4; ++b) {
+            const std::uint32_t shared =
+                (keys_.column[b] & column) | (keys_.act1[b] & act1) | (keys_.pre[b] & pre);
+            // Dates lie at most a few thousand CK from now, on either side.
+            const auto own = static_cast<std::int32_t>(keys_.date[b] - now);
+            const std::int32_t wait =
+                std::min(std::max(own, static_cast<std::int32_t>(shared)), kMostWait);
+            const std::int32_t age =
+                std::max(kMostAge - static_cast<std::int32_t>(latest - keys_.age[b]), 0);
+            best =
+                std::min(best, static_cast<std::uint32_t>(wait) << kWaitShift |
+                                   static_cast<std::uint32_t>(age) << kKeyAgeShift | keys_.rest[b]);
+        }
     }
-    floor[kAct1Lane] = std::max(clock_, dates_.of_others(Command::Act1, 0));
-    floor[kAct2Lane] = clock_;
-    floor[kPreLane] = std::max(clock_, dates_.of_others(Command::Pre, 0));
-    std::uint64_t best = kNoOrder;
-    unsigned best_bank = 0;
+    return best % kLpddr5Banks;
+}
+
+/// The same for some of the banks, at least one.
+unsigned Lpddr5Channel::first_of(std::uint32_t banks) const {
+    Ck first = kNoDate;
+    unsigned best = 0;
     for (; banks != 0; banks &= banks - 1) {
         const auto bank = static_cast<unsigned>(__builtin_ctz(banks));
         const Candidate& candidate = candidates_[bank];
-        const Ck wait = std::max(candidate.date, floor[candidate.lane]) - clock_;
-        const std::uint64_t key = (wait << kOrderBits) + candidate.order;
-        best_bank = key < best ? bank : best_bank;
-        best = std::min(key, best);
+        const Ck date = std::max(dates_.earliest(candidate.command, bank), clock_);
+        if (date < first || (date == first && candidate.order < candidates_[best].order)) {
+            first = date;
+            best = bank;
+        }
     }
-    const Candidate& candidate = candidates_[best_bank];
-    offer(candidate.command, best_bank, candidate.slot, candidate.order);
+    return best;
 }
 
 std::uint32_t Lpddr5Channel::held_banks() const {
@@ -182,8 +218,8 @@ Ck Lpddr5Channel::column_bound() const {
     Ck bound = choice_.date + static_cast<Ck>(timing_->rcd);
     for (std::uint32_t banks = pending_; banks != 0; banks &= banks - 1) {
         const auto bank = static_cast<unsigned>(__builtin_ctz(banks));
-        const std::uint8_t lane = candidates_[bank].lane;
-        if (lane < kAct1Lane || lane == kAct2Lane) {
+        const Command command = candidates_[bank].command;
+        if (is_column(command) || command == Command::Act2) {
             bound = std::min(bound, dates_.of_bank(column, bank));
         }
     }

@@ -109,6 +109,7 @@ Ck Lpddr5::settle() {
     const Ck known = (now() - 1) / ck_;
     channels_.settle(known);
     plan_answers();
+    schedule();
     return known + 1;
 }
 

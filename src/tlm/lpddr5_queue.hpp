@@ -17,6 +17,7 @@ struct Lpddr5Access {
     std::uint8_t block = 0;  ///< of 64 bytes in the row
     std::uint8_t bursts = 1; ///< mask: which bursts of the block
     bool write = false;
+    bool after_write = false; ///< a read: an older write to the block may be waiting
 };
 
 /// What the row buffer held when an access was first served.
@@ -41,6 +42,7 @@ public:
         tail_.fill(kNone);
     }
     unsigned size() const { return size_; }
+    std::uint64_t arrivals() const { return arrivals_; } ///< so far; the next one's age
     bool full() const { return free_ == 0; }
     /// Banks for which something waits, as a mask.
     std::uint32_t banks() const { return banks_; }

@@ -116,9 +116,9 @@ void describe_access(Lpddr5Timing& t, ConfigVisitor& v) {
 
 void describe_refresh(Lpddr5Timing& t, ConfigVisitor& v) {
     v.integer("refi", t.refi, 100, 1000000, "CK; all-bank refreshes come this often: 32 ms / 8192");
-    v.integer("rfc_ab", t.rfc_ab, 1, 10000, "CK; all-bank refresh: 210 ns at 8 Gb, 280 at 16 Gb");
-    v.integer("rfc_pb", t.rfc_pb, 1, 10000, "CK; per-bank refresh: 120 ns at 8 Gb, 140 at 16 Gb");
-    v.integer("pbr2pbr", t.pbr2pbr, 1, 10000, "CK; per-bank refresh to the next, 90 ns");
+    v.integer("rfc_ab", t.rfc_ab, 1, 4000, "CK; all-bank refresh: 210 ns at 8 Gb, 280 at 16 Gb");
+    v.integer("rfc_pb", t.rfc_pb, 1, 4000, "CK; per-bank refresh: 120 ns at 8 Gb, 140 at 16 Gb");
+    v.integer("pbr2pbr", t.pbr2pbr, 1, 4000, "CK; per-bank refresh to the next, 90 ns");
     v.integer("pbr2act", t.pbr2act, 1, 1000, "CK; per-bank refresh to ACT-1 elsewhere, 7.5 ns");
     v.require(t.rfc_ab + t.rp_ab + t.ras + t.wl + t.wr < t.refi, "refi",
               "must leave time between two refreshes of rfc_ab");
