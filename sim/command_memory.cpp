@@ -24,15 +24,15 @@ struct MemoryOptions {
     std::string out = "out";
 };
 
-MemoryConfig load(const MemoryOptions& options) {
-    MemoryConfig config;
+Lpddr5Config load(const MemoryOptions& options) {
+    Lpddr5Config config;
     ConfigSource::from_file(options.config, options.overrides).load(config);
     if (options.queue != 0) {
-        config.memory.controller.read_queue = options.queue;
-        config.memory.controller.write_queue = options.queue;
+        config.controller.read_queue = options.queue;
+        config.controller.write_queue = options.queue;
     }
     // The traffic itself bounds what waits in a closed loop; with an offered load nothing does.
-    config.memory.waiting_requests = traffic_window(config.memory, options.shape.request_bytes);
+    config.waiting_requests = traffic_window(config, options.shape.request_bytes);
     return config;
 }
 
@@ -45,7 +45,7 @@ void measure_curve(MemoryTraffic& traffic, const MemoryOptions& options, MemoryF
         const double offered = i == 0 ? 0.05 : i + 1 == kPoints ? 0.95 : 0.1 * i;
         facts.curve.push_back(traffic.measure(options.requests / 5 + 1, offered));
         progress.done((1.0 + i) / kPoints);
-        if (point_of(facts.curve.back(), facts.config.memory).carried < kFollows * offered) {
+        if (point_of(facts.curve.back(), facts.memory).carried < kFollows * offered) {
             return;
         }
     }
@@ -54,9 +54,9 @@ void measure_curve(MemoryTraffic& traffic, const MemoryOptions& options, MemoryF
 void run(const MemoryOptions& options) {
     const Stopwatch wall;
     MemoryFacts facts;
-    facts.config = load(options);
+    facts.memory = load(options);
     facts.shape = options.shape;
-    const Lpddr5Config& config = facts.config.memory;
+    const Lpddr5Config& config = facts.memory;
     std::vector<std::string> files{"memory.json"};
     if (!options.no_curve) {
         files.emplace_back("latency.svg");
@@ -78,7 +78,7 @@ void run(const MemoryOptions& options) {
             points.push_back(point_of(each, config));
         }
         out.write_text("latency.svg",
-                       load_latency_svg(facts.config.name + ": " + options.shape.pattern +
+                       load_latency_svg(facts.memory.name + ": " + options.shape.pattern +
                                             ", latency over load",
                                         points));
     }

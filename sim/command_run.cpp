@@ -14,7 +14,7 @@ namespace degs::sim {
 namespace {
 
 struct RunOptions {
-    std::string config;
+    std::string config, memory;
     std::vector<std::string> overrides;
     ViewRequest view;
     PathRequest path;
@@ -26,7 +26,7 @@ struct RunOptions {
 };
 
 void run(const RunOptions& options) {
-    const RunConfig config = load_run_config(options.config, options.overrides);
+    const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
     View view = load_view(options.view);
     const OutputFolder out(options.out, {"image.exr", "image.png", "report.json"});
     const Fidelity fidelity = options.fidelity == "strict" ? Fidelity::Strict : Fidelity::Exact;
@@ -62,6 +62,9 @@ void add_run_command(CLI::App& program) {
         ->capture_default_str();
     command->add_option("--out", options->out, "folder for image.exr, image.png and report.json")
         ->capture_default_str();
+    command->add_option("--memory", options->memory,
+                        "file of an LPDDR5 memory, as in configs/memory, in place of what the "
+                        "configuration says of memory");
     command
         ->add_option("--set", options->overrides,
                      "path.to.key=value in place of what the file says; may be repeated")

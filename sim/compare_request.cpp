@@ -16,6 +16,12 @@ struct Named {
     std::string name, file;
 };
 
+/// A configuration before overrides.
+struct Draft {
+    std::string name, where;
+    ConfigNode tree;
+};
+
 /// A '=' may belong to the name of a file that is there.
 Named named(const std::string& word) {
     const std::size_t at = word.find('=');
@@ -24,6 +30,30 @@ Named named(const std::string& word) {
         return {fs::path(word).stem().string(), word};
     }
     return {word.substr(0, at), word.substr(at + 1)};
+}
+
+/// A file with the list `points` is a study: each of them is a configuration of its own.
+void add_drafts(std::vector<Draft>& drafts, const std::string& word) {
+    const Named file = named(word);
+    const ConfigNode tree = ConfigSource::from_file(file.file).tree();
+    const ConfigNode* points = tree.find("points");
+    if (points == nullptr) {
+        drafts.push_back({file.name, file.file, tree});
+        return;
+    }
+    for (const ConfigNode& key : tree.children) {
+        if (key.key != "points" && key.key != "study") {
+            throw ConfigError(key.place + ": unknown key '" + key.key +
+                              "'; a study has the keys 'study' and 'points'.");
+        }
+    }
+    for (const ConfigNode& point : points->children) {
+        const ConfigNode* name = point.find("name");
+        if (name == nullptr) {
+            throw ConfigError(point.place + ": a point of a study needs a key 'name'.");
+        }
+        drafts.push_back({name->text, name->place, point});
+    }
 }
 
 /// Empty if the override is for all.
@@ -84,30 +114,38 @@ void check_scenes(const std::vector<std::string>& scenes) {
 
 std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
                                       const std::vector<std::string>& overrides) {
-    std::vector<std::string> names;
+    std::vector<Draft> drafts;
     for (const std::string& word : words) {
-        names.push_back(named(word).name);
-        if (names.back().empty()) {
+        if (named(word).name.empty()) {
             throw InputError("The configuration '" + word +
                              "' has an empty name; FILE or NAME=FILE is needed.");
         }
-        if (std::count(names.begin(), names.end(), names.back()) > 1) {
-            throw InputError("Two configurations are called '" + names.back() +
+        add_drafts(drafts, word);
+    }
+    const auto count = [&drafts](const std::string& name) {
+        return std::count_if(drafts.begin(), drafts.end(),
+                             [&name](const Draft& draft) { return draft.name == name; });
+    };
+    for (const Draft& draft : drafts) {
+        if (count(draft.name) > 1) {
+            throw InputError("Two configurations are called '" + draft.name +
                              "'; NAME=FILE tells them apart.");
         }
     }
     for (const std::string& text : overrides) {
         const std::string to = addressee(text);
-        if (!to.empty() && std::find(names.begin(), names.end(), to) == names.end()) {
+        if (!to.empty() && count(to) == 0) {
             std::string sentence = "--set ";
             sentence.append(text).append(" is for '").append(to);
             throw InputError(sentence.append("', but no configuration is called so."));
         }
     }
     std::vector<NamedConfig> configs;
-    for (std::size_t i = 0; i < words.size(); ++i) {
+    for (const Draft& draft : drafts) {
         configs.push_back(
-            {names[i], load_run_config(named(words[i]).file, overrides_of(names[i], overrides))});
+            {draft.name, load_run_config(ConfigSource::from_tree(
+                                             draft.tree, overrides_of(draft.name, overrides)),
+                                         draft.where)});
     }
     return configs;
 }

@@ -33,8 +33,10 @@ struct CompareRequest {
 };
 
 /// Loads configurations, each written as FILE or NAME=FILE; without a name it is called like the
-/// file without folder and extension. An override is "path=value" for all or "NAME:path=value" for
-/// one. Throws InputError for a name that is empty, given twice or not known, else ConfigError.
+/// file without folder and extension. A file with a list `points` is a study: every point is a
+/// configuration, called by its key `name`. An override is "path=value" for all or
+/// "NAME:path=value" for one. Throws InputError for a name that is empty, given twice or not known,
+/// else ConfigError.
 std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
                                       const std::vector<std::string>& overrides);
 

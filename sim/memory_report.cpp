@@ -71,11 +71,6 @@ std::string mix_words(const TrafficShape& shape) {
 
 } // namespace
 
-void MemoryConfig::describe(ConfigVisitor& visitor) {
-    visitor.text("name", name, "of the memory in reports");
-    memory.describe(visitor);
-}
-
 const LatencyHistogram& latency_of(const TrafficResult& result) {
     return result.reads.samples() != 0 ? result.reads : result.writes;
 }
@@ -91,11 +86,11 @@ Json memory_json(const MemoryFacts& facts) {
     Json json;
     json["schema"] = {{"name", "degs-memory"}, {"version", 1}};
     json["tool"] = tool_json();
-    json["config"] = resolved(facts.config);
-    json["traffic"] = shape_json(facts.shape, facts.config.memory.controller, result.requests);
-    json["peak_gb_per_s"] = facts.config.memory.peak_gb_per_s();
+    json["config"] = resolved(facts.memory);
+    json["traffic"] = shape_json(facts.shape, facts.memory.controller, result.requests);
+    json["peak_gb_per_s"] = facts.memory.peak_gb_per_s();
     json["bandwidth_gb_per_s"] = result.gb_per_s();
-    json["bandwidth_fraction"] = point_of(result, facts.config.memory).carried;
+    json["bandwidth_fraction"] = point_of(result, facts.memory).carried;
     json["simulated_us"] = result.seconds * 1e6;
     json["latency_ns"] = latency_json(latency_of(result));
     json["write_latency_ns"] = latency_json(result.writes);
@@ -109,10 +104,9 @@ Json memory_json(const MemoryFacts& facts) {
     json["energy"] = energy_json(result);
     json["curve"] = Json::array();
     for (const TrafficResult& each : facts.curve) {
-        json["curve"].push_back(
-            {{"offered_fraction", each.offered},
-             {"bandwidth_fraction", point_of(each, facts.config.memory).carried},
-             {"latency_ns", latency_json(latency_of(each))}});
+        json["curve"].push_back({{"offered_fraction", each.offered},
+                                 {"bandwidth_fraction", point_of(each, facts.memory).carried},
+                                 {"latency_ns", latency_json(latency_of(each))}});
     }
     json["host"] = {{"requests_per_s", static_cast<double>(result.host_requests) / result.host_s},
                     {"sim_s", result.host_s},
@@ -123,10 +117,10 @@ Json memory_json(const MemoryFacts& facts) {
 
 std::string memory_words(const MemoryFacts& facts) {
     const TrafficResult& result = facts.saturated;
-    const Lpddr5Config& memory = facts.config.memory;
+    const Lpddr5Config& memory = facts.memory;
     const LatencyHistogram& latency = latency_of(result);
     std::string text = layout(
-        {{"memory", facts.config.name + " · " + std::to_string(memory.channels) + " channels · " +
+        {{"memory", facts.memory.name + " · " + std::to_string(memory.channels) + " channels · " +
                         three_digits(memory.peak_gb_per_s()) + " GB/s"},
          {"traffic", facts.shape.pattern + " · " + std::to_string(facts.shape.request_bytes) +
                          " B · " + mix_words(facts.shape) + " · " + grouped(result.requests) +

@@ -12,15 +12,8 @@
 
 namespace degs::sim {
 
-/// A memory's configuration file.
-struct MemoryConfig {
-    std::string name = "lpddr5-6400x256";
-    Lpddr5Config memory;
-    void describe(ConfigVisitor& visitor);
-};
-
 struct MemoryFacts {
-    MemoryConfig config;
+    Lpddr5Config memory;
     TrafficShape shape;
     TrafficResult saturated;
     std::vector<TrafficResult> curve; ///< by offered load

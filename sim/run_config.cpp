@@ -21,11 +21,49 @@ void RunConfig::describe(ConfigVisitor& visitor) {
     model_->describe(visitor);
 }
 
-RunConfig load_run_config(const std::string& file, const std::vector<std::string>& overrides) {
+namespace {
+
+/// The section of `key` in `parent`, made if it is not there.
+ConfigNode& section_of(ConfigNode& parent, const std::string& key, const std::string& place) {
+    for (ConfigNode& child : parent.children) {
+        if (child.key == key) {
+            return child;
+        }
+    }
+    ConfigNode section;
+    section.kind = ConfigNode::Kind::kSection;
+    section.key = key;
+    section.place = place;
+    return parent.children.emplace_back(std::move(section));
+}
+
+void put_memory(ConfigNode& tree, const std::string& file) {
+    const std::string place = "--memory " + file;
+    ConfigNode& memory = section_of(tree, "memory", place);
+    ConfigNode& model = section_of(memory, "model", place);
+    model.kind = ConfigNode::Kind::kScalar;
+    model.text = "lpddr5";
+    ConfigNode& keys = section_of(memory, "lpddr5", place);
+    keys.children = ConfigSource::from_file(file).tree().children;
+}
+
+} // namespace
+
+RunConfig load_run_config(const std::string& file, const std::vector<std::string>& overrides,
+                          const std::string& memory_file) {
+    if (memory_file.empty()) {
+        return load_run_config(ConfigSource::from_file(file, overrides), file);
+    }
+    ConfigNode tree = ConfigSource::from_file(file).tree();
+    put_memory(tree, memory_file);
+    return load_run_config(ConfigSource::from_tree(std::move(tree), overrides), file);
+}
+
+RunConfig load_run_config(const ConfigSource& source, const std::string& where) {
     RunConfig config;
-    ConfigSource::from_file(file, overrides).load(config);
+    source.load(config);
     if (const std::string problem = config.problem(); !problem.empty()) {
-        throw ConfigError(file + ": " + problem + ".");
+        throw ConfigError(where + ": " + problem + ".");
     }
     return config;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "modules/render_engine.hpp"
+#include "tlm/config_source.hpp"
 
 namespace degs::sim {
 
@@ -33,7 +34,11 @@ private:
     std::unique_ptr<AcceleratorConfig> model_;
 };
 
-/// Reads and checks a file with `--set` overrides. Throws ConfigError.
-RunConfig load_run_config(const std::string& file, const std::vector<std::string>& overrides);
+/// Reads and checks a file with `--set` overrides, on the LPDDR5 memory of another file if one is
+/// named. Throws ConfigError.
+RunConfig load_run_config(const std::string& file, const std::vector<std::string>& overrides,
+                          const std::string& memory_file = "");
+/// The same for what is read already; `where` stands for it in messages.
+RunConfig load_run_config(const ConfigSource& source, const std::string& where);
 
 } // namespace degs::sim

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tlm/config.hpp"
@@ -27,6 +28,10 @@ public:
     /// `name` stands for the file in messages; includes are relative to its folder.
     static ConfigSource from_text(const std::string& name, const std::string& yaml,
                                   const std::vector<std::string>& overrides = {});
+    /// Part of another source's tree, e.g. an item of a list.
+    static ConfigSource from_tree(ConfigNode tree, const std::vector<std::string>& overrides = {}) {
+        return {std::move(tree), overrides};
+    }
     /// Defaults and overrides only. load() then also checks a struct that a program has filled
     /// itself.
     static ConfigSource from_overrides(const std::vector<std::string>& overrides = {});

@@ -7,6 +7,7 @@
 namespace degs {
 
 void Lpddr5Config::describe(ConfigVisitor& visitor) {
+    visitor.text("name", name, "of the memory in reports");
     visitor.integer("channels", channels, 1, 64,
                     "x16 channels, a power of two; 16 are 256 bit, the paper's main memory");
     visitor.require((channels & (channels - 1)) == 0, "channels", "must be a power of two");

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "tlm/config.hpp"
@@ -14,6 +15,7 @@ namespace degs {
 
 /// An LPDDR5 main memory: `channels` x16 channels of one device and speed, and its controllers.
 struct Lpddr5Config {
+    std::string name = "lpddr5-6400x256";
     int channels = 16;
     double controller_latency_ns = 0.0;
     int waiting_requests = 16;
