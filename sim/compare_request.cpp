@@ -141,6 +141,7 @@ std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
         }
     }
     std::vector<NamedConfig> configs;
+    configs.reserve(drafts.size());
     for (const Draft& draft : drafts) {
         configs.push_back(
             {draft.name, load_run_config(ConfigSource::from_tree(

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Everything that must hold before a change is accepted: build, lint, sanitizers, tests. Runs from any directory;
-# stops at the first step that fails, ends with the summary of CTest.
+# Installs what is missing, builds and runs all tests, also under the sanitizers. Runs from any directory; stops at
+# the first step that fails, ends with the summary of CTest. Static analysis takes as long again: scripts/tidy.sh.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -22,5 +22,5 @@ cmake --build --preset asan -j "$jobs"
 step "hostile inputs and small runs under the sanitizers"
 ctest --preset asan -j "$jobs" --no-tests=error
 
-step "all tests, house rules, formatting, clang-tidy"
-ctest --preset release -j "$jobs" --no-tests=error
+step "all tests, house rules, formatting"
+ctest --preset release -j "$jobs" --no-tests=error -LE lint

@@ -52,6 +52,34 @@ TEST(LoadConfigs, AFileMayHaveAnEqualsSign) {
     EXPECT_EQ(load_configs({file}, {})[0].name, "a=b");
 }
 
+TEST(LoadConfigs, AStudyIsAListOfConfigurations) {
+    const auto points = load_configs({config("studies/bandwidth")}, {"degs-64@51.2:clock_ghz=2"});
+    ASSERT_EQ(points.size(), 5U);
+    EXPECT_EQ(points[0].name, "degs-64@204.8");
+    EXPECT_EQ(points[2].name, "degs-64@51.2");
+    EXPECT_EQ(points[2].config.accelerator().clock_ghz, 2);
+    EXPECT_EQ(points[1].config.accelerator().clock_ghz, 1);
+}
+
+TEST(HostileLoadConfigs, Studies) {
+    const sim_test::Folder folder;
+    const std::string file = folder / "study.yaml";
+    const auto sentence = [&file](const std::string& yaml) -> std::string {
+        std::ofstream(file) << yaml;
+        try {
+            load_configs({file}, {});
+        } catch (const ConfigError& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    const std::string include = "include: " + config("degs-64");
+    EXPECT_THAT(sentence("points:\n  - " + include + "\n    clock_ghz: 2\n"), "no error");
+    EXPECT_THAT(sentence("points:\n  - clock_ghz: 2\n"), HasSubstr("needs a key 'name'"));
+    EXPECT_THAT(sentence("pints: 1\npoints:\n  - name: a\n"), HasSubstr("'pints'"));
+    EXPECT_THAT(sentence("points:\n  - name: a\n    nonsense: 1\n"), HasSubstr("nonsense"));
+}
+
 TEST(HostileLoadConfigs, Mistakes) {
     const std::string file = config("degs-64");
     const auto load = [](const std::vector<std::string>& words,

@@ -25,8 +25,7 @@ DegsConfig load_degs(const std::string& name) {
 TEST(Configs, EveryFileLoads) {
     int files = 0;
     for (const auto& entry : fs::directory_iterator(DEGS_CONFIGS)) {
-        const std::string name = entry.path().stem().string();
-        if (name.rfind("degs-", 0) != 0 && name.rfind("gbu-", 0) != 0) {
+        if (!entry.is_regular_file()) {
             continue;
         }
         SCOPED_TRACE(entry.path());
@@ -35,7 +34,24 @@ TEST(Configs, EveryFileLoads) {
         EXPECT_EQ(config.accelerator().name, entry.path().stem().string());
         ++files;
     }
-    EXPECT_GE(files, 9);
+    EXPECT_GE(files, 17);
+}
+
+TEST(Configs, AnyMemoryFileGoesUnderAnyAccelerator) {
+    const std::string folder = std::string(DEGS_CONFIGS) + "/";
+    const std::pair<const char*, double> memories[] = {
+        {"6400x256", 204.8}, {"6400x128", 102.4}, {"3200x128", 51.2}};
+    for (const auto& [memory, peak] : memories) {
+        const RunConfig config =
+            load_run_config(folder + "degs-64.yaml", {"memory.lpddr5.timing.rl=20"},
+                            folder + "memory/lpddr5-" + memory + ".yaml");
+        const auto& degs = dynamic_cast<const DegsConfig&>(config.accelerator());
+        EXPECT_EQ(degs.memory.model, MemoryModel::Lpddr5);
+        EXPECT_DOUBLE_EQ(degs.memory.peak_gb_per_s(), peak);
+        EXPECT_EQ(degs.memory.lpddr5.timing.rl, 20);
+    }
+    EXPECT_THROW(load_run_config(folder + "degs-64.yaml", {}, folder + "degs-64.yaml"),
+                 ConfigError);
 }
 
 TEST(Configs, Degs64IsTheDefault) {
