@@ -40,6 +40,13 @@ struct GccConfig : AcceleratorConfig {
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return image_buffer.contexts(view_size); }
+    TrafficConfig records() const override { return traffic.common(); }
+    void read_floats() override {
+        traffic.mean_bytes = 3 * kFloatBytes;
+        traffic.bound_bytes = kFloatBytes;
+        traffic.shape_bytes = 8 * kFloatBytes;
+        traffic.sh_value_bytes = kFloatBytes;
+    }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
 

@@ -50,6 +50,11 @@ struct GscoreConfig : AcceleratorConfig {
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return pixel_buffer.contexts(tile_size_px()); }
+    TrafficConfig records() const override { return traffic; }
+    void read_floats() override {
+        traffic.geometry_bytes = kFloatGeometryBytes;
+        traffic.sh_value_bytes = kFloatBytes;
+    }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
 

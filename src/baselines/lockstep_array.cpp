@@ -45,13 +45,6 @@ LockstepArray::LockstepArray(const sc_core::sc_module_name& name, const Config& 
       clusters_(static_cast<std::size_t>(config.clusters)),
       subtiles_(static_cast<std::size_t>(grid_.count())),
       startable_(static_cast<TileNumber>(contexts)) {
-    if (config.subtile_skip == SubtileTest::Obb) {
-        for (const FrameWorkload* frame : job.frames) {
-            for (const ProjectedSplat& splat : frame->splats) {
-                boxes_.emplace_back(splat);
-            }
-        }
-    }
     SC_HAS_PROCESS(LockstepArray);
     SC_THREAD(run);
 }
@@ -66,13 +59,31 @@ void LockstepArray::end_of_elaboration() {
 }
 
 void LockstepArray::run() {
-    for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
+    for (TileNumber number = 0; await_tile(number); ++number) {
         render_tile(number);
     }
     chunks_.wait_for_rest();
     stats_.splats_discarded += chunks_.discarded();
     close_window();
     self_.finish();
+}
+
+// While no tile is there, what still comes for stopped ones is all there is to do.
+bool LockstepArray::await_tile(TileNumber number) {
+    if (number >= job_.tiles.size() && !job_.over(number)) {
+        chunks_.wait_for_rest();
+    }
+    if (!job_.has_tile(self_, number)) {
+        return false;
+    }
+    if (config_.subtile_skip == SubtileTest::Obb) {
+        for (; boxed_frames_ <= job_.tiles[number].frame; ++boxed_frames_) {
+            for (const ProjectedSplat& splat : job_.frames[boxed_frames_]->splats) {
+                boxes_.emplace_back(splat);
+            }
+        }
+    }
+    return true;
 }
 
 void LockstepArray::render_tile(TileNumber number) {

@@ -74,6 +74,7 @@ private:
     };
     void end_of_elaboration() override;
     void run();
+    bool await_tile(TileNumber number);
     void render_tile(TileNumber number);
     void start_tile(TileNumber number);
     bool await_chunk(FifoBase& source);
@@ -100,6 +101,7 @@ private:
     ChunkInputs chunks_;
     SubtileGrid grid_;
     std::vector<OrientedBox> boxes_; // by DataPath index; empty unless the bitmap needs them
+    std::uint32_t boxed_frames_ = 0;
     std::vector<Cluster> clusters_;
     std::vector<Subtile> subtiles_;
     SubtileMask inside_ = 0; // sub-tiles with a pixel in the image

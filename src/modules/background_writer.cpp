@@ -70,7 +70,7 @@ Cycle BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, 
     const int bottom = std::min(top + work.tile_size, work.camera.height);
     // Rows as wide as the image follow each other.
     const int rows = width == work.camera.width ? bottom - top : 1;
-    const auto pixel_bytes = static_cast<std::uint64_t>(traffic_.pixel_bytes);
+    const auto pixel_bytes = static_cast<std::uint64_t>(job_.pixel_bytes(frame, traffic_));
     const std::vector<unsigned char> zeros(static_cast<std::size_t>(rows * width) * pixel_bytes, 0);
     const std::uint64_t base = job_.map(frame, traffic_).frame_buffer;
     for (int y = top; y < bottom; y += rows) {

@@ -103,6 +103,11 @@ struct DegsConfig : AcceleratorConfig {
         return {pipeline.numbers, pipeline.span_ends, pipeline.span_delta, pipeline.stop_rule};
     }
     int tile_contexts() const override { return contexts(); }
+    TrafficConfig records() const override { return traffic; }
+    void read_floats() override {
+        traffic.geometry_bytes = kFloatGeometryBytes;
+        traffic.sh_value_bytes = kFloatBytes;
+    }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
 

@@ -132,7 +132,8 @@ Cycle PixelBuffer::write_rows(TileNumber number) {
     constexpr int kRowsPerCycle = 2;
     const JobTile& tile = job_.tiles[number];
     const MemoryMap map = job_.map(tile.frame, traffic_);
-    const auto pixel_bytes = static_cast<std::uint64_t>(traffic_.pixel_bytes);
+    const auto pixel_bytes =
+        static_cast<std::uint64_t>(job_.pixel_bytes(tile.frame, traffic_));
     const auto frame_width = static_cast<std::uint64_t>(job_.frame_of(tile).camera.width);
     const int per_cycle = std::max(1, config_.readout_pixels / share_.row_stride);
     const Cycle start = self_.local();
@@ -168,9 +169,9 @@ Cycle PixelBuffer::write_rows(TileNumber number) {
 const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y) {
     const JobTile& tile = job_.tiles[number];
     Image& image = job_.images[tile.frame];
-    const auto pixel_bytes = static_cast<std::size_t>(traffic_.pixel_bytes);
+    const int pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
     pixels_.resize(static_cast<std::size_t>(tile.width));
-    bytes_.resize(pixels_.size() * pixel_bytes);
+    bytes_.resize(pixels_.size() * static_cast<std::size_t>(pixel_bytes));
     job_.path->read_row(context_of(number), y, tile.width, pixels_.data());
     unsigned char* out = bytes_.data();
     std::size_t i = image.at(tile.x, tile.y + y);
@@ -180,7 +181,7 @@ const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y
         }
         image.transmittance[i] = static_cast<float>(pixel.transmittance);
         image.fragments[i] = pixel.updates;
-        encode(pixel, traffic_.pixel_bytes, out);
+        encode(pixel, pixel_bytes, out);
         out += pixel_bytes;
         ++i;
     }

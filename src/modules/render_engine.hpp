@@ -72,6 +72,10 @@ struct AcceleratorConfig {
     virtual DataPathOptions data_path() const = 0;
     /// Tiles whose pixels are on chip at a time.
     virtual int tile_contexts() const = 0;
+    /// Record layouts of the streams that all accelerators have.
+    virtual TrafficConfig records() const = 0;
+    /// The scene as a platform's memory holds it: values of 4 B, see docs/accelerator.md.
+    virtual void read_floats() = 0;
     /// `job` must be made for this configuration and outlive the engine.
     virtual std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time,
                                                 RenderJob& job,

@@ -45,6 +45,11 @@ struct RenderJob {
         return pair_prefix[frame][visible_rank];
     }
     const FrameWorkload& frame_of(const JobTile& tile) const { return *frames[tile.frame]; }
+    /// Bytes of a frame-buffer pixel.
+    int pixel_bytes(std::uint32_t frame, const TrafficConfig& traffic) const {
+        const int own = bases[frame].pixel_bytes;
+        return own != 0 ? own : traffic.pixel_bytes;
+    }
     MemoryMap map(std::uint32_t frame, const TrafficConfig& traffic) const {
         return MemoryMap(traffic, *frames[frame], bases[frame]);
     }

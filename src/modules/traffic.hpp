@@ -28,6 +28,10 @@ struct TrafficConfig {
     }
 };
 
+/// A scene of single-precision values: mean 3, scale 3, rotation 4, opacity 1, and the SH apart.
+constexpr int kFloatBytes = 4;
+constexpr int kFloatGeometryBytes = 11 * kFloatBytes;
+
 /// Where a platform wants the streams of a frame. Without bases the regions follow each other from
 /// address 0.
 struct MemoryBases {
@@ -35,6 +39,7 @@ struct MemoryBases {
     std::uint64_t geometry = 0, sh = 0;
     std::uint64_t workspace = 0; ///< splat records and lists
     std::uint64_t frame_buffer = 0;
+    int pixel_bytes = 0; ///< of this frame; 0: as TrafficConfig says
 };
 
 /// Where the streams live in memory; regions are aligned to 4 KiB.

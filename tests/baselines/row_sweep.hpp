@@ -135,6 +135,11 @@ struct RowSweepConfig : AcceleratorConfig {
     TileMode tile_mode() const override { return TileMode::Exact; }
     DataPathOptions data_path() const override { return PipelineConfig{}.data_path(); }
     int tile_contexts() const override { return parts.pixel_buffer.contexts(tile_size); }
+    TrafficConfig records() const override { return parts.front.traffic; }
+    void read_floats() override {
+        parts.front.traffic.geometry_bytes = kFloatGeometryBytes;
+        parts.front.traffic.sh_value_bytes = kFloatBytes;
+    }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override {
         TileArrayEngine::Parts sized = parts;

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "modules/accelerator_result.hpp"
+#include "modules/memory_streams.hpp"
 #include "modules/render_engine.hpp"
 #include "splat/reference_renderer.hpp"
 #include "tests/modules/workload_fixture.hpp"

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <tlm>
+
+#include "splat/gaussian.hpp"
+
+namespace degs {
+
+/// The scene as it lies in a platform's memory, and the copy of it from which the values of a frame
+/// are computed. Per Gaussian 11 little-endian floats: mean x y z, scale x y z, rotation w x y z,
+/// opacity; in a second array 3 (degree + 1)^2 floats of SH, [coefficient][channel].
+class SceneCopy {
+public:
+    struct Place {
+        std::uint64_t geometry = 0, sh = 0; ///< addresses
+        std::uint32_t count = 0;            ///< Gaussians
+        int sh_degree = 0;
+        std::uint64_t geometry_bytes() const;
+        std::uint64_t sh_bytes() const;
+    };
+
+    /// Reads both arrays: by debug transport, or, where the memory has none, by transactions whose
+    /// time passes. The answer of the first transaction that failed, else TLM_OK_RESPONSE. From a
+    /// process.
+    tlm::tlm_response_status load(tlm::tlm_initiator_socket<>& memory, const Place& place);
+
+    /// What the bytes mean. A Gaussian that no renderer can draw (see sanitize()) stays, without
+    /// opacity, so that the numbers of the others are those of their records.
+    GaussianCloud cloud(std::uint32_t& dropped) const;
+
+    /// Are these the bytes of the copy? Of an access that starts in an array; one that is longer
+    /// than the rest of the array goes on at its start, see MemoryGateway::set_regions().
+    bool matches(std::uint64_t address, const unsigned char* data, std::uint64_t bytes) const;
+
+private:
+    Place place_;
+    std::vector<unsigned char> geometry_, sh_;
+};
+
+/// The bytes of a cloud as above, for who puts a scene into memory. Means are rounded to float.
+void encode_scene(const GaussianCloud& cloud, std::vector<unsigned char>& geometry,
+                  std::vector<unsigned char>& sh);
+
+} // namespace degs
