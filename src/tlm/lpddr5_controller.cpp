@@ -9,6 +9,7 @@ namespace {
 template <class Policy>
 std::vector<const char*> names_of(const std::vector<Policy>& policies) {
     std::vector<const char*> names;
+    names.reserve(policies.size());
     for (const Policy& policy : policies) {
         names.push_back(policy.name);
     }
