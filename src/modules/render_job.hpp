@@ -25,11 +25,31 @@ struct JobTile {
     bool last_of_frame = false;
 };
 
+/// Tiles that keep their place when others join, so that blocks may hold on to one.
+class TileList {
+public:
+    std::size_t size() const { return index_.size(); }
+    bool empty() const { return index_.empty(); }
+    JobTile& operator[](std::size_t number) { return *index_[number]; }
+    const JobTile& operator[](std::size_t number) const { return *index_[number]; }
+    JobTile& back() { return *index_.back(); }
+    void push_back(const JobTile& tile) {
+        tiles_.push_back(tile);
+        index_.push_back(&tiles_.back());
+    }
+    std::deque<JobTile>::const_iterator begin() const { return tiles_.begin(); }
+    std::deque<JobTile>::const_iterator end() const { return tiles_.end(); }
+
+private:
+    std::deque<JobTile> tiles_;
+    std::vector<JobTile*> index_; // what the hot loops ask; a deque would have to divide
+};
+
 /// What an accelerator is asked to render, and the arithmetic it renders with.
 struct RenderJob {
     std::vector<const FrameWorkload*> frames;
     std::vector<std::uint32_t> first_splat; ///< DataPath index of each frame's splat 0
-    std::deque<JobTile> tiles;              ///< raster order within each frame; they do not move
+    TileList tiles;                         ///< raster order within each frame
     std::vector<std::uint64_t> tiles_of_frame;
     std::deque<Image> images; ///< one per frame, filled by the Pixel Buffer
     std::unique_ptr<DataPath> path;
