@@ -21,6 +21,26 @@ void Lpddr5Config::describe(ConfigVisitor& visitor) {
     visitor.section("energy", energy, "what an event costs in the DRAM");
 }
 
+namespace {
+
+/// Answers to requests from id `first` on go into their dates; how many these are. The highest bit
+/// of an id is that of `first` or the answer is somebody else's.
+std::uint32_t note_answers(const std::vector<Lpddr5Answer>& answers, std::uint32_t first,
+                           std::vector<Ck>& dates) {
+    constexpr std::uint32_t kKind = 0x80000000U;
+    std::uint32_t noted = 0;
+    for (const Lpddr5Answer& answer : answers) {
+        const std::uint32_t index = (answer.id - first) & ~kKind;
+        if ((answer.id & kKind) == (first & kKind) && index < dates.size()) {
+            dates[index] = std::max(dates[index], answer.date);
+            ++noted;
+        }
+    }
+    return noted;
+}
+
+} // namespace
+
 Lpddr5Channels::Lpddr5Channels(const Lpddr5Config& config)
     : timing_(config.timing), rules_(config.timing),
       mapping_(config.mapping, config.timing, static_cast<unsigned>(config.channels)),
@@ -154,6 +174,8 @@ std::vector<Ck> Lpddr5Channels::predict(std::uint32_t first, Ck known) {
     for (std::size_t c = 0; c < size(); ++c) {
         if (asked_[c] != 0) {
             run_channel(c, known);
+            // A posted write that comes at `known` has been answered by now.
+            asked_[c] -= note_answers(outcome_.answers, first | kPredicted, dates);
             predict_channel(c, first, dates);
             asked_[c] = 0;
         }
@@ -174,13 +196,7 @@ void Lpddr5Channels::predict_channel(std::size_t channel, std::uint32_t first,
         outcome_.answers.clear();
         outcome_.admitted.clear();
         copy_->run(copy_->next_date(), outcome_);
-        for (const Lpddr5Answer& answer : outcome_.answers) {
-            const std::uint32_t index = (answer.id - first) & ~kPredicted;
-            if ((answer.id & kPredicted) != 0 && index < dates.size()) {
-                dates[index] = std::max(dates[index], answer.date);
-                --missing;
-            }
-        }
+        missing -= note_answers(outcome_.answers, first | kPredicted, dates);
     }
 }
 
