@@ -68,7 +68,8 @@ void add_traffic_options(CLI::App& command, SocOptions& options) {
     command.add_option("--cores", options.cores, "cores that make traffic")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
-    command.add_option("--pattern", options.pattern, "addresses of a core: stream, or random lines")
+    command
+        .add_option("--pattern", options.pattern, "addresses of a core: stream, or random lines")
         ->check(CLI::IsMember({"stream", "random"}))
         ->capture_default_str();
     command

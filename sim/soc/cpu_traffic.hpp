@@ -11,9 +11,9 @@
 
 namespace degs::sim {
 
-/// Memory traffic of one processor core: cache lines at an even rate, as many under way as its cache
-/// allows. When memory is slower than the rate the core falls behind and does not catch up. Data have
-/// no values and lines no owner: two cores never wait for each other.
+/// Memory traffic of one processor core: cache lines at an even rate, as many under way as its
+/// cache allows. When memory is slower than the rate the core falls behind and does not catch up.
+/// Data have no values and lines no owner: two cores never wait for each other.
 class CpuTraffic : public sc_core::sc_module {
 public:
     enum class Pattern { Stream, Random };
@@ -44,7 +44,7 @@ private:
     double rate_ = 0;
     std::mt19937_64 random_;
     std::uint64_t next_line_ = 0;
-    std::uint64_t moved_ = 0;          // lines
+    std::uint64_t moved_ = 0; // lines
     std::uint64_t bytes_moved_ = 0;
     std::uint64_t errors_ = 0;
     std::vector<sc_core::sc_time> done_; // ring: when the latest lines were there

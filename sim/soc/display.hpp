@@ -10,9 +10,9 @@
 
 namespace degs::sim {
 
-/// Display controller: reads a frame buffer of RGBA8 at the rate of its screen, row by row. A row is
-/// fetched while the row before it is shown; one that comes later is an underrun. The next picture
-/// starts with the buffer that was shown to it last. Not modelled: blanking, compression.
+/// Display controller: reads a frame buffer of RGBA8 at the rate of its screen, row by row. A row
+/// is fetched while the row before it is shown; one that comes later is an underrun. The next
+/// picture starts with the buffer that was shown to it last. Not modelled: blanking, compression.
 class Display : public sc_core::sc_module {
 public:
     struct Config {

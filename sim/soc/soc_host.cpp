@@ -146,8 +146,8 @@ AcceleratorError SocHost::start_and_wait() {
 
 // A frame without a workspace ends at once and tells what it needs.
 void SocHost::reserve_memory() {
-    const auto bytes = static_cast<std::uint64_t>(camera_.width) *
-                       static_cast<std::uint64_t>(camera_.height) * 4;
+    const auto bytes =
+        static_cast<std::uint64_t>(camera_.width) * static_cast<std::uint64_t>(camera_.height) * 4;
     for (std::uint64_t& buffer : frame_buffers_) {
         buffer = reserve(bytes);
     }

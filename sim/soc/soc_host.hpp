@@ -25,9 +25,9 @@ struct SocFrame {
 };
 
 /// The processor that drives the accelerator, as a program on it would: puts a scene into memory,
-/// writes registers, sleeps until the interrupt. Scene and pixels go by debug transport, because how
-/// they get there is not what is measured. Throws std::runtime_error if a register access is refused
-/// or a frame ends with an error.
+/// writes registers, sleeps until the interrupt. Scene and pixels go by debug transport, because
+/// how they get there is not what is measured. Throws std::runtime_error if a register access is
+/// refused or a frame ends with an error.
 class SocHost : public sc_core::sc_module {
 public:
     tlm_utils::simple_initiator_socket<SocHost> out;

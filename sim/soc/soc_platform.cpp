@@ -54,8 +54,7 @@ void SocPlatform::add_cores(const SocRequest& request) {
         core.begin = kMemory + capacity_ / 2 + i * share;
         core.bytes = share;
         core.seed = static_cast<unsigned>(i + 1);
-        cores_.push_back(
-            std::make_unique<CpuTraffic>(("core_" + std::to_string(i)).c_str(), core));
+        cores_.push_back(std::make_unique<CpuTraffic>(("core_" + std::to_string(i)).c_str(), core));
         cores_.back()->out.bind(bus_.in[kFirstCore + i]);
     }
 }

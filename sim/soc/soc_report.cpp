@@ -18,9 +18,10 @@ nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
     json["config"] = resolved(request.config);
     json["memory"] = {{"name", request.memory.name},
                       {"peak_gb_per_s", request.memory.memory.peak_gb_per_s()}};
-    json["cpu"] = {{"cores", request.cores},
-                   {"pattern", request.pattern == CpuTraffic::Pattern::Stream ? "stream" : "random"},
-                   {"reads_per_write", request.reads_per_write}};
+    json["cpu"] = {
+        {"cores", request.cores},
+        {"pattern", request.pattern == CpuTraffic::Pattern::Stream ? "stream" : "random"},
+        {"reads_per_write", request.reads_per_write}};
     json["display"] = {{"refresh_hz", request.refresh_hz},
                        {"rows", result.display.rows},
                        {"underruns", result.display.underruns}};

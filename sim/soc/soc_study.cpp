@@ -69,9 +69,7 @@ public:
         platform_.set_load(0);
         result.display = platform_.display().stats();
     }
-    void judge() {
-        result.psnr_db = psnr(pixels_, cloud_, camera_, request_.config.accelerator());
-    }
+    void judge() { result.psnr_db = psnr(pixels_, cloud_, camera_, request_.config.accelerator()); }
 
     SocResult result;
 

@@ -42,9 +42,10 @@ struct SocResult {
     double wall_s = 0;
 };
 
-/// Host, accelerator, display controller and cores on an AddressBus with an Lpddr5 memory: renders the
-/// view once per load. Once per process. Throws InputError if the scene does not fit, std::logic_error
-/// if a frame's pixels depend on the load, std::runtime_error if the accelerator reports an error.
+/// Host, accelerator, display controller and cores on an AddressBus with an Lpddr5 memory: renders
+/// the view once per load. Once per process. Throws InputError if the scene does not fit,
+/// std::logic_error if a frame's pixels depend on the load, std::runtime_error if the accelerator
+/// reports an error.
 SocResult run_soc(const SocRequest& request, const View& view);
 
 nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,

@@ -23,7 +23,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          ::testing::Values(Words{}, Words{"run"}, Words{"compare"}, Words{"render"},
                                            Words{"scene"}, Words{"scene", "info"},
                                            Words{"scene", "generate"}, Words{"scene", "convert"},
-                                           Words{"config"}, Words{"accuracy"}));
+                                           Words{"config"}, Words{"accuracy"}, Words{"soc"}));
 
 TEST(Version, IsOneLine) {
     const Outcome outcome = degs({"--version"});
