@@ -21,6 +21,10 @@ target_compile_options(degs_flags INTERFACE -ffp-contract=off -fno-tree-slp-vect
 target_link_options(degs_flags INTERFACE -Wno-psabi)
 target_include_directories(degs_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
 
+# Archives of link-time objects are for the compiler that made them; packages carry machine code as well.
+if(DEGS_FAT_ARCHIVES AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set(CMAKE_CXX_COMPILE_OPTIONS_IPO -flto=auto -ffat-lto-objects)
+endif()
 include(CheckIPOSupported)
 check_ipo_supported(RESULT DEGS_HAS_IPO LANGUAGES CXX)
 
@@ -37,6 +41,8 @@ function(degs_library room)
         # The hot loops call across files; whole-program optimisation saves 5 % of a run.
         if(DEGS_HAS_IPO AND CMAKE_BUILD_TYPE STREQUAL "Release")
             set_target_properties(degs_${room} PROPERTIES INTERPROCEDURAL_OPTIMIZATION ON)
+            # Who links an installed archive compiles it, with the linker's own idea of warnings.
+            target_link_options(degs_${room} INTERFACE $<INSTALL_INTERFACE:-Wno-psabi>)
         endif()
     else()
         set(scope INTERFACE)

@@ -48,8 +48,8 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
 Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
                          const Options& options)
     : sc_core::sc_module(name), registers("registers"), mem("mem"), irq("irq"),
-      config_(checked(config)), options_(options),
-      time_{ClockDomain(config_->clock_ghz), options.fidelity}, self_(time_),
+      config_(checked(config)),
+      options_(options), time_{ClockDomain(config_->clock_ghz), options.fidelity}, self_(time_),
       finished_("finished", time_, kFinishedDepth), gateway_("gateway") {
     registers.register_b_transport(this, &Accelerator::transport);
     registers.register_transport_dbg(this, &Accelerator::debug);
@@ -129,8 +129,8 @@ AcceleratorFault Accelerator::prepare() {
 AcceleratorFault Accelerator::make_workload() {
     std::uint32_t dropped = 0;
     const GaussianCloud cloud = scene_.cloud(dropped);
-    FrameWorkload work = make_frame_workload(cloud, request_.camera, job_.tile_size,
-                                             config_->tile_mode());
+    FrameWorkload work =
+        make_frame_workload(cloud, request_.camera, job_.tile_size, config_->tile_mode());
     registers_.set(Register::Dropped, dropped);
     const std::uint64_t needed = MemoryMap::workspace_bytes(config_->records(), work);
     registers_.set_pair(Register::WorkspaceNeeded, needed);

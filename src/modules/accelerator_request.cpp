@@ -61,9 +61,8 @@ AcceleratorFault read_camera(const AcceleratorRegisters& regs, Camera& camera) {
             return fault(AcceleratorError::BadCamera, Register::Position);
         }
     }
-    return is_rotation(camera.camera_to_world)
-               ? AcceleratorFault{}
-               : fault(AcceleratorError::BadCamera, Register::Axes);
+    return is_rotation(camera.camera_to_world) ? AcceleratorFault{}
+                                               : fault(AcceleratorError::BadCamera, Register::Axes);
 }
 
 AcceleratorFault read_scene(const AcceleratorRegisters& regs, std::uint32_t max_gaussians,

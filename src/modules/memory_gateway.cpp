@@ -57,9 +57,9 @@ std::uint64_t MemoryGateway::piece_at(std::uint64_t address, std::uint64_t bytes
 }
 
 std::uint64_t MemoryGateway::start_of(std::uint64_t address) const {
-    const auto home =
-        std::find_if(regions_.begin(), regions_.end(),
-                     [&](const Region& region) { return address - region.begin < region.bytes; });
+    const auto home = std::find_if(regions_.begin(), regions_.end(), [&](const Region& region) {
+        return address - region.begin < region.bytes;
+    });
     return home->begin;
 }
 

@@ -132,8 +132,7 @@ Cycle PixelBuffer::write_rows(TileNumber number) {
     constexpr int kRowsPerCycle = 2;
     const JobTile& tile = job_.tiles[number];
     const MemoryMap map = job_.map(tile.frame, traffic_);
-    const auto pixel_bytes =
-        static_cast<std::uint64_t>(job_.pixel_bytes(tile.frame, traffic_));
+    const auto pixel_bytes = static_cast<std::uint64_t>(job_.pixel_bytes(tile.frame, traffic_));
     const auto frame_width = static_cast<std::uint64_t>(job_.frame_of(tile).camera.width);
     const int per_cycle = std::max(1, config_.readout_pixels / share_.row_stride);
     const Cycle start = self_.local();

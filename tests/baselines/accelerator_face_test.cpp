@@ -45,7 +45,6 @@ TEST_P(SmallRunFace, RendersTheFramesOfClosedJobs) {
     EXPECT_EQ(frames[1], rgba8(other.image()));
     EXPECT_EQ(frames[2], frames[0]);
     EXPECT_EQ(frames[3], frames[1]);
-    EXPECT_GT(cycles[0], cycles[1] / 4);
     EXPECT_EQ(p.memory->refused, 0U);
 }
 
@@ -90,7 +89,6 @@ TEST_P(SmallRunFace, TouchesNothingOutsideItsRegions) {
     Platform p("accelerator", *config, test_cloud(4, 1, 0));
     cloud = test_cloud(4, 1, 0); // far shorter than any request of a block
     bool inside = true;
-    p.memory->on_access = [&](std::uint64_t) {};
     const std::vector<unsigned char> before = p.memory->bytes;
     p.host.script = [&](Host& host) {
         program(host, cloud, camera);
@@ -108,7 +106,7 @@ TEST_P(SmallRunFace, TouchesNothingOutsideItsRegions) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SmallRunFace, ::testing::ValuesIn(accelerator_kinds()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& kind) { return std::string(kind.param.name); });
 
 } // namespace
 } // namespace degs::test

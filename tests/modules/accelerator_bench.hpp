@@ -159,9 +159,9 @@ constexpr std::uint64_t kWorkspaceBytes = 0x40000, kMemoryBytes = 0xC0000;
 struct Platform {
     Platform(const char* name, const AcceleratorConfig& config, const GaussianCloud& cloud,
              Timing timing = Timing::Annotated, bool has_debug = true)
-        : Platform(name, config, cloud, std::make_unique<PlainMemory>(
-                                            (std::string(name) + "_memory").c_str(), kMemoryBytes,
-                                            timing, has_debug)) {}
+        : Platform(name, config, cloud,
+                   std::make_unique<PlainMemory>((std::string(name) + "_memory").c_str(),
+                                                 kMemoryBytes, timing, has_debug)) {}
     Platform(const char* name, const AcceleratorConfig& config, const GaussianCloud& cloud,
              std::unique_ptr<PlainMemory> with)
         : accelerator(name, config), memory(std::move(with)),

@@ -12,8 +12,7 @@ namespace {
 struct Closed {
     Closed(const char* name, const AcceleratorConfig& config, const GaussianCloud& cloud,
            const Camera& camera)
-        : workload(
-              make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode())),
+        : workload(make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode())),
           job(make_render_job({&workload}, config)), engine(config.build(name, time, job, {})) {}
     std::vector<unsigned char> pixels() const { return rgba8(job.images.front()); }
     Timebase time{ClockDomain(1.0), Fidelity::Exact};
@@ -128,9 +127,9 @@ TEST_F(SmallRunAccelerator, StrictRendersTheSameInTheSameTime) {
     ASSERT_EQ(cycles.size(), 4U);
     EXPECT_EQ(cycles[0], cycles[1]);
     EXPECT_EQ(cycles[2], cycles[3]);
-    EXPECT_EQ(exact.frame(camera), std::vector<unsigned char>(memory.bytes.begin() + kFrame,
-                                                              memory.bytes.begin() + kFrame +
-                                                                  96 * 72 * 4));
+    EXPECT_EQ(exact.frame(camera),
+              std::vector<unsigned char>(memory.bytes.begin() + kFrame,
+                                         memory.bytes.begin() + kFrame + 96 * 72 * 4));
 }
 
 TEST_F(SmallRunAccelerator, ImmediateAnnotatedAndBlockingMemoriesGiveTheSameBytes) {
@@ -160,7 +159,9 @@ TEST_F(SmallRunAccelerator, ImmediateAnnotatedAndBlockingMemoriesGiveTheSameByte
 
 TEST_F(SmallRunAccelerator, ASceneThatIsWrittenMeanwhileIsAnError) {
     Platform p("accelerator", config, cloud);
-    p.memory->on_access = [&](std::uint64_t access) { p.memory->bytes[100] ^= access == 1 ? 1 : 0; };
+    p.memory->on_access = [&](std::uint64_t access) {
+        p.memory->bytes[100] ^= access == 1 ? 1 : 0;
+    };
     run(p, [&](Host& host) {
         program(host, cloud, camera);
         EXPECT_FALSE(host.render());

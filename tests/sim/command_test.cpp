@@ -23,7 +23,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          ::testing::Values(Words{}, Words{"run"}, Words{"compare"}, Words{"render"},
                                            Words{"scene"}, Words{"scene", "info"},
                                            Words{"scene", "generate"}, Words{"scene", "convert"},
-                                           Words{"memory"}, Words{"config"}, Words{"accuracy"}));
+                                           Words{"memory"}, Words{"soc"}, Words{"config"},
+                                           Words{"accuracy"}));
 
 TEST(Version, IsOneLine) {
     const Outcome outcome = degs({"--version"});

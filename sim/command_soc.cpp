@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs soc: the accelerator on a platform where others use the memory, too.
+#include <iostream>
+#include <memory>
+
+#include "sim/commands.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/soc/soc_study.hpp"
+#include "splat/error.hpp"
+#include "tlm/config_source.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct SocOptions {
+    std::string config;
+    std::vector<std::string> overrides;
+    std::string memory;
+    ViewRequest view;
+    std::vector<double> loads;
+    int cores = 4;
+    std::string pattern = "stream";
+    int reads_per_write = 2;
+    double refresh_hz = 60;
+    std::string out = "out";
+};
+
+/// Without a word about loads: none, then eighths of the peak up to three quarters.
+std::vector<double> loads_of(const SocOptions& options, double peak_gb_per_s) {
+    if (!options.loads.empty()) {
+        return options.loads;
+    }
+    std::vector<double> loads;
+    for (int eighth = 0; eighth <= 6; ++eighth) {
+        loads.push_back(peak_gb_per_s * eighth / 8);
+    }
+    return loads;
+}
+
+void run(const SocOptions& options) {
+    SocRequest request;
+    request.config = load_run_config(options.config, options.overrides);
+    if (!options.memory.empty()) {
+        ConfigSource::from_file(options.memory).load(request.memory);
+    }
+    request.loads = loads_of(options, request.memory.memory.peak_gb_per_s());
+    request.cores = options.cores;
+    request.pattern =
+        options.pattern == "stream" ? CpuTraffic::Pattern::Stream : CpuTraffic::Pattern::Random;
+    request.reads_per_write = options.reads_per_write;
+    request.refresh_hz = options.refresh_hz;
+    const View view = load_view(options.view);
+    const OutputFolder out(options.out, {"soc.json", "soc.svg"});
+    const SocResult result = run_soc(request, view);
+    out.write_json("soc.json", soc_json(request, view, result));
+    out.write_text("soc.svg", soc_svg(request.config.accelerator().name +
+                                          ": frame latency under competing traffic",
+                                      result.points));
+    std::cout << soc_words(request, view, result) << std::flush;
+}
+
+void add_traffic_options(CLI::App& command, SocOptions& options) {
+    command
+        .add_option("--load", options.loads,
+                    "GB/s that all cores together ask for, one frame each; default: eighths of the "
+                    "peak, 0 to 6")
+        ->check(CLI::Range(0.0, 1e4));
+    command.add_option("--cores", options.cores, "cores that make traffic")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
+    command
+        .add_option("--pattern", options.pattern, "addresses of a core: stream, or random lines")
+        ->check(CLI::IsMember({"stream", "random"}))
+        ->capture_default_str();
+    command
+        .add_option("--reads-per-write", options.reads_per_write,
+                    "of the cores, on average, in random order; 0: reads only")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    command
+        .add_option("--refresh", options.refresh_hz,
+                    "pictures per second of the display; 0: no display")
+        ->check(CLI::Range(0.0, 1000.0))
+        ->capture_default_str();
+}
+
+} // namespace
+
+void add_soc_command(CLI::App& program) {
+    auto options = std::make_shared<SocOptions>();
+    CLI::App* command = program.add_subcommand(
+        "soc", "run the accelerator on a platform with cores and a display that use the memory");
+    command->add_option("config", options->config, "configuration file (YAML)")->required();
+    add_view_options(*command, options->view);
+    command->add_option("--memory", options->memory,
+                        "configuration file of the platform's memory (configs/memory/*.yaml); "
+                        "default: LPDDR5-6400 of 256 bit");
+    add_traffic_options(*command, *options);
+    command->add_option("--out", options->out, "folder for soc.json and soc.svg")
+        ->capture_default_str();
+    command
+        ->add_option("--set", options->overrides,
+                     "path.to.key=value in place of what the file says; may be repeated")
+        ->take_all()
+        ->expected(1);
+    command->callback([options] { run(*options); });
+}
+
+} // namespace degs::sim

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <systemc>
+#include <tlm>
+#include <tlm_utils/simple_initiator_socket.h>
+
+#include "modules/accelerator_registers.hpp"
+#include "splat/camera.hpp"
+#include "splat/gaussian.hpp"
+
+namespace degs::sim {
+
+/// What the driver of the accelerator saw of a frame.
+struct SocFrame {
+    std::uint64_t cycles = 0, load_cycles = 0;
+    std::uint64_t bytes_read = 0, bytes_written = 0, fragments = 0;
+    double latency_ns = 0; ///< start written to interrupt seen
+    std::uint64_t frame_buffer = 0;
+};
+
+/// The processor that drives the accelerator, as a program on it would: puts a scene into memory,
+/// writes registers, sleeps until the interrupt. Scene and pixels go by debug transport, because
+/// how they get there is not what is measured. Throws std::runtime_error if a register access is
+/// refused or a frame ends with an error.
+class SocHost : public sc_core::sc_module {
+public:
+    tlm_utils::simple_initiator_socket<SocHost> out;
+    sc_core::sc_in<bool> irq;
+
+    /// `registers`: bus address; memory of `bytes` from `memory` on is the driver's.
+    SocHost(const sc_core::sc_module_name& name, std::uint64_t registers, std::uint64_t memory,
+            std::uint64_t bytes);
+
+    /// What the processor does; once, before the simulation starts.
+    std::function<void(SocHost&)> program;
+    bool finished() const { return finished_; }
+
+    // From the program only.
+    void load_scene(const GaussianCloud& cloud);
+    void set_camera(const Camera& camera);
+    /// Asks the accelerator how much it needs, and reserves that and two frame buffers. Throws
+    /// InputError if memory is too small.
+    void reserve_memory();
+    /// Renders into one of the frame buffers in turn.
+    SocFrame render();
+    /// RGBA8.
+    std::vector<unsigned char> pixels(const SocFrame& frame);
+
+private:
+    void run();
+    void access(tlm::tlm_command command, std::uint64_t offset, std::uint32_t& value);
+    void write(Register which, std::uint32_t value, std::uint32_t word = 0);
+    void write_pair(Register which, std::uint64_t value, std::uint32_t pair = 0);
+    void write_double(Register which, double value, std::uint32_t pair = 0);
+    std::uint32_t read(Register which, std::uint32_t word = 0);
+    std::uint64_t read_pair(Register which);
+    AcceleratorError start_and_wait();
+    std::uint64_t reserve(std::uint64_t bytes);
+    void debug(tlm::tlm_command command, std::uint64_t address, std::vector<unsigned char>& data);
+
+    std::uint64_t registers_, next_, end_; // next_ to end_: memory that is not reserved
+    Camera camera_;
+    std::array<std::uint64_t, 2> frame_buffers_{};
+    std::size_t frames_ = 0;
+    bool finished_ = false;
+};
+
+} // namespace degs::sim

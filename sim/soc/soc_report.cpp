@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// What degs soc found out, as JSON and as words.
+#include "sim/report.hpp"
+#include "sim/soc/soc_study.hpp"
+#include "sim/text_table.hpp"
+#include "sim/words.hpp"
+#include "tlm/config_document.hpp"
+
+namespace degs::sim {
+
+nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
+                                const SocResult& result) {
+    nlohmann::ordered_json json;
+    json["schema"] = {{"name", "degs-soc"}, {"version", 1}};
+    json["tool"] = tool_json();
+    json["scene"] = {{"name", view.scene.name}, {"gaussians", view.scene.cloud.size()}};
+    json["camera"] = camera_json(view.camera);
+    json["config"] = resolved(request.config);
+    json["memory"] = {{"name", request.memory.name},
+                      {"peak_gb_per_s", request.memory.memory.peak_gb_per_s()}};
+    json["cpu"] = {
+        {"cores", request.cores},
+        {"pattern", request.pattern == CpuTraffic::Pattern::Stream ? "stream" : "random"},
+        {"reads_per_write", request.reads_per_write}};
+    json["display"] = {{"refresh_hz", request.refresh_hz},
+                       {"rows", result.display.rows},
+                       {"underruns", result.display.underruns}};
+    json["psnr_db"] = result.psnr_db;
+    json["points"] = nlohmann::ordered_json::array();
+    for (const SocPoint& p : result.points) {
+        json["points"].push_back({{"offered_gb_per_s", p.offered_gb_per_s},
+                                  {"cpu_gb_per_s", p.cpu_gb_per_s},
+                                  {"display_gb_per_s", p.display_gb_per_s},
+                                  {"accelerator_gb_per_s", p.accelerator_gb_per_s},
+                                  {"latency_ns", p.frame.latency_ns},
+                                  {"cycles", p.frame.cycles},
+                                  {"bytes_read", p.frame.bytes_read},
+                                  {"bytes_written", p.frame.bytes_written},
+                                  {"fragments", p.frame.fragments}});
+    }
+    json["host"] = {{"wall_s", result.wall_s}};
+    return json;
+}
+
+std::string soc_words(const SocRequest& request, const View& view, const SocResult& result) {
+    TextTable table({"CPU asks GB/s", "gets", "display", "accelerator GB/s", "frame ms", "slower"});
+    const double alone = result.points.front().frame.latency_ns;
+    for (const SocPoint& p : result.points) {
+        table.add({three_digits(p.offered_gb_per_s), three_digits(p.cpu_gb_per_s),
+                   three_digits(p.display_gb_per_s), three_digits(p.accelerator_gb_per_s),
+                   three_digits(p.frame.latency_ns / 1e6),
+                   three_digits(p.frame.latency_ns / alone) + "x"});
+    }
+    return request.config.accelerator().name + " · " + view.scene.name + " · " +
+           std::to_string(view.camera.width) + "×" + std::to_string(view.camera.height) + " · " +
+           request.memory.name + ", " + three_digits(request.memory.memory.peak_gb_per_s()) +
+           " GB/s · " + std::to_string(request.cores) + " cores\n" + table.text() +
+           "pixels  the same under every load · " + three_digits(result.psnr_db) +
+           " dB against double precision, 8 bits per channel\n" + "display " +
+           grouped(result.display.rows) + " rows, " + grouped(result.display.underruns) +
+           " late · host " + three_digits(result.wall_s) + " s\n";
+}
+
+} // namespace degs::sim

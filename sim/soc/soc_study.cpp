@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/soc/soc_study.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "sim/progress.hpp"
+#include "sim/soc/soc_platform.hpp"
+#include "sim/stopwatch.hpp"
+#include "splat/image_metrics.hpp"
+#include "splat/reference_renderer.hpp"
+
+namespace degs::sim {
+namespace {
+
+constexpr double kSettleUs = 5; // from a change of load to the frame
+
+/// The scene as floats hold it, which is what memory holds.
+GaussianCloud as_floats(GaussianCloud cloud) {
+    for (glm::dvec3& mean : cloud.means) {
+        mean = glm::dvec3(glm::vec3(mean));
+    }
+    return cloud;
+}
+
+Image image_of(const std::vector<unsigned char>& rgba, const Camera& camera) {
+    Image image(camera.width, camera.height);
+    for (std::size_t i = 0; i < image.pixels(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            image.rgb[3 * i + c] = static_cast<float>(rgba[4 * i + c]) / 255.0F;
+        }
+    }
+    return image;
+}
+
+double psnr(const std::vector<unsigned char>& rgba, const GaussianCloud& cloud,
+            const Camera& camera, const AcceleratorConfig& config) {
+    ReferenceCounts counts;
+    Image reference = render_reference(
+        make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode()), counts);
+    for (float& value : reference.rgb) {
+        value = std::clamp(value, 0.0F, 1.0F);
+    }
+    return compare_images(reference, image_of(rgba, camera)).psnr_db;
+}
+
+/// A frame for each load, one after the other in one simulation.
+class Study {
+public:
+    Study(const SocRequest& request, SocPlatform& platform, GaussianCloud cloud, Camera camera)
+        : request_(request), platform_(platform), cloud_(std::move(cloud)),
+          camera_(std::move(camera)) {}
+
+    void operator()(SocHost& host) {
+        host.load_scene(cloud_);
+        host.set_camera(camera_);
+        host.reserve_memory();
+        for (const double load : request_.loads) {
+            platform_.set_load(load);
+            sc_core::wait(sc_core::sc_time(kSettleUs, sc_core::SC_US));
+            measure(host, load);
+            const std::vector<unsigned char> pixels = host.pixels(result.points.back().frame);
+            if (pixels_.empty()) {
+                pixels_ = pixels;
+            } else if (pixels_ != pixels) {
+                throw std::logic_error("the model is broken: pixels depend on the memory's load");
+            }
+        }
+        platform_.set_load(0);
+        result.display = platform_.display().stats();
+    }
+    void judge() { result.psnr_db = psnr(pixels_, cloud_, camera_, request_.config.accelerator()); }
+
+    SocResult result;
+
+private:
+    void measure(SocHost& host, double load) {
+        const std::uint64_t cpu = platform_.cpu_bytes();
+        const std::uint64_t shown = platform_.display().stats().bytes;
+        SocPoint point;
+        point.offered_gb_per_s = load;
+        point.frame = host.render();
+        const double ns = point.frame.latency_ns;
+        const auto rate = [ns](std::uint64_t bytes) { return static_cast<double>(bytes) / ns; };
+        point.cpu_gb_per_s = rate(platform_.cpu_bytes() - cpu);
+        point.display_gb_per_s = rate(platform_.display().stats().bytes - shown);
+        point.accelerator_gb_per_s = rate(point.frame.bytes_read + point.frame.bytes_written);
+        result.points.push_back(point);
+        if (request_.refresh_hz > 0) {
+            platform_.display().show(point.frame.frame_buffer);
+        }
+    }
+
+    const SocRequest& request_;
+    SocPlatform& platform_;
+    GaussianCloud cloud_;
+    Camera camera_;
+    std::vector<unsigned char> pixels_;
+};
+
+} // namespace
+
+SocResult run_soc(const SocRequest& request, const View& view) {
+    const Stopwatch wall;
+    SocPlatform platform("soc", request, view.camera);
+    Study study(request, platform, as_floats(view.scene.cloud), view.camera);
+    platform.host().program = [&study](SocHost& host) { study(host); };
+    {
+        Progress progress("platform");
+        while (!platform.host().finished()) {
+            sc_core::sc_start(sc_core::sc_time(10, sc_core::SC_US));
+            progress.done(static_cast<double>(study.result.points.size()) /
+                          static_cast<double>(request.loads.size()));
+        }
+    }
+    study.judge();
+    study.result.wall_s = wall.seconds();
+    return study.result;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/memory_report.hpp"
+#include "sim/run_config.hpp"
+#include "sim/soc/cpu_traffic.hpp"
+#include "sim/soc/display.hpp"
+#include "sim/soc/soc_host.hpp"
+#include "sim/view.hpp"
+
+namespace degs::sim {
+
+/// What the platform is made of, and what competes with the accelerator.
+struct SocRequest {
+    RunConfig config;
+    MemoryConfig memory;
+    std::vector<double> loads; ///< GB/s that all cores together ask for, one frame each
+    int cores = 4;
+    CpuTraffic::Pattern pattern = CpuTraffic::Pattern::Stream;
+    int reads_per_write = 2;
+    double refresh_hz = 60; ///< of the display; 0: none
+};
+
+struct SocPoint {
+    double offered_gb_per_s = 0; ///< by the cores
+    double cpu_gb_per_s = 0;     ///< that they got during the frame
+    double display_gb_per_s = 0;
+    double accelerator_gb_per_s = 0;
+    SocFrame frame;
+};
+
+struct SocResult {
+    std::vector<SocPoint> points;
+    double psnr_db = 0; ///< frame buffer against the double-precision image, clamped to 0..1
+    Display::Stats display;
+    double wall_s = 0;
+};
+
+/// Host, accelerator, display controller and cores on an AddressBus with an Lpddr5 memory: renders
+/// the view once per load. Once per process. Throws InputError if the scene does not fit,
+/// std::logic_error if a frame's pixels depend on the load, std::runtime_error if the accelerator
+/// reports an error.
+SocResult run_soc(const SocRequest& request, const View& view);
+
+nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
+                                const SocResult& result);
+std::string soc_words(const SocRequest& request, const View& view, const SocResult& result);
+/// Frame latency over the load.
+std::string soc_svg(const std::string& title, const std::vector<SocPoint>& points);
+
+} // namespace degs::sim
