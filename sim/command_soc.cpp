@@ -43,7 +43,7 @@ void run(const SocOptions& options) {
     if (!options.memory.empty()) {
         ConfigSource::from_file(options.memory).load(request.memory);
     }
-    request.loads = loads_of(options, request.memory.memory.peak_gb_per_s());
+    request.loads = loads_of(options, request.memory.peak_gb_per_s());
     request.cores = options.cores;
     request.pattern =
         options.pattern == "stream" ? CpuTraffic::Pattern::Stream : CpuTraffic::Pattern::Random;

@@ -17,7 +17,7 @@ nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
     json["camera"] = camera_json(view.camera);
     json["config"] = resolved(request.config);
     json["memory"] = {{"name", request.memory.name},
-                      {"peak_gb_per_s", request.memory.memory.peak_gb_per_s()}};
+                      {"peak_gb_per_s", request.memory.peak_gb_per_s()}};
     json["cpu"] = {
         {"cores", request.cores},
         {"pattern", request.pattern == CpuTraffic::Pattern::Stream ? "stream" : "random"},
@@ -53,7 +53,7 @@ std::string soc_words(const SocRequest& request, const View& view, const SocResu
     }
     return request.config.accelerator().name + " · " + view.scene.name + " · " +
            std::to_string(view.camera.width) + "×" + std::to_string(view.camera.height) + " · " +
-           request.memory.name + ", " + three_digits(request.memory.memory.peak_gb_per_s()) +
+           request.memory.name + ", " + three_digits(request.memory.peak_gb_per_s()) +
            " GB/s · " + std::to_string(request.cores) + " cores\n" + table.text() +
            "pixels  the same under every load · " + three_digits(result.psnr_db) +
            " dB against double precision, 8 bits per channel\n" + "display " +
