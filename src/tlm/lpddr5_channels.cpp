@@ -185,11 +185,9 @@ std::vector<Ck> Lpddr5Channels::predict(std::uint32_t first, Ck known) {
 
 void Lpddr5Channels::predict_channel(std::size_t channel, std::uint32_t first,
                                      std::vector<Ck>& dates) {
-    if (copy_ == nullptr) {
-        copy_ = std::make_unique<Lpddr5Channel>(channels_[channel]);
-    } else {
-        *copy_ = channels_[channel];
-    }
+    // A new copy: assigning over the old one crashed in optimised builds, with long requests
+    // waiting.
+    copy_ = std::make_unique<Lpddr5Channel>(channels_[channel]);
     copy_->observe({});
     std::uint32_t missing = asked_[channel];
     while (missing != 0) {
