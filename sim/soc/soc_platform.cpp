@@ -19,8 +19,10 @@ std::size_t initiators(const SocRequest& request) {
 
 SocPlatform::SocPlatform(const sc_core::sc_module_name& name, const SocRequest& request,
                          const Camera& camera)
-    : sc_core::sc_module(name), capacity_(capacity_of(request.memory)),
-      time_{ClockDomain(request.config.accelerator().clock_ghz), Fidelity::Exact},
+    : sc_core::sc_module(name),
+      capacity_(capacity_of(request.memory)), time_{ClockDomain(
+                                                        request.config.accelerator().clock_ghz),
+                                                    Fidelity::Exact},
       memory_("memory", request.memory, time_, initiators(request)),
       bus_("bus", initiators(request),
            {{kRegisters, kRegisterWindow, false}, {kMemory, capacity_, true}}),

@@ -53,8 +53,8 @@ std::string soc_words(const SocRequest& request, const View& view, const SocResu
     }
     return request.config.accelerator().name + " · " + view.scene.name + " · " +
            std::to_string(view.camera.width) + "×" + std::to_string(view.camera.height) + " · " +
-           request.memory.name + ", " + three_digits(request.memory.peak_gb_per_s()) +
-           " GB/s · " + std::to_string(request.cores) + " cores\n" + table.text() +
+           request.memory.name + ", " + three_digits(request.memory.peak_gb_per_s()) + " GB/s · " +
+           std::to_string(request.cores) + " cores\n" + table.text() +
            "pixels  the same under every load · " + three_digits(result.psnr_db) +
            " dB against double precision, 8 bits per channel\n" + "display " +
            grouped(result.display.rows) + " rows, " + grouped(result.display.underruns) +

@@ -22,17 +22,10 @@ using Command = Lpddr5Command;
 
 inline Lpddr5Config lpddr5_config(const std::string& name,
                                   const std::vector<std::string>& overrides = {}) {
-    struct File {
-        std::string name;
-        Lpddr5Config memory;
-        void describe(ConfigVisitor& visitor) {
-            visitor.text("name", name, "");
-            memory.describe(visitor);
-        }
-    } file;
+    Lpddr5Config memory;
     ConfigSource::from_file(std::string(DEGS_CONFIGS) + "/memory/" + name + ".yaml", overrides)
-        .load(file);
-    return file.memory;
+        .load(memory);
+    return memory;
 }
 
 /// How two commands lie to each other.
