@@ -127,11 +127,7 @@ void add_memory_command(CLI::App& program) {
     command->add_flag("--no-curve", options->no_curve, "do not measure latency over load");
     command->add_option("--out", options->out, "folder for memory.json and latency.svg")
         ->capture_default_str();
-    command
-        ->add_option("--set", options->overrides,
-                     "path.to.key=value in place of what the file says; may be repeated")
-        ->take_all()
-        ->expected(1);
+    add_overrides_option(*command, options->overrides);
     command->callback([options] { run(*options); });
 }
 

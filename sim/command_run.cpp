@@ -65,11 +65,7 @@ void add_run_command(CLI::App& program) {
     command->add_option("--memory", options->memory,
                         "file of an LPDDR5 memory, as in configs/memory, in place of what the "
                         "configuration says of memory");
-    command
-        ->add_option("--set", options->overrides,
-                     "path.to.key=value in place of what the file says; may be repeated")
-        ->take_all()
-        ->expected(1);
+    add_overrides_option(*command, options->overrides);
     command->add_flag("--no-reference", options->no_reference,
                       "do not render the double-precision image to compare with");
     command->add_flag(

@@ -98,11 +98,7 @@ void add_soc_command(CLI::App& program) {
     add_traffic_options(*command, *options);
     command->add_option("--out", options->out, "folder for soc.json and soc.svg")
         ->capture_default_str();
-    command
-        ->add_option("--set", options->overrides,
-                     "path.to.key=value in place of what the file says; may be repeated")
-        ->take_all()
-        ->expected(1);
+    add_overrides_option(*command, options->overrides);
     command->callback([options] { run(*options); });
 }
 

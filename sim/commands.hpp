@@ -2,6 +2,9 @@
 // Each function adds one command to the program; the command runs when its arguments are parsed.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 
 namespace degs::sim {
@@ -14,5 +17,8 @@ void add_memory_command(CLI::App& program);
 void add_soc_command(CLI::App& program);
 void add_config_command(CLI::App& program);
 void add_accuracy_command(CLI::App& program);
+
+/// `--set`, for commands that take one configuration file.
+void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides);
 
 } // namespace degs::sim

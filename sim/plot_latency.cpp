@@ -17,17 +17,6 @@ constexpr const char* kGrid = "#d8d8d8";
 constexpr const char* kMean = "#0072b2";
 constexpr const char* kTail = "#d55e00";
 
-/// The next of 1, 2, 5, 10 ... that is not below a fifth of `value`.
-double tick_of(double value) {
-    const double power = std::pow(10.0, std::floor(std::log10(value / 5)));
-    for (const double factor : {1.0, 2.0, 5.0}) {
-        if (factor * power * 5 >= value) {
-            return factor * power;
-        }
-    }
-    return 10 * power;
-}
-
 struct Axes {
     double top_ns = 1;
     double x(double share) const { return kLeft + share * (kRight - kLeft); }

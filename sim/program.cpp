@@ -59,6 +59,14 @@ void add_commands(CLI::App& program) {
 
 } // namespace
 
+void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides) {
+    command
+        .add_option("--set", overrides,
+                    "path.to.key=value in place of what the file says; may be repeated")
+        ->take_all()
+        ->expected(1);
+}
+
 int run_program(int argc, char* argv[]) {
     CLI::App program("SystemC/TLM model of the DeGS accelerator for 3D Gaussian Splatting", "degs");
     try {

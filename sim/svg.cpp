@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/svg.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -151,6 +152,16 @@ std::string fitting(const std::string& words, double size, double width) {
         kept.pop_back();
     }
     return kept + "…";
+}
+
+double tick_of(double value, int lines) {
+    const double power = std::pow(10.0, std::floor(std::log10(value / lines)));
+    for (const double factor : {1.0, 2.0, 5.0}) {
+        if (factor * power * lines >= value) {
+            return factor * power;
+        }
+    }
+    return 10 * power;
 }
 
 } // namespace degs::sim

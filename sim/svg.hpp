@@ -42,4 +42,8 @@ double text_width(const std::string& words, double size, bool bold = false);
 /// The longest beginning of `words` that fits, with an ellipsis if something is missing.
 std::string fitting(const std::string& words, double size, double width);
 
+/// Distance of the grid lines of an axis from 0 to `value`: the next of 1, 2, 5, 10 ... that needs
+/// no more than `lines` of them.
+double tick_of(double value, int lines = 5);
+
 } // namespace degs::sim

@@ -16,17 +16,6 @@ constexpr const char* kGrey = "#555555";
 constexpr const char* kGrid = "#d8d8d8";
 constexpr const char* kColour = "#0072b2";
 
-/// The least of 1, 2, 5, 10 ... times kTicks that is not below `value`, divided by kTicks.
-double tick_of(double value) {
-    const double power = std::pow(10.0, std::floor(std::log10(value / kTicks)));
-    for (const double factor : {1.0, 2.0, 5.0}) {
-        if (factor * power * kTicks >= value) {
-            return factor * power;
-        }
-    }
-    return 10 * power;
-}
-
 } // namespace
 
 std::string soc_svg(const std::string& title, const std::vector<SocPoint>& points) {
@@ -36,8 +25,8 @@ std::string soc_svg(const std::string& title, const std::vector<SocPoint>& point
         load = std::max(load, p.cpu_gb_per_s);
         latency = std::max(latency, p.frame.latency_ns / 1e6);
     }
-    const double x_tick = tick_of(load);
-    const double y_tick = tick_of(latency);
+    const double x_tick = tick_of(load, kTicks);
+    const double y_tick = tick_of(latency, kTicks);
     const auto x = [&](double v) { return kLeft + v / (kTicks * x_tick) * (kRight - kLeft); };
     const auto y = [&](double v) { return kBottom - v / (kTicks * y_tick) * (kBottom - kTop); };
     Svg svg;

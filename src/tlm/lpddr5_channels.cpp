@@ -167,9 +167,11 @@ std::vector<Ck> Lpddr5Channels::predict(Ck known) {
 }
 
 void Lpddr5Channels::predict_channel(std::size_t channel) {
-    // A new copy: assigning over the old one crashed in optimised builds, with long requests
-    // waiting.
-    copy_ = std::make_unique<Lpddr5Channel>(channels_[channel]);
+    if (copy_ == nullptr) {
+        copy_ = std::make_unique<Lpddr5Channel>(channels_[channel]);
+    } else {
+        *copy_ = channels_[channel];
+    }
     copy_->observe({});
     while (asked_[channel] != 0) {
         outcome_.answers.clear();
