@@ -78,8 +78,9 @@ Cycle BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, 
         const std::uint64_t pixel =
             static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(work.camera.width) +
             static_cast<std::uint64_t>(left);
+        self_.advance_to(next_write_);
+        next_write_ = self_.local() + cycles_per_write_;
         done = std::max(done, frame_buffer.write(self_, base + pixel * pixel_bytes, zeros));
-        self_.advance(cycles_per_write_);
     }
     return done;
 }

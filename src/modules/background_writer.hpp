@@ -45,6 +45,7 @@ private:
     Cycle cycles_per_write_;
     bool instant_;
     Process self_;
+    Cycle next_write_ = 0; // no write leaves before this
     std::vector<Cycle> frames_written_;
     Stats stats_;
 };

@@ -53,10 +53,10 @@ TEST(SmallRunLpddr5Copy, AssignedOverAnyOtherItDoesWhatAFreshCopyDoes) {
     std::uint64_t seen = 0;
     reused.observe([&seen](const Lpddr5Issued&) { ++seen; });
     std::mt19937 random(11);
-    for (int round = 0; round < 1500; ++round) {
+    for (int round = 0; round < 3000; ++round) {
         const unsigned i = below(random, 5);
-        // From nothing to a thousand accesses that wait for room, and now and then a new channel.
-        push_some(sources[i], random, dates[i], below(random, 40) == 0 ? 1000 : below(random, 10));
+        // From nothing to hundreds of accesses that wait for room, and now and then a new channel.
+        push_some(sources[i], random, dates[i], below(random, 200) == 0 ? 300 : below(random, 6));
         Lpddr5Outcome outcome;
         sources[i].run(dates[i], outcome);
         reused = sources[i];
