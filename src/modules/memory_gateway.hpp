@@ -22,8 +22,8 @@ namespace degs {
 class MemoryGateway : public sc_core::sc_module {
 public:
     /// `Lt`: one b_transport() per access, whose annotated delay lets a stream have several
-    /// accesses under way. `At`: four phases, for memories without b_transport() and for those
-    /// whose four phases are more accurate; a stream then waits for each access.
+    /// accesses under way. `At`: four phases, for memories without b_transport(); a stream then
+    /// waits for each access, which makes frames several times longer (docs/accelerator.md).
     enum class Transport { Lt, At };
     struct Options {
         Transport transport = Transport::Lt;
