@@ -22,8 +22,8 @@ Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Tim
         build_engine(e);
         build_pixel_buffer(e);
     }
-    frame_ends_.build(time_, config_.traffic, job_, pixel_buffers_, front_end_->frame_free, 1,
-                      options_);
+    frame_ends_.build(config_.frame_end, time_, config_.traffic, job_, pixel_buffers_,
+                      front_end_->frame_free, 1, options_);
     build_memory();
 }
 

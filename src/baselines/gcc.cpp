@@ -28,7 +28,7 @@ Gcc::Gcc(const sc_core::sc_module_name& name, const GccConfig& config, const Tim
         build_stages();
     }
     sc_core::sc_vector<FifoPort<std::uint32_t>> nobody;
-    frame_ends_.build(time_, config_.traffic.common(), job_, image_buffers_,
+    frame_ends_.build(config_.frame_end, time_, config_.traffic.common(), job_, image_buffers_,
                       grouping_ ? grouping_->frame_free : nobody, 1, options_);
     build_memory();
 }

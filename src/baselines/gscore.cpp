@@ -19,6 +19,7 @@ TileArrayEngine::Parts parts_of(const GscoreConfig& config) {
     parts.pixel_buffer = config.pixel_buffer;
     parts.monitor = config.monitor;
     parts.memory = config.memory;
+    parts.frame_end = config.frame_end;
     parts.contexts = config.tile_contexts();
     parts.splat_chunks = config.splat_chunks();
     parts.buffer_bytes = config.buffer.bytes - config.pixel_buffer.bytes;

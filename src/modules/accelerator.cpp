@@ -50,7 +50,9 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
     : sc_core::sc_module(name), registers("registers"), mem("mem"), irq("irq"),
       config_(checked(config)),
       options_(options), time_{ClockDomain(config_->clock_ghz), options.fidelity}, self_(time_),
-      finished_("finished", time_, kFinishedDepth), gateway_("gateway") {
+      finished_("finished", time_, kFinishedDepth,
+                static_cast<Cycle>(config_->frame_end.gate_latency_cycles)),
+      gateway_("gateway", options.memory) {
     registers.register_b_transport(this, &Accelerator::transport);
     registers.register_transport_dbg(this, &Accelerator::debug);
     gateway_.out.bind(mem);
@@ -111,7 +113,7 @@ AcceleratorFault Accelerator::prepare() {
     }
     try {
         const sc_core::sc_time start = sc_core::sc_time_stamp();
-        const auto answer = scene_.load(mem, request_.scene);
+        const auto answer = scene_.load(gateway_, request_.scene);
         registers_.set_pair(Register::LoadCycles,
                             time_.clock.ceil(sc_core::sc_time_stamp() - start));
         if (answer != tlm::TLM_OK_RESPONSE) {

@@ -32,11 +32,12 @@ public:
     struct Options {
         AcceleratorRequest::Limits limits;
         Fidelity fidelity = Fidelity::Exact;
+        MemoryGateway::Options memory;
     };
 
     /// Words of 4 B, little-endian, LT and debug. An access takes a cycle.
     tlm_utils::simple_target_socket<Accelerator> registers;
-    /// Any LT target, and AT targets that convert.
+    /// Any LT target, or, with Options::memory.transport = At, any AT target.
     tlm::tlm_initiator_socket<> mem;
     sc_core::sc_out<bool> irq; ///< high while an enabled interrupt is pending
 

@@ -7,10 +7,11 @@ namespace degs {
 
 BackgroundWriter::BackgroundWriter(const sc_core::sc_module_name& name,
                                    const TrafficConfig& traffic, const Timebase& time,
-                                   const RenderJob& job, bool reports, bool instant)
+                                   const RenderJob& job, int cycles_per_write, bool reports,
+                                   bool instant)
     : sc_core::sc_module(name), frame_done("frame_done", reports ? 1 : 0),
-      frame_buffer("frame_buffer", time), traffic_(traffic), job_(job), instant_(instant),
-      self_(time) {
+      frame_buffer("frame_buffer", time), traffic_(traffic), job_(job),
+      cycles_per_write_(static_cast<Cycle>(cycles_per_write)), instant_(instant), self_(time) {
     SC_HAS_PROCESS(BackgroundWriter);
     SC_THREAD(run);
 }
@@ -77,8 +78,9 @@ Cycle BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, 
         const std::uint64_t pixel =
             static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(work.camera.width) +
             static_cast<std::uint64_t>(left);
+        self_.advance_to(next_write_);
+        next_write_ = self_.local() + cycles_per_write_;
         done = std::max(done, frame_buffer.write(self_, base + pixel * pixel_bytes, zeros));
-        self_.advance();
     }
     return done;
 }

@@ -12,8 +12,8 @@
 namespace degs {
 
 /// Writes the pixels of the tiles that list no splat, as soon as their frame starts: they never
-/// enter the pipeline. One posted write per cycle [assumed], each a row of pixels of neighbouring
-/// background tiles; all their rows where they are as wide as the image.
+/// enter the pipeline. A posted write every `cycles_per_write`, each a row of pixels of
+/// neighbouring background tiles; all their rows where they are as wide as the image.
 class BackgroundWriter : public sc_core::sc_module {
 public:
     struct Stats {
@@ -27,7 +27,8 @@ public:
 
     /// `instant`: nothing is written, see BuildOptions.
     BackgroundWriter(const sc_core::sc_module_name& name, const TrafficConfig& traffic,
-                     const Timebase& time, const RenderJob& job, bool reports, bool instant);
+                     const Timebase& time, const RenderJob& job, int cycles_per_write, bool reports,
+                     bool instant);
 
     const Stats& stats() const { return stats_; }
     /// Dates at which each frame's background was in memory.
@@ -41,8 +42,10 @@ private:
 
     TrafficConfig traffic_;
     const RenderJob& job_;
+    Cycle cycles_per_write_;
     bool instant_;
     Process self_;
+    Cycle next_write_ = 0; // no write leaves before this
     std::vector<Cycle> frames_written_;
     Stats stats_;
 };

@@ -3,12 +3,14 @@
 
 namespace degs {
 
-void FrameEnds::build(const Timebase& time, const TrafficConfig& traffic, const RenderJob& job,
+void FrameEnds::build(const FrameEndConfig& config, const Timebase& time,
+                      const TrafficConfig& traffic, const RenderJob& job,
                       const PixelBuffers& buffers,
                       sc_core::sc_vector<FifoPort<std::uint32_t>>& listeners, std::uint64_t reports,
                       const BuildOptions& options) {
     const bool gated = awaited(listeners, options);
-    background_ = std::make_unique<BackgroundWriter>("background", traffic, time, job, gated,
+    background_ = std::make_unique<BackgroundWriter>("background", traffic, time, job,
+                                                     config.background_cycles_per_write, gated,
                                                      options.array_only);
     if (!gated) {
         return;
@@ -25,7 +27,7 @@ void FrameEnds::build(const Timebase& time, const TrafficConfig& traffic, const 
         gate_->in[i].bind(done);
     }
     for (std::size_t i = 0; i < listeners.size(); ++i) {
-        auto& free = add_ring(rings_, "frame_free", time, kDepth, 1);
+        auto& free = add_ring(rings_, "frame_free", time, kDepth, config.gate_latency_cycles);
         gate_->out[i].bind(free);
         listeners[i].bind(free);
     }

@@ -6,6 +6,7 @@
 
 #include "modules/background_writer.hpp"
 #include "modules/collect.hpp"
+#include "modules/frame_end_config.hpp"
 #include "modules/frame_gate.hpp"
 #include "modules/memory_streams.hpp"
 
@@ -22,9 +23,10 @@ public:
     }
 
     /// `listeners`: ports of the front end that wait for finished frames. `reports`: see FrameGate.
-    void build(const Timebase& time, const TrafficConfig& traffic, const RenderJob& job,
-               const PixelBuffers& buffers, sc_core::sc_vector<FifoPort<std::uint32_t>>& listeners,
-               std::uint64_t reports, const BuildOptions& options);
+    void build(const FrameEndConfig& config, const Timebase& time, const TrafficConfig& traffic,
+               const RenderJob& job, const PixelBuffers& buffers,
+               sc_core::sc_vector<FifoPort<std::uint32_t>>& listeners, std::uint64_t reports,
+               const BuildOptions& options);
     void connect_memory(MemoryStreams& streams) {
         streams.connect(background_->frame_buffer, "frame_buffer");
     }

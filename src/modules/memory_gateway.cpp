@@ -16,13 +16,24 @@ bool is_scene(std::string_view stream) {
 
 } // namespace
 
+MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name)
+    : MemoryGateway(name, Options()) {}
+
+MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options& options)
+    : sc_core::sc_module(name), out("out"), in_("in"), options_(options) {
+    if (options.transport == Transport::At) {
+        requester_ = std::make_unique<AtRequester>("requester", out, options.outstanding);
+        out.register_nb_transport_bw(this, &MemoryGateway::backward);
+    }
+}
+
 void MemoryGateway::connect(const std::vector<MemoryPort*>& ports,
                             const std::vector<const char*>& streams) {
     in_.init(ports.size());
     stats_.resize(ports.size());
     for (std::size_t i = 0; i < ports.size(); ++i) {
-        in_[i].register_b_transport(this, &MemoryGateway::transport, static_cast<int>(i));
-        in_[i].register_transport_dbg(this, &MemoryGateway::debug, static_cast<int>(i));
+        in_[i].register_b_transport(this, &MemoryGateway::serve, static_cast<int>(i));
+        in_[i].register_transport_dbg(this, &MemoryGateway::debug_of, static_cast<int>(i));
         ports[i]->out.bind(in_[i]);
         if (scene_ && is_scene(streams[i])) {
             ports[i]->observe_reads(scene_);
@@ -30,13 +41,17 @@ void MemoryGateway::connect(const std::vector<MemoryPort*>& ports,
     }
 }
 
-void MemoryGateway::transport(int port, tlm::tlm_generic_payload& payload,
-                              sc_core::sc_time& delay) {
-    if (piece_at(payload.get_address(), payload.get_data_length()) == payload.get_data_length()) {
-        out->b_transport(payload, delay);
-    } else {
-        fold(payload, delay);
-    }
+tlm::tlm_sync_enum MemoryGateway::backward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
+                                           sc_core::sc_time& delay) {
+    return requester_->backward(payload, phase, delay);
+}
+
+void MemoryGateway::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+    access(static_cast<unsigned>(stats_.size()), payload, cut(payload, false), delay);
+}
+
+void MemoryGateway::serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+    access(static_cast<unsigned>(port), payload, cut(payload, true), delay);
     Stats& stats = stats_[static_cast<std::size_t>(port)];
     (payload.is_read() ? stats.reads : stats.writes)++;
     (payload.is_read() ? stats.bytes_read : stats.bytes_written) += payload.get_data_length();
@@ -46,47 +61,68 @@ void MemoryGateway::transport(int port, tlm::tlm_generic_payload& payload,
     }
 }
 
-// Of an access, up to the end of the region that it starts in.
-std::uint64_t MemoryGateway::piece_at(std::uint64_t address, std::uint64_t bytes) const {
-    for (const Region& region : regions_) {
-        if (address - region.begin < region.bytes) {
-            return std::min(bytes, region.bytes - (address - region.begin));
-        }
+void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload, const Pieces& pieces,
+                           sc_core::sc_time& delay) {
+    if (requester_) {
+        requester_->transport(rank, payload, pieces, delay);
+    } else if (pieces.size() == 1) {
+        out->b_transport(payload, delay);
+    } else {
+        access_pieces(payload, pieces, delay);
     }
-    return bytes;
 }
 
-std::uint64_t MemoryGateway::start_of(std::uint64_t address) const {
+const MemoryGateway::Region* MemoryGateway::region_of(std::uint64_t address) const {
     const auto home = std::find_if(regions_.begin(), regions_.end(), [&](const Region& region) {
         return address - region.begin < region.bytes;
     });
-    return home->begin;
+    return home == regions_.end() ? nullptr : &*home;
+}
+
+// Up to the ends of regions, if it is to be kept in the one that it starts in, and of pieces.
+MemoryGateway::Pieces MemoryGateway::cut(const tlm::tlm_generic_payload& payload, bool fold) const {
+    const Region* const home = fold ? region_of(payload.get_address()) : nullptr;
+    const std::uint64_t grain = options_.transport == Transport::At ? options_.piece_bytes : 0;
+    Pieces pieces;
+    AtRequester::Piece piece{payload.get_address(), 0, 0};
+    for (std::uint64_t left = payload.get_data_length(); left != 0; left -= piece.bytes) {
+        if (home != nullptr && piece.address - home->begin == home->bytes) {
+            piece.address = home->begin;
+        }
+        const std::uint64_t room =
+            home == nullptr ? left : home->bytes - (piece.address - home->begin);
+        piece.bytes = std::min(left, room);
+        if (grain != 0) {
+            piece.bytes = std::min(piece.bytes, grain - piece.address % grain);
+        }
+        pieces.push_back(piece);
+        piece.address += piece.bytes;
+        piece.offset += piece.bytes;
+    }
+    return pieces;
 }
 
 // All pieces are issued at the date of the access, which ends with the last of them; the first
 // error is the access's.
-void MemoryGateway::fold(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Pieces& pieces,
+                                  sc_core::sc_time& delay) {
     const std::uint64_t address = payload.get_address();
-    const std::uint64_t home = start_of(address);
     unsigned char* const data = payload.get_data_ptr();
     const unsigned int bytes = payload.get_data_length();
     const sc_core::sc_time date = sc_core::sc_time_stamp() + delay;
     sc_core::sc_time done = date;
     tlm::tlm_response_status status = tlm::TLM_OK_RESPONSE;
-    std::uint64_t at = address;
-    for (std::uint64_t moved = 0; moved != bytes; at = home) {
-        const std::uint64_t piece = piece_at(at, bytes - moved);
+    for (const AtRequester::Piece& piece : pieces) {
         const sc_core::sc_time now = sc_core::sc_time_stamp();
         sc_core::sc_time wait = date > now ? date - now : sc_core::SC_ZERO_TIME;
-        payload.set_address(at);
-        payload.set_data_ptr(data + moved);
-        payload.set_data_length(static_cast<unsigned int>(piece));
-        payload.set_streaming_width(static_cast<unsigned int>(piece));
+        payload.set_address(piece.address);
+        payload.set_data_ptr(data + piece.offset);
+        payload.set_data_length(static_cast<unsigned int>(piece.bytes));
+        payload.set_streaming_width(static_cast<unsigned int>(piece.bytes));
         payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
         out->b_transport(payload, wait);
         done = std::max(done, sc_core::sc_time_stamp() + wait);
         status = status == tlm::TLM_OK_RESPONSE ? payload.get_response_status() : status;
-        moved += piece;
     }
     payload.set_address(address);
     payload.set_data_ptr(data);
@@ -108,7 +144,7 @@ MemoryGateway::Stats MemoryGateway::total() const {
     return sum;
 }
 
-unsigned int MemoryGateway::debug(int /*port*/, tlm::tlm_generic_payload& payload) {
+unsigned int MemoryGateway::debug_of(int /*port*/, tlm::tlm_generic_payload& payload) {
     return out->transport_dbg(payload);
 }
 

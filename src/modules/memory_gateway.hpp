@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 
+#include "tlm/at_requester.hpp"
 #include "tlm/memory_port.hpp"
 
 namespace degs {
@@ -19,10 +21,24 @@ namespace degs {
 /// so in a register, it does not end the simulation.
 class MemoryGateway : public sc_core::sc_module {
 public:
+    /// `Lt`: one b_transport() per access, whose annotated delay lets a stream have several
+    /// accesses under way. `At`: four phases, for memories without b_transport(); a stream then
+    /// waits for each access, which makes frames several times longer (docs/accelerator.md).
+    enum class Transport { Lt, At };
+    struct Options {
+        Transport transport = Transport::Lt;
+        /// AT: transactions of all streams under way at a time; at least 1.
+        unsigned outstanding = 64;
+        /// AT: an access is cut at multiples of this, and its pieces are under way together; 0:
+        /// not.
+        std::uint64_t piece_bytes = 0;
+    };
+
     tlm_utils::simple_initiator_socket<MemoryGateway> out;
 
-    explicit MemoryGateway(const sc_core::sc_module_name& name)
-        : sc_core::sc_module(name), out("out"), in_("in") {}
+    explicit MemoryGateway(const sc_core::sc_module_name& name);
+    /// Throws std::invalid_argument if no transaction may be outstanding.
+    MemoryGateway(const sc_core::sc_module_name& name, const Options& options);
 
     /// Called with what is read of the scene, see MemoryPort::observe_reads(). Before connect().
     using Observer = MemoryPort::Observer;
@@ -49,6 +65,14 @@ public:
 
     Stats total() const;
 
+    /// An access that belongs to no stream: is not counted, not kept in the regions, and keeps its
+    /// response. From a thread, like debug().
+    void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
+    unsigned int debug(tlm::tlm_generic_payload& payload) { return out->transport_dbg(payload); }
+
+    /// nullptr with LT.
+    const AtRequester* requester() const { return requester_.get(); }
+
     /// Accesses that the platform refused since the last clear_errors().
     std::uint64_t errors() const { return errors_; }
     tlm::tlm_response_status first_error() const { return first_error_; }
@@ -58,13 +82,21 @@ public:
     }
 
 private:
-    void transport(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
-    unsigned int debug(int port, tlm::tlm_generic_payload& payload);
-    std::uint64_t piece_at(std::uint64_t address, std::uint64_t bytes) const;
-    std::uint64_t start_of(std::uint64_t address) const;
-    void fold(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
+    using Pieces = std::vector<AtRequester::Piece>;
+    void serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
+    void access(unsigned rank, tlm::tlm_generic_payload& payload, const Pieces& pieces,
+                sc_core::sc_time& delay);
+    tlm::tlm_sync_enum backward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
+                                sc_core::sc_time& delay);
+    unsigned int debug_of(int port, tlm::tlm_generic_payload& payload);
+    const Region* region_of(std::uint64_t address) const;
+    Pieces cut(const tlm::tlm_generic_payload& payload, bool fold) const;
+    void access_pieces(tlm::tlm_generic_payload& payload, const Pieces& pieces,
+                       sc_core::sc_time& delay);
 
     sc_core::sc_vector<tlm_utils::simple_target_socket_tagged<MemoryGateway>> in_;
+    Options options_;
+    std::unique_ptr<AtRequester> requester_;
     std::vector<Stats> stats_;
     Observer scene_;
     std::vector<Region> regions_;

@@ -17,6 +17,7 @@ void AcceleratorConfig::describe_common(ConfigVisitor& visitor) {
     visitor.integer("frames_in_flight", frames_in_flight, 1, 64,
                     "frames being preprocessed or rendered at a time; 2: lists are double-buffered "
                     "and preprocessing of a frame overlaps rendering of the one before [assumed]");
+    visitor.section("frame_end", frame_end, "background pixels, and who waits for a frame");
 }
 
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,

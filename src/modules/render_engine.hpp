@@ -7,6 +7,7 @@
 #include <systemc>
 
 #include "modules/accelerator_result.hpp"
+#include "modules/frame_end_config.hpp"
 #include "modules/pipeline_config.hpp"
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
@@ -32,7 +33,8 @@ struct BuildOptions {
     /// The rasterisation array alone: depth-ordered lists are there at once and memory is
     /// unlimited, so that arrays can be compared without their front ends.
     bool array_only = false;
-    /// Gets the number of every frame once its last pixel is in memory. Its writer is the engine.
+    /// Gets the number of every frame once its last pixel is in memory. Its writer is the engine;
+    /// its forward latency is FrameEndConfig::gate_latency_cycles.
     DatedFifo<std::uint32_t>* finished = nullptr;
     /// Memory that is not the accelerator's: its streams go there instead of to a memory of its
     /// own.
@@ -54,6 +56,7 @@ struct AcceleratorConfig {
     double clock_ghz = 1.0;
     AreaConfig area;
     int frames_in_flight = 2; ///< frames between the first Gaussian read and the last pixel written
+    FrameEndConfig frame_end;
 
     AcceleratorConfig() = default;
     AcceleratorConfig(const AcceleratorConfig&) = default;

@@ -44,13 +44,13 @@ void prepare(tlm::tlm_generic_payload& payload, std::uint64_t address, unsigned 
     payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
 }
 
-tlm::tlm_response_status read_timed(tlm::tlm_initiator_socket<>& memory, std::uint64_t address,
+tlm::tlm_response_status read_timed(MemoryGateway& memory, std::uint64_t address,
                                     unsigned char* data, std::uint64_t bytes) {
     for (std::uint64_t at = 0; at < bytes; at += kTimedPiece) {
         tlm::tlm_generic_payload payload;
         prepare(payload, address + at, data + at, std::min(kTimedPiece, bytes - at));
         sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-        memory->b_transport(payload, delay);
+        memory.transport(payload, delay);
         sc_core::wait(delay);
         if (payload.is_response_error()) {
             return payload.get_response_status();
@@ -60,15 +60,15 @@ tlm::tlm_response_status read_timed(tlm::tlm_initiator_socket<>& memory, std::ui
 }
 
 // Grows as it is read: what a wrong count promises need not be there.
-tlm::tlm_response_status read(tlm::tlm_initiator_socket<>& memory, std::uint64_t address,
-                              std::uint64_t bytes, std::vector<unsigned char>& out) {
+tlm::tlm_response_status read(MemoryGateway& memory, std::uint64_t address, std::uint64_t bytes,
+                              std::vector<unsigned char>& out) {
     out.clear();
     for (std::uint64_t at = 0; at < bytes; at = out.size()) {
         const std::uint64_t piece = std::min(kDebugPiece, bytes - at);
         out.resize(at + piece);
         tlm::tlm_generic_payload payload;
         prepare(payload, address + at, out.data() + at, piece);
-        const std::uint64_t got = std::min<std::uint64_t>(memory->transport_dbg(payload), piece);
+        const std::uint64_t got = std::min<std::uint64_t>(memory.debug(payload), piece);
         const auto status =
             read_timed(memory, address + at + got, out.data() + at + got, piece - got);
         if (status != tlm::TLM_OK_RESPONSE) {
@@ -138,7 +138,7 @@ std::uint64_t SceneCopy::Place::sh_bytes() const {
     return std::uint64_t{count} * 3 * coefficients * kFloatBytes;
 }
 
-tlm::tlm_response_status SceneCopy::load(tlm::tlm_initiator_socket<>& memory, const Place& place) {
+tlm::tlm_response_status SceneCopy::load(MemoryGateway& memory, const Place& place) {
     place_ = place;
     const auto status = read(memory, place.geometry, place.geometry_bytes(), geometry_);
     return status == tlm::TLM_OK_RESPONSE ? read(memory, place.sh, place.sh_bytes(), sh_) : status;

@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <tlm>
-
+#include "modules/memory_gateway.hpp"
 #include "splat/gaussian.hpp"
 
 namespace degs {
@@ -26,7 +25,7 @@ public:
     /// Reads both arrays: by debug transport, or, where the memory has none, by transactions whose
     /// time passes. The answer of the first transaction that failed, else TLM_OK_RESPONSE. From a
     /// process.
-    tlm::tlm_response_status load(tlm::tlm_initiator_socket<>& memory, const Place& place);
+    tlm::tlm_response_status load(MemoryGateway& memory, const Place& place);
 
     /// What the bytes mean. A Gaussian that no renderer can draw (see sanitize()) stays, without
     /// opacity, so that the numbers of the others are those of their records.

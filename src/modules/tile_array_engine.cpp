@@ -15,8 +15,8 @@ TileArrayEngine::TileArrayEngine(const sc_core::sc_module_name& name, const Part
     parts_.front.instant = options_.array_only;
     build_front_end(time);
     build_pixels(time);
-    frame_ends_.build(time, parts_.front.traffic, job_, pixel_buffers_, front_end_->frame_free, 1,
-                      options_);
+    frame_ends_.build(parts_.frame_end, time, parts_.front.traffic, job_, pixel_buffers_,
+                      front_end_->frame_free, 1, options_);
     front_end_->connect_memory(streams_, fetchers_);
     streams_.connect(pixel_buffers_.front()->frame_buffer, "frame_buffer");
     frame_ends_.connect_memory(streams_);

@@ -31,6 +31,7 @@ public:
         PixelBuffer::Config pixel_buffer;
         TileMonitor::Config monitor;
         MainMemoryConfig memory;
+        FrameEndConfig frame_end;
         int contexts = 1;         ///< tiles whose pixels are on chip
         int splat_chunks = 1;     ///< that each fetcher's share of the buffer holds
         int buffer_bytes = 0;     ///< of that buffer, for reports

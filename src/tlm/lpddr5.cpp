@@ -91,12 +91,8 @@ tlm::tlm_sync_enum Lpddr5::forward(int socket, Payload& payload, tlm::tlm_phase&
     return tlm::TLM_ACCEPTED;
 }
 
-tlm::tlm_sync_enum Lpddr5::begin_request(std::uint32_t socket, Payload& payload,
-                                         tlm::tlm_phase& phase, const sc_core::sc_time& delay) {
-    Initiator& initiator = initiators_[socket];
-    if (initiator.held_back != nullptr) {
-        SC_REPORT_ERROR(name(), "an initiator sent BEGIN_REQ before the END_REQ of its last one");
-    }
+Lpddr5::Arrival Lpddr5::register_arrival(std::uint32_t socket, Payload& payload,
+                                         const sc_core::sc_time& delay) {
     payload.acquire();
     std::uint32_t id = static_cast<std::uint32_t>(transactions_.size());
     if (free_.empty()) {
@@ -108,11 +104,21 @@ tlm::tlm_sync_enum Lpddr5::begin_request(std::uint32_t socket, Payload& payload,
     Arrival arrival;
     arrival.date = now() + delay.value();
     arrival.socket = socket;
-    arrival.sequence = initiator.sequence++;
+    arrival.sequence = initiators_[socket].sequence++;
     arrival.payload = &payload;
     arrival.id = id;
     transactions_[id] = {&payload, socket, arrival.sequence, sc_core::sc_time_stamp() + delay};
     arrivals_.push_back(arrival);
+    return arrival;
+}
+
+tlm::tlm_sync_enum Lpddr5::begin_request(std::uint32_t socket, Payload& payload,
+                                         tlm::tlm_phase& phase, const sc_core::sc_time& delay) {
+    Initiator& initiator = initiators_[socket];
+    if (initiator.held_back != nullptr) {
+        SC_REPORT_ERROR(name(), "an initiator sent BEGIN_REQ before the END_REQ of its last one");
+    }
+    const Arrival arrival = register_arrival(socket, payload, delay);
     const auto limit = static_cast<unsigned>(config_.waiting_requests);
     if (++initiator.waiting <= limit) {
         serve_by(channels_.due_of(payload.is_write(), ceil_ck(arrival.date)));

@@ -91,6 +91,7 @@ private:
     bool direct_memory(int socket, Payload& payload, tlm::tlm_dmi& dmi);
     unsigned int debug(int socket, Payload& payload);
 
+    Arrival register_arrival(std::uint32_t socket, Payload& payload, const sc_core::sc_time& delay);
     tlm::tlm_sync_enum begin_request(std::uint32_t socket, Payload& payload, tlm::tlm_phase& phase,
                                      const sc_core::sc_time& delay);
     void serve();

@@ -201,6 +201,20 @@ void Lpddr5Channel::perform(Lpddr5Outcome& outcome) {
 
 void Lpddr5Channel::row_command(const Choice& choice) {
     const unsigned bank = choice.bank;
+    change_row(choice);
+    issue(choice.command, bank, banks_[bank].row);
+    if (choice.command == Command::PreAb) {
+        find_candidates();
+    } else {
+        find_candidate(bank);
+        if (choice.command == Command::RefPb) {
+            find_candidate(bank ^ kLpddr5RefreshPartner);
+        }
+    }
+}
+
+void Lpddr5Channel::change_row(const Choice& choice) {
+    const unsigned bank = choice.bank;
     Bank& state = banks_[bank];
     auto* entry = choice.slot == Lpddr5Queue::kNone ? nullptr : &queue()[choice.slot];
     switch (choice.command) {
@@ -233,15 +247,6 @@ void Lpddr5Channel::row_command(const Choice& choice) {
         refresh_due_ += refresh_period();
         refreshing_ = false;
         refresh_bank_ = (refresh_bank_ + 1) % kLpddr5RefreshSteps;
-    }
-    issue(choice.command, bank, state.row);
-    if (choice.command == Command::PreAb) {
-        find_candidates();
-    } else {
-        find_candidate(bank);
-        if (choice.command == Command::RefPb) {
-            find_candidate(bank ^ kLpddr5RefreshPartner);
-        }
     }
 }
 

@@ -137,6 +137,7 @@ private:
 
     void perform(Lpddr5Outcome& outcome);
     void row_command(const Choice& choice);
+    void change_row(const Choice& choice);
     void column(Lpddr5Outcome& outcome);
     void issue(Command command, unsigned bank, unsigned row);
     void close(unsigned bank);

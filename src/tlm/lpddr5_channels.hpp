@@ -44,6 +44,10 @@ struct Lpddr5Request {
 class Lpddr5Channels {
 public:
     explicit Lpddr5Channels(const Lpddr5Config& config);
+    // The channels point to the timing and the rules in here.
+    Lpddr5Channels(const Lpddr5Channels&) = delete;
+    Lpddr5Channels& operator=(const Lpddr5Channels&) = delete;
+    ~Lpddr5Channels() = default;
 
     /// Dates never fall, and are later than any `until` so far.
     void push(const Lpddr5Request& request);

@@ -79,31 +79,40 @@ void Lpddr5Mapping::read_order(const std::string& order, unsigned grain_bits) {
         }
         unsigned bits = bits_[field] - taken_[field];
         if (colon != std::string::npos) {
-            const std::string count = word.substr(colon + 1);
-            if (count.size() != 1 || count[0] < '1' || count[0] > '9') {
-                reject(order, "a number of bits must be 1 to 9");
-            }
-            const auto wanted = static_cast<unsigned>(count[0] - '0');
-            if (wanted > bits && bits_[field] != 0) {
-                reject(order, std::string("there are not that many bits of ") + kFieldNames[field]);
-            }
-            bits = std::min(bits, wanted);
+            bits = std::min(bits, read_count(order, word.substr(colon + 1), field));
         }
-        while (bits != 0) { // the channel comes where the grain ends
-            if (address_bits_ == grain_bits && taken_[kChannel] == 0) {
-                append(kChannel, bits_[kChannel]);
-                taken_[kChannel] = 1 + bits_[kChannel];
-            }
-            const unsigned room =
-                address_bits_ < grain_bits ? std::min(bits, grain_bits - address_bits_) : bits;
-            append(field, room);
-            bits -= room;
-        }
+        place_field(field, bits, grain_bits);
     }
     for (unsigned field = 0; field < kChannel; ++field) {
         if (taken_[field] != bits_[field]) {
             reject(order, std::string("must name every bit of the ") + kFieldNames[field]);
         }
+    }
+}
+
+unsigned Lpddr5Mapping::read_count(const std::string& order, const std::string& count,
+                                   unsigned field) const {
+    if (count.size() != 1 || count[0] < '1' || count[0] > '9') {
+        reject(order, "a number of bits must be 1 to 9");
+    }
+    const auto wanted = static_cast<unsigned>(count[0] - '0');
+    if (bits_[field] != 0 && wanted + taken_[field] > bits_[field]) {
+        reject(order, std::string("there are not that many bits of ") + kFieldNames[field]);
+    }
+    return wanted;
+}
+
+// The channel comes where the grain ends.
+void Lpddr5Mapping::place_field(unsigned field, unsigned bits, unsigned grain_bits) {
+    while (bits != 0) {
+        if (address_bits_ == grain_bits && taken_[kChannel] == 0) {
+            append(kChannel, bits_[kChannel]);
+            taken_[kChannel] = 1 + bits_[kChannel];
+        }
+        const unsigned room =
+            address_bits_ < grain_bits ? std::min(bits, grain_bits - address_bits_) : bits;
+        append(field, room);
+        bits -= room;
     }
 }
 

@@ -49,6 +49,8 @@ private:
     };
     using Values = std::array<unsigned, kFields>;
     void read_order(const std::string& order, unsigned grain_bits);
+    unsigned read_count(const std::string& order, const std::string& count, unsigned field) const;
+    void place_field(unsigned field, unsigned bits, unsigned grain_bits);
     void append(unsigned field, unsigned bits);
     /// Its own inverse, because it depends on nothing that it changes.
     void fold(Values& values) const;

@@ -145,6 +145,7 @@ struct RowSweepConfig : AcceleratorConfig {
         TileArrayEngine::Parts sized = parts;
         sized.front.sort_capacity = 1024;
         sized.front.frames_in_flight = frames_in_flight;
+        sized.frame_end = frame_end;
         sized.contexts = tile_contexts();
         sized.splat_chunks = 8;
         return std::make_unique<RowSweep>(module, sized, time, job, options);

@@ -163,8 +163,8 @@ struct Platform {
                    std::make_unique<PlainMemory>((std::string(name) + "_memory").c_str(),
                                                  kMemoryBytes, timing, has_debug)) {}
     Platform(const char* name, const AcceleratorConfig& config, const GaussianCloud& cloud,
-             std::unique_ptr<PlainMemory> with)
-        : accelerator(name, config), memory(std::move(with)),
+             std::unique_ptr<PlainMemory> with, const Accelerator::Options& options = {})
+        : accelerator(name, config, options), memory(std::move(with)),
           host((std::string(name) + "_host").c_str()), irq((std::string(name) + "_irq").c_str()) {
         accelerator.irq.bind(irq);
         host.irq.bind(irq);

@@ -54,7 +54,7 @@ TEST(LoadConfigs, AFileMayHaveAnEqualsSign) {
 
 TEST(LoadConfigs, AStudyIsAListOfConfigurations) {
     const auto points = load_configs({config("studies/bandwidth")}, {"degs-64@51.2:clock_ghz=2"});
-    ASSERT_EQ(points.size(), 5U);
+    ASSERT_EQ(points.size(), 9U);
     EXPECT_EQ(points[0].name, "degs-64@204.8");
     EXPECT_EQ(points[2].name, "degs-64@51.2");
     EXPECT_EQ(points[2].config.accelerator().clock_ghz, 2);

@@ -96,6 +96,86 @@ TEST(Lpddr5Mapping, StreamsApartByPowersOfTwoShareNoBank) {
     }
 }
 
+/// Which address bits the default mapping XORs into each bit of a field, lowest bit first: the
+/// bit's own place and, as docs/lpddr5.md says, bits above it.
+struct Parities {
+    std::vector<std::vector<unsigned>> channel, bank, row, block;
+};
+
+unsigned parity_of(const std::vector<std::vector<unsigned>>& field, std::uint64_t address) {
+    unsigned value = 0;
+    for (std::size_t i = 0; i < field.size(); ++i) {
+        for (const unsigned bit : field[i]) {
+            value ^= static_cast<unsigned>(address >> bit & 1U) << i;
+        }
+    }
+    return value;
+}
+
+/// Bits `first`, `first` + 1, ... of the address, unfolded.
+std::vector<std::vector<unsigned>> plain(unsigned first, unsigned count) {
+    std::vector<std::vector<unsigned>> bits;
+    for (unsigned i = 0; i < count; ++i) {
+        bits.push_back({first + i});
+    }
+    return bits;
+}
+
+// 16 channels, 4 groups of 4: 6 bits in an access, column 2, channel 4, group 2, column 3, bank 2,
+// row 15 from bit 19 on. Channel: every fourth bit above. Bank: every second bit of the row; group:
+// every fourth, from the third on.
+Parities with_groups() {
+    return {{{8, 12, 16, 20, 24, 28, 32},
+             {9, 13, 17, 21, 25, 29, 33},
+             {10, 14, 18, 22, 26, 30},
+             {11, 15, 19, 23, 27, 31}},
+            {{17, 19, 21, 23, 25, 27, 29, 31, 33},
+             {18, 20, 22, 24, 26, 28, 30, 32},
+             {12, 21, 25, 29, 33},
+             {13, 22, 26, 30}},
+            plain(19, 15),
+            {{6}, {7}, {14}, {15}, {16}}};
+}
+
+// 8 channels, 16 banks: column 2, channel 3, column 3, bank 4, row 15 from bit 18 on. Channel:
+// every third bit above. Bank: every fourth bit of the row.
+Parities without_groups() {
+    return {{{8, 11, 14, 17, 20, 23, 26, 29, 32},
+             {9, 12, 15, 18, 21, 24, 27, 30},
+             {10, 13, 16, 19, 22, 25, 28, 31}},
+            {{14, 18, 22, 26, 30}, {15, 19, 23, 27, 31}, {16, 20, 24, 28, 32}, {17, 21, 25, 29}},
+            plain(18, 15),
+            {{6}, {7}, {11}, {12}, {13}}};
+}
+
+void expect_parities(const char* file, const Parities& expected) {
+    const Lpddr5Config config = test::lpddr5_config(file);
+    const Lpddr5Mapping mapping = default_mapping(config);
+    std::vector<std::uint64_t> addresses;
+    for (std::uint64_t bit = 1; bit < mapping.capacity(); bit *= 2) {
+        addresses.push_back(bit);
+    }
+    std::mt19937_64 random(5);
+    for (int i = 0; i < 2000; ++i) {
+        addresses.push_back(random() % mapping.capacity());
+    }
+    for (const std::uint64_t address : addresses) {
+        const Lpddr5Place place = mapping.place(address);
+        ASSERT_EQ(place.channel, parity_of(expected.channel, address)) << std::hex << address;
+        ASSERT_EQ(place.bank, parity_of(expected.bank, address)) << std::hex << address;
+        ASSERT_EQ(place.row, parity_of(expected.row, address)) << std::hex << address;
+        ASSERT_EQ(place.block, parity_of(expected.block, address)) << std::hex << address;
+    }
+}
+
+TEST(Lpddr5Mapping, FoldsTheBitsThatItsPageNamesWithGroups) {
+    expect_parities("lpddr5-6400x256", with_groups());
+}
+
+TEST(Lpddr5Mapping, FoldsTheBitsThatItsPageNamesWithoutGroups) {
+    expect_parities("lpddr5-3200x128", without_groups());
+}
+
 TEST(Lpddr5Mapping, RefusesAnOrderThatIsNone) {
     Lpddr5Config config;
     for (const char* order :

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tlm/at_requester.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <tuple>
+
+#include "tlm/memory.hpp"
+
+namespace degs {
+
+AtRequester::AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator_socket<>& out,
+                         unsigned outstanding)
+    : sc_core::sc_module(name), out_(out), outstanding_(outstanding), answers_("answers") {
+    if (outstanding == 0) {
+        throw std::invalid_argument(std::string(this->name()) +
+                                    ": outstanding transactions must be at least 1");
+    }
+    SC_HAS_PROCESS(AtRequester);
+    SC_METHOD(resume);
+    sensitive << request_over_;
+    dont_initialize();
+    SC_METHOD(finish);
+    sensitive << answers_.get_event();
+    dont_initialize();
+}
+
+// What is still under way then must not free the extension of a port.
+AtRequester::~AtRequester() {
+    for (const auto& transaction : transactions_) {
+        transaction->set_extension<TimingOnly>(nullptr);
+    }
+}
+
+bool AtRequester::later(const Transaction* a, const Transaction* b) {
+    return std::tie(a->date, a->rank, a->sequence) > std::tie(b->date, b->rank, b->sequence);
+}
+
+void AtRequester::transport(unsigned rank, Payload& access, const std::vector<Piece>& pieces,
+                            sc_core::sc_time& delay) {
+    if (delay != sc_core::SC_ZERO_TIME) {
+        sc_core::wait(delay);
+        delay = sc_core::SC_ZERO_TIME;
+    }
+    if (idle_.empty()) {
+        idle_.push_back(std::make_unique<Access>());
+    }
+    std::unique_ptr<Access> waiter = std::move(idle_.back());
+    idle_.pop_back();
+    waiter->left = pieces.size();
+    std::vector<Transaction*> parts;
+    for (const Piece& piece : pieces) {
+        Transaction& part = make(access, piece);
+        part.access = waiter.get();
+        part.date = sc_core::sc_time_stamp().value();
+        part.rank = rank;
+        parts.push_back(&part);
+        waiting_.push_back(&part);
+        std::push_heap(waiting_.begin(), waiting_.end(), later);
+    }
+    send();
+    while (waiter->left != 0) {
+        sc_core::wait(waiter->done);
+    }
+    access.set_response_status(tlm::TLM_OK_RESPONSE);
+    for (Transaction* part : parts) {
+        if (access.is_response_ok()) {
+            access.set_response_status(part->get_response_status());
+        }
+        part->release();
+    }
+    idle_.push_back(std::move(waiter));
+}
+
+// Held by the access until its response has been read.
+AtRequester::Transaction& AtRequester::make(const Payload& access, const Piece& piece) {
+    if (free_.empty()) {
+        transactions_.push_back(std::make_unique<Transaction>());
+        transactions_.back()->set_mm(this);
+        free_.push_back(transactions_.back().get());
+    }
+    Transaction& part = *free_.back();
+    free_.pop_back();
+    part.acquire();
+    part.sequence = sequence_++;
+    part.by_phase = part.answered = false;
+    part.set_command(access.get_command());
+    part.set_address(piece.address);
+    part.set_data_ptr(access.get_data_ptr() + piece.offset);
+    part.set_data_length(static_cast<unsigned int>(piece.bytes));
+    part.set_streaming_width(static_cast<unsigned int>(piece.bytes));
+    part.set_byte_enable_ptr(nullptr);
+    part.set_dmi_allowed(false);
+    part.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+    part.set_extension(access.get_extension<TimingOnly>());
+    return part;
+}
+
+void AtRequester::free(Payload* payload) {
+    payload->set_extension<TimingOnly>(nullptr); // the port's
+    payload->reset();
+    free_.push_back(static_cast<Transaction*>(payload));
+}
+
+void AtRequester::send() {
+    if (requesting_ != nullptr || waiting_.empty() || under_way_ == outstanding_) {
+        return;
+    }
+    std::pop_heap(waiting_.begin(), waiting_.end(), later);
+    Transaction& next = *waiting_.back();
+    waiting_.pop_back();
+    most_under_way_ = std::max(most_under_way_, ++under_way_);
+    request(next);
+}
+
+void AtRequester::request(Transaction& transaction) {
+    requesting_ = &transaction;
+    transaction.acquire(); // until answered
+    tlm::tlm_phase phase = tlm::BEGIN_REQ;
+    sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+    switch (out_->nb_transport_fw(transaction, phase, delay)) {
+    case tlm::TLM_ACCEPTED:
+        break;
+    case tlm::TLM_UPDATED:
+        take(transaction, phase, delay);
+        break;
+    case tlm::TLM_COMPLETED:
+        answer(transaction, false, delay);
+        break;
+    }
+}
+
+tlm::tlm_sync_enum AtRequester::backward(Payload& payload, tlm::tlm_phase& phase,
+                                         sc_core::sc_time& delay) {
+    take(static_cast<Transaction&>(payload), phase, delay);
+    return tlm::TLM_ACCEPTED;
+}
+
+// Phases that are not of the base protocol may be ignored.
+void AtRequester::take(Transaction& transaction, const tlm::tlm_phase& phase,
+                       const sc_core::sc_time& delay) {
+    if (phase == tlm::END_REQ && requesting_ == &transaction) {
+        end_request(delay);
+    } else if (phase == tlm::BEGIN_RESP && !transaction.answered) {
+        answer(transaction, true, delay);
+    } else if (phase <= tlm::END_RESP) {
+        SC_REPORT_ERROR(name(), "a target sent a phase that the base protocol does not allow here");
+    }
+}
+
+void AtRequester::end_request(const sc_core::sc_time& delay) {
+    request_over_.notify(delay);
+}
+
+// Ends a request phase that is still open, too, and that at once.
+void AtRequester::answer(Transaction& transaction, bool by_phase, const sc_core::sc_time& delay) {
+    if (requesting_ == &transaction) {
+        request_over_.cancel();
+        end_request(sc_core::SC_ZERO_TIME);
+    }
+    transaction.by_phase = by_phase;
+    transaction.answered = true;
+    answers_.notify(transaction, delay);
+}
+
+void AtRequester::resume() {
+    requesting_ = nullptr;
+    send();
+}
+
+void AtRequester::finish() {
+    while (Transaction* const transaction = answers_.get_next_transaction()) {
+        if (transaction->by_phase) {
+            tlm::tlm_phase phase = tlm::END_RESP;
+            sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+            out_->nb_transport_fw(*transaction, phase, delay);
+        }
+        --under_way_;
+        if (--transaction->access->left == 0) {
+            transaction->access->done.notify(sc_core::SC_ZERO_TIME);
+        }
+        transaction->release();
+    }
+    send();
+}
+
+} // namespace degs

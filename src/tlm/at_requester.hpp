@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <systemc>
+#include <tlm>
+#include <tlm_utils/peq_with_get.h>
+
+namespace degs {
+
+/// Blocking accesses of several processes over one socket, with the four phases of the TLM-2.0 base
+/// protocol: what an AT target needs that has no b_transport().
+///
+/// BEGIN_REQ goes out at the date of the access without annotated delay, one at a time: the next
+/// one when END_REQ, an answer or early completion has ended the request phase. The oldest date
+/// goes first, equal dates by rank. At most `outstanding` transactions are under way. Answers may
+/// come in any order and with any kind of ending; END_RESP is sent at the date of the answer.
+///
+/// Not modelled: time of the phases on this side.
+class AtRequester : public sc_core::sc_module, private tlm::tlm_mm_interface {
+public:
+    using Payload = tlm::tlm_generic_payload;
+    /// A part of an access; `offset` is that of its bytes in the data of the access.
+    struct Piece {
+        std::uint64_t address = 0, offset = 0, bytes = 0;
+    };
+
+    /// Sends through `out`, whose nb_transport_bw() must call backward(). `outstanding` > 0.
+    AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator_socket<>& out,
+                unsigned outstanding);
+    ~AtRequester() override;
+
+    /// From a thread, as b_transport(): returns when all pieces are answered. The response is the
+    /// first that is no success, in the order of the pieces.
+    void transport(unsigned rank, Payload& access, const std::vector<Piece>& pieces,
+                   sc_core::sc_time& delay);
+    tlm::tlm_sync_enum backward(Payload& payload, tlm::tlm_phase& phase, sc_core::sc_time& delay);
+
+    std::uint64_t transactions() const { return sequence_; }
+    /// Most of them under way at a time.
+    unsigned most_under_way() const { return most_under_way_; }
+
+private:
+    struct Access { // of one thread; kept for the next one, because events are expensive
+        sc_core::sc_event done;
+        std::size_t left = 0;
+    };
+    struct Transaction : Payload {
+        Access* access = nullptr;
+        std::uint64_t date = 0; // kernel time units
+        unsigned rank = 0;
+        std::uint64_t sequence = 0;
+        bool by_phase = false; // answered with BEGIN_RESP, so END_RESP is due
+        bool answered = false;
+    };
+    static bool later(const Transaction* a, const Transaction* b);
+    Transaction& make(const Payload& access, const Piece& piece);
+    void free(Payload* payload) override;
+    void send();
+    void request(Transaction& transaction);
+    void take(Transaction& transaction, const tlm::tlm_phase& phase, const sc_core::sc_time& delay);
+    void end_request(const sc_core::sc_time& delay);
+    void answer(Transaction& transaction, bool by_phase, const sc_core::sc_time& delay);
+    void resume();
+    void finish();
+
+    tlm::tlm_initiator_socket<>& out_;
+    unsigned outstanding_;
+    unsigned under_way_ = 0, most_under_way_ = 0;
+    std::uint64_t sequence_ = 0;
+    std::vector<Transaction*> waiting_; // a heap, the first to go on top
+    Transaction* requesting_ = nullptr; // its request phase is not over
+    sc_core::sc_event request_over_;
+    tlm_utils::peq_with_get<Transaction> answers_;
+    std::vector<Transaction*> free_;
+    std::vector<std::unique_ptr<Transaction>> transactions_; // all there are
+    std::vector<std::unique_ptr<Access>> idle_;
+};
+
+} // namespace degs
