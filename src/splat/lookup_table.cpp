@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "splat/error.hpp"
 
@@ -16,6 +17,21 @@ constexpr double kMostShift = 126; // what a float's exponent can take
 double within(double x, double low, double high) {
     const double below = x < high ? x : high;
     return below > low ? below : low;
+}
+
+/// Of a normal number. The library's frexp and ldexp are calls, and rows are solved by the million.
+int exponent_of(double x) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    return static_cast<int>(bits >> 52U & 0x7FFU) - 1023;
+}
+
+/// 2^exponent, a normal number.
+double power_of_two(int exponent) {
+    const std::uint64_t bits = static_cast<std::uint64_t>(exponent + 1023) << 52U;
+    double value = 0;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
 }
 
 const char* function_name(TableFunction function) {
@@ -128,10 +144,9 @@ double LookupTable::reduced_root(double x) const {
     if (!(left > 0)) {
         return 0;
     }
-    int exponent = 0;
-    std::frexp(left, &exponent); // left is 2^exponent times 1/2 .. 1
+    const int exponent = exponent_of(left) + 1; // left is 2^exponent times 1/2 .. 1
     const int pairs = exponent < 0 ? -exponent / 2 : 0;
-    return std::ldexp(look_up(std::ldexp(left, 2 * pairs)), -pairs);
+    return look_up(left * power_of_two(2 * pairs)) * power_of_two(-pairs);
 }
 
 double LookupTable::reduced_exponential(double x) const {
@@ -139,7 +154,7 @@ double LookupTable::reduced_exponential(double x) const {
     const double binary =
         within(natural ? round_argument_(x * kHalfLog2e) : x, -kMostShift, kMostShift);
     const double whole = std::floor(binary);
-    return std::ldexp(look_up(binary - whole), -static_cast<int>(whole));
+    return look_up(binary - whole) * power_of_two(-static_cast<int>(whole));
 }
 
 double LookupTable::operator()(double x) const {

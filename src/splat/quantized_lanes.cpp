@@ -95,6 +95,9 @@ LaneFamily family_of(const NumberSet& set) {
         fixed = fixed && format.kind == ValueFormat::Kind::Fixed &&
                 format.storage_bits() - static_cast<int>(format.has_sign) <= 22;
     }
+    fixed =
+        fixed && set.term.has_sign && set.weight.max() > 0.995 && set.exp.values.max() >= 1 &&
+        (set.exp.reduction == Reduction::Binary || set.exp.interpolation == Interpolation::Nearest);
     return halves ? LaneFamily::Half : fixed ? LaneFamily::Fixed : LaneFamily::Any;
 }
 
@@ -156,6 +159,7 @@ LaneNumbers::LaneNumbers(const NumberSet& set)
     q_limit = static_cast<float>(Rounder(set.q)(set.q_limit()));
     q_mask = set.q_mask ? q_limit : std::numeric_limits<float>::infinity();
     alpha_max = static_cast<float>(Rounder(set.alpha)(0.99));
+    term_room = term.high - 4 * static_cast<float>(set.term.quantum());
     reduced = set.exp.reduction == Reduction::Binary;
     natural = set.exp.function == TableFunction::ExpHalf;
     family = family_of(set);

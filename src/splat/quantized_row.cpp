@@ -78,7 +78,6 @@ QuantizedRow::Row QuantizedRow::row_at(const QuantizedSplat& splat, int y) const
     row.x = ratio_(set_.vertical == Vertical::Squared
                        ? square_(row.dy * row.dy) * splat.inverse_radius2
                        : square_(row.dy * splat.inverse_radius2) * row.dy);
-    row.left = ratio_(1 - row.x);
     return row;
 }
 
@@ -168,7 +167,7 @@ bool QuantizedRow::ends(const QuantizedSplat& splat, const Row& row, double cent
 /// C' dy^2 - 2 ln o: what a row's q' is at the vertex.
 double QuantizedRow::level(const QuantizedSplat& splat, const Row& row) const {
     if (set_.vertical == Vertical::FromRatio) {
-        return level_(fold_limit_ - level_(splat.q_threshold * row.left));
+        return level_(fold_limit_ - level_(splat.q_threshold * ratio_(1 - row.x)));
     }
     const double vertical = set_.vertical == Vertical::Squared
                                 ? level_(square_(row.dy * row.dy) * splat.c_prime)
