@@ -128,15 +128,16 @@ double LookupTable::curve(double reduced) const {
 double LookupTable::look_up(double reduced) const {
     const double at = (reduced - low_) / width_;
     const double last = spec_.entries - 1;
-    const double cell = std::floor(within(at, 0, last));
-    const auto i = static_cast<std::size_t>(cell);
+    const auto i = static_cast<std::int32_t>(within(at, 0, last));
+    const double cell = i;
+    const double value = values_[static_cast<std::size_t>(i)];
     if (spec_.interpolation == Interpolation::Nearest) {
-        return values_[i];
+        return value;
     }
-    const double part = round_(falls_[i] * within(at - cell, 0, 1));
+    const double part = round_(falls_[static_cast<std::size_t>(i)] * within(at - cell, 0, 1));
     const bool rises =
         spec_.reduction == Reduction::Binary && spec_.function == TableFunction::SqrtOneMinus;
-    return round_(rises ? values_[i] + part : values_[i] - part);
+    return round_(rises ? value + part : value - part);
 }
 
 double LookupTable::reduced_root(double x) const {

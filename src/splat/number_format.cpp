@@ -237,7 +237,9 @@ LaneRounding::LaneRounding(const ValueFormat& format) {
     sign = format.has_sign ? sign : 0;
     if (fixed) {
         min_normal = INT32_MAX;
-        magic = static_cast<float>(std::ldexp(format.quantum(), 23));
+        // Magnitudes of 23 bits would leave the binade of 1.5 * 2^23.
+        const bool both_signs = format.storage_bits() - static_cast<int>(format.has_sign) <= 22;
+        magic = static_cast<float>(std::ldexp(format.quantum(), 23) * (both_signs ? 1.5 : 1.0));
         high = static_cast<float>(format.max());
         low = format.has_sign ? -high : 0.0F;
         return;
