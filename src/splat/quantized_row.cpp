@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 namespace degs {
@@ -12,21 +11,6 @@ namespace {
 constexpr double kHalfLog2e = 0.72134752044448170;
 /// Pixels beyond every image; keeps conversions to int defined.
 constexpr double kFarPixel = 1 << 29;
-
-/// To whole pixels; what has 51 bits or more before the point is beyond every tile and may stay as
-/// it is. The library's functions are calls, and rows are solved by the million.
-double nearest(double x) {
-    constexpr double kMagic = 1.5 * (std::int64_t{1} << 52);
-    return (x + kMagic) - kMagic;
-}
-double lower(double x) {
-    const double y = nearest(x);
-    return y > x ? y - 1 : y;
-}
-double upper(double x) {
-    const double y = nearest(x);
-    return y < x ? y + 1 : y;
-}
 
 int to_int(double pixel) {
     return static_cast<int>(std::clamp(pixel, -kFarPixel, kFarPixel));
@@ -142,7 +126,7 @@ double QuantizedRow::checked_q(const QuantizedSplat& splat, const QuantizedCheck
 
 QuantizedSpan QuantizedRow::span_vector(const QuantizedSplat& splat, const Row& row, double centre,
                                         double left, double right) const {
-    const double base = set_.base == Base::Start ? left : std::clamp(nearest(centre), left, right);
+    const double base = set_.base == Base::Start ? left : std::clamp(std::nearbyint(centre), left, right);
     const double u = distance_(base - centre);
     const double rise = square_(square_(splat.a * u) * u);
     QuantizedSpan span;
@@ -163,8 +147,8 @@ bool QuantizedRow::ends(const QuantizedSplat& splat, const Row& row, double cent
     left = edge_(centre - width);
     right = edge_(centre + width);
     if (set_.ends == SpanEnds::Exact) {
-        left = upper(left - set_.guard);
-        right = lower(right + set_.guard);
+        left = std::ceil(left - set_.guard);
+        right = std::floor(right + set_.guard);
     } else {
         double delta = set_.delta;
         if (set_.ends == SpanEnds::Slope) {
@@ -174,8 +158,8 @@ bool QuantizedRow::ends(const QuantizedSplat& splat, const Row& row, double cent
             const double error = 0.5 * std::ldexp(1.0, -set_.mean.fraction_bits);
             delta += root > 0 ? std::min(1.0, std::nearbyint(steep / root * error)) : 1.0;
         }
-        left = lower(left) - delta;
-        right = upper(right) + delta;
+        left = std::floor(left) - delta;
+        right = std::ceil(right) + delta;
     }
     return left <= right;
 }
