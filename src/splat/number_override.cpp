@@ -161,7 +161,9 @@ const std::vector<Part>& parts() {
 
 [[noreturn]] void refuse(const std::string& part, const ValueFormat& format,
                          const std::string& need) {
-    throw InputError("The number format " + format.name() + " of " + part + " " + need + ".");
+    std::string sentence = "The number format " + format.name();
+    sentence.append(" of ").append(part).append(" ").append(need).append(".");
+    throw InputError(sentence);
 }
 
 } // namespace
@@ -183,12 +185,12 @@ std::string override_number(NumberSet& set, const std::string& name, const std::
         if (part.key.name == name) {
             const std::string allowed = part.store(set, value);
             if (allowed.empty()) {
-                set.name += " " + name + "=" + value;
+                set.name.append(" ").append(name).append("=").append(value);
                 return "";
             }
             return "must be " + allowed + ", not '" + value + "'";
         }
-        names += (names.empty() ? "" : ", ") + part.key.name;
+        names.append(names.empty() ? "" : ", ").append(part.key.name);
     }
     return "is no part of a number set; there are " + names;
 }

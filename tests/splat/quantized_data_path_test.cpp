@@ -4,49 +4,19 @@
 
 #include <cstring>
 
-#include "splat/error.hpp"
-#include "splat/number_override.hpp"
 #include "splat/quantized_lanes.hpp"
-#include "tests/splat/data_path_fixture.hpp"
+#include "tests/splat/quantized_fixture.hpp"
 
 namespace degs {
 namespace {
 
-using test::frame_of;
-using test::make_splat;
+using test::kTile;
+using test::kX;
+using test::kY;
 using test::path_of;
-using test::random_splat;
-
-constexpr int kTile = 32;
-constexpr int kX = 1984; // corner of the tile in the image
-constexpr int kY = 992;
-
-NumberSet with_ends(NumberSet set, SpanEnds ends, int delta = 0) {
-    set.ends = ends;
-    set.delta = delta;
-    return set;
-}
-
-/// The tasks of a span, in segments of 16 px.
-std::vector<BlendTask> tasks_of(const RowSpan& span) {
-    std::vector<BlendTask> tasks;
-    for (int column = 0; column < kTile; column += 16) {
-        BlendTask task;
-        task.g0 = span.g0;
-        task.d0 = span.d0;
-        task.splat = span.splat;
-        task.row = span.y;
-        task.column = static_cast<std::int16_t>(column);
-        task.offset = static_cast<std::int16_t>(column - span.base);
-        for (int x = span.x0; x < span.x0 + span.length; ++x) {
-            task.mask |= x >= column && x < column + 16 ? 1U << (x - column) : 0U;
-        }
-        if (task.mask != 0) {
-            tasks.push_back(task);
-        }
-    }
-    return tasks;
-}
+using test::random_splats;
+using test::tasks_of;
+using test::with_ends;
 
 /// A pixel by the definition.
 struct Pixel {
@@ -74,18 +44,6 @@ struct Pixel {
         return true;
     }
 };
-
-std::vector<ProjectedSplat> random_splats(unsigned seed, int count) {
-    std::mt19937 random(seed);
-    std::vector<ProjectedSplat> splats;
-    for (int i = 0; i < count; ++i) {
-        splats.push_back(random_splat(random, kX, kY, kTile));
-        for (double& channel : splats.back().colour) {
-            channel = static_cast<double>(random() % 1000) / 700;
-        }
-    }
-    return splats;
-}
 
 struct Case {
     std::string name;
@@ -275,109 +233,6 @@ INSTANTIATE_TEST_SUITE_P(
              {"exp.interpolation=exact", "guard=0.25"},
              SpanEnds::Exact,
              StopRule::Refuse}));
-
-// `ideal` by name is the double data path itself.
-TEST(NamedNumbers, IdealIsFp64) {
-    const std::vector<ProjectedSplat> splats = random_splats(5, 300);
-    const auto ideal = path_of(splats, named_numbers("ideal"), kTile);
-    const auto fp64 = path_of(splats, named_numbers("fp64"), kTile);
-    for (std::uint32_t i = 0; i < splats.size(); ++i) {
-        for (int y = 0; y < kTile; ++y) {
-            RowSpan a;
-            RowSpan b;
-            const bool covered = ideal->solve_row(i, kY + y, kX, kX + kTile, kY, a);
-            ASSERT_EQ(covered, fp64->solve_row(i, kY + y, kX, kX + kTile, kY, b));
-            for (const BlendTask& task : covered ? tasks_of(a) : std::vector<BlendTask>{}) {
-                ideal->blend(task);
-            }
-            for (const BlendTask& task : covered ? tasks_of(b) : std::vector<BlendTask>{}) {
-                fp64->blend(task);
-            }
-        }
-    }
-    std::vector<PixelValue> a(kTile);
-    std::vector<PixelValue> b(kTile);
-    std::uint32_t updates = 0;
-    for (int y = 0; y < kTile; ++y) {
-        ideal->read_row(0, y, kTile, a.data());
-        fp64->read_row(0, y, kTile, b.data());
-        for (std::size_t x = 0; x < kTile; ++x) {
-            ASSERT_EQ(a[x].transmittance, b[x].transmittance);
-            ASSERT_EQ(a[x].rgb[1], b[x].rgb[1]);
-            ASSERT_EQ(a[x].updates, b[x].updates);
-            updates += a[x].updates;
-        }
-    }
-    EXPECT_GT(updates, 5000U);
-}
-
-TEST(NamedNumbers, HaveTheirOwnEnds) {
-    EXPECT_EQ(named_numbers("fp32").ends, SpanEnds::Exact);
-    EXPECT_EQ(named_numbers("fp16").ends, SpanEnds::Outward);
-    EXPECT_EQ(named_numbers("paper").ends, SpanEnds::Slope);
-    EXPECT_EQ(named_numbers("tuned").ends, SpanEnds::Exact);
-    EXPECT_THROW(named_numbers("fp8"), InputError);
-}
-
-class HostilePaths : public testing::TestWithParam<std::string> {};
-
-// Splats that no format holds: everything stays inside the tile and finite, and bounds are bounds.
-TEST_P(HostilePaths, StayFinite) {
-    std::mt19937 random(17);
-    std::uniform_real_distribution<double> unit(0, 1);
-    std::vector<ProjectedSplat> splats;
-    for (int i = 0; i < 600; ++i) {
-        const double far = std::pow(10.0, 12 * unit(random));
-        const double minor = std::sqrt(0.3) * std::exp(12 * unit(random));
-        splats.push_back(make_splat(kX + far * (unit(random) - 0.5),
-                                    kY + far * (unit(random) - 0.5),
-                                    minor * std::exp(9 * unit(random)), minor, 6.3 * unit(random),
-                                    1.0 / 255 + (1 - 1.0 / 255) * unit(random)));
-        splats.back().q_threshold = i % 9 == 0 ? 0 : splats.back().q_threshold;
-        splats.back().colour[0] = i % 11 == 0 ? 1e30 : 0.5;
-    }
-    splats.push_back(make_splat(1e300, -1e300, 1e150, 1, 0.5, 1));
-    for (const SpanEnds ends : {SpanEnds::Exact, SpanEnds::Outward, SpanEnds::Slope}) {
-        const auto path =
-            path_of(splats, options_of(with_ends(number_set(GetParam()), ends)), kTile);
-        for (std::uint32_t i = 0; i < splats.size(); ++i) {
-            int top = 0;
-            int bottom = 0;
-            int left = 0;
-            int right = 0;
-            path->rows_in_columns(i, kX, kX + kTile, top, bottom);
-            path->columns(i, left, right);
-            for (int y = kY; y < kY + kTile; ++y) {
-                RowSpan span;
-                if (path->solve_row(i, y, kX, kX + kTile, kY, span)) {
-                    ASSERT_TRUE(y >= top && y <= bottom) << i;
-                    ASSERT_GE(span.x0, 0);
-                    ASSERT_GE(span.length, 1);
-                    ASSERT_LE(span.x0 + span.length, kTile);
-                    ASSERT_LE(left, kX + span.x0);
-                    ASSERT_GE(right, kX + span.x0 + span.length - 1);
-                    for (const BlendTask& task : tasks_of(span)) {
-                        path->blend(task);
-                    }
-                }
-                int first = 0;
-                int last = 0;
-                if (path->tested_columns(i, y, kX, kX + kTile, first, last)) {
-                    ASSERT_TRUE(kX <= first && first <= last && last < kX + kTile);
-                }
-            }
-        }
-        std::vector<PixelValue> pixels(kTile);
-        for (int y = 0; y < kTile; ++y) {
-            path->read_row(0, y, kTile, pixels.data());
-            for (const PixelValue& pixel : pixels) {
-                ASSERT_TRUE(pixel.transmittance >= 0 && pixel.transmittance <= 1);
-                ASSERT_TRUE(std::isfinite(pixel.rgb[1]));
-            }
-        }
-    }
-}
-INSTANTIATE_TEST_SUITE_P(Sets, HostilePaths, testing::ValuesIn(number_set_names()));
 
 } // namespace
 } // namespace degs
