@@ -188,7 +188,8 @@ std::string override_number(NumberSet& set, const std::string& name, const std::
                 set.name.append(" ").append(name).append("=").append(value);
                 return "";
             }
-            return "must be " + allowed + ", not '" + value + "'";
+            std::string rule = "must be ";
+            return rule.append(allowed).append(", not '").append(value).append("'");
         }
         names.append(names.empty() ? "" : ", ").append(part.key.name);
     }
@@ -226,7 +227,8 @@ NumberSet number_set(const std::string& name, const std::vector<std::string>& as
         const std::string rule = override_number(
             set, part, sign == std::string::npos ? "" : assignment.substr(sign + 1));
         if (!rule.empty()) {
-            throw InputError("In '" + assignment + "', '" + part + "' " + rule + ".");
+            std::string sentence = "In '" + assignment;
+            throw InputError(sentence.append("', '").append(part).append("' ").append(rule) + ".");
         }
     }
     check_numbers(set);
