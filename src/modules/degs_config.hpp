@@ -100,9 +100,7 @@ struct DegsConfig : AcceleratorConfig {
     std::string problem() const override;
     int tile_size_px() const override { return tile_size; }
     TileMode tile_mode() const override { return pipeline.tiles; }
-    DataPathOptions data_path() const override {
-        return pipeline.data_path();
-    }
+    DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return contexts(); }
     TrafficConfig records() const override { return traffic; }
     void read_floats() override {

@@ -27,7 +27,7 @@ struct DataPathOptions {
     SpanEnds ends = SpanEnds::Exact; ///< in place of a number set's own
     int delta = 0; ///< px added at both ends that are not exact, in place of a number set's own
     StopRule stop = StopRule::Refuse;
-    std::optional<NumberSet> set; ///< in place of `numbers`: any formats
+    std::optional<NumberSet> set = std::nullopt; ///< in place of `numbers`: any formats
 };
 
 /// The numbers of that name (NumberFormat) with the span ends that their set has; fp64 is exact.
@@ -44,17 +44,17 @@ struct RowSpan {
     std::int16_t x0 = 0;     ///< first pixel inside the tile
     std::int16_t length = 0; ///< pixels, >= 1
     std::int16_t base = 0;   ///< the pixel of n = 0, from the tile's first; mostly x0
-    double g0 = 0;           ///< q - 2 ln o at the base (the opacity is folded into the start value)
-    double d0 = 0;           ///< first forward difference
+    double g0 = 0; ///< q - 2 ln o at the base (the opacity is folded into the start value)
+    double d0 = 0; ///< first forward difference
 };
 
 /// Up to 32 neighbouring pixels of one row span, handed to the PEs in one go.
 struct BlendTask {
     double g0 = 0, d0 = 0; ///< of the span
     std::uint32_t splat = 0;
-    std::uint32_t mask = 0;  ///< bit i: the pixel at column + i has a task
-    std::int16_t row = 0;    ///< inside the tile
-    std::int16_t column = 0; ///< inside the tile, of mask bit 0; a multiple of the segment length
+    std::uint32_t mask = 0;   ///< bit i: the pixel at column + i has a task
+    std::int16_t row = 0;     ///< inside the tile
+    std::int16_t column = 0;  ///< inside the tile, of mask bit 0; a multiple of the segment length
     std::int16_t offset = 0;  ///< n of mask bit 0, i.e. column - base; may be negative
     std::int16_t context = 0; ///< tile context of the Pixel Buffer
 };

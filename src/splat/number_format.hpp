@@ -102,8 +102,8 @@ struct LaneRounding {
     std::int32_t over = 0x7F800000;
     std::int32_t nan = 0x7FC00000;
     std::int32_t sign = INT32_MIN; ///< mask of the sign bit
-    float magic = 0;               ///< 2^23 units
-    float low = 0, high = 0;       ///< Fixed: where values saturate
+    float magic = 0; ///< 2^23 units; 1.5 times as much in fixed formats that lanes can sum with it
+    float low = 0, high = 0; ///< Fixed: where values saturate
 
     LaneRounding() = default; ///< to fp32: keeps everything
     /// InputError unless format.fits_float().

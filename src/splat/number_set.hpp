@@ -22,8 +22,9 @@ enum class Vertical { Squared, Stepwise, FromRatio };
 enum class Mean { Coordinate, PixelAndOffset };
 /// Which pixels a row span covers. `Exact`: ceil(x_c - w) .. floor(x_c + w), the pixels with
 /// q <= Q_th. `Outward`: floor(x_c - w) - delta .. ceil(x_c + w) + delta (paper, Sec. III-A).
-/// `Slope`: outward, and delta grows by |dw/dy| times half a unit of the mean, to the nearest px and
-/// at most 1 (the paper "estimates the error based on dw/dy"); fp32 and fp64 have no such unit: 0.
+/// `Slope`: outward, and delta grows by |dw/dy| times half a unit of the mean, to the nearest px
+/// and at most 1 (the paper "estimates the error based on dw/dy"); fp32 and fp64 have no such unit:
+/// 0.
 enum class SpanEnds { Exact, Outward, Slope };
 /// The pixel of n = 0. `Start`: the span's first (paper). `Vertex`: the pixel of the span nearest
 /// to x_c; all terms of q_n have one sign there, so nothing cancels.

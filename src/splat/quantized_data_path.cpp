@@ -24,8 +24,9 @@ public:
         : row_(with_ends(set, options)), slack_(row_.set()),
           refuse_(options.stop == StopRule::Refuse), tile_size_(tile_size),
           stride_((tile_size + 31) / 32 * 32),
-          pixels_(make_quantized_pixels(
-              row_, static_cast<std::size_t>(contexts * tile_size * stride_))) {}
+          pixels_(make_quantized_pixels(row_,
+                                        static_cast<std::size_t>(contexts * tile_size * stride_))) {
+    }
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
         const auto base = static_cast<std::uint32_t>(splats_.size());

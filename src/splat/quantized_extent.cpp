@@ -96,7 +96,8 @@ QuantizedExtent::QuantizedExtent(const QuantizedRow& row, const QuantizedSlack& 
     last_column_ = kFarPixel;
     if (bounded_) {
         const double width =
-            std::min(std::sqrt(steepness_ / inverse_), std::abs(slope_) * reach + radius_) + margin_;
+            std::min(std::sqrt(steepness_ / inverse_), std::abs(slope_) * reach + radius_) +
+            margin_;
         const double rounding = slack_of(std::abs(x_) + width);
         first_column_ = to_pixel(std::ceil(x_ - width - rounding));
         last_column_ = to_pixel(std::floor(x_ + width + rounding));
@@ -148,8 +149,8 @@ void QuantizedExtent::rows_in_columns(int x_begin, int x_end, int& first, int& l
     }
 }
 
-/// Row at which column dx (from the mean) leaves the ellipse, upwards (-1) or downwards (+1); beyond
-/// every row if the column misses it.
+/// Row at which column dx (from the mean) leaves the ellipse, upwards (-1) or downwards (+1);
+/// beyond every row if the column misses it.
 int QuantizedExtent::cut(double dx, int direction) const {
     const double room = steepness_ * (1 + 1e-9) - inverse_ * dx * dx;
     if (!(room >= 0)) {

@@ -9,8 +9,9 @@ namespace degs {
 ///
 /// The record describes an ellipse exactly: |x - mu_x - m dy| <= r_x sqrt(1 - dy^2 / r_y^2). The
 /// Span Unit rounds x = dy^2 / r_y^2 and looks the root up, which is a slightly larger ellipse, and
-/// rounds x_c and the ends, which moves them. Each rounding counts with half a unit of its format at
-/// the largest value that it can see; where that leaves the format, nothing is known but the rows.
+/// rounds x_c and the ends, which moves them. Each rounding counts with half a unit of its format
+/// at the largest value that it can see; where that leaves the format, nothing is known but the
+/// rows.
 class QuantizedSlack {
 public:
     explicit QuantizedSlack(const NumberSet& set);
@@ -46,13 +47,13 @@ private:
     int cut(double dx, int direction) const;
 
     int first_row_ = 0, last_row_ = -1, first_column_ = 0, last_column_ = -1;
-    bool bounded_ = false;     // is the ellipse below known to hold the spans?
-    double x_ = 0, y_ = 0;     // centre
-    double slope_ = 0;         // m
-    double radius_ = 0;        // of the larger ellipse: r_x
-    double inverse_ = 0;       // 1 / r_y^2
-    double steepness_ = 0;     // m^2 + r_x^2 / r_y^2
-    double margin_ = 0;        // px
+    bool bounded_ = false; // is the ellipse below known to hold the spans?
+    double x_ = 0, y_ = 0; // centre
+    double slope_ = 0;     // m
+    double radius_ = 0;    // of the larger ellipse: r_x
+    double inverse_ = 0;   // 1 / r_y^2
+    double steepness_ = 0; // m^2 + r_x^2 / r_y^2
+    double margin_ = 0;    // px
 };
 
 } // namespace degs

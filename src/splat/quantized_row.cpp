@@ -126,7 +126,8 @@ double QuantizedRow::checked_q(const QuantizedSplat& splat, const QuantizedCheck
 
 QuantizedSpan QuantizedRow::span_vector(const QuantizedSplat& splat, const Row& row, double centre,
                                         double left, double right) const {
-    const double base = set_.base == Base::Start ? left : std::clamp(std::nearbyint(centre), left, right);
+    const double base =
+        set_.base == Base::Start ? left : std::clamp(std::nearbyint(centre), left, right);
     const double u = distance_(base - centre);
     const double rise = square_(square_(splat.a * u) * u);
     QuantizedSpan span;
