@@ -1,16 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/pipeline_config.hpp"
 
+#include "splat/error.hpp"
+
 namespace degs {
 
 void PipelineConfig::describe(ConfigVisitor& visitor) {
-    visitor.choice("numbers", numbers, {"fp32", "fp64"}, "arithmetic of spans, alpha and blending");
+    visitor.choice("numbers", numbers, number_format_names(),
+                   "arithmetic of spans, alpha and blending: the machine's fp32 or fp64 (ideal is "
+                   "fp64), or the formats of a number set");
     visitor.choice(
         "stop_rule", stop_rule, {"refuse", "after"},
         "refuse: the splat that would push T under 1e-4 is not blended (reference code); "
         "after: it is, then the pixel ends (paper, Sec. II-A)");
     visitor.choice("tiles", tiles, {"exact", "ref"},
                    "tile lists: the ellipse's tiles, or the 3-sigma square's");
+    visitor.section("formats", formats,
+                    "single parts of `numbers` in other formats; set: as they are there");
+    std::string problem;
+    try {
+        (void)number_set();
+    } catch (const InputError& error) {
+        problem = std::string("cannot be computed: ") + error.what();
+        problem.pop_back(); // its full stop
+    }
+    visitor.require(problem.empty(), "formats", problem.c_str());
+}
+
+std::optional<NumberSet> PipelineConfig::number_set() const {
+    return formats.applied_to(number_format_names().at(static_cast<std::size_t>(numbers)));
 }
 
 } // namespace degs

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers by name, and splats that no format holds.
+#include <cmath>
+
+#include "splat/error.hpp"
+#include "tests/splat/quantized_fixture.hpp"
+
+namespace degs {
+namespace {
+
+using test::kTile;
+using test::kX;
+using test::kY;
+using test::make_splat;
+using test::path_of;
+using test::random_splats;
+using test::tasks_of;
+using test::with_ends;
+
+// `ideal` by name is the double data path itself.
+TEST(NamedNumbers, IdealIsFp64) {
+    const std::vector<ProjectedSplat> splats = random_splats(5, 300);
+    const auto ideal = path_of(splats, named_numbers("ideal"), kTile);
+    const auto fp64 = path_of(splats, named_numbers("fp64"), kTile);
+    for (std::uint32_t i = 0; i < splats.size(); ++i) {
+        for (int y = 0; y < kTile; ++y) {
+            RowSpan a;
+            RowSpan b;
+            const bool covered = ideal->solve_row(i, kY + y, kX, kX + kTile, kY, a);
+            ASSERT_EQ(covered, fp64->solve_row(i, kY + y, kX, kX + kTile, kY, b));
+            for (const BlendTask& task : covered ? tasks_of(a) : std::vector<BlendTask>{}) {
+                ideal->blend(task);
+            }
+            for (const BlendTask& task : covered ? tasks_of(b) : std::vector<BlendTask>{}) {
+                fp64->blend(task);
+            }
+        }
+    }
+    std::vector<PixelValue> a(kTile);
+    std::vector<PixelValue> b(kTile);
+    std::uint32_t updates = 0;
+    for (int y = 0; y < kTile; ++y) {
+        ideal->read_row(0, y, kTile, a.data());
+        fp64->read_row(0, y, kTile, b.data());
+        for (std::size_t x = 0; x < kTile; ++x) {
+            ASSERT_EQ(a[x].transmittance, b[x].transmittance);
+            ASSERT_EQ(a[x].rgb[1], b[x].rgb[1]);
+            ASSERT_EQ(a[x].updates, b[x].updates);
+            updates += a[x].updates;
+        }
+    }
+    EXPECT_GT(updates, 5000U);
+}
+
+TEST(NamedNumbers, HaveTheirOwnEnds) {
+    EXPECT_EQ(named_numbers("fp32").ends, SpanEnds::Exact);
+    EXPECT_EQ(named_numbers("fp16").ends, SpanEnds::Outward);
+    EXPECT_EQ(named_numbers("paper").ends, SpanEnds::Slope);
+    EXPECT_EQ(named_numbers("tuned").ends, SpanEnds::Exact);
+    EXPECT_THROW(named_numbers("fp8"), InputError);
+}
+
+void expect_refused(const std::vector<std::string>& assignments, const std::string& sentence) {
+    try {
+        number_set("tuned", assignments);
+        ADD_FAILURE() << sentence;
+    } catch (const InputError& error) {
+        EXPECT_EQ(std::string(error.what()).substr(0, sentence.size()), sentence);
+    }
+}
+
+TEST(NamedNumbers, PartsGoByName) {
+    const NumberSet set = number_set("tuned", {"alpha=uq0.12", "exponent=natural", "q=uq4.12"});
+    EXPECT_EQ(set.name, "tuned alpha=uq0.12 exponent=natural q=uq4.12");
+    EXPECT_EQ(set.alpha, parse_format("uq0.12"));
+    EXPECT_EQ(set.exp.function, TableFunction::ExpHalf); // what the exponent asks for
+    EXPECT_EQ(set.q, parse_format("uq4.12"));
+    for (const NumberKey& key : number_keys()) {
+        EXPECT_FALSE(key.meaning.empty());
+        expect_refused({key.name + "=?"}, "In '" + key.name + "=?', '" + key.name + "' must be ");
+    }
+    expect_refused({"colour"}, "In 'colour', 'colour' must be fp64");
+    expect_refused({"color=fp16"}, "In 'color=fp16', 'color' is no part of a number set; there are "
+                                   "mean, slope, ");
+    expect_refused({"d0=ue4m12"}, "The number format ue4m12 of d0 has no sign");
+    expect_refused({"ratio=uq0.18"}, "The number format uq0.18 of ratio must reach beyond 1");
+}
+
+class HostilePaths : public testing::TestWithParam<std::string> {};
+
+// Splats that no format holds: everything stays inside the tile and finite, and bounds are bounds.
+TEST_P(HostilePaths, StayFinite) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<ProjectedSplat> splats;
+    for (int i = 0; i < 600; ++i) {
+        const double far = std::pow(10.0, 12 * unit(random));
+        const double minor = std::sqrt(0.3) * std::exp(12 * unit(random));
+        splats.push_back(make_splat(kX + far * (unit(random) - 0.5),
+                                    kY + far * (unit(random) - 0.5),
+                                    minor * std::exp(9 * unit(random)), minor, 6.3 * unit(random),
+                                    1.0 / 255 + (1 - 1.0 / 255) * unit(random)));
+        splats.back().q_threshold = i % 9 == 0 ? 0 : splats.back().q_threshold;
+        splats.back().colour[0] = i % 11 == 0 ? 1e30 : 0.5;
+    }
+    splats.push_back(make_splat(1e300, -1e300, 1e150, 1, 0.5, 1));
+    for (const SpanEnds ends : {SpanEnds::Exact, SpanEnds::Outward, SpanEnds::Slope}) {
+        const auto path =
+            path_of(splats, options_of(with_ends(number_set(GetParam()), ends)), kTile);
+        for (std::uint32_t i = 0; i < splats.size(); ++i) {
+            int top = 0;
+            int bottom = 0;
+            int left = 0;
+            int right = 0;
+            path->rows_in_columns(i, kX, kX + kTile, top, bottom);
+            path->columns(i, left, right);
+            for (int y = kY; y < kY + kTile; ++y) {
+                RowSpan span;
+                if (path->solve_row(i, y, kX, kX + kTile, kY, span)) {
+                    ASSERT_TRUE(y >= top && y <= bottom) << i;
+                    ASSERT_GE(span.x0, 0);
+                    ASSERT_GE(span.length, 1);
+                    ASSERT_LE(span.x0 + span.length, kTile);
+                    ASSERT_LE(left, kX + span.x0);
+                    ASSERT_GE(right, kX + span.x0 + span.length - 1);
+                    for (const BlendTask& task : tasks_of(span)) {
+                        path->blend(task);
+                    }
+                }
+                int first = 0;
+                int last = 0;
+                if (path->tested_columns(i, y, kX, kX + kTile, first, last)) {
+                    ASSERT_TRUE(kX <= first && first <= last && last < kX + kTile);
+                }
+            }
+        }
+        std::vector<PixelValue> pixels(kTile);
+        for (int y = 0; y < kTile; ++y) {
+            path->read_row(0, y, kTile, pixels.data());
+            for (const PixelValue& pixel : pixels) {
+                ASSERT_TRUE(pixel.transmittance >= 0 && pixel.transmittance <= 1);
+                ASSERT_TRUE(std::isfinite(pixel.rgb[1]));
+            }
+        }
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Sets, HostilePaths, testing::ValuesIn(number_set_names()));
+
+} // namespace
+} // namespace degs
