@@ -8,11 +8,13 @@ namespace degs {
 void DegsConfig::Pipeline::describe(ConfigVisitor& visitor) {
     PipelineConfig::describe(visitor);
     visitor.choice(
-        "span_ends", span_ends, {"exact", "outward"},
-        "exact: ceil/floor, the pixels inside the ellipse; outward: floor/ceil (paper, Eq. 15)");
+        "span_ends", span_ends, {"exact", "outward", "slope"},
+        "exact: ceil/floor, the pixels inside the ellipse; outward: floor/ceil (paper, Eq. 15); "
+        "slope: outward, and where |dw/dy| times half a unit of the mean makes it a px more (0 in "
+        "fp32 and fp64); a number set's own ends do not count");
     visitor.integer(
         "span_delta", span_delta, 0, 16,
-        "px added at both ends of outward spans; the paper gives no value, 0 is its least");
+        "px added at both ends unless they are exact; the paper gives no value, 0 is its least");
 }
 
 void DegsConfig::GaussianBuffer::describe(ConfigVisitor& visitor) {

@@ -26,6 +26,7 @@ struct DegsConfig : AcceleratorConfig {
     struct Pipeline : PipelineConfig {
         SpanEnds span_ends = SpanEnds::Outward;
         int span_delta = 0;
+        DataPathOptions data_path() const { return options(span_ends, span_delta); }
         void describe(ConfigVisitor& visitor);
     };
     struct GaussianBuffer {
@@ -100,7 +101,7 @@ struct DegsConfig : AcceleratorConfig {
     int tile_size_px() const override { return tile_size; }
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override {
-        return {pipeline.numbers, pipeline.span_ends, pipeline.span_delta, pipeline.stop_rule};
+        return pipeline.data_path();
     }
     int tile_contexts() const override { return contexts(); }
     TrafficConfig records() const override { return traffic; }

@@ -14,7 +14,12 @@ struct PipelineConfig {
     TileMode tiles = TileMode::Exact;
     void describe(ConfigVisitor& visitor);
     /// Exact span ends: the pixels inside the ellipse.
-    DataPathOptions data_path() const { return {numbers, SpanEnds::Exact, 0, stop_rule}; }
+    DataPathOptions data_path() const { return options(SpanEnds::Exact, 0); }
+
+protected:
+    DataPathOptions options(SpanEnds ends, int delta) const {
+        return {numbers, ends, delta, stop_rule, {}};
+    }
 };
 
 } // namespace degs

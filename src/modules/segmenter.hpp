@@ -57,6 +57,7 @@ public:
         domain_ = first_domain_of_row_[static_cast<std::size_t>(span.y)] + first;
         begin_ = span.x0;
         end_ = span.x0 + span.length;
+        base_ = span.base;
         g0_ = span.g0;
         d0_ = span.d0;
         splat_ = span.splat;
@@ -85,7 +86,7 @@ public:
         run.task.mask = mask;
         run.task.row = row_;
         run.task.column = static_cast<std::int16_t>(column_);
-        run.task.offset = static_cast<std::int16_t>(column_ - begin_);
+        run.task.offset = static_cast<std::int16_t>(column_ - base_);
         run.task.context = context_;
     }
     void next() {
@@ -103,7 +104,7 @@ private:
     TileNumber tile_ = kNoTile;
     std::uint32_t splat_ = 0;
     double g0_ = 0, d0_ = 0;
-    int begin_ = 0, end_ = 0, column_ = 0, domain_ = 0;
+    int begin_ = 0, end_ = 0, base_ = 0, column_ = 0, domain_ = 0;
     std::int16_t row_ = 0, context_ = 0;
 };
 

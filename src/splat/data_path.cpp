@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "splat/blend_lanes.hpp"
+#include "splat/error.hpp"
+#include "splat/quantized_data_path.hpp"
 
 namespace degs {
 namespace {
@@ -154,6 +156,7 @@ public:
         }
         span.x0 = static_cast<std::int16_t>(x0 - x_begin);
         span.length = static_cast<std::int16_t>(x1 - x0 + 1);
+        span.base = span.x0;
         span.g0 = static_cast<double>(g0);
         span.d0 = static_cast<double>(d0);
         return true;
@@ -270,12 +273,49 @@ private:
 
 } // namespace
 
+const std::vector<const char*>& number_format_names() {
+    static const std::vector<const char*> names{"fp32", "fp64", "ideal", "fp16", "paper", "tuned"};
+    return names;
+}
+
+DataPathOptions options_of(const NumberSet& set) {
+    DataPathOptions options;
+    options.ends = set.ends;
+    options.delta = set.delta;
+    options.set = set;
+    return options;
+}
+
+DataPathOptions named_numbers(const std::string& name) {
+    const std::vector<const char*>& names = number_format_names();
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end()) {
+        std::string known;
+        for (const char* each : names) {
+            known += (known.empty() ? "" : ", ") + std::string(each);
+        }
+        throw InputError("There are no numbers '" + name + "'; there are " + known + ".");
+    }
+    DataPathOptions options = options_of(number_set(name == "fp64" ? "ideal" : name));
+    options.set.reset();
+    options.numbers = static_cast<NumberFormat>(at - names.begin());
+    return options;
+}
+
 std::unique_ptr<DataPath> make_data_path(const DataPathOptions& options, int tile_size,
                                          int contexts) {
-    if (options.numbers == NumberFormat::Fp64) {
+    const NumberFormat numbers = options.numbers;
+    if (options.set) {
+        return make_quantized_data_path(*options.set, options, tile_size, contexts);
+    }
+    if (numbers == NumberFormat::Fp32) {
+        return std::make_unique<DataPathOf<float>>(options, tile_size, contexts);
+    }
+    if (numbers == NumberFormat::Fp64 || numbers == NumberFormat::Ideal) {
         return std::make_unique<DataPathOf<double>>(options, tile_size, contexts);
     }
-    return std::make_unique<DataPathOf<float>>(options, tile_size, contexts);
+    const char* const name = number_format_names().at(static_cast<std::size_t>(numbers));
+    return make_quantized_data_path(number_set(name), options, tile_size, contexts);
 }
 
 } // namespace degs

@@ -3,17 +3,20 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "splat/frame_workload.hpp"
+#include "splat/number_set.hpp"
 
 namespace degs {
 
-/// Arithmetic of the modelled data path. More formats join here.
-enum class NumberFormat { Fp32, Fp64 };
-
-/// Which pixels a row span covers. `Exact`: ceil(x_c - w) .. floor(x_c + w), the pixels with
-/// q <= Q_th. `Outward`: floor(x_c - w) - delta .. ceil(x_c + w) + delta (paper, Sec. III-A).
-enum class SpanEnds { Exact, Outward };
+/// Arithmetic of the modelled data path: Fp32 and Fp64 in the machine's own operations, the others
+/// in the formats of a named NumberSet. Ideal is Fp64.
+enum class NumberFormat { Fp32, Fp64, Ideal, Fp16, Paper, Tuned };
+/// "fp32", "fp64", "ideal", "fp16", "paper", "tuned", in the order of NumberFormat.
+const std::vector<const char*>& number_format_names();
 
 /// `Refuse`: the splat that would push T under 1e-4 is not blended and ends the pixel (reference).
 /// `After`: it is blended, then the pixel ends (paper, Sec. II-A).
@@ -21,10 +24,17 @@ enum class StopRule { Refuse, After };
 
 struct DataPathOptions {
     NumberFormat numbers = NumberFormat::Fp32;
-    SpanEnds ends = SpanEnds::Exact;
-    int delta = 0; ///< px added at both ends of an outward span (paper: "estimates the error")
+    SpanEnds ends = SpanEnds::Exact; ///< in place of a number set's own
+    int delta = 0; ///< px added at both ends that are not exact, in place of a number set's own
     StopRule stop = StopRule::Refuse;
+    std::optional<NumberSet> set; ///< in place of `numbers`: any formats
 };
+
+/// The numbers of that name (NumberFormat) with the span ends that their set has; fp64 is exact.
+/// InputError lists the names for any other.
+DataPathOptions named_numbers(const std::string& name);
+/// The formats and span ends of any set.
+DataPathOptions options_of(const NumberSet& set);
 
 /// One row of one splat inside one tile: the Span Vector of the paper (Eq. 20). Values of g0 and d0
 /// are already rounded to the data path's format; double only carries them.
@@ -33,7 +43,8 @@ struct RowSpan {
     std::int16_t y = 0;      ///< row inside the tile
     std::int16_t x0 = 0;     ///< first pixel inside the tile
     std::int16_t length = 0; ///< pixels, >= 1
-    double g0 = 0;           ///< q - 2 ln o at x0 (the opacity is folded into the start value)
+    std::int16_t base = 0;   ///< the pixel of n = 0, from the tile's first; mostly x0
+    double g0 = 0;           ///< q - 2 ln o at the base (the opacity is folded into the start value)
     double d0 = 0;           ///< first forward difference
 };
 
@@ -44,8 +55,7 @@ struct BlendTask {
     std::uint32_t mask = 0;  ///< bit i: the pixel at column + i has a task
     std::int16_t row = 0;    ///< inside the tile
     std::int16_t column = 0; ///< inside the tile, of mask bit 0; a multiple of the segment length
-    std::int16_t offset =
-        0; ///< n of mask bit 0, i.e. column - x0; negative if the span starts later
+    std::int16_t offset = 0;  ///< n of mask bit 0, i.e. column - base; may be negative
     std::int16_t context = 0; ///< tile context of the Pixel Buffer
 };
 
@@ -103,7 +113,8 @@ public:
     /// Updates the pixels of one task, left to right.
     virtual BlendOutcome blend(const BlendTask& task) = 0;
     /// Tests each pixel by itself, q' = A u^2 + C' dy^2 - 2 ln o with u = dx - m dy (paper Eq. 10),
-    /// and blends the live ones with q <= Q_th; the others keep their state.
+    /// and blends the live ones with q <= Q_th; the others keep their state. What number sets make
+    /// of it: QuantizedRow::check.
     virtual BlendOutcome test(const PixelTest& test) = 0;
     /// First and last of the columns [x_begin, x_end) whose pixel on image row `y` passes test()'s
     /// q <= Q_th, to the last rounding; between them all pixels do. False if none does.

@@ -62,7 +62,7 @@ NumberSet fp16_set() {
     set.meaning = "every value and operation of the paper's equations in FP16";
     set.derivation = Derivation::Literal;
     set.vertical = Vertical::Squared;
-    set.ends = Ends::Outward;
+    set.ends = SpanEnds::Outward;
     set.exp.reduction = Reduction::Binary; // FP16 units compute 2^x
     return set;
 }
@@ -75,8 +75,7 @@ NumberSet paper_set() {
     set.mean = set.distance = set.edge = parse_format("q16.8");
     set.c_prime = set.inverse_radius2 = set.conic = parse_format("e6m9");
     set.square = parse_format("e6m10");
-    set.ends = Ends::Outward;
-    set.delta_from_slope = true;
+    set.ends = SpanEnds::Slope;
     set.multiplier = IntegerMultiplier::HalfLookup;
     set.sqrt.interpolation = Interpolation::Nearest;
     set.sqrt.entries = 256;

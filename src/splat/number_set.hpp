@@ -20,8 +20,11 @@ enum class Derivation { Reference, Literal };
 enum class Vertical { Squared, Stepwise, FromRatio };
 /// A mean is a coordinate, or its nearest pixel (an integer) and an offset in -0.5 .. 0.5.
 enum class Mean { Coordinate, PixelAndOffset };
-/// Which pixels a span covers, see SpanEnds.
-enum class Ends { Exact, Outward };
+/// Which pixels a row span covers. `Exact`: ceil(x_c - w) .. floor(x_c + w), the pixels with
+/// q <= Q_th. `Outward`: floor(x_c - w) - delta .. ceil(x_c + w) + delta (paper, Sec. III-A).
+/// `Slope`: outward, and delta grows by |dw/dy| times half a unit of the mean, to the nearest px and
+/// at most 1 (the paper "estimates the error based on dw/dy"); fp32 and fp64 have no such unit: 0.
+enum class SpanEnds { Exact, Outward, Slope };
 /// The pixel of n = 0. `Start`: the span's first (paper). `Vertex`: the pixel of the span nearest
 /// to x_c; all terms of q_n have one sign there, so nothing cancels.
 enum class Base { Start, Vertex };
@@ -70,10 +73,9 @@ struct NumberSet {
     Derivation derivation = Derivation::Reference;
     Vertical vertical = Vertical::Stepwise;
     Mean mean_form = Mean::Coordinate;
-    Ends ends = Ends::Exact;
+    SpanEnds ends = SpanEnds::Exact; ///< unless a run says otherwise, see DataPathOptions
+    int delta = 0;                   ///< px added at both ends that are not exact
     double guard = 0; ///< px by which exact ends are moved outwards before ceil and floor
-    bool delta_from_slope =
-        false; ///< Outward: delta = |dw/dy| times a unit of dy, to the nearest px
     Base base = Base::Start;
     IntegerMultiplier multiplier = IntegerMultiplier::Whole;
     Exponent exponent = Exponent::Natural;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "splat/quantized_lanes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -97,15 +98,34 @@ LaneFamily family_of(const NumberSet& set) {
     return halves ? LaneFamily::Half : fixed ? LaneFamily::Fixed : LaneFamily::Any;
 }
 
+/// Both functions of a PE.
+struct Variant {
+    QuantizedBlendFunction blend;
+    QuantizedTestFunction test;
+};
+
 template <LaneFamily family>
-std::vector<QuantizedBlendFunction> variants_of() {
-    std::vector<QuantizedBlendFunction> variants{&narrow_numbers::blend_run<family>};
+std::vector<Variant> variants_of() {
+    std::vector<Variant> variants{
+        {&narrow_numbers::blend_run<family>, &narrow_numbers::test_run<family>}};
 #ifdef DEGS_HAS_WIDE_LANES
     if (has_wide_numbers()) {
-        variants.push_back(&wide_numbers::blend_run<family>);
+        variants.push_back({&wide_numbers::blend_run<family>, &wide_numbers::test_run<family>});
     }
 #endif
     return variants;
+}
+
+std::vector<Variant> variants(LaneFamily family) {
+    switch (family) {
+    case LaneFamily::Fixed:
+        return variants_of<LaneFamily::Fixed>();
+    case LaneFamily::Half:
+        return variants_of<LaneFamily::Half>();
+    case LaneFamily::Any:
+        break;
+    }
+    return variants_of<LaneFamily::Any>();
 }
 
 } // namespace
@@ -150,19 +170,27 @@ LaneNumbers::LaneNumbers(const NumberSet& set)
 }
 
 std::vector<QuantizedBlendFunction> quantized_blend_variants(LaneFamily family) {
-    switch (family) {
-    case LaneFamily::Fixed:
-        return variants_of<LaneFamily::Fixed>();
-    case LaneFamily::Half:
-        return variants_of<LaneFamily::Half>();
-    case LaneFamily::Any:
-        break;
+    std::vector<QuantizedBlendFunction> functions;
+    for (const Variant& variant : variants(family)) {
+        functions.push_back(variant.blend);
     }
-    return variants_of<LaneFamily::Any>();
+    return functions;
+}
+
+std::vector<QuantizedTestFunction> quantized_test_variants(LaneFamily family) {
+    std::vector<QuantizedTestFunction> functions;
+    for (const Variant& variant : variants(family)) {
+        functions.push_back(variant.test);
+    }
+    return functions;
 }
 
 QuantizedBlendFunction quantized_blend_function(LaneFamily family) {
-    return quantized_blend_variants(family).back();
+    return variants(family).back().blend;
+}
+
+QuantizedTestFunction quantized_test_function(LaneFamily family) {
+    return variants(family).back().test;
 }
 
 } // namespace degs

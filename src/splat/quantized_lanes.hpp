@@ -46,9 +46,22 @@ using QuantizedBlendFunction = BlendOutcome (*)(const BlendTask& task,
                                                 const BlendRecord<float>& splat,
                                                 const LaneNumbers& numbers, bool refuse,
                                                 PixelPlanes<float>& pixels, std::size_t first);
-/// The function for numbers of a family, with the widest vectors of the machine it runs on.
+/// Pixels that have checked for themselves.
+struct TestedPixels {
+    std::uint32_t mask = 0;
+    float q[32] = {}; ///< of mask bit i
+};
+/// A PE that blends where q <= q_limit, otherwise like QuantizedBlendFunction; all else is boundary.
+using QuantizedTestFunction = BlendOutcome (*)(const TestedPixels& tested,
+                                               const BlendRecord<float>& splat,
+                                               const LaneNumbers& numbers, bool refuse,
+                                               PixelPlanes<float>& pixels, std::size_t first);
+
+/// The functions for numbers of a family, with the widest vectors of the machine it runs on.
 QuantizedBlendFunction quantized_blend_function(LaneFamily family);
+QuantizedTestFunction quantized_test_function(LaneFamily family);
 /// All variants for numbers of a family that this build has and the machine can run. For tests.
 std::vector<QuantizedBlendFunction> quantized_blend_variants(LaneFamily family);
+std::vector<QuantizedTestFunction> quantized_test_variants(LaneFamily family);
 
 } // namespace degs

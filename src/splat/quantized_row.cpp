@@ -72,18 +72,48 @@ void QuantizedRow::derive_literally(const ProjectedSplat& splat, QuantizedSplat&
     out.inverse_radius2 = inverse_radius2_(out.c_prime / out.q_threshold);
 }
 
-QuantizedSpan QuantizedRow::solve(const QuantizedSplat& splat, int y, int x_begin,
-                                  int x_end) const {
+QuantizedRow::Row QuantizedRow::row_at(const QuantizedSplat& splat, int y) const {
     Row row{};
     row.dy = distance_((y - splat.pixel_y) - splat.mean_y);
     row.x = ratio_(set_.vertical == Vertical::Squared
                        ? square_(row.dy * row.dy) * splat.inverse_radius2
                        : square_(row.dy * splat.inverse_radius2) * row.dy);
     row.left = ratio_(1 - row.x);
+    return row;
+}
+
+double QuantizedRow::centre_of(const QuantizedSplat& splat, const Row& row) const {
+    return edge_(splat.mean_x + edge_(splat.slope * row.dy));
+}
+
+bool QuantizedRow::meets(const QuantizedSplat& splat, int y) const {
+    return row_at(splat, y).x <= 1;
+}
+
+QuantizedCheck QuantizedRow::check(const QuantizedSplat& splat, int y) const {
+    const Row row = row_at(splat, y);
+    QuantizedCheck check;
+    check.level = level(splat, row);
+    // Adding A u^2 >= 0 cannot round below.
+    check.possible =
+        (set_.vertical != Vertical::FromRatio || row.x <= 1) && q_(check.level) <= q_mask_;
+    check.centre = centre_of(splat, row);
+    return check;
+}
+
+double QuantizedRow::checked_q(const QuantizedSplat& splat, const QuantizedCheck& row,
+                               int x) const {
+    const double u = distance_((x - splat.pixel_x) - row.centre);
+    return q_(level_(square_(square_(splat.a * u) * u) + row.level));
+}
+
+QuantizedSpan QuantizedRow::solve(const QuantizedSplat& splat, int y, int x_begin,
+                                  int x_end) const {
+    const Row row = row_at(splat, y);
     if (!(row.x <= 1)) {
         return {};
     }
-    const double centre = edge_(splat.mean_x + edge_(splat.slope * row.dy));
+    const double centre = centre_of(splat, row);
     double left = 0;
     double right = 0;
     if (!ends(splat, row, centre, left, right)) {
@@ -117,17 +147,17 @@ bool QuantizedRow::ends(const QuantizedSplat& splat, const Row& row, double cent
     const double width = edge_(splat.radius * root);
     left = edge_(centre - width);
     right = edge_(centre + width);
-    if (set_.ends == Ends::Exact) {
+    if (set_.ends == SpanEnds::Exact) {
         left = std::ceil(left - set_.guard);
         right = std::floor(right + set_.guard);
     } else {
-        double delta = 0;
-        if (set_.delta_from_slope) {
+        double delta = set_.delta;
+        if (set_.ends == SpanEnds::Slope) {
             // |dw/dy| = r_x |dy| inv_ry^2 / sqrt(1 - x), for an error of half a unit of dy; at the
             // tips, where it grows without bounds, the span is no longer than a pixel or two.
             const double steep = splat.radius * std::abs(row.dy) * splat.inverse_radius2;
             const double error = 0.5 * std::ldexp(1.0, -set_.mean.fraction_bits);
-            delta = root > 0 ? std::min(1.0, std::nearbyint(steep / root * error)) : 1.0;
+            delta += root > 0 ? std::min(1.0, std::nearbyint(steep / root * error)) : 1.0;
         }
         left = std::floor(left) - delta;
         right = std::ceil(right) + delta;

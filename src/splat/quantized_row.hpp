@@ -27,6 +27,13 @@ struct QuantizedSpan {
     bool empty() const { return x1 < x0; }
 };
 
+/// What a row has in common for pixels that check for themselves: q' = A u^2 + level.
+struct QuantizedCheck {
+    bool possible = false; ///< no pixel of the row passes if not
+    double centre = 0;     ///< x_c, px from the splat's own pixel
+    double level = 0;      ///< C' dy^2 - 2 ln o
+};
+
 /// A pixel's state.
 struct QuantizedPixel {
     double transmittance = 1;
@@ -44,6 +51,17 @@ public:
     QuantizedSplat record(const ProjectedSplat& splat) const;
     /// Solves image row `y` for the columns x_begin .. x_end - 1 (paper Eq. 12-15, 19).
     QuantizedSpan solve(const QuantizedSplat& splat, int y, int x_begin, int x_end) const;
+    /// Does row `y` meet the ellipse, x <= 1? All rows nearer to the mean do then, too.
+    bool meets(const QuantizedSplat& splat, int y) const;
+    /// The coupled check of a pixel (DataPath::test) with the Span Unit's operations: dy, x_c and
+    /// level as in solve(), then q' = (A u) u + level, rounded to the format of q. With
+    /// Vertical::FromRatio the level is Q_limit - Q_th (1 - x); 1 - x has no sign there, so a row with
+    /// x > 1 fails as a whole.
+    QuantizedCheck check(const QuantizedSplat& splat, int y) const;
+    /// q' of a pixel. Rounding keeps order, so q' never falls with the distance from x_c.
+    double checked_q(const QuantizedSplat& splat, const QuantizedCheck& row, int x) const;
+    /// The largest q, or q', of a pixel inside: that of alpha = 1/255, rounded.
+    double q_inside() const { return q_mask_; }
     /// q_n of a pixel (Eq. 18); `a` is the record's.
     double q(double a, double g0, double d0, int n) const;
     /// Eq. 21 with the reference's limit of 0.99; 0 where a q mask drops the pixel.
@@ -55,6 +73,8 @@ private:
     struct Row {
         double dy, x, left; ///< left: 1 - x
     };
+    Row row_at(const QuantizedSplat& splat, int y) const;
+    double centre_of(const QuantizedSplat& splat, const Row& row) const;
     void derive(const ProjectedSplat& splat, QuantizedSplat& out) const;
     void derive_literally(const ProjectedSplat& splat, QuantizedSplat& out) const;
     bool ends(const QuantizedSplat& splat, const Row& row, double centre, double& left,

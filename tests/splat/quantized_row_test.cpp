@@ -163,7 +163,7 @@ TEST(QuantizedRow, OutwardEndsAreTheNextPixels) {
     QuantizedSpan span = exact.solve(exact.record(splat), 5, 0, 32);
     EXPECT_EQ(span.x0, std::ceil(10.3 - width));
     EXPECT_EQ(span.x1, std::floor(10.3 + width));
-    set.ends = Ends::Outward;
+    set.ends = SpanEnds::Outward;
     const QuantizedRow outward(set);
     span = outward.solve(outward.record(splat), 5, 0, 32);
     EXPECT_EQ(span.x0, std::floor(10.3 - width));
@@ -182,8 +182,7 @@ TEST(QuantizedRow, OutwardEndsAreTheNextPixels) {
 
 TEST(QuantizedRow, SteepEndsGetAnotherPixelIfDyIsCoarse) {
     NumberSet set = number_set("ideal");
-    set.ends = Ends::Outward;
-    set.delta_from_slope = true;
+    set.ends = SpanEnds::Slope;
     set.mean = parse_format("q16.0"); // dy is off by up to half a pixel
     const QuantizedRow row(set);
     const ProjectedSplat splat = test::make_splat(16, 16, 3, 3, 0, 1);
