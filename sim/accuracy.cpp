@@ -71,7 +71,7 @@ nlohmann::ordered_json worst_json(const std::optional<WorstPixel>& worst) {
     json["operation"] = or_null(worst->operation);
     json["flip"] = or_null(worst->flip);
     json["error"] = or_null(worst->error);
-    json["error_of_operation_alone"] = or_null(worst->alone);
+    json["error_of_operation"] = or_null(worst->explained);
     return json;
 }
 

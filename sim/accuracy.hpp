@@ -21,7 +21,7 @@ struct WorstPixel {
     double error = 0;           ///< of the pixel's replay
     std::uint32_t gaussian = 0; ///< index in the scene
     std::string operation;      ///< empty if the replay has no error
-    double alone = 0;           ///< error if that operation alone is rounded
+    double explained = 0;       ///< error that the operation makes
     std::string flip;           ///< "stop rule", "span ends" or empty
 };
 

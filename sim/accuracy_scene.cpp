@@ -38,7 +38,7 @@ WorstPixel explain(const Frame& frame, const ImageDifference& difference, const 
     worst.error = blame.error;
     worst.gaussian = blame.id;
     worst.operation = blame.operation;
-    worst.alone = blame.alone;
+    worst.explained = blame.explained;
     worst.flip = blame.flip;
     return worst;
 }

@@ -6,6 +6,7 @@
 #include "sim/accuracy.hpp"
 #include "sim/accuracy_numbers.hpp"
 #include "sim/commands.hpp"
+#include "sim/hard_case_run.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/scene_list.hpp"
 #include "splat/error.hpp"
@@ -23,6 +24,8 @@ struct AccuracyOptions {
     int tile_size = 32;
     bool no_error_images = false;
     bool single_gaussian = false;
+    bool hard_cases = false;
+    std::vector<std::string> only; ///< hard cases
     std::uint64_t seed = 1;
     int splats = 2000;
     std::string out = "out";
@@ -62,7 +65,7 @@ SingleGaussianRequest single_request(const AccuracyOptions& options) {
 SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
     SceneAccuracyRequest request;
     for (const std::string& name : options.numbers) {
-        data_path_of(numbers_of(name, options.span_ends)); // a mistake is told before a scene loads
+        numbers_of(name, options.span_ends); // a mistake is told before a scene loads
     }
     for (const std::string& name : options.resolutions) {
         resolution_height(name);
@@ -86,7 +89,35 @@ void write(const std::vector<AccuracyRow>& rows, const OutputFolder& out) {
     }
 }
 
+void run_hard(const AccuracyOptions& options) {
+    HardCaseRequest request;
+    request.only = options.only;
+    request.sets = options.numbers;
+    request.resolutions = options.resolutions;
+    if (request.resolutions.empty()) {
+        request.resolutions = {"720p"};
+    }
+    for (const std::string& name : request.sets) {
+        numbers_of(name, options.span_ends);
+    }
+    for (const std::string& name : request.resolutions) {
+        resolution_height(name);
+    }
+    request.span_ends = options.span_ends;
+    request.tile_size = options.tile_size;
+    const OutputFolder out(options.out, {"hard_cases.json", "hard_cases.md"});
+    const std::vector<HardResult> results = run_hard_cases(request, out.path(""));
+    out.write_json("hard_cases.json", hard_case_json(results));
+    out.write_text("hard_cases.md", hard_case_markdown(results));
+    std::cout << hard_case_table(results) << "all numbers: " << out.path("hard_cases.json")
+              << std::endl;
+}
+
 void run(const AccuracyOptions& options) {
+    if (options.hard_cases) {
+        run_hard(options);
+        return;
+    }
     if (options.single_gaussian) {
         const SingleGaussianRequest request = single_request(options);
         const OutputFolder out(options.out, {"accuracy.json"});
@@ -94,7 +125,9 @@ void run(const AccuracyOptions& options) {
         return;
     }
     if (options.scenes.empty()) {
-        throw InputError("There is nothing to measure; --scene or --single-gaussian is needed.");
+        throw InputError(
+            "There is nothing to measure; --scene, --single-gaussian or --hard-cases is "
+            "needed.");
     }
     const SceneAccuracyRequest request = scene_request(options);
     const OutputFolder out(options.out, {"accuracy.json", "accuracy.svg"});
@@ -146,6 +179,13 @@ void add_accuracy_command(CLI::App& program) {
         "accuracy", "measure the error of number formats against double precision");
     command->add_flag("--single-gaussian", options->single_gaussian,
                       "the paper's test: alpha of single Gaussians in a window of 32 x 32 pixels");
+    CLI::Option* hard = command->add_flag(
+        "--hard-cases", options->hard_cases,
+        "generated scenes that break renderers, in images of 16:9 (docs/numerical-stability.md)");
+    command->add_option("--only", options->only, "hard cases, e.g. H7,H19; all without it")
+        ->delimiter(',')
+        ->take_all()
+        ->needs(hard);
     command->add_option("--numbers", options->numbers, set_words())
         ->delimiter(',')
         ->take_all()

@@ -5,7 +5,6 @@
 
 #include "sim/accuracy.hpp"
 #include "sim/plot_style.hpp"
-#include "sim/words.hpp"
 
 namespace degs::sim {
 namespace {
@@ -78,7 +77,8 @@ void draw_axes(Svg& svg, const Axes& axes, const Panel& panel) {
     for (double tick = axes.picture.low; tick <= axes.picture.high; tick += 20) {
         const double y = axes.y(tick);
         svg.line(axes.left, y, axes.right, y, tick == axes.picture.low ? kGrey : kGrid, 1);
-        svg.text(axes.left - 8, y + 4, three_digits(tick), {kSmallText, kGrey, "end", false});
+        svg.text(axes.left - 8, y + 4, std::to_string(std::lround(tick)),
+                 {kSmallText, kGrey, "end", false});
     }
     std::map<double, bool> heights;
     for (const auto& [set, line] : panel.lines) {

@@ -101,7 +101,7 @@ void DataPathRenderer::TileBlender::blend_span(const RowSpan& span) {
     for (int column = span.x0 / kRun * kRun; column <= end; column += kRun) {
         task.mask = bits(std::max(span.x0 - column, 0), std::min(end - column, kRun - 1));
         task.column = static_cast<std::int16_t>(column);
-        task.offset = static_cast<std::int16_t>(column - span.x0);
+        task.offset = static_cast<std::int16_t>(column - span.base);
         const BlendOutcome outcome = path_->blend(task);
         counts_.useful += static_cast<std::uint64_t>(ones(outcome.useful));
         counts_.boundary += static_cast<std::uint64_t>(ones(outcome.boundary));

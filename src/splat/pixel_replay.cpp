@@ -100,8 +100,7 @@ NumberSet unrounded(NumberSet set) {
         (set.*table).values = (set.*table).argument = ideal.sqrt.values;
     }
     set.derivation = Derivation::Reference;
-    set.ends = Ends::Exact;
-    set.delta_from_slope = false;
+    set.ends = SpanEnds::Exact;
     set.q_mask = false;
     return set;
 }
@@ -115,6 +114,12 @@ struct Operation {
 template <ValueFormat NumberSet::*stage>
 void take(const NumberSet& from, NumberSet& to) {
     to.*stage = from.*stage;
+}
+
+/// Slope's part that depends on the unit of the mean is left out: the mean is exact here.
+void take_ends(const NumberSet& from, NumberSet& to) {
+    to.ends = from.ends == SpanEnds::Exact ? SpanEnds::Exact : SpanEnds::Outward;
+    to.delta = from.delta;
 }
 
 constexpr std::array<Operation, 25> kOperations{{
@@ -141,7 +146,7 @@ constexpr std::array<Operation, 25> kOperations{{
     {"sum", &take<&NumberSet::sum>},
     {"sqrt", [](const NumberSet& from, NumberSet& to) { to.sqrt = from.sqrt; }},
     {"exp", [](const NumberSet& from, NumberSet& to) { to.exp = from.exp; }},
-    {"span ends", [](const NumberSet& from, NumberSet& to) { to.ends = from.ends; }},
+    {"span ends", &take_ends},
     {"derivation",
      [](const NumberSet& from, NumberSet& to) {
          to.derivation = from.derivation;
@@ -238,13 +243,18 @@ PixelBlame blame_pixel(const FrameWorkload& workload, int x, int y, const Number
     const std::size_t entry = culprit(workload, list, reference, test);
     blame.id = workload.splats[list.first[entry]].id;
     blame.flip = flip_of(reference, test, entry);
+    const NumberSet exact = unrounded(set);
     for (const Operation& operation : kOperations) {
-        NumberSet alone = unrounded(set);
+        NumberSet alone = exact;
+        NumberSet without = set;
         operation.take(set, alone);
-        const double error =
-            distance(reference, replay_row(workload, x, y, QuantizedRow(alone), stop));
-        if (error > blame.alone) {
-            blame.alone = error;
+        operation.take(exact, without);
+        const auto error_of = [&](const NumberSet& numbers) {
+            return distance(reference, replay_row(workload, x, y, QuantizedRow(numbers), stop));
+        };
+        const double share = std::max(error_of(alone), blame.error - error_of(without));
+        if (share > blame.explained) {
+            blame.explained = share;
             blame.operation = operation.name;
         }
     }

@@ -32,15 +32,15 @@ struct PixelBlame {
     double error = 0;      ///< largest channel difference of the replay, from the reference
     std::uint32_t id = 0;  ///< Gaussian, index in the cloud
     std::string operation; ///< "mean", "m", "q", "exp", ..., "span ends"; empty without an error
-    double alone = 0;      ///< error of a replay in which that operation alone is rounded
+    double explained = 0;  ///< error that the operation makes, see blame_pixel
     std::string flip;      ///< "stop rule", "span ends" or empty
 };
 
 /// Replays a pixel. The Gaussian is the one whose alpha moves the reference's pixel most if it
-/// alone is taken from the number set. The operation is the one that has the largest error if it
-/// alone is rounded and all others are exact. Flip tells that the sets disagree on whether the
-/// Gaussian is blended: because the pixel ends at another splat, or because only one of them has it
-/// in its span.
+/// alone is taken from the number set. The operation is the one that explains most: the error of a
+/// replay in which it alone is rounded, or what is gone from the error if it alone is exact,
+/// whichever is larger. Flip tells that the two disagree on whether the Gaussian is blended:
+/// because the pixel ends at another splat, or because only one of them has it in its span.
 PixelBlame blame_pixel(const FrameWorkload& workload, int x, int y, const NumberSet& set,
                        StopRule stop);
 

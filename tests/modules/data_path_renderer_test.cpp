@@ -20,8 +20,8 @@ struct Numbers {
     int segment_length;
 };
 std::ostream& operator<<(std::ostream& out, const Numbers& n) {
-    return out << (n.format == NumberFormat::Fp64 ? "fp64" : "fp32")
-               << (n.ends == SpanEnds::Exact ? "_exact_" : "_outward_") << n.delta
+    return out << number_format_names()[static_cast<std::size_t>(n.format)] << "_ends"
+               << static_cast<int>(n.ends) << "_" << n.delta
                << (n.stop == StopRule::Refuse ? "_refuse" : "_after")
                << (n.rows == SlicedRows::Tile ? "_tile_" : "_splat_") << n.segment_length;
 }
@@ -57,6 +57,11 @@ constexpr Numbers kNumbers[] = {
     {NumberFormat::Fp32, SpanEnds::Outward, 0, StopRule::Refuse, SlicedRows::Splat, 16},
     {NumberFormat::Fp32, SpanEnds::Outward, 2, StopRule::After, SlicedRows::Tile, 1},
     {NumberFormat::Fp32, SpanEnds::Outward, 1, StopRule::After, SlicedRows::Splat, 32},
+    {NumberFormat::Fp16, SpanEnds::Outward, 0, StopRule::Refuse, SlicedRows::Splat, 16},
+    {NumberFormat::Paper, SpanEnds::Slope, 0, StopRule::Refuse, SlicedRows::Tile, 16},
+    {NumberFormat::Paper, SpanEnds::Exact, 0, StopRule::After, SlicedRows::Splat, 5},
+    {NumberFormat::Tuned, SpanEnds::Exact, 0, StopRule::Refuse, SlicedRows::Splat, 16},
+    {NumberFormat::Tuned, SpanEnds::Outward, 1, StopRule::Refuse, SlicedRows::Tile, 9},
 };
 INSTANTIATE_TEST_SUITE_P(Numbers, SmallRunAgainstRenderer,
                          ::testing::Combine(::testing::ValuesIn(kNumbers),
