@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "scene/input_file.hpp"
 #include "sim/accuracy.hpp"
 #include "sim/accuracy_numbers.hpp"
 #include "sim/commands.hpp"
@@ -62,6 +63,16 @@ SingleGaussianRequest single_request(const AccuracyOptions& options) {
     return request;
 }
 
+/// Tells of names that are none before the scenes in front of them have been measured.
+void check_scene(const std::string& scene) {
+    if (scene.empty()) {
+        throw InputError("A scene has an empty name; a file or synthetic:NAME is needed.");
+    }
+    if (scene.rfind("synthetic:", 0) != 0) {
+        const InputFile exists(scene);
+    }
+}
+
 SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
     SceneAccuracyRequest request;
     for (const std::string& name : options.numbers) {
@@ -72,6 +83,9 @@ SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
     }
     request.sets = options.numbers;
     request.scenes = views_of(options);
+    for (const ViewRequest& view : request.scenes) {
+        check_scene(view.scene);
+    }
     request.resolutions = options.resolutions;
     request.span_ends = options.span_ends;
     request.tile_size = options.tile_size;

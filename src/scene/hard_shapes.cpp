@@ -70,9 +70,9 @@ std::vector<HardScene> make_far_mean_case(int width, int height) {
     const double half = 0.5 / 0.8; // x / z at the image's edge
     for (const double outside : {1.2, 1.4, 3.0, 10.0}) {
         const double x = outside * half * 2;
-        builder.add_world({x, 0.1, 2}, {0.5 * x, 0.4, 0.3}, {0.95, 0.1, 0.2, 0.1}, 0.5,
+        builder.add_world({x, 0.1, 2}, {0.5 * x, 0.4, 0.3}, {0.95, 0.0, 0.2, 0.0}, 0.5,
                           {0.8, 0.3, 0.2 + 0.05 * outside});
-        builder.add_world({-x, -0.2, 2.5}, {0.6 * x, 0.3, 0.2}, {0.95, 0.0, -0.2, 0.1}, 0.5,
+        builder.add_world({-x, -0.2, 2.5}, {0.6 * x, 0.3, 0.2}, {0.95, 0.0, -0.2, 0.0}, 0.5,
                           {0.2, 0.7, 0.5});
     }
     builder.look(width - 1, builder.middle_y());

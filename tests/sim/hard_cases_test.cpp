@@ -55,8 +55,9 @@ TEST(HardCases, ThoseThatBreakHoldAt8k) {
 
 // What is found is what was built: the suite notices a wrong expectation and coarse numbers.
 TEST(HardCases, CanFail) {
-    const HardCase& closest = hard_cases()[4]; // H5
-    HardScene scene = closest.make(640, 360).front();
+    const HardCase& near_plane = hard_cases()[4];
+    ASSERT_EQ(near_plane.id, "H5");
+    HardScene scene = near_plane.make(640, 360).front();
     EXPECT_EQ(scene.culled.near, 2U);
     scene.projection.near_plane = 0.05;
     const FrameWorkload work =
