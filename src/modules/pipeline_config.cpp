@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/pipeline_config.hpp"
 
+#include "splat/error.hpp"
+
 namespace degs {
 
 void PipelineConfig::describe(ConfigVisitor& visitor) {
@@ -13,6 +15,20 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
         "after: it is, then the pixel ends (paper, Sec. II-A)");
     visitor.choice("tiles", tiles, {"exact", "ref"},
                    "tile lists: the ellipse's tiles, or the 3-sigma square's");
+    visitor.section("formats", formats,
+                    "single parts of `numbers` in other formats; set: as they are there");
+    std::string problem;
+    try {
+        (void)number_set();
+    } catch (const InputError& error) {
+        problem = std::string("cannot be computed: ") + error.what();
+        problem.pop_back(); // its full stop
+    }
+    visitor.require(problem.empty(), "formats", problem.c_str());
+}
+
+std::optional<NumberSet> PipelineConfig::number_set() const {
+    return formats.applied_to(number_format_names().at(static_cast<std::size_t>(numbers)));
 }
 
 } // namespace degs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "modules/formats_config.hpp"
 #include "splat/data_path.hpp"
 #include "splat/frame_workload.hpp"
 #include "tlm/config.hpp"
@@ -12,14 +13,19 @@ struct PipelineConfig {
     NumberFormat numbers = NumberFormat::Fp32;
     StopRule stop_rule = StopRule::Refuse;
     TileMode tiles = TileMode::Exact;
+    FormatsConfig formats;
     void describe(ConfigVisitor& visitor);
     /// Exact span ends: the pixels inside the ellipse.
     DataPathOptions data_path() const { return options(SpanEnds::Exact, 0); }
 
 protected:
     DataPathOptions options(SpanEnds ends, int delta) const {
-        return {numbers, ends, delta, stop_rule, {}};
+        return {numbers, ends, delta, stop_rule, number_set()};
     }
+
+private:
+    /// `numbers` with other formats; nothing if `formats` changes none.
+    std::optional<NumberSet> number_set() const;
 };
 
 } // namespace degs

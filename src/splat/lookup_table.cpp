@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "splat/error.hpp"
 
@@ -16,6 +17,21 @@ constexpr double kMostShift = 126; // what a float's exponent can take
 double within(double x, double low, double high) {
     const double below = x < high ? x : high;
     return below > low ? below : low;
+}
+
+/// Of a normal number. The library's frexp and ldexp are calls, and rows are solved by the million.
+int exponent_of(double x) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &x, sizeof bits);
+    return static_cast<int>(bits >> 52U & 0x7FFU) - 1023;
+}
+
+/// 2^exponent, a normal number.
+double power_of_two(int exponent) {
+    const std::uint64_t bits = static_cast<std::uint64_t>(exponent + 1023) << 52U;
+    double value = 0;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
 }
 
 const char* function_name(TableFunction function) {
@@ -112,15 +128,16 @@ double LookupTable::curve(double reduced) const {
 double LookupTable::look_up(double reduced) const {
     const double at = (reduced - low_) / width_;
     const double last = spec_.entries - 1;
-    const double cell = std::floor(within(at, 0, last));
-    const auto i = static_cast<std::size_t>(cell);
+    const auto i = static_cast<std::int32_t>(within(at, 0, last));
+    const double cell = i;
+    const double value = values_[static_cast<std::size_t>(i)];
     if (spec_.interpolation == Interpolation::Nearest) {
-        return values_[i];
+        return value;
     }
-    const double part = round_(falls_[i] * within(at - cell, 0, 1));
+    const double part = round_(falls_[static_cast<std::size_t>(i)] * within(at - cell, 0, 1));
     const bool rises =
         spec_.reduction == Reduction::Binary && spec_.function == TableFunction::SqrtOneMinus;
-    return round_(rises ? values_[i] + part : values_[i] - part);
+    return round_(rises ? value + part : value - part);
 }
 
 double LookupTable::reduced_root(double x) const {
@@ -128,10 +145,9 @@ double LookupTable::reduced_root(double x) const {
     if (!(left > 0)) {
         return 0;
     }
-    int exponent = 0;
-    std::frexp(left, &exponent); // left is 2^exponent times 1/2 .. 1
+    const int exponent = exponent_of(left) + 1; // left is 2^exponent times 1/2 .. 1
     const int pairs = exponent < 0 ? -exponent / 2 : 0;
-    return std::ldexp(look_up(std::ldexp(left, 2 * pairs)), -pairs);
+    return look_up(left * power_of_two(2 * pairs)) * power_of_two(-pairs);
 }
 
 double LookupTable::reduced_exponential(double x) const {
@@ -139,7 +155,7 @@ double LookupTable::reduced_exponential(double x) const {
     const double binary =
         within(natural ? round_argument_(x * kHalfLog2e) : x, -kMostShift, kMostShift);
     const double whole = std::floor(binary);
-    return std::ldexp(look_up(binary - whole), -static_cast<int>(whole));
+    return look_up(binary - whole) * power_of_two(-static_cast<int>(whole));
 }
 
 double LookupTable::operator()(double x) const {

@@ -90,10 +90,10 @@ ValueFormat read_float(FormatReader& reader, bool has_sign) {
     return format;
 }
 
-constexpr int kDoubleBias = 1023;
-
-std::uint64_t exponent_field(int exponent) {
-    return static_cast<std::uint64_t>(exponent + kDoubleBias) << 52;
+std::uint64_t pattern_of(double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
 }
 
 /// The exponent of the smallest normal value.
@@ -195,12 +195,23 @@ Rounder::Rounder(const ValueFormat& format)
     if (exact_) {
         return;
     }
-    // One exponent beyond the highest: what is rounded there is outside in any case.
-    low_ = exponent_field(fixed_ ? 0 : lowest_exponent(format));
-    high_ = exponent_field(fixed_ ? 0 : highest_exponent(format) + 1);
-    to_magic_ = static_cast<std::uint64_t>(52 - format.fraction_bits) << 52;
     max_ = format.max();
     min_ = format.has_sign ? -max_ : 0.0;
+    magic_ = 1.5 * std::ldexp(format.quantum(), 52);
+    if (fixed_) {
+        return;
+    }
+    shift_ = 52 - format.fraction_bits;
+    half_less_one_ = (std::uint64_t{1} << (shift_ - 1)) - 1;
+    keep_ = ~((std::uint64_t{1} << shift_) - 1);
+    magnitude_ = ~std::uint64_t{0} >> static_cast<int>(format.has_sign);
+    low_ = pattern_of(format.min_normal());
+    range_ = pattern_of(max_) + half_less_one_ - low_; // what still rounds down to the largest
+}
+
+/// A float that is subnormal, too large or no number.
+double Rounder::beside(double x) const {
+    return x >= min_ && x <= max_ ? (x + magic_) - magic_ : outside(x);
 }
 
 double Rounder::outside(double x) const {
@@ -226,7 +237,9 @@ LaneRounding::LaneRounding(const ValueFormat& format) {
     sign = format.has_sign ? sign : 0;
     if (fixed) {
         min_normal = INT32_MAX;
-        magic = static_cast<float>(std::ldexp(format.quantum(), 23));
+        // Magnitudes of 23 bits would leave the binade of 1.5 * 2^23.
+        const bool both_signs = format.storage_bits() - static_cast<int>(format.has_sign) <= 22;
+        magic = static_cast<float>(std::ldexp(format.quantum(), 23) * (both_signs ? 1.5 : 1.0));
         high = static_cast<float>(format.max());
         low = format.has_sign ? -high : 0.0F;
         return;

@@ -60,27 +60,34 @@ public:
         if (exact_) {
             return x;
         }
-        // Adding and subtracting 1.5 * 2^52 units rounds to whole units. The unit is that of x's
-        // exponent, but neither finer nor coarser than the format's.
-        std::uint64_t exponent = 0;
-        std::memcpy(&exponent, &x, sizeof exponent);
-        exponent &= std::uint64_t{0x7FF} << 52;
-        exponent = exponent < low_ ? low_ : exponent > high_ ? high_ : exponent;
-        exponent += to_magic_;
-        double magic = 0;
-        std::memcpy(&magic, &exponent, sizeof magic);
-        magic *= 1.5;
-        const double y = (x + magic) - magic;
-        return y >= min_ && y <= max_ ? y : outside(x);
+        if (fixed_) { // adding and subtracting 1.5 * 2^52 units rounds to whole units
+            const double y = (x + magic_) - magic_;
+            return y >= min_ && y <= max_ ? y : outside(x);
+        }
+        // What lies between the smallest normal and the largest value: half a unit less one is
+        // added to the pattern, and the last bit that is kept, before the rest is cut.
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, &x, sizeof bits);
+        if ((bits & magnitude_) - low_ > range_) {
+            return beside(x);
+        }
+        bits += half_less_one_ + ((bits >> shift_) & 1U);
+        bits &= keep_;
+        double y = 0;
+        std::memcpy(&y, &bits, sizeof y);
+        return y;
     }
 
 private:
+    double beside(double x) const;
     double outside(double x) const;
 
     bool exact_ = true;
     bool fixed_ = false;
-    std::uint64_t low_ = 0, high_ = 0, to_magic_ = 0; // exponent fields of doubles
-    double min_ = 0, max_ = 0;
+    double min_ = 0, max_ = 0, magic_ = 0; // magic_: of fixed formats, and of subnormals
+    // Patterns of doubles; magnitude_ keeps the sign bit if there are no negative values.
+    std::uint64_t magnitude_ = 0, low_ = 0, range_ = 0, half_less_one_ = 0, keep_ = 0;
+    int shift_ = 0;
 };
 
 /// Constants of the integer rounding of float lanes (rounding.inc): bit patterns without their sign

@@ -15,11 +15,20 @@
 #endif
 
 namespace degs {
+namespace {
+/// Tables of up to as many cells may be looked up in registers; LaneNumbers pads them to it.
+constexpr int kFewCells = 16;
+} // namespace
+
 namespace narrow_numbers {
 constexpr int kLanes = 4;
 using Value = float __attribute__((vector_size(16)));
 using Bits = std::int32_t __attribute__((vector_size(16)));
-inline Value look_up(const float* table, const Bits& cell) {
+inline Value floor_lanes(const Value& x) {
+    const Value cut = __builtin_convertvector(__builtin_convertvector(x, Bits), Value);
+    return cut > x ? cut - 1.0F : cut;
+}
+inline Value look_up(const float* table, const Bits& cell, bool /*few*/) {
     return Value{table[cell[0]], table[cell[1]], table[cell[2]], table[cell[3]]};
 }
 #include "splat/rounding.inc"
@@ -37,15 +46,20 @@ namespace wide_numbers {
 constexpr int kLanes = 8;
 using Value = float __attribute__((vector_size(32)));
 using Bits = std::int32_t __attribute__((vector_size(32)));
-inline Value look_up(const float* table, const Bits& cell) {
-    __m256i cells;
-    std::memcpy(&cells, &cell, sizeof cells);
-    const __m256 values = _mm256_i32gather_ps(table, cells, 4);
-    Value lanes;
-    std::memcpy(&lanes, &values, sizeof lanes);
-    return lanes;
-}
 #include "splat/rounding.inc"
+inline Value floor_lanes(const Value& x) {
+    return same_bits<Value>(_mm256_floor_ps(same_bits<__m256>(x)));
+}
+inline Value look_up(const float* table, const Bits& cell, bool few) {
+    const auto cells = same_bits<__m256i>(cell);
+    if (!few) {
+        return same_bits<Value>(_mm256_i32gather_ps(table, cells, 4));
+    }
+    const __m256 low = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table), cells);
+    const __m256 high = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table + 8), cells);
+    const __m256 is_high = _mm256_castsi256_ps(_mm256_slli_epi32(cells, 28)); // bit 3 as sign
+    return same_bits<Value>(_mm256_blendv_ps(low, high, is_high));
+}
 inline Value round_half(const Value& x, const LaneRounding& /*fp16*/) {
     const __m128i halves = _mm256_cvtps_ph(same_bits<__m256>(x), _MM_FROUND_TO_NEAREST_INT);
     return same_bits<Value>(_mm256_cvtph_ps(halves));
@@ -95,6 +109,9 @@ LaneFamily family_of(const NumberSet& set) {
         fixed = fixed && format.kind == ValueFormat::Kind::Fixed &&
                 format.storage_bits() - static_cast<int>(format.has_sign) <= 22;
     }
+    fixed =
+        fixed && set.term.has_sign && set.weight.max() > 0.995 && set.exp.values.max() >= 1 &&
+        (set.exp.reduction == Reduction::Binary || set.exp.interpolation == Interpolation::Nearest);
     return halves ? LaneFamily::Half : fixed ? LaneFamily::Fixed : LaneFamily::Any;
 }
 
@@ -156,6 +173,7 @@ LaneNumbers::LaneNumbers(const NumberSet& set)
     q_limit = static_cast<float>(Rounder(set.q)(set.q_limit()));
     q_mask = set.q_mask ? q_limit : std::numeric_limits<float>::infinity();
     alpha_max = static_cast<float>(Rounder(set.alpha)(0.99));
+    term_room = term.high - 4 * static_cast<float>(set.term.quantum());
     reduced = set.exp.reduction == Reduction::Binary;
     natural = set.exp.function == TableFunction::ExpHalf;
     family = family_of(set);
@@ -167,6 +185,8 @@ LaneNumbers::LaneNumbers(const NumberSet& set)
     const LookupTable cells(set.exp);
     values = cells.lane_values();
     falls = cells.lane_falls();
+    values.resize(std::max(values.size(), static_cast<std::size_t>(kFewCells)));
+    falls.resize(values.size());
 }
 
 std::vector<QuantizedBlendFunction> quantized_blend_variants(LaneFamily family) {

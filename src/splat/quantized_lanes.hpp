@@ -10,7 +10,9 @@
 namespace degs {
 
 /// How the lanes round: `Any` in integer arithmetic; `Fixed` if every stage of the PE is a fixed
-/// format of at most 22 bits without the sign; `Half` if every stage is fp16.
+/// format of at most 22 bits without the sign, and terms have a sign, weights reach 0.99, table
+/// values 1 and never less than 0: then some results need not be saturated; `Half` if every stage
+/// is fp16.
 enum class LaneFamily { Any, Fixed, Half };
 
 /// The PE of a number set as constants for lanes of floats: QuantizedRow::q, alpha and blend for
@@ -23,6 +25,7 @@ struct LaneNumbers {
     float q_mask = 0;              ///< q above it draws nothing; infinite without a mask
     float q_limit = 0;             ///< q at which alpha = 1/255: tasks beyond it are boundary
     float alpha_max = 0;           ///< 0.99 in the format of alpha
+    float term_room = 0;           ///< Fixed: below it, |n d0| + |A n(n-1)| do not saturate
     bool natural = false;          ///< ExpHalf: q log2(e) / 2 is formed first
     float to_binary = 0.72134752F; ///< log2(e) / 2
     bool reduced = false;          ///< Reduction::Binary
@@ -51,7 +54,8 @@ struct TestedPixels {
     std::uint32_t mask = 0;
     float q[32] = {}; ///< of mask bit i
 };
-/// A PE that blends where q <= q_limit, otherwise like QuantizedBlendFunction; all else is boundary.
+/// A PE that blends where q <= q_limit, otherwise like QuantizedBlendFunction; all else is
+/// boundary.
 using QuantizedTestFunction = BlendOutcome (*)(const TestedPixels& tested,
                                                const BlendRecord<float>& splat,
                                                const LaneNumbers& numbers, bool refuse,

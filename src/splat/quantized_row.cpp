@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace degs {
@@ -11,6 +12,21 @@ namespace {
 constexpr double kHalfLog2e = 0.72134752044448170;
 /// Pixels beyond every image; keeps conversions to int defined.
 constexpr double kFarPixel = 1 << 29;
+
+/// To whole pixels; what has 51 bits or more before the point is beyond every tile and may stay as
+/// it is. The library's functions are calls, and rows are solved by the million.
+double nearest(double x) {
+    constexpr double kMagic = 1.5 * (std::int64_t{1} << 52);
+    return (x + kMagic) - kMagic;
+}
+double lower(double x) {
+    const double y = nearest(x);
+    return y > x ? y - 1 : y;
+}
+double upper(double x) {
+    const double y = nearest(x);
+    return y < x ? y + 1 : y;
+}
 
 int to_int(double pixel) {
     return static_cast<int>(std::clamp(pixel, -kFarPixel, kFarPixel));
@@ -78,7 +94,6 @@ QuantizedRow::Row QuantizedRow::row_at(const QuantizedSplat& splat, int y) const
     row.x = ratio_(set_.vertical == Vertical::Squared
                        ? square_(row.dy * row.dy) * splat.inverse_radius2
                        : square_(row.dy * splat.inverse_radius2) * row.dy);
-    row.left = ratio_(1 - row.x);
     return row;
 }
 
@@ -107,8 +122,9 @@ double QuantizedRow::checked_q(const QuantizedSplat& splat, const QuantizedCheck
     return q_(level_(square_(square_(splat.a * u) * u) + row.level));
 }
 
-QuantizedSpan QuantizedRow::solve(const QuantizedSplat& splat, int y, int x_begin,
-                                  int x_end) const {
+// In one piece: the roundings are worth more inline than anything else in here.
+[[gnu::flatten]] QuantizedSpan QuantizedRow::solve(const QuantizedSplat& splat, int y, int x_begin,
+                                                   int x_end) const {
     const Row row = row_at(splat, y);
     if (!(row.x <= 1)) {
         return {};
@@ -126,8 +142,7 @@ QuantizedSpan QuantizedRow::solve(const QuantizedSplat& splat, int y, int x_begi
 
 QuantizedSpan QuantizedRow::span_vector(const QuantizedSplat& splat, const Row& row, double centre,
                                         double left, double right) const {
-    const double base =
-        set_.base == Base::Start ? left : std::clamp(std::nearbyint(centre), left, right);
+    const double base = set_.base == Base::Start ? left : std::clamp(nearest(centre), left, right);
     const double u = distance_(base - centre);
     const double rise = square_(square_(splat.a * u) * u);
     QuantizedSpan span;
@@ -148,8 +163,8 @@ bool QuantizedRow::ends(const QuantizedSplat& splat, const Row& row, double cent
     left = edge_(centre - width);
     right = edge_(centre + width);
     if (set_.ends == SpanEnds::Exact) {
-        left = std::ceil(left - set_.guard);
-        right = std::floor(right + set_.guard);
+        left = upper(left - set_.guard);
+        right = lower(right + set_.guard);
     } else {
         double delta = set_.delta;
         if (set_.ends == SpanEnds::Slope) {
@@ -159,8 +174,8 @@ bool QuantizedRow::ends(const QuantizedSplat& splat, const Row& row, double cent
             const double error = 0.5 * std::ldexp(1.0, -set_.mean.fraction_bits);
             delta += root > 0 ? std::min(1.0, std::nearbyint(steep / root * error)) : 1.0;
         }
-        left = std::floor(left) - delta;
-        right = std::ceil(right) + delta;
+        left = lower(left) - delta;
+        right = upper(right) + delta;
     }
     return left <= right;
 }
@@ -168,7 +183,7 @@ bool QuantizedRow::ends(const QuantizedSplat& splat, const Row& row, double cent
 /// C' dy^2 - 2 ln o: what a row's q' is at the vertex.
 double QuantizedRow::level(const QuantizedSplat& splat, const Row& row) const {
     if (set_.vertical == Vertical::FromRatio) {
-        return level_(fold_limit_ - level_(splat.q_threshold * row.left));
+        return level_(fold_limit_ - level_(splat.q_threshold * ratio_(1 - row.x)));
     }
     const double vertical = set_.vertical == Vertical::Squared
                                 ? level_(square_(row.dy * row.dy) * splat.c_prime)

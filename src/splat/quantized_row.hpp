@@ -55,8 +55,8 @@ public:
     bool meets(const QuantizedSplat& splat, int y) const;
     /// The coupled check of a pixel (DataPath::test) with the Span Unit's operations: dy, x_c and
     /// level as in solve(), then q' = (A u) u + level, rounded to the format of q. With
-    /// Vertical::FromRatio the level is Q_limit - Q_th (1 - x); 1 - x has no sign there, so a row with
-    /// x > 1 fails as a whole.
+    /// Vertical::FromRatio the level is Q_limit - Q_th (1 - x); 1 - x has no sign there, so a row
+    /// with x > 1 fails as a whole.
     QuantizedCheck check(const QuantizedSplat& splat, int y) const;
     /// q' of a pixel. Rounding keeps order, so q' never falls with the distance from x_c.
     double checked_q(const QuantizedSplat& splat, const QuantizedCheck& row, int x) const;
@@ -71,7 +71,7 @@ public:
 
 private:
     struct Row {
-        double dy, x, left; ///< left: 1 - x
+        double dy, x;
     };
     Row row_at(const QuantizedSplat& splat, int y) const;
     double centre_of(const QuantizedSplat& splat, const Row& row) const;

@@ -34,7 +34,8 @@ public:
 
     GccArrayBench(const std::string& name, const FrameWorkload& frame, const Options& options)
         : options_(options), time_{ClockDomain(1.0), options.fidelity},
-          job_(make_render_job({&frame}, {options.numbers, SpanEnds::Exact, 0, StopRule::Refuse},
+          job_(make_render_job({&frame},
+                               {options.numbers, SpanEnds::Exact, 0, StopRule::Refuse, {}},
                                options.contexts)),
           array_((name + "_array").c_str(), options.array, time_, job_, 1, options.contexts,
                  options.listeners, options.block),

@@ -31,7 +31,8 @@ public:
 private:
     GccConfig candidate(unsigned index) {
         GccConfig c = gcc_of(among({32, 64, 128, 24}), among({8, 8, 4, 16, 5}));
-        c.pipeline.numbers = index % 2 == 0 ? NumberFormat::Fp64 : NumberFormat::Fp32;
+        const NumberFormat odd[] = {NumberFormat::Fp32, NumberFormat::Paper, NumberFormat::Tuned};
+        c.pipeline.numbers = index % 2 == 0 ? NumberFormat::Fp64 : odd[index / 2 % 3];
         c.pipeline.stop_rule = index % 8 == 1 ? StopRule::After : StopRule::Refuse;
         c.image_buffer.bytes *= among({1, 1, 2, 3});
         c.image_buffer.readout_pixels = among({64, 1, 1024});

@@ -70,7 +70,8 @@ struct TileEngineBench {
     TileEngineBench(const TileEngine::Config& c, FrameWorkload work, int engines = 1,
                     int contexts_each = 1, Fidelity fidelity = Fidelity::Exact)
         : config(c), time{ClockDomain(1.0), fidelity}, frame(std::move(work)),
-          job(make_render_job({&frame}, {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse},
+          job(make_render_job({&frame},
+                              {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}},
                               engines * contexts_each)),
           contexts(contexts_each), image(frame.camera.width, frame.camera.height) {
         for (int e = 0; e < engines; ++e) {

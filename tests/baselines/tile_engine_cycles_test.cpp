@@ -20,8 +20,8 @@ public:
     Ticks(const TileEngine::Config& config, const FrameWorkload& frame,
           const std::vector<ChunkFeed>& feed)
         : config_(config), frame_(frame), feed_(feed),
-          job_(make_render_job({&frame}, {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse},
-                               1)),
+          job_(make_render_job({&frame},
+                               {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}}, 1)),
           pes_(static_cast<std::size_t>(config.row_pes)),
           rows_(static_cast<std::size_t>(job_.tile_size)) {
         for (now_ = 0; !finished_; ++now_) {

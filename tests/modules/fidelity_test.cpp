@@ -56,8 +56,9 @@ private:
             c = test::exact_arithmetic(c);
             return;
         }
-        c.pipeline.numbers = chance(4) ? NumberFormat::Fp64 : NumberFormat::Fp32;
-        c.pipeline.span_ends = chance(2) ? SpanEnds::Exact : SpanEnds::Outward;
+        c.pipeline.numbers =
+            static_cast<NumberFormat>(upto(static_cast<int>(number_format_names().size()) - 1));
+        c.pipeline.span_ends = static_cast<SpanEnds>(upto(2));
         c.pipeline.span_delta = chance(3) ? 1 : 0;
         c.pipeline.stop_rule = chance(3) ? StopRule::After : StopRule::Refuse;
     }

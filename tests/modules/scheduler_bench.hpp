@@ -55,8 +55,8 @@ struct SchedulerBench {
     SchedulerBench(const Sizes& s, const std::vector<ProjectedSplat>& splats, int tile = 16,
                    int tiles = 1)
         : sizes(s), frame(make_frame(splats, tile * tiles, tile, tile)),
-          job(make_render_job({&frame}, {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse},
-                              1)),
+          job(make_render_job({&frame},
+                              {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}}, 1)),
           packets("packets", time, static_cast<std::size_t>(s.packets) + 4,
                   static_cast<Cycle>(s.packing_latency)),
           terminated("terminated", time, 4096, static_cast<Cycle>(s.writeback)),

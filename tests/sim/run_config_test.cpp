@@ -54,6 +54,55 @@ TEST(Configs, AnyMemoryFileGoesUnderAnyAccelerator) {
                  ConfigError);
 }
 
+/// What the configuration's data path computes with.
+DataPathOptions numbers_with(const std::vector<std::string>& assignments, const char* name) {
+    return load_run_config(std::string(DEGS_CONFIGS) + "/" + name + ".yaml", assignments)
+        .accelerator()
+        .data_path();
+}
+
+TEST(Configs, FormatsOfSingleStages) {
+    for (const char* name : {"degs-64", "gscore-64", "gbu-64", "gcc-64"}) {
+        EXPECT_FALSE(numbers_with({"pipeline.numbers=paper"}, name).set.has_value());
+        const DataPathOptions options =
+            numbers_with({"pipeline.numbers=paper", "pipeline.formats.alpha=uq1.15",
+                          "pipeline.formats.exp.entries=32", "pipeline.formats.q_mask=true"},
+                         name);
+        ASSERT_TRUE(options.set.has_value());
+        EXPECT_EQ(options.set->alpha, parse_format("uq1.15"));
+        EXPECT_EQ(options.set->exp.entries, 32);
+        EXPECT_TRUE(options.set->q_mask);
+        EXPECT_EQ(options.set->term, number_set("paper").term);
+        EXPECT_EQ(options.set->sqrt.entries, number_set("paper").sqrt.entries);
+    }
+}
+
+void expect_refused(const std::vector<std::string>& assignments, const std::string& sentence) {
+    try {
+        numbers_with(assignments, "degs-64");
+        ADD_FAILURE() << sentence;
+    } catch (const ConfigError& error) {
+        EXPECT_NE(std::string(error.what()).find(sentence), std::string::npos) << error.what();
+    }
+}
+
+TEST(Configs, WrongFormatsAreNamed) {
+    expect_refused({"pipeline.formats.alpha=q99"},
+                   "--set pipeline.formats.alpha=q99: key 'pipeline.formats.alpha' must be fp64, "
+                   "fp32, fp16, bf16, [u]eEmM[bB]");
+    expect_refused({"pipeline.formats.exp.entries=0"},
+                   "key 'pipeline.formats.exp.entries' must be 1 to 4096, not '0'.");
+    expect_refused({"pipeline.formats.base=middle"},
+                   "key 'pipeline.formats.base' must be start or vertex, not 'middle'.");
+    expect_refused({"pipeline.formats.aplha=fp16"}, "did you mean 'pipeline.formats.alpha'?");
+    expect_refused({"pipeline.formats.exp=fp16"}, "'pipeline.formats.exp'");
+    expect_refused({"pipeline.numbers=tuned", "pipeline.formats.distance=uq18.12"},
+                   "key 'pipeline.formats' cannot be computed: The number format uq18.12 of "
+                   "distance has no sign, but its values may be negative.");
+    expect_refused({"pipeline.numbers=tuned", "pipeline.formats.q=uq2.14"}, "must reach beyond");
+    expect_refused({"pipeline.formats.exp.interpolation=linear"}, "1 to 4096 entries");
+}
+
 TEST(Configs, Degs64IsTheDefault) {
     EXPECT_EQ(resolved(load("degs-64")).dump(2), resolved(RunConfig{}).dump(2));
 }

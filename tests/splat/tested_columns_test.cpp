@@ -96,7 +96,9 @@ TEST_P(TestedColumns, NothingToName) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, TestedColumns,
-                         ::testing::Values(NumberFormat::Fp32, NumberFormat::Fp64));
+                         ::testing::Values(NumberFormat::Fp32, NumberFormat::Fp64,
+                                           NumberFormat::Fp16, NumberFormat::Paper,
+                                           NumberFormat::Tuned));
 
 } // namespace
 } // namespace degs

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every baseline in every number set: sound, finite, near the reference.
+#include <cmath>
+
+#include "baselines/gscore.hpp"
+#include "splat/image_metrics.hpp"
+#include "tests/baselines/engine_run.hpp"
+#include "tests/baselines/gbu_fixture.hpp"
+#include "tests/baselines/gcc_run.hpp"
+
+namespace degs {
+namespace {
+
+using test::EngineRun;
+
+class SmallRunNumberSets : public ::testing::TestWithParam<NumberFormat> {
+protected:
+    void expect_image(const EngineRun& run, const FrameWorkload& frame) const {
+        run.expect_sound();
+        ReferenceCounts counts;
+        const Image reference = render_reference(frame, counts);
+        for (const float channel : run.image().rgb) {
+            ASSERT_TRUE(std::isfinite(channel));
+        }
+        // In the order of NumberFormat. Pixels check for themselves: no floor/ceil ends.
+        const double least[] = {100, 100, 100, 40, 40, 60};
+        EXPECT_GE(compare_images(reference, run.image()).psnr_db,
+                  least[static_cast<std::size_t>(GetParam())]);
+    }
+};
+
+FrameWorkload frame_for(const AcceleratorConfig& config) {
+    std::mt19937 random(19);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<ProjectedSplat> splats;
+    for (int i = 0; i < 150; ++i) {
+        splats.push_back(test::make_splat(90 * unit(random), 70 * unit(random),
+                                          1 + 8 * unit(random), 0.8 + 3 * unit(random),
+                                          6.3 * unit(random), 0.05 + 0.9 * unit(random)));
+        for (double& channel : splats.back().colour) {
+            channel = unit(random);
+        }
+    }
+    return test::make_frame(splats, 90, 70, config.tile_size_px());
+}
+
+TEST_P(SmallRunNumberSets, RunEverywhere) {
+    GbuConfig gbu = test::gbu_of(16, 4, 8);
+    gbu.pipeline.numbers = GetParam();
+    GscoreConfig gscore;
+    gscore.pipeline.numbers = GetParam();
+    GccConfig gcc = test::gcc_of(64);
+    gcc.pipeline.numbers = GetParam();
+    const FrameWorkload gbu_frame = frame_for(gbu);
+    const FrameWorkload gscore_frame = frame_for(gscore);
+    const FrameWorkload gcc_frame = frame_for(gcc);
+    const EngineRun first("gbu", gbu, {&gbu_frame});
+    const EngineRun second("gscore", gscore, {&gscore_frame});
+    const EngineRun third("gcc", gcc, {&gcc_frame});
+    sc_core::sc_start();
+    expect_image(first, gbu_frame);
+    expect_image(second, gscore_frame);
+    expect_image(third, gcc_frame);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, SmallRunNumberSets,
+                         ::testing::Values(NumberFormat::Ideal, NumberFormat::Fp16,
+                                           NumberFormat::Paper, NumberFormat::Tuned));
+
+} // namespace
+} // namespace degs

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole runs in number sets: finite, sound, and as near to the reference as their formats are.
+#include <cmath>
+#include <limits>
+
+#include "splat/image_metrics.hpp"
+#include "tests/modules/run_fixture.hpp"
+
+namespace degs {
+namespace {
+
+using test::DegsRun;
+
+struct Quality {
+    NumberFormat numbers;
+    double psnr_db; ///< at least, with exact span ends
+};
+
+std::ostream& operator<<(std::ostream& out, const Quality& q) {
+    return out << number_format_names()[static_cast<std::size_t>(q.numbers)];
+}
+
+DegsConfig config_of(NumberFormat numbers, SpanEnds ends) {
+    DegsConfig config = test::shaped({}, {32, 2, 8, 8, 8});
+    config.pipeline.numbers = numbers;
+    config.pipeline.span_ends = ends;
+    return config;
+}
+
+/// Splats of 3 to 12 px with colours below 1, as trained scenes have them.
+FrameWorkload soft_frame() {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<ProjectedSplat> splats;
+    for (int i = 0; i < 400; ++i) {
+        splats.push_back(test::make_splat(200 * unit(random), 140 * unit(random),
+                                          1 + 8 * unit(random), 0.8 + 3 * unit(random),
+                                          6.3 * unit(random), 0.05 + 0.9 * unit(random)));
+        for (double& channel : splats.back().colour) {
+            channel = unit(random);
+        }
+    }
+    return test::make_frame(splats, 200, 140, 32);
+}
+
+class SmallRunNumbers : public ::testing::TestWithParam<Quality> {};
+
+TEST_P(SmallRunNumbers, AreAsNearAsTheirFormats) {
+    const FrameWorkload frame = soft_frame();
+    const DegsRun exact("exact", config_of(GetParam().numbers, SpanEnds::Exact), {&frame});
+    const DegsRun slope("slope", config_of(GetParam().numbers, SpanEnds::Slope), {&frame});
+    sc_core::sc_start();
+    for (const DegsRun* run : {&exact, &slope}) {
+        test::expect_sound(*run);
+        for (const float channel : run->image().rgb) {
+            ASSERT_TRUE(std::isfinite(channel));
+        }
+    }
+    EXPECT_GT(slope.span_tasks(), exact.span_tasks());
+    ReferenceCounts counts;
+    const Image reference = render_reference(frame, counts);
+    const ImageError error = compare_images(reference, exact.image());
+    EXPECT_GE(error.psnr_db, GetParam().psnr_db);
+    if (std::isinf(GetParam().psnr_db)) {
+        EXPECT_TRUE(test::same_bytes(exact.image(), reference));
+    } else { // neither is it something else under the set's name
+        EXPECT_LT(error.psnr_db, GetParam().psnr_db + 45);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Sets, SmallRunNumbers,
+    ::testing::Values(Quality{NumberFormat::Ideal, std::numeric_limits<double>::infinity()},
+                      Quality{NumberFormat::Fp32, 100}, Quality{NumberFormat::Fp16, 30},
+                      Quality{NumberFormat::Paper, 40}, Quality{NumberFormat::Tuned, 60}));
+
+// A delta of its own, beside what the ends have.
+TEST(SmallRunSpanEnds, DeltaWidensThem) {
+    const FrameWorkload frame =
+        test::make_frame({test::make_splat(64, 16, 10, 3, 0, 0.9)}, 128, 32, 32);
+    DegsConfig config = config_of(NumberFormat::Paper, SpanEnds::Outward);
+    const DegsRun outward("outward", config, {&frame});
+    config.pipeline.span_delta = 1;
+    const DegsRun wider("wider", config, {&frame});
+    sc_core::sc_start();
+    std::uint64_t spans = 0;
+    for (const auto& unit : outward.degs().spans()) {
+        spans += unit->stats().spans;
+    }
+    // The splat ends inside the image, and the tiles' borders cut none of its ends off by a pixel.
+    EXPECT_GE(wider.span_tasks(), outward.span_tasks() + spans / 2);
+    EXPECT_LE(wider.span_tasks(), outward.span_tasks() + 2 * spans);
+}
+
+} // namespace
+} // namespace degs
