@@ -37,12 +37,12 @@ double of_q(const NumberSet& set) {
 double of_height(const NumberSet& set) {
     const double per_unit = set.exponent == Exponent::Natural ? 0.5 : std::log(2.0);
     const double limit = set.q_limit();
+    const double products = 2 * half_unit(set.square, 1);
     if (set.vertical == Vertical::FromRatio) {
-        const double ratio = 2 * half_unit(set.ratio, 1) + 2 * half_unit(set.square, 1) +
-                             half_unit(set.inverse_radius2, 1);
-        return per_unit * (limit * ratio + 2 * half_unit(set.q_threshold, limit));
+        return kAlphaQ * (products + half_unit(set.inverse_radius2, 1)) +
+               per_unit * 2 * (limit * half_unit(set.ratio, 1) + half_unit(set.q_threshold, limit));
     }
-    return kAlphaQ * (2 * half_unit(set.square, 1) + half_unit(set.c_prime, 1)) +
+    return kAlphaQ * (products + half_unit(set.c_prime, 1)) +
            per_unit * 2 * half_unit(set.q_threshold, limit);
 }
 

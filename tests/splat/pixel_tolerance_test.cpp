@@ -29,7 +29,7 @@ int beyond(const FrameWorkload& work, const char* drawn, const char* claimed, do
     largest = 0;
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
-            const double bound = pixel_tolerance(work, x, y, numbers) + 1e-6;
+            const double bound = pixel_tolerance(work, x, y, numbers) + 2e-7; // floats
             largest = std::max(largest, bound);
             for (std::size_t c = 0; c < 3; ++c) {
                 const std::size_t at = 3 * image.at(x, y) + c;
@@ -54,8 +54,8 @@ TEST(PixelTolerance, IsBrokenByCoarserNumbers) {
     const FrameWorkload work = frame(4);
     double largest = 0;
     EXPECT_GT(beyond(work, "tuned", "fp32", largest), 100);
-    EXPECT_GT(beyond(work, "paper", "tuned", largest), 100);
-    EXPECT_GT(beyond(work, "fp32", "ideal", largest), 100);
+    EXPECT_GT(beyond(work, "paper", "fp32", largest), 10);
+    EXPECT_GT(beyond(work, "fp32", "ideal", largest), 10);
 }
 
 TEST(SpanDifference, EqualNumbersHaveEqualSpans) {
