@@ -79,6 +79,7 @@ nlohmann::ordered_json measure_json(const HardMeasure& measure) {
     json["nonfinite"] = measure.nonfinite;
     json["recounted_pixels"] = measure.recounted;
     const bool bounded = measure.bounded;
+    json["alpha_bound"] = bounded ? nlohmann::ordered_json(measure.alpha_bound) : nullptr;
     json["pixels_beyond_bound"] = bounded ? nlohmann::ordered_json(measure.beyond) : nullptr;
     json["problems"] = measure.problems;
     json["limit"] = measure.limit.empty() ? nullptr : nlohmann::ordered_json(measure.limit);

@@ -127,6 +127,7 @@ public:
           tolerance_(tolerance_of(set, prepared.workload)) {}
 
     void add(std::size_t window, const Image& image);
+    double alpha_bound() const { return tolerance_.alpha; }
     std::uint64_t beyond() const { return beyond_; }
     bool drained() const { return drained_; }
 
@@ -207,6 +208,7 @@ HardMeasure measure(const HardCase& hard, const std::vector<Prepared>& scenes, c
         out.nonfinite = difference.nonfinite();
         out.recounted = difference.recounted();
         out.beyond += judge.beyond();
+        out.alpha_bound = std::max(out.alpha_bound, judge.alpha_bound());
         find_problems(prepared.scene, set, judge, out);
     }
     out.pixels = difference.pixels();

@@ -27,6 +27,7 @@ struct HardMeasure {
     std::uint64_t pixels = 0, nonfinite = 0;
     std::uint64_t recounted = 0; ///< pixels with another number of updates than the reference's
     std::uint64_t beyond = 0;    ///< pixels further off than the formats explain
+    double alpha_bound = 0;      ///< on a fragment's alpha, of the scene with the widest
     bool bounded = false;        ///< is there a bound for the set, see tolerance_of?
     std::vector<std::string> problems; ///< sentences; none: the expectation holds
     std::string limit;                 ///< why it is known not to, empty if it is not
