@@ -9,10 +9,21 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/output_folder.hpp"
 #include "sim/view.hpp"
 #include "splat/number_set.hpp"
 
 namespace degs::sim {
+
+/// The pixel with the largest error of a channel, and what blame_pixel says of it.
+struct WorstPixel {
+    int x = 0, y = 0;
+    double error = 0;           ///< of the pixel's replay
+    std::uint32_t gaussian = 0; ///< index in the scene
+    std::string operation;      ///< empty if the replay has no error
+    double explained = 0;       ///< error that the operation makes
+    std::string flip;           ///< "stop rule", "span ends" or empty
+};
 
 /// One number set on one scene, or on one kind of single Gaussians. What a kind of measurement does
 /// not have is empty, and null in the file.
@@ -25,6 +36,13 @@ struct AccuracyRow {
     double alpha_error_max = 0;  ///< over pixels that both draw
     std::optional<double> psnr_db, ssim, max_abs_error; ///< of images
     std::uint64_t nonfinite = 0;                        ///< values that are no number
+
+    // Images only.
+    bool identical = false;      ///< to the reference; psnr_db is empty then
+    std::string span_ends;       ///< that the image was made with
+    std::uint64_t recounted = 0; ///< pixels with another number of updates than the reference's
+    std::optional<WorstPixel> worst;
+    std::string error_image; ///< file name, empty if none was asked for
 
     // Single Gaussians only.
     std::optional<double> spread;       ///< standard deviation of the Gaussians' means
@@ -49,5 +67,23 @@ struct SingleGaussianRequest {
 /// Kinds: isotropic-3 and random (single_gaussian.hpp), then those of the views, drawn from the
 /// visible splats. The first row of a kind is fp16-direct. Throws InputError.
 std::vector<AccuracyRow> measure_single_gaussians(const SingleGaussianRequest& request);
+
+/// Whole images of the modelled data path against the reference renderer in double precision, both
+/// with exact tile lists and the reference's stop rule.
+struct SceneAccuracyRequest {
+    std::vector<std::string> sets;        ///< of number_set_names()
+    std::vector<ViewRequest> scenes;      ///< their resolution does not count
+    std::vector<std::string> resolutions; ///< of resolution_names(); empty: the cameras' own
+    std::string span_ends;                ///< for every set; empty: each set's own
+    int tile_size = 32;                   ///< px; outward ends and bases of spans depend on it
+    bool error_images = true;             ///< write test - reference as EXR
+};
+/// One row per scene, resolution and set. Throws InputError.
+std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
+                                        const OutputFolder& out);
+
+/// PSNR over the height of images, a panel per scene and camera, a line per set; rows of single
+/// Gaussians are left out. Empty if nothing is left.
+std::string accuracy_svg(const std::vector<AccuracyRow>& rows);
 
 } // namespace degs::sim

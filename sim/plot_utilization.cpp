@@ -2,33 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/plot_style.hpp"
 #include "sim/plot_svg.hpp"
-#include "sim/svg.hpp"
 #include "sim/words.hpp"
 
 namespace degs::sim {
 namespace {
 
-constexpr double kWidth = 800;
-constexpr double kMargin = 16;
 constexpr double kPanelHeight = 300;
-constexpr double kSmall = 12;
 constexpr double kLabel = 13;
-constexpr const char* kInk = "#1a1a1a";
-constexpr const char* kGrey = "#555555";
-constexpr const char* kGrid = "#d8d8d8";
-
-constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                    "#e69f00", "#56b4e9", "#1a1a1a"};
-constexpr Marker kMarkers[] = {Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond};
-
-/// Colours and markers have periods without a common factor, so that 28 lines differ.
-const char* colour_of(std::size_t line) {
-    return kColours[line % (sizeof kColours / sizeof *kColours)];
-}
-Marker marker_of(std::size_t line) {
-    return kMarkers[line % (sizeof kMarkers / sizeof *kMarkers)];
-}
 
 /// log2 of the PEs that the axis reaches, with room for the markers at its ends.
 struct Range {
@@ -69,72 +51,57 @@ void draw_axes(Svg& svg, const Frame& frame) {
     for (int tick = 0; tick <= 100; tick += 20) {
         const double y = frame.y(tick / 100.0);
         svg.line(frame.left, y, frame.right, y, tick == 0 ? kGrey : kGrid, 1);
-        svg.text(frame.left - 8, y + 4, std::to_string(tick), {kSmall, kGrey, "end", false});
+        svg.text(frame.left - 8, y + 4, std::to_string(tick), {kSmallText, kGrey, "end", false});
     }
     const int low = static_cast<int>(frame.range.low);
     for (int power = low; power <= frame.range.high; power += frame.range.tick_step) {
         const double x = frame.x(power);
         svg.line(x, frame.bottom, x, frame.bottom + 5, kGrey, 1);
         svg.text(x, frame.bottom + 19, std::to_string(1LL << power),
-                 {kSmall, kGrey, "middle", false});
+                 {kSmallText, kGrey, "middle", false});
     }
     svg.text((frame.left + frame.right) / 2, frame.bottom + 38, "PEs, log scale",
-             {kSmall, kGrey, "middle", false});
-    svg.text(frame.left - 34, frame.top - 12, "PE utilization, %", {kSmall, kGrey, "start", false});
+             {kSmallText, kGrey, "middle", false});
+    svg.text(frame.left - 34, frame.top - 12, "PE utilization, %",
+             {kSmallText, kGrey, "start", false});
 }
 
-void draw_lines(Svg& svg, const Frame& frame, const std::vector<UtilizationLine>& lines) {
-    // Markers of all lines lie above the lines of all.
-    std::vector<Svg::Points> drawn;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        auto points = lines[i].points;
+std::vector<Svg::Points> places_of(const Frame& frame, const std::vector<UtilizationLine>& lines) {
+    std::vector<Svg::Points> all;
+    for (const UtilizationLine& line : lines) {
+        auto points = line.points;
         std::sort(points.begin(), points.end());
         Svg::Points places;
         for (const auto& [pes, share] : points) {
             places.emplace_back(frame.x(std::log2(pes)), frame.y(share));
         }
-        if (places.size() > 1) {
-            svg.polyline(places, colour_of(i), 2);
-        }
-        drawn.push_back(std::move(places));
+        all.push_back(std::move(places));
     }
-    for (std::size_t i = 0; i < drawn.size(); ++i) {
-        for (const auto& [x, y] : drawn[i]) {
-            svg.marker(marker_of(i), x, y, colour_of(i));
-        }
-    }
+    return all;
 }
 
-/// Returns the y below it.
-double draw_legend(Svg& svg, double y, const std::vector<UtilizationLine>& lines) {
-    double x = kMargin;
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        const std::string label = fitting(lines[i].label, kSmall, 300);
-        const double width = 34 + text_width(label, kSmall) + 18;
-        if (x > kMargin && x + width > kWidth - kMargin + 18) {
-            x = kMargin;
-            y += 20;
+std::vector<std::string> labels_of(const std::vector<UtilizationPanel>& panels) {
+    std::vector<std::string> labels;
+    if (!panels.empty()) {
+        for (const UtilizationLine& line : panels.front().lines) {
+            labels.push_back(line.label);
         }
-        svg.line(x, y - 4, x + 26, y - 4, colour_of(i), 2);
-        svg.marker(marker_of(i), x + 13, y - 4, colour_of(i));
-        svg.text(x + 34, y, label, {kSmall, kInk, "start", false});
-        x += width;
     }
-    return y + 10;
+    return labels;
 }
 
 } // namespace
 
 std::string utilization_svg(const std::string& title, const std::vector<UtilizationPanel>& panels) {
     Svg svg;
-    svg.text(kMargin, 30, title, {16, kInk, "start", true});
-    const double top =
-        draw_legend(svg, 56, panels.empty() ? std::vector<UtilizationLine>{} : panels[0].lines);
+    svg.text(kPlotMargin, 30, title, {16, kInk, "start", true});
+    const double top = draw_legend(svg, 56, labels_of(panels));
     const double columns = panels.size() > 1 ? 2 : 1;
-    const double panel_width = (kWidth - 2 * kMargin) / columns;
+    const double panel_width = (kPlotWidth - 2 * kPlotMargin) / columns;
     double bottom = top;
     for (std::size_t p = 0; p < panels.size(); ++p) {
-        const double left = kMargin + panel_width * (columns > 1 ? static_cast<double>(p % 2) : 0);
+        const double left =
+            kPlotMargin + panel_width * (columns > 1 ? static_cast<double>(p % 2) : 0);
         const double y = top + kPanelHeight * static_cast<double>(columns > 1 ? p / 2 : p);
         Frame frame;
         frame.range = range_of(panels);
@@ -145,10 +112,10 @@ std::string utilization_svg(const std::string& title, const std::vector<Utilizat
         svg.text(left, y + 20, fitting(panels[p].heading, kLabel, panel_width - 10),
                  {kLabel, kInk, "start", true});
         draw_axes(svg, frame);
-        draw_lines(svg, frame, panels[p].lines);
+        draw_lines(svg, places_of(frame, panels[p].lines));
         bottom = y + kPanelHeight;
     }
-    return svg.document(kWidth, bottom + 6, title);
+    return svg.document(kPlotWidth, bottom + 6, title);
 }
 
 } // namespace degs::sim

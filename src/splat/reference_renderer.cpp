@@ -41,7 +41,8 @@ public:
     void begin(int tile);
     bool finished() const { return live_ == 0; }
     void paint(const ProjectedSplat& splat);
-    void write(Image& image, ReferenceCounts& counts) const;
+    /// `left`, `top`: the image's first pixel in the frame.
+    void write(Image& image, int left, int top, ReferenceCounts& counts) const;
 
 private:
     static std::size_t clipped(int tile_size, int image) {
@@ -137,11 +138,11 @@ int TilePainter::blend(const ProjectedSplat& splat, const SplatTerms& terms, dou
     return stopped;
 }
 
-void TilePainter::write(Image& image, ReferenceCounts& counts) const {
+void TilePainter::write(Image& image, int left, int top, ReferenceCounts& counts) const {
     for (int y = y0_; y <= y1_; ++y) {
         const Pixel* pixel = pixels_.data() + row(y);
         for (int x = x0_; x <= x1_; ++x, ++pixel) {
-            const std::size_t at = image.at(x, y);
+            const std::size_t at = image.at(x - left, y - top);
             for (std::size_t channel = 0; channel < 3; ++channel) {
                 image.rgb[3 * at + channel] = static_cast<float>(pixel->rgb[channel]);
             }
@@ -156,21 +157,30 @@ void TilePainter::write(Image& image, ReferenceCounts& counts) const {
 } // namespace
 
 Image render_reference(const FrameWorkload& workload, ReferenceCounts& counts) {
+    return render_reference(workload, counts, all_tiles(workload));
+}
+
+Image render_reference(const FrameWorkload& workload, ReferenceCounts& counts,
+                       const TileWindow& window) {
     counts = {};
-    Image image(workload.camera.width, workload.camera.height);
+    const PixelBox box = pixels_of(workload, window);
+    Image image(box.x1 - box.x0 + 1, box.y1 - box.y0 + 1);
     TilePainter painter(workload);
-    for (int tile = 0; tile < workload.tiles(); ++tile) {
-        const auto index = static_cast<std::size_t>(tile);
-        const std::uint32_t* splat = workload.tile_splats.data() + workload.tile_begin[index];
-        const std::uint32_t* end = workload.tile_splats.data() + workload.tile_begin[index + 1];
-        if (splat == end) {
-            continue; // the image starts as background
+    for (int row = window.y0; row <= window.y1; ++row) {
+        for (int column = window.x0; column <= window.x1; ++column) {
+            const int tile = row * workload.tiles_x + column;
+            const auto index = static_cast<std::size_t>(tile);
+            const std::uint32_t* splat = workload.tile_splats.data() + workload.tile_begin[index];
+            const std::uint32_t* end = workload.tile_splats.data() + workload.tile_begin[index + 1];
+            if (splat == end) {
+                continue; // the image starts as background
+            }
+            painter.begin(tile);
+            for (; splat != end && !painter.finished(); ++splat) {
+                painter.paint(workload.splats[*splat]);
+            }
+            painter.write(image, box.x0, box.y0, counts);
         }
-        painter.begin(tile);
-        for (; splat != end && !painter.finished(); ++splat) {
-            painter.paint(workload.splats[*splat]);
-        }
-        painter.write(image, counts);
     }
     return image;
 }

@@ -5,6 +5,7 @@
 
 #include "splat/frame_workload.hpp"
 #include "splat/image.hpp"
+#include "splat/tile_window.hpp"
 
 namespace degs {
 
@@ -21,5 +22,8 @@ struct ReferenceCounts {
 /// The alpha threshold is workload.projection.alpha_min (1/255). With TileMode::Exact the image
 /// does not depend on the tile size.
 Image render_reference(const FrameWorkload& workload, ReferenceCounts& counts);
+/// The pixels of a window's tiles alone; the image has their size.
+Image render_reference(const FrameWorkload& workload, ReferenceCounts& counts,
+                       const TileWindow& window);
 
 } // namespace degs

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "splat/camera.hpp"
+#include "splat/frame_workload.hpp"
+#include "splat/gaussian.hpp"
+
+namespace degs {
+
+/// A generated scene that breaks renderers, seen through one viewport.
+struct HardScene {
+    GaussianCloud cloud; ///< as a file would have it: not sanitized
+    Camera camera;
+    ProjectionOptions projection;
+    std::vector<PixelBox> windows; ///< where to look, clipped to the image
+    SanitizeReport dropped;        ///< what `sanitize` must find
+    CullCounts culled;             ///< what the projection must find
+    bool same_counts = false; ///< exact spans in fp32 and fp64 update every pixel as often as the
+                              ///< reference does
+};
+
+/// One entry of the list of hard cases.
+struct HardCase {
+    std::string id;   ///< "H1" ...
+    std::string what; ///< for tables
+    std::string expectation;
+    /// The scenes for a viewport of width x height px; nullptr if there is nothing to draw.
+    std::vector<HardScene> (*make)(int width, int height) = nullptr;
+    /// What else must hold of a scene and its workload; a sentence if it does not, else empty.
+    std::string (*check)(const HardScene& scene, const FrameWorkload& workload) = nullptr;
+    /// Cases about files: writes broken ones to the folder; a sentence if one is not refused with a
+    /// clear one, else empty.
+    std::string (*refuse)(const std::string& folder) = nullptr;
+    bool spans = false; ///< compare the spans of fp32 with those of fp64
+    /// What this version has no input or key for, instead of all of the above.
+    std::string not_applicable;
+};
+
+/// H1 .. H32, in order. Scenes are the same on every platform.
+const std::vector<HardCase>& hard_cases();
+
+} // namespace degs

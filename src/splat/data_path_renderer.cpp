@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "splat/data_path_renderer.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace degs {
+namespace {
+
+constexpr int kRun = 32; ///< pixels that a BlendTask can name
+
+int ones(std::uint32_t mask) {
+    return __builtin_popcount(mask);
+}
+
+/// Bits first .. last, 0 <= first <= last < kRun.
+std::uint32_t bits(int first, int last) {
+    return (~std::uint32_t{0} >> (kRun - 1 - last)) & (~std::uint32_t{0} << first);
+}
+
+} // namespace
+
+/// One tile at a time on one context of a data path.
+class DataPathRenderer::TileBlender {
+public:
+    TileBlender(const FrameWorkload& work, const DataPathRender& options, DataPathCounts& counts)
+        : work_(work), rows_in_columns_(options.rows_in_columns), counts_(counts),
+          path_(make_data_path(options.numbers, work.tile_size, 1)), base_(path_->add_frame(work)),
+          live_in_row_(static_cast<std::size_t>(work.tile_size)),
+          row_(static_cast<std::size_t>(work.tile_size)) {}
+
+    /// Blends the tile's list; false if it has none.
+    bool blend(int column, int row);
+    /// Copies the tile to the image, whose first pixel is (x, y) of the frame.
+    void write(Image& image, int x, int y);
+
+private:
+    void blend_splat(std::uint32_t splat);
+    void blend_span(const RowSpan& span);
+
+    const FrameWorkload& work_;
+    bool rows_in_columns_;
+    DataPathCounts& counts_;
+    std::unique_ptr<DataPath> path_;
+    std::uint32_t base_;           ///< index of the frame's first splat
+    std::vector<int> live_in_row_; ///< pixels that have not ended
+    std::vector<PixelValue> row_;
+    int live_ = 0;
+    PixelBox box_; ///< the tile's pixels
+};
+
+bool DataPathRenderer::TileBlender::blend(int column, int row) {
+    const auto tile = static_cast<std::size_t>(row * work_.tiles_x + column);
+    const std::uint32_t* splat = work_.tile_splats.data() + work_.tile_begin[tile];
+    const std::uint32_t* end = work_.tile_splats.data() + work_.tile_begin[tile + 1];
+    if (splat == end) {
+        return false;
+    }
+    box_ = pixels_of(work_, {column, row, column, row});
+    for (int y = 0; y < work_.tile_size; ++y) {
+        path_->begin_row(0, y);
+    }
+    const int width = box_.x1 - box_.x0 + 1;
+    std::fill(live_in_row_.begin(), live_in_row_.end(), width);
+    live_ = width * (box_.y1 - box_.y0 + 1);
+    for (; splat != end && live_ > 0; ++splat) {
+        blend_splat(base_ + *splat);
+    }
+    return true;
+}
+
+void DataPathRenderer::TileBlender::blend_splat(std::uint32_t splat) {
+    int first = 0;
+    int last = 0;
+    if (rows_in_columns_) {
+        path_->rows_in_columns(splat, box_.x0, box_.x1 + 1, first, last);
+    } else {
+        path_->rows(splat, first, last);
+    }
+    first = std::max(first, box_.y0);
+    last = std::min(last, box_.y1);
+    RowSpan span;
+    for (int y = first; y <= last; ++y) {
+        if (live_in_row_[static_cast<std::size_t>(y - box_.y0)] > 0 &&
+            path_->solve_row(splat, y, box_.x0, box_.x1 + 1, box_.y0, span)) {
+            blend_span(span);
+        }
+    }
+}
+
+void DataPathRenderer::TileBlender::blend_span(const RowSpan& span) {
+    ++counts_.spans;
+    const int end = span.x0 + span.length - 1;
+    BlendTask task;
+    task.g0 = span.g0;
+    task.d0 = span.d0;
+    task.splat = span.splat;
+    task.row = span.y;
+    for (int column = span.x0 / kRun * kRun; column <= end; column += kRun) {
+        task.mask = bits(std::max(span.x0 - column, 0), std::min(end - column, kRun - 1));
+        task.column = static_cast<std::int16_t>(column);
+        task.offset = static_cast<std::int16_t>(column - span.base);
+        const BlendOutcome outcome = path_->blend(task);
+        counts_.useful += static_cast<std::uint64_t>(ones(outcome.useful));
+        counts_.boundary += static_cast<std::uint64_t>(ones(outcome.boundary));
+        counts_.terminated += static_cast<std::uint64_t>(ones(outcome.terminated));
+        live_ -= ones(outcome.ended);
+        live_in_row_[static_cast<std::size_t>(span.y)] -= ones(outcome.ended);
+    }
+}
+
+void DataPathRenderer::TileBlender::write(Image& image, int x, int y) {
+    const int width = box_.x1 - box_.x0 + 1;
+    for (int row = box_.y0; row <= box_.y1; ++row) {
+        path_->read_row(0, row - box_.y0, width, row_.data());
+        std::size_t at = image.at(box_.x0 - x, row - y);
+        for (int column = 0; column < width; ++column, ++at) {
+            const PixelValue& pixel = row_[static_cast<std::size_t>(column)];
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                image.rgb[3 * at + channel] = static_cast<float>(pixel.rgb[channel]);
+            }
+            image.transmittance[at] = static_cast<float>(pixel.transmittance);
+            image.fragments[at] = pixel.updates;
+        }
+    }
+}
+
+DataPathRenderer::DataPathRenderer(const FrameWorkload& workload, DataPathRender options)
+    : work_(workload), progress_(std::move(options.progress)),
+      blender_(std::make_unique<TileBlender>(workload, options, counts_)) {}
+
+DataPathRenderer::~DataPathRenderer() = default;
+
+Image DataPathRenderer::render(const TileWindow& window) {
+    const PixelBox box = pixels_of(work_, window);
+    Image image(box.x1 - box.x0 + 1, box.y1 - box.y0 + 1);
+    for (int row = window.y0; row <= window.y1; ++row) {
+        for (int column = window.x0; column <= window.x1; ++column) {
+            if (blender_->blend(column, row)) { // else background
+                blender_->write(image, box.x0, box.y0);
+            }
+        }
+        if (progress_) {
+            progress_(static_cast<double>(row - window.y0 + 1) / (window.y1 - window.y0 + 1));
+        }
+    }
+    return image;
+}
+
+} // namespace degs

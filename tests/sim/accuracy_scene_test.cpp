@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs accuracy on whole scenes, as a user calls it.
+#include <cmath>
+
+#include "scene/image_io.hpp"
+#include "sim/scene_list.hpp"
+#include "tests/sim/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kScene = "synthetic:object,gaussians=800";
+
+json accuracy(const Folder& folder, std::vector<std::string> arguments) {
+    std::vector<std::string> all{"accuracy", "--out", folder / "out"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = degs(all);
+    expect_success(outcome);
+    EXPECT_NE(outcome.out.find("PSNR dB"), std::string::npos) << outcome.out;
+    return json::parse(read_file(folder / "out/accuracy.json"));
+}
+
+TEST(AccuracyScenes, ARowPerSceneResolutionAndSet) {
+    const Folder folder;
+    const json rows =
+        accuracy(folder, {"--scene", std::string(kScene) + ",synthetic:single", "--camera", "1",
+                          "--numbers", "ideal,tuned", "--resolution", "720p,1080p"});
+    ASSERT_EQ(rows.size(), 8U);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const json& row = rows[i];
+        EXPECT_EQ(row["scene"], i < 4 ? "object" : "single");
+        EXPECT_EQ(row["camera"], 1);
+        EXPECT_EQ(row["resolution"], i % 4 < 2 ? "1280x720" : "1920x1080");
+        EXPECT_EQ(row["numbers"], i % 2 == 0 ? "ideal" : "tuned");
+        EXPECT_EQ(row["nonfinite"], 0);
+        EXPECT_EQ(row["span_ends"], "exact");
+        EXPECT_TRUE(fs::exists(folder / "out/" + row["error_image"].get<std::string>()));
+        if (i % 2 == 1) {
+            EXPECT_GT(row["psnr_db"], 60);
+            EXPECT_GT(row["alpha_error_max"], row["alpha_error_mean"]);
+            EXPECT_FALSE(row["worst_pixel"]["operation"].is_null()) << row;
+        }
+    }
+    EXPECT_NE(read_file(folder / "out/accuracy.svg").find("tuned"), std::string::npos);
+}
+
+// The row, the error image and two images made by other commands say the same.
+TEST(AccuracyScenes, IsTheDifferenceOfRunAndRender) {
+    const Folder folder;
+    const std::vector<std::string> view{"--scene", kScene, "--camera", "0"};
+    const auto with = [&view](std::vector<std::string> arguments) {
+        arguments.insert(arguments.end(), view.begin(), view.end());
+        return arguments;
+    };
+    const json rows = accuracy(folder, with({"--numbers", "paper"}));
+    ASSERT_EQ(rows.size(), 1U);
+    expect_success(degs(with({"render", "--out", folder / "render"})));
+    expect_success(degs(with({"run", config("degs-64"), "--out", folder / "run", "--set",
+                              "pipeline.numbers=paper", "--set", "pipeline.span_ends=slope"})));
+    const Image run = read_exr(folder / "run/image.exr");
+    const Image reference = read_exr(folder / "render/image.exr");
+    const Image error = read_exr(folder / "out/" + rows[0]["error_image"].get<std::string>());
+    ASSERT_EQ(run.width, error.width);
+    ASSERT_EQ(run.height, error.height);
+    float worst = 0;
+    for (std::size_t i = 0; i < run.rgb.size(); ++i) {
+        ASSERT_EQ(run.rgb[i] - reference.rgb[i], error.rgb[i]) << i;
+        worst = std::max(worst, std::abs(run.rgb[i] - reference.rgb[i]));
+    }
+    for (std::size_t i = 0; i < run.pixels(); ++i) {
+        ASSERT_EQ(run.transmittance[i] - reference.transmittance[i], error.transmittance[i]) << i;
+    }
+    EXPECT_NEAR(rows[0]["max_abs_error"], worst, 1e-6);
+    const json& pixel = rows[0]["worst_pixel"];
+    const std::size_t at = run.at(pixel["x"], pixel["y"]);
+    EXPECT_EQ(worst, std::max({std::abs(error.rgb[3 * at]), std::abs(error.rgb[3 * at + 1]),
+                               std::abs(error.rgb[3 * at + 2])}));
+    EXPECT_NEAR(pixel["error"], worst, 0.1 * worst); // its replay
+}
+
+TEST(AccuracyScenes, EqualImagesHaveNoPsnr) {
+    const Folder folder;
+    const json rows = accuracy(
+        folder, {"--scene", "synthetic:single", "--numbers", "ideal", "--no-error-images"});
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0]["identical"], true);
+    EXPECT_TRUE(rows[0]["psnr_db"].is_null());
+    EXPECT_TRUE(rows[0]["worst_pixel"].is_null());
+    EXPECT_TRUE(rows[0]["error_image"].is_null());
+    EXPECT_EQ(rows[0]["max_abs_error"], 0);
+}
+
+TEST(AccuracyScenes, SpanEndsCanBeChosen) {
+    const Folder folder;
+    const json own = accuracy(folder, {"--scene", kScene, "--numbers", "paper"});
+    const json exact =
+        accuracy(folder, {"--scene", kScene, "--numbers", "paper", "--span-ends", "exact"});
+    EXPECT_EQ(own[0]["span_ends"], "slope");
+    EXPECT_EQ(exact[0]["span_ends"], "exact");
+    EXPECT_GT(exact[0]["psnr_db"], own[0]["psnr_db"]);
+    EXPECT_LT(exact[0]["recounted_pixels"], own[0]["recounted_pixels"]);
+}
+
+TEST(AccuracyScenes, NamesMistakes) {
+    const Folder folder;
+    const std::string out = folder / "out";
+    const auto mistake = [&out](std::vector<std::string> arguments, const char* words) {
+        arguments.insert(arguments.begin(), "accuracy");
+        arguments.insert(arguments.end(), {"--out", out});
+        expect_mistake(degs(arguments), words);
+    };
+    mistake({"--scene", kScene, "--numbers", "fp8"}, "'fp8'");
+    mistake({"--scene", kScene, "--resolution", "720p,16k"}, "'16k'");
+    mistake({"--scene", "absent.ply"}, "absent.ply");
+    mistake({"--scene", "synthetic:object,"}, "empty name");
+    mistake({"--scene", kScene, "--camera", "9"}, "Camera 9");
+    mistake({"--scene", kScene, "--span-ends", "inward"}, "inward");
+    mistake({"--scene", kScene, "--tile-size", "0"}, "--tile-size");
+    mistake({"--only", "H1"}, "--hard-cases");
+    mistake({"--hard-cases", "--only", "H99"}, "'H99'");
+    mistake({"--hard-cases", "--numbers", "fp8"}, "'fp8'");
+    mistake({"--hard-cases", "--resolution", "9k"}, "'9k'");
+    std::ofstream(folder / "file") << "no folder";
+    expect_mistake(degs({"accuracy", "--scene", kScene, "--out", folder / "file"}), "file");
+    expect_mistake(degs({"accuracy", "--hard-cases", "--out", folder / "file/below"}), "below");
+}
+
+TEST(SceneList, CommasBelongToSyntheticScenes) {
+    using List = std::vector<std::string>;
+    using sim::split_scenes;
+    EXPECT_EQ(split_scenes({"a.ply"}), List{"a.ply"});
+    EXPECT_EQ(split_scenes({"a.ply,b.ply", "c.ply"}), (List{"a.ply", "b.ply", "c.ply"}));
+    EXPECT_EQ(split_scenes({"synthetic:object,gaussians=5,seed=2,b.ply,synthetic:single"}),
+              (List{"synthetic:object,gaussians=5,seed=2", "b.ply", "synthetic:single"}));
+    EXPECT_EQ(split_scenes({"synthetic:single", "seed=2"}), (List{"synthetic:single", "seed=2"}));
+    EXPECT_EQ(split_scenes({"a.ply,"}), (List{"a.ply", ""}));
+    const Folder folder;
+    const std::string odd = folder / "a,b.ply";
+    std::ofstream(odd) << "ply";
+    EXPECT_EQ(split_scenes({odd}), List{odd});
+}
+
+} // namespace
+} // namespace degs::sim_test

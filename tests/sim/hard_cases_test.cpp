@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hard cases hold for every number set: all of them at 720p, those that break at 8K.
+#include <algorithm>
+#include <set>
+
+#include "sim/hard_case_run.hpp"
+#include "splat/number_set.hpp"
+#include "tests/sim/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using sim::HardCaseRequest;
+using sim::HardMeasure;
+using sim::HardResult;
+
+std::vector<HardResult> run(const std::vector<std::string>& only, const std::string& resolution) {
+    const Folder folder;
+    HardCaseRequest request;
+    request.only = only;
+    request.sets = number_set_names();
+    request.resolutions = {resolution};
+    return sim::run_hard_cases(request, folder / "");
+}
+
+void expect_holds(const std::vector<HardResult>& results) {
+    for (const HardResult& result : results) {
+        for (const std::string& failure : result.failures()) {
+            ADD_FAILURE() << failure;
+        }
+    }
+}
+
+TEST(HardCases, AllHoldAt720p) {
+    const std::vector<HardResult> results = run({}, "720p");
+    ASSERT_EQ(results.size(), 32U);
+    expect_holds(results);
+    for (const HardResult& result : results) {
+        const std::string& id = result.hard->id;
+        const bool absent = !result.hard->not_applicable.empty();
+        EXPECT_EQ(absent, (std::set<std::string>{"H16", "H18", "H25", "H27", "H29"}.count(id) == 1))
+            << id;
+        EXPECT_EQ(result.measures.size(), absent || id == "H28" ? 0U : 5U) << id;
+        for (const HardMeasure& measure : result.measures) {
+            EXPECT_GT(measure.pixels, 0U) << id;
+            // A limit that is none any more is to be taken out of the list.
+            EXPECT_EQ(measure.limit.empty(), measure.problems.empty()) << id << " " << measure.set;
+        }
+    }
+}
+
+TEST(HardCases, ThoseThatBreakHoldAt8k) {
+    expect_holds(run({"H1", "H3", "H6", "H7", "H24", "H32"}, "8k"));
+}
+
+// What is found is what was built: the suite notices a wrong expectation and coarse numbers.
+TEST(HardCases, CanFail) {
+    const HardCase& near_plane = hard_cases()[4];
+    ASSERT_EQ(near_plane.id, "H5");
+    HardScene scene = near_plane.make(640, 360).front();
+    EXPECT_EQ(scene.culled.near, 2U);
+    scene.projection.near_plane = 0.05;
+    const FrameWorkload work =
+        make_frame_workload(scene.cloud, scene.camera, 32, TileMode::Exact, scene.projection);
+    EXPECT_EQ(work.culled.near, 0U);
+    HardCaseRequest request;
+    request.only = {"H1"};
+    request.sets = {"fp32"};
+    request.resolutions = {"720p"};
+    request.span_ends = "outward"; // draws what fp32's bound allows, but updates more pixels
+    const Folder folder;
+    const auto results = sim::run_hard_cases(request, folder / "");
+    EXPECT_GT(results[0].measures[0].recounted, 0U);
+}
+
+TEST(HardCases, CommandWritesItsTable) {
+    const Folder folder;
+    const Outcome outcome = degs({"accuracy", "--hard-cases", "--only", "H5,H16,H28", "--numbers",
+                                  "fp32,tuned", "--out", folder / "out"});
+    expect_success(outcome);
+    EXPECT_NE(outcome.out.find("not applicable yet"), std::string::npos) << outcome.out;
+    const std::string table = read_file(folder / "out/hard_cases.md");
+    EXPECT_NE(table.find("| H5 |"), std::string::npos) << table;
+    const auto cases = nlohmann::json::parse(read_file(folder / "out/hard_cases.json"));
+    ASSERT_EQ(cases.size(), 3U);
+    EXPECT_EQ(cases[0]["holds"], true);
+    EXPECT_EQ(cases[0]["measures"].size(), 2U);
+    EXPECT_TRUE(cases[1]["holds"].is_null());
+    EXPECT_EQ(cases[2]["holds"], true);
+}
+
+} // namespace
+} // namespace degs::sim_test
