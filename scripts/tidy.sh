@@ -11,11 +11,14 @@ cache=build/tidy
 mkdir -p "$cache"
 common=$({ cat .clang-tidy; clang-tidy --version; } | sha256sum | cut -c1-64)
 
-# Lines "source dependency" for the project's own files, from what Ninja recorded while compiling.
-dependencies=$(ninja -C "$build" -t deps | awk -v root="$PWD/" '
+# Lines "source dependency" for the project's own files, from what Ninja recorded while compiling. Paths may be relative
+# to the build (ccache with a base_dir).
+dependencies=$(ninja -C "$build" -t deps | awk -v root="$PWD/" -v build="$(cd "$build" && pwd)/" '
     /^[^ ].*: #deps/ { source = ""; next }
     /^    / {
         path = $1
+        if (path !~ /^\//) path = build path
+        while (sub(/[^\/]+\/\.\.\//, "", path)) {}
         if (source == "") source = path
         if (index(path, root) == 1) print substr(source, length(root) + 1), substr(path, length(root) + 1)
     }' | sort -u)

@@ -37,25 +37,23 @@ std::string scientific(double value) {
     return text;
 }
 
-/// "61 60 61 63, 3e-04", with "no: " or "limit: " in front.
+/// "61 60 61 63, 3e-04", with "no: " in front.
 std::string cell_of(const HardResult& result, const std::string& set) {
     std::string words;
     double worst = 0;
     bool holds = true;
-    bool limited = false;
     for (const HardMeasure& measure : result.measures) {
         if (measure.set == set) {
             words += (words.empty() ? "" : " ") + decibels(measure);
             worst = std::max(worst, measure.max_abs_error);
             holds = holds && measure.problems.empty();
-            limited = limited || !measure.limit.empty();
         }
     }
     if (words.empty()) {
         return "";
     }
     words += worst > 0 ? ", " + scientific(worst) : "";
-    return (holds ? "" : limited ? "limit: " : "no: ") + words;
+    return (holds ? "" : "no: ") + words;
 }
 
 std::string verdict_of(const HardResult& result) {
@@ -82,7 +80,6 @@ nlohmann::ordered_json measure_json(const HardMeasure& measure) {
     json["alpha_bound"] = bounded ? nlohmann::ordered_json(measure.alpha_bound) : nullptr;
     json["pixels_beyond_bound"] = bounded ? nlohmann::ordered_json(measure.beyond) : nullptr;
     json["problems"] = measure.problems;
-    json["limit"] = measure.limit.empty() ? nullptr : nlohmann::ordered_json(measure.limit);
     return json;
 }
 

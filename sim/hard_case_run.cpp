@@ -18,25 +18,6 @@
 namespace degs::sim {
 namespace {
 
-/// Where the formats of a set are not enough, and its definition says so.
-struct KnownLimit {
-    const char* id;
-    const char* set;
-    const char* reason;
-};
-constexpr KnownLimit kLimits[] = {
-    {"H22", "tuned", "colour sums end at 4 (uq2.14)"},
-};
-
-std::string limit_of(const std::string& id, const std::string& set) {
-    for (const KnownLimit& limit : kLimits) {
-        if (id == limit.id && set == limit.set) {
-            return limit.reason;
-        }
-    }
-    return {};
-}
-
 std::vector<const HardCase*> chosen(const std::vector<std::string>& only) {
     std::vector<const HardCase*> cases;
     for (const HardCase& hard : hard_cases()) {
@@ -188,7 +169,7 @@ void find_problems(const HardScene& scene, const NumberSet& set, const Judge& ju
     }
 }
 
-HardMeasure measure(const HardCase& hard, const std::vector<Prepared>& scenes, const NumberSet& set,
+HardMeasure measure(const std::vector<Prepared>& scenes, const NumberSet& set,
                     const std::string& resolution) {
     HardMeasure out;
     out.set = set.name;
@@ -215,7 +196,6 @@ HardMeasure measure(const HardCase& hard, const std::vector<Prepared>& scenes, c
     out.psnr_db = difference.psnr_db();
     out.alpha_error_max = difference.alpha_error_max();
     out.max_abs_error = difference.max_abs_error();
-    out.limit = limit_of(hard.id, set.name);
     return out;
 }
 
@@ -255,8 +235,7 @@ void run_case(const HardCaseRequest& request, const std::string& resolution, Har
         compare_spans(scenes, resolution, result);
     }
     for (const std::string& name : request.sets) {
-        result.measures.push_back(
-            measure(hard, scenes, numbers_of(name, request.span_ends), resolution));
+        result.measures.push_back(measure(scenes, numbers_of(name, request.span_ends), resolution));
     }
 }
 
@@ -269,10 +248,8 @@ std::vector<std::string> HardResult::failures() const {
     }
     for (const HardMeasure& each : measures) {
         for (const std::string& problem : each.problems) {
-            if (each.limit.empty()) {
-                sentences.push_back(hard->id + ", " + each.set + " at " + each.resolution + ": " +
-                                    problem);
-            }
+            sentences.push_back(hard->id + ", " + each.set + " at " + each.resolution + ": " +
+                                problem);
         }
     }
     return sentences;

@@ -30,7 +30,6 @@ struct HardMeasure {
     double alpha_bound = 0;      ///< on a fragment's alpha, of the scene with the widest
     bool bounded = false;        ///< is there a bound for the set, see tolerance_of?
     std::vector<std::string> problems; ///< sentences; none: the expectation holds
-    std::string limit;                 ///< why it is known not to, empty if it is not
 };
 
 struct HardResult {
@@ -38,7 +37,7 @@ struct HardResult {
     std::vector<std::string> problems; ///< before a number set comes in: counts, order, files
     std::vector<std::string> notes;    ///< counted flips
     std::vector<HardMeasure> measures; ///< by resolution, then by set
-    /// What is not as expected, and no known limit: nothing, if the suite holds.
+    /// What is not as expected: nothing, if the suite holds.
     std::vector<std::string> failures() const;
 };
 

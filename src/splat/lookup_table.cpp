@@ -88,6 +88,7 @@ LookupTable::LookupTable(const TableSpec& spec)
     const bool root = spec.function == TableFunction::SqrtOneMinus;
     low_ = reduced && root ? 0.25 : 0.0;
     width_ = (reduced ? 1.0 - low_ : spec.range) / spec.entries;
+    cells_per_unit_ = 1 / width_;
     for (int i = 0; i < spec.entries; ++i) {
         const double a = low_ + width_ * i;
         const double b = low_ + width_ * (i + 1);
@@ -126,7 +127,7 @@ double LookupTable::curve(double reduced) const {
 }
 
 double LookupTable::look_up(double reduced) const {
-    const double at = (reduced - low_) / width_;
+    const double at = (reduced - low_) * cells_per_unit_;
     const double last = spec_.entries - 1;
     const auto i = static_cast<std::int32_t>(within(at, 0, last));
     const double cell = i;

@@ -69,7 +69,7 @@ private:
 
     TableSpec spec_;
     Rounder round_, round_argument_;
-    double low_ = 0, width_ = 1; // of the reduced argument
+    double low_ = 0, width_ = 1, cells_per_unit_ = 1; // of the reduced argument
     std::vector<double> values_, falls_;
     std::vector<float> lane_values_, lane_falls_;
 };

@@ -107,16 +107,17 @@ NumberSet tuned_set() {
     set.inverse_radius2 = parse_format("ue6m14b50"); // 16 384 down to 10^-15
     set.conic = parse_format("ue5m11b29");           // 4 down to 4e-9 with all its bits
     set.q_threshold = parse_format("uq3.17");
-    set.colour = parse_format("ue4m12b11"); // up to 16
+    set.colour = parse_format("ue4m12b8"); // up to 128
     set.square = parse_format("e6m12");
     set.ratio = parse_format("uq1.18");
     set.level = parse_format("uq4.16");
     set.g0 = set.q = parse_format("uq3.13"); // log2 255 < 8
     set.d0 = parse_format("e4m11b11");
     set.term = parse_format("q5.13");
-    set.alpha = set.transmittance = parse_format("uq0.16");
-    set.weight = parse_format("uq2.16");
-    set.sum = parse_format("uq2.14");
+    set.alpha = parse_format("uq0.16");
+    // Finer than the sums: where T does not fall any more, colours must not be added any more.
+    set.transmittance = parse_format("uq0.18");
+    set.weight = set.sum = parse_format("uq6.16");
     set_tuned_tables(set);
     set.vertical = Vertical::FromRatio;
     set.base = Base::Vertex;

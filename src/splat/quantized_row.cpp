@@ -41,6 +41,7 @@ QuantizedSplat QuantizedRow::record(const ProjectedSplat& splat) const {
     out.mean_x = mean_(splat.mu_x - out.pixel_x);
     out.mean_y = mean_(splat.mu_y - out.pixel_y);
     out.q_threshold = q_threshold_(unit_ * splat.q_threshold);
+    out.fold = level_(fold_limit_ - out.q_threshold);
     for (int channel = 0; channel < 3; ++channel) {
         out.colour[channel] = colour_(splat.colour[channel]);
     }
@@ -173,8 +174,7 @@ double QuantizedRow::level(const QuantizedSplat& splat, const Row& row) const {
     const double vertical = set_.vertical == Vertical::Squared
                                 ? level_(square_(row.dy * row.dy) * splat.c_prime)
                                 : level_(square_(row.dy * splat.c_prime) * row.dy);
-    const double fold = level_(fold_limit_ - splat.q_threshold); // -2 ln o
-    return level_(vertical + fold);
+    return level_(vertical + splat.fold);
 }
 
 double QuantizedRow::times(double value, int integer) const {

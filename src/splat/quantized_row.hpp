@@ -16,6 +16,7 @@ struct QuantizedSplat {
     double inverse_radius2 = 0;      ///< 1 / r_y^2, px^-2
     double a = 0;                    ///< A
     double q_threshold = 0;          ///< Q_th
+    double fold = 0;                 ///< -2 ln o, from Q_th
     double colour[3] = {0, 0, 0};
 };
 
