@@ -229,7 +229,9 @@ void run_case(const HardCaseRequest& request, const std::string& resolution, Har
         scenes.push_back(prepare(hard, std::move(scene), request.tile_size, problems));
     }
     for (const std::string& problem : problems) {
-        result.problems.push_back("At " + resolution + ": " + problem);
+        std::string sentence = "At ";
+        sentence.append(resolution).append(": ").append(problem);
+        result.problems.push_back(std::move(sentence));
     }
     if (hard.spans) {
         compare_spans(scenes, resolution, result);

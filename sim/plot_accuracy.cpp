@@ -131,7 +131,8 @@ std::string accuracy_svg(const std::vector<AccuracyRow>& rows) {
     for (std::size_t p = 0; p < picture.panels.size(); ++p) {
         const Panel& panel = picture.panels[p];
         const double left = kPlotMargin + width * static_cast<double>(p % columns);
-        const double y = top + kPanelHeight * static_cast<double>(p / columns);
+        const std::size_t row = p / columns;
+        const double y = top + kPanelHeight * static_cast<double>(row);
         const Axes axes{left + 36, left + width - 14, y + 56, y + kPanelHeight - 48, picture};
         svg.text(left, y + 20, fitting(panel.heading, 13, width - 10), {13, kInk, "start", true});
         draw_axes(svg, axes, panel);
