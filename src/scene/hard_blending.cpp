@@ -35,8 +35,10 @@ std::vector<HardScene> make_threshold_case(int width, int height) {
     const double reach = 2 * std::sqrt(2 * std::log(0.5 * 255)); // px
     for (int i = 0; i < 100000; ++i) {
         const int place = i * 37 % (kSide * kSide);
-        const double x = builder.middle_x() + place % kSide - kSide / 2;
-        const double y = builder.middle_y() + place / kSide - kSide / 2;
+        const int column = place % kSide - kSide / 2;
+        const int row = place / kSide - kSide / 2;
+        const double x = builder.middle_x() + column;
+        const double y = builder.middle_y() + row;
         if (i % 2 == 0) {
             builder.add({x, y, sigma, sigma, 0, 1.0 / 255.0, rgb_of(i), 10 + 1e-4 * i});
         } else if (i % 200 == 1) {
@@ -111,7 +113,7 @@ std::vector<HardScene> make_image_size_case(int width, int height) {
                          rgb_of(i), 10.0 + i});
         }
         builder.look(0, 0);
-        builder.look(w / 2, h / 2);
+        builder.look(builder.middle_x(), builder.middle_y());
         builder.look(w - 1, h - 1);
         scenes.push_back(one(builder).front());
     }
@@ -173,7 +175,8 @@ std::vector<HardScene> make_one_pixel_case(int width, int height) {
     HardBuilder builder(width, height);
     builder.scene.same_counts = true;
     for (int i = 0; i < 3000; ++i) {
-        builder.add({builder.middle_x() + i / 1500 * 3, builder.middle_y(), 0, 0, 0,
+        const int shift = i < 1500 ? 0 : 3;
+        builder.add({builder.middle_x() + shift, builder.middle_y(), 0, 0, 0,
                      0.005 + 0.014 * (i % 100) / 100, rgb_of(i), 10 + 0.001 * i});
     }
     builder.look(builder.middle_x(), builder.middle_y(), 8);

@@ -33,10 +33,13 @@ public:
 
     int width() const { return scene.camera.width; }
     int height() const { return scene.camera.height; }
-    double middle_x() const { return width() / 2; }  ///< a pixel centre
-    double middle_y() const { return height() / 2; } ///< likewise
+    double middle_x() const { return middle_of(width()); }  ///< a pixel centre
+    double middle_y() const { return middle_of(height()); } ///< likewise
 
     HardScene scene;
+
+private:
+    static int middle_of(int pixels) { return pixels / 2; }
 };
 
 /// The last Gaussian once more, for what is then changed in it.

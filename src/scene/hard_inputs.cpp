@@ -63,7 +63,9 @@ std::vector<HardScene> make_tiny_scene_case(int width, int height) {
     for (const double near_plane : {0.2, 0.001}) {
         HardBuilder builder(width, height);
         for (int i = 0; i < 20; ++i) {
-            builder.add({builder.middle_x() + 4 * (i % 5), builder.middle_y() + 4 * (i / 5), 5, 3,
+            const int column = i % 5;
+            const int row = i / 5;
+            builder.add({builder.middle_x() + 4 * column, builder.middle_y() + 4 * row, 5, 3,
                          0.3 * i, 0.5, rgb_of(i), 0.05 + 0.005 * i});
         }
         builder.scene.projection.near_plane = near_plane;
