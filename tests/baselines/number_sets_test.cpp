@@ -7,6 +7,7 @@
 #include "tests/baselines/engine_run.hpp"
 #include "tests/baselines/gbu_fixture.hpp"
 #include "tests/baselines/gcc_run.hpp"
+#include "tests/modules/soft_frame.hpp"
 
 namespace degs {
 namespace {
@@ -30,18 +31,7 @@ protected:
 };
 
 FrameWorkload frame_for(const AcceleratorConfig& config) {
-    std::mt19937 random(19);
-    std::uniform_real_distribution<double> unit(0, 1);
-    std::vector<ProjectedSplat> splats;
-    for (int i = 0; i < 150; ++i) {
-        splats.push_back(test::make_splat(90 * unit(random), 70 * unit(random),
-                                          1 + 8 * unit(random), 0.8 + 3 * unit(random),
-                                          6.3 * unit(random), 0.05 + 0.9 * unit(random)));
-        for (double& channel : splats.back().colour) {
-            channel = unit(random);
-        }
-    }
-    return test::make_frame(splats, 90, 70, config.tile_size_px());
+    return test::soft_frame(19, 150, 90, 70, config.tile_size_px());
 }
 
 TEST_P(SmallRunNumberSets, RunEverywhere) {

@@ -5,6 +5,7 @@
 
 #include "splat/image_metrics.hpp"
 #include "tests/modules/run_fixture.hpp"
+#include "tests/modules/soft_frame.hpp"
 
 namespace degs {
 namespace {
@@ -27,26 +28,10 @@ DegsConfig config_of(NumberFormat numbers, SpanEnds ends) {
     return config;
 }
 
-/// Splats of 3 to 12 px with colours below 1, as trained scenes have them.
-FrameWorkload soft_frame() {
-    std::mt19937 random(11);
-    std::uniform_real_distribution<double> unit(0, 1);
-    std::vector<ProjectedSplat> splats;
-    for (int i = 0; i < 400; ++i) {
-        splats.push_back(test::make_splat(200 * unit(random), 140 * unit(random),
-                                          1 + 8 * unit(random), 0.8 + 3 * unit(random),
-                                          6.3 * unit(random), 0.05 + 0.9 * unit(random)));
-        for (double& channel : splats.back().colour) {
-            channel = unit(random);
-        }
-    }
-    return test::make_frame(splats, 200, 140, 32);
-}
-
 class SmallRunNumbers : public ::testing::TestWithParam<Quality> {};
 
 TEST_P(SmallRunNumbers, AreAsNearAsTheirFormats) {
-    const FrameWorkload frame = soft_frame();
+    const FrameWorkload frame = test::soft_frame(11, 400, 200, 140, 32);
     const DegsRun exact("exact", config_of(GetParam().numbers, SpanEnds::Exact), {&frame});
     const DegsRun slope("slope", config_of(GetParam().numbers, SpanEnds::Slope), {&frame});
     sc_core::sc_start();
