@@ -6,14 +6,9 @@
 #include <vector>
 
 #include "modules/messages.hpp"
+#include "splat/pixel_mask.hpp"
 
 namespace degs {
-
-/// Bits begin .. end - 1; 0 <= begin <= 32, end <= 32.
-inline std::uint32_t bits_between(int begin, int end) {
-    const auto upto = [](int n) { return static_cast<std::uint32_t>((std::uint64_t{1} << n) - 1); };
-    return upto(end) & ~upto(begin);
-}
 
 /// Cuts row spans at the fixed strides of their tile, columns 0 .. length - 1 and so on (paper,
 /// Sec. IV-B), and numbers the conflict domains (row x segment) of one bank's rows of a tile. No

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "splat/pixel_mask.hpp"
+
 namespace degs {
 namespace {
 
@@ -13,11 +15,6 @@ constexpr int kRun = 32; ///< pixels that a BlendTask can name
 
 int ones(std::uint32_t mask) {
     return __builtin_popcount(mask);
-}
-
-/// Bits first .. last, 0 <= first <= last < kRun.
-std::uint32_t bits(int first, int last) {
-    return (~std::uint32_t{0} >> (kRun - 1 - last)) & (~std::uint32_t{0} << first);
 }
 
 } // namespace
@@ -99,7 +96,7 @@ void DataPathRenderer::TileBlender::blend_span(const RowSpan& span) {
     task.splat = span.splat;
     task.row = span.y;
     for (int column = span.x0 / kRun * kRun; column <= end; column += kRun) {
-        task.mask = bits(std::max(span.x0 - column, 0), std::min(end - column, kRun - 1));
+        task.mask = bits_between(std::max(span.x0 - column, 0), std::min(end + 1 - column, kRun));
         task.column = static_cast<std::int16_t>(column);
         task.offset = static_cast<std::int16_t>(column - span.base);
         const BlendOutcome outcome = path_->blend(task);
