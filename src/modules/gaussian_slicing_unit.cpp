@@ -104,8 +104,14 @@ void GaussianSlicingUnit::see_ended_regions(TileNumber number) {
 void GaussianSlicingUnit::slice(const SplatChunk& chunk) {
     const JobTile& tile = job_.tiles[chunk.tile];
     const FrameWorkload& frame = job_.frame_of(tile);
+    const auto splat = [&](std::uint32_t i) {
+        return job_.first_splat[tile.frame] + frame.tile_splats[chunk.first + i];
+    };
     for (std::uint32_t i = 0; i < chunk.count; ++i) {
-        slice_splat(chunk.tile, job_.first_splat[tile.frame] + frame.tile_splats[chunk.first + i]);
+        job_.path->expect(splat(i)); // the host's memory then answers all of them at once
+    }
+    for (std::uint32_t i = 0; i < chunk.count; ++i) {
+        slice_splat(chunk.tile, splat(i));
     }
 }
 

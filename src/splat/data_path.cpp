@@ -14,9 +14,10 @@ namespace {
 
 /// What the Gaussian Slicing Unit and the Span Unit need of a splat (paper: Temporary Gaussian
 /// Parameter). The mean is its nearest pixel plus an offset in [-0.5, 0.5]: a plain fp32 coordinate
-/// would lose 2^-13 px beyond x = 1024, which is enough to move span ends.
+/// would lose 2^-13 px beyond x = 1024, which is enough to move span ends. In single precision all
+/// of it is one cache line: splats of a tile lie anywhere in memory.
 template <class T>
-struct SpanRecord {
+struct alignas(64) SpanRecord {
     std::int32_t pixel_x, pixel_y;
     T offset_x, offset_y;
     T slope;       // m = -B/A = b/c (Eq. 10)
@@ -26,11 +27,14 @@ struct SpanRecord {
     T q_threshold; // Q_th
     T fold;        // 2 ln o, subtracted from g0 so that the PE needs exp(-q/2) alone
     std::int32_t first_row, last_row, first_column, last_column;
-    // For the part of the ellipse inside a tile's columns: the same shape solved for y.
-    float column_slope;   // b/a
-    float column_c_prime; // 1/a
-    float column_inverse; // det/a
-    float tip_offset;     // x of the lowest point minus the mean; the highest mirrors it
+};
+
+/// For the part of the ellipse inside a tile's columns: the same shape solved for y.
+struct ColumnRecord {
+    float slope;      // b/a
+    float c_prime;    // 1/a
+    float inverse;    // det/a
+    float tip_offset; // x of the lowest point minus the mean; the highest mirrors it
 };
 
 constexpr int kFarRow = 1 << 29; // beyond every image; leaves room to add to it
@@ -59,11 +63,14 @@ SpanRecord<T> derive(const ProjectedSplat& splat) {
     const double reach_x = std::sqrt(splat.q_threshold * splat.cov_a);
     record.first_column = to_pixel(std::ceil(splat.mu_x - reach_x));
     record.last_column = to_pixel(std::floor(splat.mu_x + reach_x));
-    record.column_slope = static_cast<float>(splat.cov_b / splat.cov_a);
-    record.column_c_prime = static_cast<float>(1.0 / splat.cov_a);
-    record.column_inverse = static_cast<float>(splat.det / splat.cov_a);
-    record.tip_offset = static_cast<float>(splat.cov_b / splat.cov_c * reach);
     return record;
+}
+
+ColumnRecord derive_columns(const ProjectedSplat& splat) {
+    const double reach = std::sqrt(splat.q_threshold * splat.cov_c);
+    return {static_cast<float>(splat.cov_b / splat.cov_a), static_cast<float>(1.0 / splat.cov_a),
+            static_cast<float>(splat.det / splat.cov_a),
+            static_cast<float>(splat.cov_b / splat.cov_c * reach)};
 }
 
 template <class T>
@@ -77,13 +84,20 @@ public:
     std::uint32_t add_frame(const FrameWorkload& workload) override {
         const auto base = static_cast<std::uint32_t>(spans_.size());
         spans_.reserve(spans_.size() + workload.splats.size());
+        columns_.reserve(columns_.size() + workload.splats.size());
         blends_.reserve(blends_.size() + workload.splats.size());
         for (const ProjectedSplat& splat : workload.splats) {
             spans_.push_back(derive<T>(splat));
+            columns_.push_back(derive_columns(splat));
             blends_.push_back({spans_.back().a, static_cast<T>(splat.colour[0]),
                                static_cast<T>(splat.colour[1]), static_cast<T>(splat.colour[2])});
         }
         return base;
+    }
+
+    void expect(std::uint32_t splat) const override {
+        __builtin_prefetch(&spans_[splat]);
+        __builtin_prefetch(&blends_[splat]);
     }
 
     void rows(std::uint32_t splat, int& first, int& last) const override {
@@ -109,11 +123,12 @@ public:
         first = s.first_row;
         last = s.last_row;
         // Lowest row index = smallest y: at x offset -tip; largest y at +tip.
-        if (-s.tip_offset < left || -s.tip_offset > right) {
-            first = std::max(first, cut(s, -s.tip_offset < left ? left : right, -1));
+        const ColumnRecord& c = columns_[splat];
+        if (-c.tip_offset < left || -c.tip_offset > right) {
+            first = std::max(first, cut(s, c, -c.tip_offset < left ? left : right, -1));
         }
-        if (s.tip_offset < left || s.tip_offset > right) {
-            last = std::min(last, cut(s, s.tip_offset < left ? left : right, +1));
+        if (c.tip_offset < left || c.tip_offset > right) {
+            last = std::min(last, cut(s, c, c.tip_offset < left ? left : right, +1));
         }
     }
 
@@ -240,20 +255,20 @@ public:
 private:
     // Row at which column dx (from the mean) leaves the ellipse, upwards (-1) or downwards (+1),
     // with a row of slack; beyond every row if the column misses the ellipse.
-    static int cut(const SpanRecord<T>& s, float dx, int direction) {
-        const float room = static_cast<float>(s.q_threshold) - s.column_c_prime * dx * dx;
+    static int cut(const SpanRecord<T>& s, const ColumnRecord& c, float dx, int direction) {
+        const float room = static_cast<float>(s.q_threshold) - c.c_prime * dx * dx;
         if (!(room >= -1e-3F)) {
             return direction < 0 ? kFarRow : -kFarRow;
         }
         // The two terms of `room` cancel where the column just touches the ellipse: with their
         // rounding added, a steep needle loses no row.
         const float rounding = 1e-6F * (static_cast<float>(s.q_threshold) + 1);
-        const float height = std::sqrt(std::max(room + rounding, 0.0F) * s.column_inverse);
-        const float y = static_cast<float>(s.offset_y) + s.column_slope * dx +
+        const float height = std::sqrt(std::max(room + rounding, 0.0F) * c.inverse);
+        const float y = static_cast<float>(s.offset_y) + c.slope * dx +
                         static_cast<float>(direction) * height;
         const float limited = std::min(std::max(y, -1e8F), 1e8F);
         const float slack =
-            0.01F + 1e-6F * (std::abs(limited) + std::abs(s.column_slope * dx) + height);
+            0.01F + 1e-6F * (std::abs(limited) + std::abs(c.slope * dx) + height);
         return s.pixel_y + static_cast<int>(direction < 0 ? std::ceil(limited - slack)
                                                           : std::floor(limited + slack));
     }
@@ -268,6 +283,7 @@ private:
     BlendFunction<T> blend_;
     TestFunction<T> test_;
     std::vector<SpanRecord<T>> spans_;
+    std::vector<ColumnRecord> columns_;
     std::vector<BlendRecord<T>> blends_;
 };
 

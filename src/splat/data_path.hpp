@@ -95,6 +95,8 @@ public:
 
     /// Derives the records of all splats of a frame; returns the global index of its first splat.
     virtual std::uint32_t add_frame(const FrameWorkload& workload) = 0;
+    /// The splat's rows will be asked for soon: a hint that changes nothing but host time.
+    virtual void expect(std::uint32_t splat) const = 0;
     /// First and last image row (inclusive, unclipped) that the splat's ellipse meets.
     virtual void rows(std::uint32_t splat, int& first, int& last) const = 0;
     /// The same for the part of the ellipse in columns [x_begin, x_end). May name a row too many at

@@ -38,6 +38,13 @@ public:
         return base;
     }
 
+    void expect(std::uint32_t splat) const override {
+        const auto* record = reinterpret_cast<const char*>(&splats_[splat]);
+        __builtin_prefetch(record);
+        __builtin_prefetch(record + sizeof(QuantizedSplat) - 1);
+        __builtin_prefetch(&extents_[splat]);
+    }
+
     void rows(std::uint32_t splat, int& first, int& last) const override {
         first = extents_[splat].first_row();
         last = extents_[splat].last_row();
