@@ -60,8 +60,8 @@ void SpanUnit::pump() {
     }
 }
 
-// Solves a row. The result waits in the cell it will be sent in, or in held_ while there is none.
-// Items are read and written in place: a copy of what was just written waits for the write.
+// Solves a row in the cell that it will be sent in, or in held_ while there is none. Items are read
+// and written in place: a copy of what was just written waits for the write.
 void SpanUnit::take() {
     const RowItem& item = rows_->arrive(self_);
     const TileNumber tile_number = item.tile;
@@ -69,25 +69,34 @@ void SpanUnit::take() {
     const int row = item.row;
     const bool end = item.end;
     rows_->drop(self_);
-    next_port_ = end ? 0 : port_of_row_[static_cast<std::size_t>(row)];
-    DatedFifo<SpanItem>& ring = *rings_[next_port_];
-    result_ = end || ring.full() ? &held_ : &ring.staged();
-    result_->tile = tile_number;
-    result_->end = end;
     if (end) {
+        held_.tile = tile_number;
+        held_.end = true;
+        next_port_ = 0;
         holding_ = true;
         return;
     }
+    next_port_ = port_of_row_[static_cast<std::size_t>(row)];
+    DatedFifo<SpanItem>& ring = *rings_[next_port_];
+    holding_ = ring.full();
+    SpanItem& result = holding_ ? held_ : ring.staged();
     const JobTile& tile = job_.tiles[tile_number];
     stats_.rows++;
     stats_.busy += static_cast<Cycle>(config_.cycles_per_row);
-    holding_ = job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y,
-                                    result_->span);
-    if (holding_) {
-        stats_.spans++;
-        stats_.tasks += static_cast<std::uint64_t>(result_->span.length);
-    } else {
+    if (!job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y,
+                              result.span)) {
         stats_.empty_rows++;
+        holding_ = false;
+        self_.advance(static_cast<Cycle>(config_.cycles_per_row));
+        return;
+    }
+    result.tile = tile_number;
+    result.end = false;
+    stats_.spans++;
+    stats_.tasks += static_cast<std::uint64_t>(result.span.length);
+    if (!holding_) {
+        ring.reserve(self_);
+        ring.put_staged(self_);
         self_.advance(static_cast<Cycle>(config_.cycles_per_row));
     }
 }
@@ -101,14 +110,9 @@ bool SpanUnit::deliver() {
             return false;
         }
         self_.hold_for(nullptr);
-        ring.reserve(self_);
-        if (result_ == &held_) {
-            ring.staged() = held_;
-        }
-        const bool end = result_->end;
-        ring.put_staged(self_);
-        holding_ = end && ++next_port_ < rings_.size();
-        if (!end) {
+        ring.put(self_, held_);
+        holding_ = held_.end && ++next_port_ < rings_.size();
+        if (!held_.end) {
             self_.advance(static_cast<Cycle>(config_.cycles_per_row));
         } else if (!holding_ && job_.over(++tiles_done_)) {
             self_.finish();

@@ -50,7 +50,6 @@ private:
     std::vector<DatedFifo<SpanItem>*> rings_;
     std::vector<std::size_t> port_of_row_; // by row inside the tile
     SpanItem held_;             // the result of the item taken last, while its ring is full
-    SpanItem* result_ = &held_; // where that result is
     std::size_t next_port_ = 0; // where it goes; an end goes to all ports in turn
     bool holding_ = false;
     TileNumber tiles_done_ = 0;

@@ -264,11 +264,10 @@ private:
         // rounding added, a steep needle loses no row.
         const float rounding = 1e-6F * (static_cast<float>(s.q_threshold) + 1);
         const float height = std::sqrt(std::max(room + rounding, 0.0F) * c.inverse);
-        const float y = static_cast<float>(s.offset_y) + c.slope * dx +
-                        static_cast<float>(direction) * height;
+        const float y =
+            static_cast<float>(s.offset_y) + c.slope * dx + static_cast<float>(direction) * height;
         const float limited = std::min(std::max(y, -1e8F), 1e8F);
-        const float slack =
-            0.01F + 1e-6F * (std::abs(limited) + std::abs(c.slope * dx) + height);
+        const float slack = 0.01F + 1e-6F * (std::abs(limited) + std::abs(c.slope * dx) + height);
         return s.pixel_y + static_cast<int>(direction < 0 ? std::ceil(limited - slack)
                                                           : std::floor(limited + slack));
     }

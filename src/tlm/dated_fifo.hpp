@@ -100,7 +100,9 @@ public:
         const Cycle now = reader.local();
         stats_.items++;
         stats_.occupied_cycles += now - front_->written;
-        count_fill();
+        if (stats_.high_water != depth_) {
+            count_fill();
+        }
         front_->read = now;
         front_->date = now + release_latency_;
         const bool was_full = filled_-- == depth_;
