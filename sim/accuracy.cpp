@@ -89,13 +89,13 @@ void add_image_keys(const AccuracyRow& row, nlohmann::ordered_json& json) {
 
 std::string accuracy_table(const std::vector<AccuracyRow>& rows) {
     TextTable table({"scene", "camera", "size", "numbers", "mean", "spread", "max", "to fp16",
-                     "flips %", "PSNR dB", "SSIM", "pixel max", "non-finite", "ends",
+                     "flips %", "PSNR dB", "SSIM", "FLIP", "pixel max", "non-finite", "ends",
                      "worst pixel"});
     for (const AccuracyRow& row : rows) {
         table.add({row.scene, row.camera ? std::to_string(*row.camera) : "", row.resolution,
                    row.numbers, error_words(row.alpha_error_mean), error_words(row.spread),
                    error_words(row.alpha_error_max), error_words(row.mean_to_fp16), flip_words(row),
-                   decibel_words(row), row.ssim ? ssim_words(*row.ssim) : "",
+                   decibel_words(row), row.ssim ? ssim_words(*row.ssim) : "", error_words(row.flip),
                    error_words(row.max_abs_error), grouped(row.nonfinite), row.span_ends,
                    worst_words(row.worst)});
     }
@@ -114,6 +114,7 @@ nlohmann::ordered_json accuracy_json(const std::vector<AccuracyRow>& rows) {
         json["alpha_error_max"] = row.alpha_error_max;
         json["psnr_db"] = or_null(row.psnr_db);
         json["ssim"] = or_null(row.ssim);
+        json["flip"] = or_null(row.flip);
         json["max_abs_error"] = or_null(row.max_abs_error);
         json["nonfinite"] = row.nonfinite;
         json["alpha_error_spread"] = or_null(row.spread);

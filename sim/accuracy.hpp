@@ -34,7 +34,7 @@ struct AccuracyRow {
     std::string numbers;         ///< number set, or "fp16-direct"
     double alpha_error_mean = 0; ///< absolute, against fp64, over all pixels
     double alpha_error_max = 0;  ///< over pixels that both draw
-    std::optional<double> psnr_db, ssim, max_abs_error; ///< of images
+    std::optional<double> psnr_db, ssim, flip, max_abs_error; ///< of images
     std::uint64_t nonfinite = 0;                        ///< values that are no number
 
     // Images only.

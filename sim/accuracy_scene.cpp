@@ -8,6 +8,7 @@
 #include "sim/progress.hpp"
 #include "sim/simulation.hpp"
 #include "splat/data_path_renderer.hpp"
+#include "splat/flip.hpp"
 #include "splat/image_difference.hpp"
 #include "splat/pixel_replay.hpp"
 
@@ -56,6 +57,7 @@ AccuracyRow compare(const Frame& frame, const Image& image, const NumberSet& set
     row.recounted = difference.recounted();
     row.identical = difference.identical();
     row.ssim = compare_images(frame.reference, image).ssim;
+    row.flip = flip_difference(frame.reference, image);
     if (std::isfinite(difference.psnr_db()) && row.nonfinite == 0) {
         row.psnr_db = difference.psnr_db();
     }

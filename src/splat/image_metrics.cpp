@@ -140,7 +140,9 @@ double StructuralSimilarity::row_sum(int y) {
     return sum;
 }
 
-void check(const Image& reference, const Image& test) {
+} // namespace
+
+void check_comparable(const Image& reference, const Image& test) {
     const auto size = [](const Image& image) {
         return std::to_string(image.width) + " x " + std::to_string(image.height);
     };
@@ -154,10 +156,8 @@ void check(const Image& reference, const Image& test) {
     }
 }
 
-} // namespace
-
 ImageError compare_images(const Image& reference, const Image& test) {
-    check(reference, test);
+    check_comparable(reference, test);
     double squares = 0, worst = 0;
     for (std::size_t i = 0; i < reference.rgb.size(); ++i) {
         const double error = std::abs(static_cast<double>(reference.rgb[i]) - test.rgb[i]);

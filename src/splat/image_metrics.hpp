@@ -12,8 +12,11 @@ struct ImageError {
     double max_abs_error = 0; ///< largest channel difference
 };
 
+/// Throws InputError if sizes differ or there is no pixel.
+void check_comparable(const Image& reference, const Image& test);
+
 /// Compares the colours of two images; accumulates in double. A non-finite pixel makes the numbers
-/// it enters NaN or infinite. Throws InputError if sizes differ or there is no pixel.
+/// it enters NaN or infinite. Throws InputError as check_comparable().
 ImageError compare_images(const Image& reference, const Image& test);
 
 } // namespace degs

@@ -4,6 +4,7 @@
 
 #include "scene/image_io.hpp"
 #include "sim/scene_list.hpp"
+#include "splat/flip.hpp"
 #include "tests/sim/child.hpp"
 
 namespace degs::sim_test {
@@ -73,6 +74,8 @@ TEST(AccuracyScenes, IsTheDifferenceOfRunAndRender) {
         ASSERT_EQ(run.transmittance[i] - reference.transmittance[i], error.transmittance[i]) << i;
     }
     EXPECT_NEAR(rows[0]["max_abs_error"], worst, 1e-6);
+    EXPECT_NEAR(rows[0]["flip"], flip_difference(reference, run), 1e-12);
+    EXPECT_GT(rows[0]["flip"], 0);
     const json& pixel = rows[0]["worst_pixel"];
     const std::size_t at = run.at(pixel["x"], pixel["y"]);
     EXPECT_EQ(worst, std::max({std::abs(error.rgb[3 * at]), std::abs(error.rgb[3 * at + 1]),
@@ -90,6 +93,7 @@ TEST(AccuracyScenes, EqualImagesHaveNoPsnr) {
     EXPECT_TRUE(rows[0]["worst_pixel"].is_null());
     EXPECT_TRUE(rows[0]["error_image"].is_null());
     EXPECT_EQ(rows[0]["max_abs_error"], 0);
+    EXPECT_EQ(rows[0]["flip"], 0);
 }
 
 TEST(AccuracyScenes, SpanEndsCanBeChosen) {

@@ -29,7 +29,7 @@ TEST(AccuracyCommand, WritesARowPerKindAndSet) {
         EXPECT_EQ(row["scene"], i < 3 ? "isotropic-3" : "random");
         EXPECT_EQ(row["numbers"], numbers[i % 3]);
         EXPECT_EQ(row["resolution"], "32x32");
-        for (const char* none : {"camera", "psnr_db", "ssim", "max_abs_error"}) {
+        for (const char* none : {"camera", "psnr_db", "ssim", "flip", "max_abs_error"}) {
             EXPECT_TRUE(row.at(none).is_null()) << none;
         }
         EXPECT_EQ(row["nonfinite"], 0);
