@@ -79,14 +79,14 @@ TEST(Configs, FormatsOfSingleStages) {
 
 // What a run computes with is what `degs accuracy` calls by the set's name, span ends included.
 TEST(Configs, DegsComputesInHardwareNumbers) {
-    for (const auto& [file, numbers] : std::map<std::string, std::string>{{"degs-16", "paper"},
-                                                                          {"degs-64", "paper"},
-                                                                          {"degs-256", "paper"},
-                                                                          {"degs-1024", "paper"},
-                                                                          {"degs-64-tuned",
-                                                                           "tuned"}}) {
+    const std::pair<const char*, const char*> designs[] = {{"degs-16", "paper"},
+                                                           {"degs-64", "paper"},
+                                                           {"degs-256", "paper"},
+                                                           {"degs-1024", "paper"},
+                                                           {"degs-64-tuned", "tuned"}};
+    for (const auto& [file, numbers] : designs) {
         SCOPED_TRACE(file);
-        const DataPathOptions own = numbers_with({}, file.c_str());
+        const DataPathOptions own = numbers_with({}, file);
         const DataPathOptions named = named_numbers(numbers);
         EXPECT_EQ(own.numbers, named.numbers);
         EXPECT_EQ(own.ends, named.ends);
