@@ -99,7 +99,7 @@ TEST(Scenes, OutwardSpanEndsCostTensOfDecibels) {
     EXPECT_LE(literal, 80.0);
 }
 
-// The ends weigh more than the formats: in `paper` as above, in `tuned` (exact ends) far better.
+// `paper` has outward ends, too, and coarse formats; `tuned` has neither.
 TEST(Scenes, HardwareNumbersOfTheConfigurations) {
     DEGS_NEEDS("flowers");
     const double paper = psnr(run("degs-64", "flowers", 2));
