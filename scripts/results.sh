@@ -4,7 +4,7 @@
 # scenes in DEGS_SCENES (default ../shared/scenes). Ratios of times come from single runs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-program=build/release/sim/degs
+program=${DEGS_PROGRAM:-build/release/sim/degs}
 scenes=${DEGS_SCENES:-../shared/scenes}
 out=${1:-$(mktemp -d)}
 closeups=(flowers guitar seal skull st-peter)
@@ -44,15 +44,15 @@ for camera in 2 1; do
 done
 
 echo
-echo "### Image and speed"
+echo "### Image and speed, fp32"
 echo
 echo "| scene | camera | exact ends, dB | outward ends, dB | updates off | simulation / reference render | reference ns per fragment |"
 echo "|---|--:|--:|--:|--:|--:|--:|"
 for scene in flowers flowers-small fruit-drops garden-crop guitar seal skull st-peter; do
     for camera in 0 1 2; do
-        run degs-64 "$scene" "$camera"
+        run degs-64 "$scene" "$camera" --set pipeline.numbers=fp32 # its ends are outward then
         outward=$(value "$out/report.json" image psnr_db)
-        run degs-64-tuned "$scene" "$camera"
+        run degs-64-tuned "$scene" "$camera" --set pipeline.numbers=fp32
         report=$out/report.json
         fragments=$(value "$report" workload fragments)
         echo "| $scene | $camera | $(awk -v x="$(value "$report" image psnr_db)" 'BEGIN { printf "%.0f", x }') |" \

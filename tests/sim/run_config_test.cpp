@@ -77,6 +77,25 @@ TEST(Configs, FormatsOfSingleStages) {
     }
 }
 
+// What a run computes with is what `degs accuracy` calls by the set's name, span ends included.
+TEST(Configs, DegsComputesInHardwareNumbers) {
+    const std::pair<const char*, const char*> designs[] = {{"degs-16", "paper"},
+                                                           {"degs-64", "paper"},
+                                                           {"degs-256", "paper"},
+                                                           {"degs-1024", "paper"},
+                                                           {"degs-64-tuned", "tuned"}};
+    for (const auto& [file, numbers] : designs) {
+        SCOPED_TRACE(file);
+        const DataPathOptions own = numbers_with({}, file);
+        const DataPathOptions named = named_numbers(numbers);
+        EXPECT_EQ(own.numbers, named.numbers);
+        EXPECT_EQ(own.ends, named.ends);
+        EXPECT_EQ(own.delta, named.delta);
+        EXPECT_EQ(own.stop, named.stop);
+        EXPECT_FALSE(own.set.has_value());
+    }
+}
+
 void expect_refused(const std::vector<std::string>& assignments, const std::string& sentence) {
     try {
         numbers_with(assignments, "degs-64");
@@ -100,11 +119,15 @@ TEST(Configs, WrongFormatsAreNamed) {
                    "key 'pipeline.formats' cannot be computed: The number format uq18.12 of "
                    "distance has no sign, but its values may be negative.");
     expect_refused({"pipeline.numbers=tuned", "pipeline.formats.q=uq2.14"}, "must reach beyond");
-    expect_refused({"pipeline.formats.exp.interpolation=linear"}, "1 to 4096 entries");
+    expect_refused({"pipeline.numbers=fp32", "pipeline.formats.exp.interpolation=linear"},
+                   "1 to 4096 entries");
 }
 
-TEST(Configs, Degs64IsTheDefault) {
-    EXPECT_EQ(resolved(load("degs-64")).dump(2), resolved(RunConfig{}).dump(2));
+TEST(Configs, Degs64IsTheDefaultButForItsNumbers) {
+    const std::string file = std::string(DEGS_CONFIGS) + "/degs-64.yaml";
+    const RunConfig single =
+        load_run_config(file, {"pipeline.numbers=fp32", "pipeline.span_ends=outward"});
+    EXPECT_EQ(resolved(single).dump(2), resolved(RunConfig{}).dump(2));
 }
 
 TEST(Configs, SixtyFourPesHaveTheMemoryOfTableI) {
