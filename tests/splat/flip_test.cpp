@@ -187,7 +187,8 @@ TEST(Flip, IsItsDefinition) {
     }
 }
 
-// Without features only colours are compared: black and white, and two greys by CIELAB itself.
+// Without features only colours are compared: black and white, and two greys by CIELAB itself. 42
+// sums in float lose up to 2.5e-4 of the 50 or 100 by which lightness differs.
 TEST(Flip, ComparesPlainColours) {
     const auto plain = [](float a, float b) {
         return flip_difference(filled(20, 12, a, a, a), filled(20, 12, b, b, b));
@@ -196,8 +197,8 @@ TEST(Flip, ComparesPlainColours) {
         const double light = to_linear(v);
         return relative_xyz({light, light, light});
     };
-    EXPECT_NEAR(plain(0, 1), colour_error(grey(0), grey(1)), 1e-5);
-    EXPECT_NEAR(plain(0.5F, 0.25F), colour_error(grey(0.5), grey(0.25)), 1e-5);
+    EXPECT_NEAR(plain(0, 1), colour_error(grey(0), grey(1)), 1e-4);
+    EXPECT_NEAR(plain(0.5F, 0.25F), colour_error(grey(0.5), grey(0.25)), 1e-4);
     EXPECT_NEAR(flip_difference(filled(9, 9, 0, 1, 0), filled(9, 9, 0, 0, 1)), 1.0, 1e-5);
 }
 
@@ -206,10 +207,13 @@ TEST(Flip, SeesWhatAScreenShows) {
     EXPECT_EQ(flip_difference(black, black), 0.0);
     EXPECT_EQ(flip_difference(filled(16, 16, 1, 1, 1), filled(16, 16, 5, 1, 1.5F)), 0.0);
     EXPECT_EQ(flip_difference(black, filled(16, 16, -1, 0, 0)), 0.0);
-    // The same error is seen worse from nearby.
-    Image dot = black;
-    dot.rgb[3 * dot.at(8, 8)] = 0.5F;
-    EXPECT_GT(flip_difference(black, dot, 20), flip_difference(black, dot, 67));
+    // A fine pattern fades into grey of the same light when its pixels become small.
+    const Image grey = filled(48, 48, 0.7354F, 0.7354F, 0.7354F);
+    Image pattern = filled(48, 48, 1, 1, 1);
+    for (std::size_t i = 0; i < pattern.rgb.size(); ++i) {
+        pattern.rgb[i] = (i / 3 / 48 + i / 3) % 2 == 0 ? 1.0F : 0.0F;
+    }
+    EXPECT_GT(flip_difference(grey, pattern, 15), 2 * flip_difference(grey, pattern, 67));
 }
 
 TEST(Flip, RefusesWhatCannotBeCompared) {
