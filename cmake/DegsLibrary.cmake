@@ -21,8 +21,9 @@ target_compile_options(degs_flags INTERFACE -ffp-contract=off -fno-tree-slp-vect
 target_link_options(degs_flags INTERFACE -Wno-psabi)
 target_include_directories(degs_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
 
-# Archives of link-time objects are for the compiler that made them; packages carry machine code as well.
-if(DEGS_FAT_ARCHIVES AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+# Archives of link-time objects are for the compiler that made them; packages carry machine code as well, and so do
+# builds with tests: each test program would repeat the whole-program optimisation.
+if((DEGS_FAT_ARCHIVES OR DEGS_BUILD_TESTS) AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     set(CMAKE_CXX_COMPILE_OPTIONS_IPO -flto=auto -ffat-lto-objects)
 endif()
 include(CheckIPOSupported)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include <nlohmann/json.hpp>
+
 #include "sim/text_table.hpp"
 #include "sim/words.hpp"
 

@@ -3,6 +3,8 @@
 #include <iostream>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "scene/input_file.hpp"
 #include "sim/accuracy.hpp"
 #include "sim/accuracy_numbers.hpp"

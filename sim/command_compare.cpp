@@ -6,6 +6,7 @@
 #include "sim/commands.hpp"
 #include "sim/compare_session.hpp"
 #include "sim/comparison_output.hpp"
+#include "sim/view_options.hpp"
 
 namespace degs::sim {
 namespace {

@@ -3,6 +3,8 @@
 #include <iostream>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "sim/commands.hpp"
 #include "sim/memory_report.hpp"
 #include "sim/output_folder.hpp"

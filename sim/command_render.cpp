@@ -3,12 +3,15 @@
 #include <iostream>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "scene/image_io.hpp"
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/terminal.hpp"
+#include "sim/view_options.hpp"
 #include "sim/words.hpp"
 
 namespace degs::sim {

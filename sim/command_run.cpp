@@ -4,11 +4,14 @@
 #include <memory>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "scene/image_io.hpp"
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
 #include "sim/terminal.hpp"
+#include "sim/view_options.hpp"
 
 namespace degs::sim {
 namespace {

@@ -4,12 +4,15 @@
 #include <iostream>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "scene/ply.hpp"
 #include "scene/synthetic.hpp"
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
 #include "sim/scene_words.hpp"
+#include "sim/view_options.hpp"
 #include "splat/error.hpp"
 
 namespace degs::sim {

@@ -3,9 +3,12 @@
 #include <iostream>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/soc/soc_study.hpp"
+#include "sim/view_options.hpp"
 #include "splat/error.hpp"
 #include "tlm/config_source.hpp"
 

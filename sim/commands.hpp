@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp> // all of CLI11 costs another 3 s per source; program.cpp has it
 
 namespace degs::sim {
 

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include <nlohmann/json.hpp>
+
 #include "scene/camera_path.hpp"
 #include "sim/comparison_output.hpp"
 #include "sim/report.hpp"

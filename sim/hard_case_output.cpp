@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include <nlohmann/json.hpp>
+
 #include "sim/hard_case_run.hpp"
 #include "sim/text_table.hpp"
 #include "sim/words.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/memory_report.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "sim/report.hpp"
 #include "sim/terminal.hpp"
 #include "sim/text_table.hpp"

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "scene/output_file.hpp"
 #include "splat/error.hpp"
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <string>
 
+#include <CLI/CLI.hpp>
 #include <systemc>
 
 #include "sim/commands.hpp"

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 #include "tlm/config_document.hpp"
 
 namespace degs::sim {

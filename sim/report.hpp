@@ -2,7 +2,7 @@
 // Results as JSON; docs/report.md is the schema.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "sim/simulation.hpp"
 

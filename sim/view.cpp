@@ -30,9 +30,6 @@ void check_pixels(double width, double height) {
     }
 }
 
-/// All frames of a path are in memory at once; a typing error should not fill it.
-constexpr int kMostFrames = 10000;
-
 struct Resolution {
     const char* name;
     int height; ///< px
@@ -67,47 +64,6 @@ int resolution_height(const std::string& name) {
     }
     throw InputError("The resolution '" + name + "' is not known; allowed are " + allowed +
                      ", and --width and --height for any other size.");
-}
-
-CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution) {
-    return command.add_option(
-        "--resolution", resolution,
-        "720p, 1080p, 2k, 4k or 8k: images 720, 1080, 1440, 2160 or 4320 pixels high, as wide as "
-        "the camera's aspect ratio makes them");
-}
-
-void add_view_options(CLI::App& command, ViewRequest& request) {
-    command
-        .add_option("--scene", request.scene,
-                    "scene file (.ply), or synthetic:NAME[,gaussians=N][,seed=N]")
-        ->required();
-    command.add_option("--cameras", request.cameras,
-                       "cameras.json to use instead of the one beside the scene");
-    command.add_option("--camera", request.camera, "position in the list of cameras, from 0");
-    CLI::Option* width =
-        command.add_option("--width", request.width, "image width in pixels; the view is scaled");
-    CLI::Option* height =
-        command.add_option("--height", request.height,
-                           "image height in pixels; alone it scales the view, with --width it "
-                           "crops or extends it");
-    add_resolution_option(command, request.resolution)->excludes(width)->excludes(height);
-}
-
-void add_path_options(CLI::App& command, PathRequest& request) {
-    CLI::Option* frames =
-        command
-            .add_option("--frames", request.frames,
-                        "frames of a camera path that starts at the view; from 2 on, throughput is "
-                        "measured, too")
-            ->check(CLI::Range(1, kMostFrames))
-            ->capture_default_str();
-    command
-        .add_option("--path-step", request.step_degrees,
-                    "degrees by which the camera turns about the middle of the scene from frame to "
-                    "frame")
-        ->check(CLI::Range(-kMostPathStepDegrees, kMostPathStepDegrees))
-        ->needs(frames)
-        ->capture_default_str();
 }
 
 Camera resize(const Camera& camera, std::optional<int> width, std::optional<int> height) {

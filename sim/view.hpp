@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is rendered, from where and how large: the options that all commands with a scene share.
+// What is rendered, from where and how large, for all commands with a scene.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <CLI/CLI.hpp>
 
 #include "scene/camera_path.hpp"
 #include "scene/scene.hpp"
@@ -32,12 +30,6 @@ struct View {
 /// images, the reference and their comparison take some 100 B per pixel.
 constexpr std::int64_t kMostPixels = std::int64_t{8192} * 4320;
 
-/// Adds --scene, --cameras, --camera and the options for the image size.
-void add_view_options(CLI::App& command, ViewRequest& request);
-
-/// Adds --resolution, which excludes the options for width and height.
-CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution);
-
 /// "720p", "1080p", "2k", "4k", "8k".
 std::vector<std::string> resolution_names();
 /// Image height in pixels: 720, 1080, 1440, 2160, 4320. Capital letters are allowed; InputError
@@ -49,8 +41,6 @@ struct PathRequest {
     int frames = 1;
     double step_degrees = kPathStepDegrees;
 };
-/// Adds --frames and --path-step.
-void add_path_options(CLI::App& command, PathRequest& request);
 
 /// Loads the scene and resizes the camera. Throws InputError.
 View load_view(const ViewRequest& request);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What degs soc found out, as JSON and as words.
+#include <nlohmann/json.hpp>
+
 #include "sim/report.hpp"
 #include "sim/soc/soc_study.hpp"
 #include "sim/text_table.hpp"

@@ -5,6 +5,13 @@
 #include "tests/modules/accelerator_bench.hpp"
 #include "tlm/lpddr5.hpp"
 
+namespace degs {
+/// Becomes part of the test's name.
+inline void PrintTo(const AcceleratorKind& kind, std::ostream* out) {
+    *out << kind.name;
+}
+} // namespace degs
+
 namespace degs::test {
 namespace {
 

@@ -53,9 +53,15 @@ TEST_P(SmallRunNumberSets, RunEverywhere) {
     expect_image(third, gcc_frame);
 }
 
+std::string set_name(const ::testing::TestParamInfo<NumberFormat>& row) {
+    constexpr const char* kNames[] = {"Ideal", "Fp16", "Paper", "Tuned"};
+    return kNames[row.index];
+}
+
 INSTANTIATE_TEST_SUITE_P(Sets, SmallRunNumberSets,
                          ::testing::Values(NumberFormat::Ideal, NumberFormat::Fp16,
-                                           NumberFormat::Paper, NumberFormat::Tuned));
+                                           NumberFormat::Paper, NumberFormat::Tuned),
+                         set_name);
 
 } // namespace
 } // namespace degs

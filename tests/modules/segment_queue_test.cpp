@@ -166,9 +166,15 @@ TEST_P(SegmentQueueOf, BehavesAsPlainLists) {
     }
 }
 
+std::string scan_name(const ::testing::TestParamInfo<DomainScan>& row) {
+    constexpr const char* kNames[] = {"RoundRobin", "Oldest", "Deepest"};
+    return kNames[row.index];
+}
+
 INSTANTIATE_TEST_SUITE_P(Scans, SegmentQueueOf,
                          ::testing::Values(DomainScan::RoundRobin, DomainScan::Oldest,
-                                           DomainScan::Deepest));
+                                           DomainScan::Deepest),
+                         scan_name);
 
 } // namespace
 } // namespace degs

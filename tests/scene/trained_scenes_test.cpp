@@ -19,6 +19,11 @@ struct Published {
     glm::dvec3 extent;
 };
 
+/// Becomes part of the test's name.
+void PrintTo(const Published& published, std::ostream* out) {
+    *out << published.name;
+}
+
 class TrainedScene : public testing::TestWithParam<Published> {};
 
 TEST_P(TrainedScene, HasItsPublishedStatistics) {

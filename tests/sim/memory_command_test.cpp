@@ -107,7 +107,7 @@ TEST(MemoryCommand, GivesTheSameTwice) {
 }
 
 class HostileMemory
-    : public ::testing::TestWithParam<std::pair<std::vector<std::string>, const char*>> {};
+    : public ::testing::TestWithParam<std::pair<std::vector<std::string>, std::string>> {};
 
 TEST_P(HostileMemory, IsOneSentence) {
     const Folder folder;
@@ -117,7 +117,7 @@ TEST_P(HostileMemory, IsOneSentence) {
     expect_mistake(degs(arguments), GetParam().second);
 }
 
-using Case = std::pair<std::vector<std::string>, const char*>;
+using Case = std::pair<std::vector<std::string>, std::string>;
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, HostileMemory,
     ::testing::Values(Case{{}, "config"}, Case{{"no-such.yaml"}, "no-such.yaml"},

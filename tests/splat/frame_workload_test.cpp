@@ -98,7 +98,10 @@ TEST_P(Workload, EmptyAndFullyCulledScenes) {
     EXPECT_EQ(culled.culled.off_screen, 1U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, Workload, testing::Values(TileMode::Exact, TileMode::Ref));
+INSTANTIATE_TEST_SUITE_P(Modes, Workload, testing::Values(TileMode::Exact, TileMode::Ref),
+                         [](const auto& mode) {
+                             return mode.param == TileMode::Exact ? "Exact" : "Ref";
+                         });
 
 // H14: ties keep index order, also when only the rounding to float makes them ties.
 TEST(WorkloadOrder, EqualDepthsKeepIndexOrder) {

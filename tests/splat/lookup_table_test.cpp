@@ -59,13 +59,21 @@ TEST_P(Tables, AreAsFarFromTheirFunctionAsTheySay) {
     EXPECT_LE(worst, table.shape_error() * (1 + 1e-6));
     EXPECT_GE(worst, table.shape_error() * 0.97);
 }
+std::string shape_name(const ::testing::TestParamInfo<Shape>& shape) {
+    constexpr const char* kFunctions[] = {"SqrtOneMinus", "ExpHalf", "Exp2"};
+    const auto [function, interpolation, reduction, entries] = shape.param;
+    return std::string(kFunctions[static_cast<std::size_t>(function)]) +
+           (interpolation == Interpolation::Linear ? "Linear" : "Nearest") +
+           (reduction == Reduction::Binary ? "Binary" : "None") + std::to_string(entries);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Shapes, Tables,
     testing::Combine(testing::Values(TableFunction::SqrtOneMinus, TableFunction::ExpHalf,
                                      TableFunction::Exp2),
                      testing::Values(Interpolation::Nearest, Interpolation::Linear),
-                     testing::Values(Reduction::None, Reduction::Binary),
-                     testing::Values(16, 100)));
+                     testing::Values(Reduction::None, Reduction::Binary), testing::Values(16, 100)),
+    shape_name);
 
 // The distance of a chord from a curve is h^2 f'' / 8; moved to the middle, half of that.
 TEST(TableError, OfTheNamedTablesFollowsTheSecondDerivative) {

@@ -95,10 +95,16 @@ TEST_P(TestedColumns, NothingToName) {
     EXPECT_TRUE(path->tested_columns(0, 3, 0, kTile, first, last));
 }
 
+std::string format_name(const ::testing::TestParamInfo<NumberFormat>& row) {
+    constexpr const char* kNames[] = {"Fp32", "Fp64", "Fp16", "Paper", "Tuned"};
+    return kNames[row.index];
+}
+
 INSTANTIATE_TEST_SUITE_P(Formats, TestedColumns,
                          ::testing::Values(NumberFormat::Fp32, NumberFormat::Fp64,
                                            NumberFormat::Fp16, NumberFormat::Paper,
-                                           NumberFormat::Tuned));
+                                           NumberFormat::Tuned),
+                         format_name);
 
 } // namespace
 } // namespace degs

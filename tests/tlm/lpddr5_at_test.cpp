@@ -111,13 +111,22 @@ TEST_P(Lpddr5AtEndings, KeepProtocolAndBytes) {
     EXPECT_EQ(counted.bursts[0] + counted.bursts[1] + counted.bursts[2], commands);
 }
 
+std::string
+row_name(const ::testing::TestParamInfo<std::tuple<AtInitiator::Ending, std::uint64_t, int>>& row) {
+    constexpr const char* kNames[] = {"Completed", "Updated", "Accepted"};
+    const auto [ending, response_ps, waiting] = row.param;
+    return kNames[static_cast<std::size_t>(ending)] + std::string("After") +
+           std::to_string(response_ps) + "psWaiting" + std::to_string(waiting);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Lpddr5AtEndings,
                          ::testing::Values(std::tuple{AtInitiator::Ending::Completed, 0U, 16},
                                            std::tuple{AtInitiator::Ending::Completed, 0U, 1},
                                            std::tuple{AtInitiator::Ending::Updated, 0U, 16},
                                            std::tuple{AtInitiator::Ending::Updated, 3100U, 2},
                                            std::tuple{AtInitiator::Ending::Accepted, 0U, 1},
-                                           std::tuple{AtInitiator::Ending::Accepted, 3100U, 16}));
+                                           std::tuple{AtInitiator::Ending::Accepted, 3100U, 16}),
+                         row_name);
 
 // 40 requests to one bank at once: 8 fill the queue, 4 more get END_REQ, the next one has to wait.
 TEST(Lpddr5At, WithheldEndReqIsTheBackPressure) {

@@ -15,6 +15,12 @@ struct Choice {
     bool fold;
 };
 
+/// Becomes part of the test's name.
+void PrintTo(const Choice& choice, std::ostream* out) {
+    *out << choice.file << ' ' << choice.interleave_bytes << " B, " << choice.order
+         << (choice.fold ? ", folded" : "");
+}
+
 class Lpddr5Mappings : public ::testing::TestWithParam<Choice> {
 protected:
     Lpddr5Mappings() : config(test::lpddr5_config(GetParam().file)) {

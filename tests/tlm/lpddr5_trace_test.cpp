@@ -12,7 +12,7 @@ namespace {
 using test::ChannelBench;
 using test::Command;
 
-using Policies = std::tuple<const char*, const char*, const char*, const char*>;
+using Policies = std::tuple<std::string, std::string, std::string, std::string>;
 class Lpddr5Trace : public ::testing::TestWithParam<Policies> {};
 
 /// Bursts of work and pauses; few rows, so that hits, conflicts, merges and forwards all occur.

@@ -118,11 +118,11 @@ std::vector<Request> run_random(std::size_t sockets, unsigned seed, Bench& bench
     return all;
 }
 
-class MemoryOf : public ::testing::TestWithParam<Memory::Config> {};
+class MemoryOf : public ::testing::TestWithParam<std::tuple<double, double, int>> {};
 
 // start = max(date, end of the transfer before) in the order of (date, socket).
 TEST_P(MemoryOf, ServesByDateThenSocket) {
-    const Memory::Config& c = GetParam();
+    const Memory::Config c = std::apply(config, GetParam());
     Bench bench(c, 5);
     const std::vector<Request> requests = run_random(5, 7, bench);
     double free = 0;
@@ -147,7 +147,7 @@ TEST_P(MemoryOf, ServesByDateThenSocket) {
 
 // Any window (from, to] of time: the bytes whose transfer lies in it fit the bandwidth.
 TEST_P(MemoryOf, NeverExceedsItsBandwidthInAnyWindow) {
-    const Memory::Config& c = GetParam();
+    const Memory::Config c = std::apply(config, GetParam());
     Bench bench(c, 3);
     std::vector<Request> requests = run_random(3, 8, bench);
     std::sort(requests.begin(), requests.end(),
@@ -165,8 +165,9 @@ TEST_P(MemoryOf, NeverExceedsItsBandwidthInAnyWindow) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Configs, MemoryOf,
-                         ::testing::Values(config(), config(0, 51.2, 32), config(37.5, 1, 64),
-                                           config(100, 204.8, 64), config(3, 10, 1)));
+                         ::testing::Values(std::tuple(100.0, 64.0, 64), std::tuple(0.0, 51.2, 32),
+                                           std::tuple(37.5, 1.0, 64), std::tuple(100.0, 204.8, 64),
+                                           std::tuple(3.0, 10.0, 1)));
 
 // Sockets ask at one date, in any host order; the lower socket is served first.
 TEST(Memory, EqualDatesGoBySocket) {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options that all commands with a scene share. Not in view.hpp, because CLI11 costs seconds in
+// every source that sees it.
+#pragma once
+
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include "sim/view.hpp"
+
+namespace degs::sim {
+
+/// Adds --scene, --cameras, --camera and the options for the image size.
+void add_view_options(CLI::App& command, ViewRequest& request);
+
+/// Adds --resolution, which excludes the options for width and height.
+CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution);
+
+/// Adds --frames and --path-step.
+void add_path_options(CLI::App& command, PathRequest& request);
+
+} // namespace degs::sim
