@@ -13,7 +13,8 @@ NumberSet uniform(const std::string& name, const std::string& format) {
     NumberSet set;
     set.name = name;
     const ValueFormat value = parse_format(format);
-    for (ValueFormat* stage : {&set.mean,
+    for (ValueFormat* stage : {&set.projection,
+                               &set.mean,
                                &set.slope,
                                &set.c_prime,
                                &set.radius,
@@ -183,6 +184,7 @@ std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set)
         return operation + format.name();
     };
     return {{"record", "bits." + std::to_string(record_bits(set))},
+            {"projection", key("multiply-add.", set.projection)},
             {"span.distance", key("add.", set.distance)},
             {"span.square", key("multiply.", set.square)},
             {"span.ratio", key("multiply.", set.ratio)},
