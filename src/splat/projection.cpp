@@ -172,6 +172,11 @@ std::unique_ptr<Projector> make_projector(const GaussianCloud& cloud, const Came
     if (options.format == parse_format("fp32")) {
         return std::make_unique<ProjectorIn<Single>>(cloud, camera, options, Single());
     }
+    return make_rounding_projector(cloud, camera, options);
+}
+
+std::unique_ptr<Projector> make_rounding_projector(const GaussianCloud& cloud, const Camera& camera,
+                                                   const ProjectionOptions& options) {
     return std::make_unique<ProjectorIn<RoundedNumbers>>(cloud, camera, options,
                                                          RoundedNumbers(options.format));
 }
