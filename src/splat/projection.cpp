@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "splat/spherical_harmonics.hpp"
 
@@ -18,6 +19,14 @@ bool is_degenerate(const ProjectedSplat& s) {
 
 bool is_finite(const glm::dvec3& v) {
     return std::isfinite(v.x + v.y + v.z);
+}
+
+/// Rounding leaves a, b, c and det of slightly different ellipses, far apart for needles, and an
+/// opacity beside Q_th. Records are made of b, c, det and Q_th, so the others follow from these, in
+/// double: bounds of tiles and rows then hold for the ellipse that is drawn.
+void make_consistent(ProjectedSplat& s, double alpha_min) {
+    s.cov_a = (s.det + s.cov_b * s.cov_b) / s.cov_c;
+    s.opacity = alpha_min * std::exp(s.q_threshold / 2);
 }
 
 /// What a view asks of every Gaussian, rounded once.
@@ -48,7 +57,7 @@ public:
     ProjectorIn(const GaussianCloud& cloud, const Camera& camera, const ProjectionOptions& options,
                 Numbers numbers)
         : Projector(camera), cloud_(cloud), position_(camera.position), n_(std::move(numbers)),
-          k_(n_, camera, options) {}
+          k_(n_, camera, options), alpha_min_(options.alpha_min) {}
 
     Cull project_anywhere(std::size_t index, ProjectedSplat& out) const override;
     Cull shade(std::size_t index, ProjectedSplat& out) const override;
@@ -77,6 +86,7 @@ private:
     glm::dvec3 position_;
     Numbers n_; // before what is made of it
     ViewConstants<Numbers> k_;
+    double alpha_min_;
 };
 
 /// Rotation matrix of a quaternion in slot order w, x, y, z. Dividing by |q|^2 makes it orthonormal
@@ -143,7 +153,13 @@ Cull ProjectorIn<Numbers>::project_anywhere(std::size_t index, ProjectedSplat& o
     const Scalar y = dot(k_.down, rounded);
     set_mean(x, y, z, out);
     set_covariance(index, x, y, z, out);
-    return is_degenerate(out) ? Cull::Degenerate : Cull::None;
+    if (is_degenerate(out)) {
+        return Cull::Degenerate;
+    }
+    if (!std::is_same_v<Scalar, double>) {
+        make_consistent(out, alpha_min_);
+    }
+    return Cull::None;
 }
 
 template <class Numbers>

@@ -20,9 +20,9 @@ struct ProjectionOptions {
     ValueFormat format;             ///< every operation is rounded to it; fp64 and fp32 are native
 };
 
-/// A Gaussian on the screen; values are those of the format that projected it. q(x, y) = A dx^2 + 2
-/// B dx dy + C dy^2 with dx = x - mu_x; pixel (i, j) is sampled at integer (i, j) (mu is shifted by
-/// -0.5 accordingly).
+/// A Gaussian on the screen, in the format that projected it; a and opacity fit b, c, det and Q_th.
+/// q(x, y) = A dx^2 + 2 B dx dy + C dy^2 with dx = x - mu_x; pixel (i, j) is sampled at integer
+/// (i, j) (mu is shifted by -0.5 accordingly).
 struct ProjectedSplat {
     double mu_x = 0, mu_y = 0;              ///< px
     double cov_a = 0, cov_b = 0, cov_c = 0; ///< dilated covariance xx, xy, yy; px^2

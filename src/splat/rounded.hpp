@@ -20,7 +20,8 @@ public:
           max_(format.kind == ValueFormat::Kind::Fixed ? format.max() : INFINITY) {}
     Rounded operator()(double x) const;
     double round(double x) const {
-        return std::abs(x) <= max_ ? rounder_(x) : x * INFINITY; // NaN stays NaN
+        // A zero keeps the sign of what it was rounded from, and NaN stays NaN.
+        return std::abs(x) <= max_ ? std::copysign(rounder_(x), x) : x * INFINITY;
     }
 
 private:

@@ -139,7 +139,7 @@ TEST(PixelReplay, NothingToBlame) {
 FrameWorkload near_pair(const std::string& format) {
     GaussianCloud cloud;
     const glm::vec4 upright(1, 0, 0, 0);
-    test::add_gaussian(cloud, {0.03, 0.01, 3.002}, {0.3F, 0.3F, 0.3F}, upright, 0.6F,
+    test::add_gaussian(cloud, {0.03, 0.01, 3.001}, {0.3F, 0.3F, 0.3F}, upright, 0.6F,
                        {0.1F, 0.1F, 0.9F});
     test::add_gaussian(cloud, {0.03, 0.01, 3}, {0.3F, 0.3F, 0.3F}, upright, 0.6F,
                        {0.9F, 0.1F, 0.1F});
