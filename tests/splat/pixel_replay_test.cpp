@@ -162,7 +162,7 @@ TEST(PixelReplay, NamesTheProjection) {
     EXPECT_EQ(order.operation, "projection");
     EXPECT_EQ(order.flip, "depth order");
     EXPECT_GT(order.error, 0.1);
-    EXPECT_DOUBLE_EQ(order.explained, order.error);
+    EXPECT_NEAR(order.explained, order.error, 1e-12);
     set.sum = parse_format("uq4.2");
     EXPECT_EQ(blame("fp16", 16).operation, "sum"); // the larger of the two
     EXPECT_EQ(blame("fp32", 16).operation, "sum");
