@@ -92,12 +92,13 @@ TEST(AccuracyScenes, IsTheDifferenceOfRunAndRender) {
 }
 
 TEST(AccuracyScenes, ProjectsAsTheRunDoes) {
+    const std::string exact = "pipeline.span_ends=exact";
     expect_difference_of_run_and_render("fp32:projection=fp32",
-                                        {"pipeline.formats.projection=fp32"}, "fp32");
+                                        {exact, "pipeline.formats.projection=fp32"}, "fp32");
     expect_difference_of_run_and_render("fp32:projection=e8m14",
-                                        {"pipeline.formats.projection=e8m14"}, "e8m14");
+                                        {exact, "pipeline.formats.projection=e8m14"}, "e8m14");
     expect_difference_of_run_and_render("tuned:projection=fp64:alpha=uq0.12",
-                                        {"pipeline.numbers=tuned",
+                                        {exact, "pipeline.numbers=tuned",
                                          "pipeline.formats.projection=fp64",
                                          "pipeline.formats.alpha=uq0.12"},
                                         "fp64");
