@@ -71,7 +71,7 @@ std::vector<AccuracyRow> measure_single_gaussians(const SingleGaussianRequest& r
 /// Whole images of the modelled data path against the reference renderer in double precision, both
 /// with exact tile lists and the reference's stop rule.
 struct SceneAccuracyRequest {
-    std::vector<std::string> sets;        ///< of number_set_names()
+    std::vector<std::string> sets;        ///< as numbers_of() reads them
     std::vector<ViewRequest> scenes;      ///< their resolution does not count
     std::vector<std::string> resolutions; ///< of resolution_names(); empty: the cameras' own
     std::string span_ends;                ///< for every set; empty: each set's own

@@ -2,8 +2,10 @@
 #include "sim/accuracy_numbers.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include "splat/error.hpp"
+#include "splat/number_override.hpp"
 
 namespace degs::sim {
 
@@ -15,8 +17,15 @@ std::string words_of(SpanEnds ends) {
     return span_end_names().at(static_cast<std::size_t>(ends));
 }
 
-NumberSet numbers_of(const std::string& name, const std::string& span_ends) {
-    NumberSet set = number_set(name);
+AccuracyNumbers numbers_of(const std::string& text, const std::string& span_ends) {
+    std::istringstream words(text);
+    std::string name;
+    std::getline(words, name, ':');
+    std::vector<std::string> changes;
+    for (std::string change; std::getline(words, change, ':');) {
+        changes.push_back(change);
+    }
+    AccuracyNumbers numbers{number_set(name, changes), named_numbers(name, changes)};
     if (!span_ends.empty()) {
         const std::vector<std::string> names = span_end_names();
         const auto at = std::find(names.begin(), names.end(), span_ends);
@@ -24,15 +33,14 @@ NumberSet numbers_of(const std::string& name, const std::string& span_ends) {
             throw InputError("There are no span ends '" + span_ends +
                              "'; there are exact, outward, slope.");
         }
-        set.ends = static_cast<SpanEnds>(at - names.begin());
+        numbers.set.ends = static_cast<SpanEnds>(at - names.begin());
     }
-    return set;
+    numbers.path.ends = numbers.set.ends;
+    return numbers;
 }
 
-DataPathOptions data_path_of(const NumberSet& set) {
-    DataPathOptions options = named_numbers(set.name);
-    options.ends = set.ends;
-    options.delta = set.delta;
+ProjectionOptions projected_in(const NumberSet& set, ProjectionOptions options) {
+    options.format = set.projection;
     return options;
 }
 

@@ -13,11 +13,18 @@ namespace degs::sim {
 std::vector<std::string> span_end_names();
 std::string words_of(SpanEnds ends);
 
-/// A named set with the span ends of that name; with its own if the name is empty. InputError lists
-/// the names for any other.
-NumberSet numbers_of(const std::string& name, const std::string& span_ends);
+/// A set, and the data path that a run has for it: with the set's ends and projection and the
+/// reference's stop rule.
+struct AccuracyNumbers {
+    NumberSet set;
+    DataPathOptions path;
+};
 
-/// The data path that a run has for a named set, with the set's ends and the reference's stop rule.
-DataPathOptions data_path_of(const NumberSet& set);
+/// "tuned" or, with parts changed, "tuned:projection=fp64:alpha=uq1.15", with the span ends of that
+/// name; with the set's own if it is empty. InputError names what is wrong and what there is.
+AccuracyNumbers numbers_of(const std::string& text, const std::string& span_ends);
+
+/// In which a set's frames are projected; a hard case has its own near plane.
+ProjectionOptions projected_in(const NumberSet& set, ProjectionOptions options = {});
 
 } // namespace degs::sim

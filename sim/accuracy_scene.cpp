@@ -18,8 +18,22 @@ namespace {
 /// One image of the reference, and what all rows about it share.
 struct Frame {
     AccuracyRow row; ///< scene, camera, resolution
-    FrameWorkload workload;
+    const GaussianCloud* cloud = nullptr;
+    FrameWorkload workload; ///< in double
     Image reference;
+    FrameWorkload projected; ///< in the format of the last set that has one of its own
+
+    /// The frame as a set's hardware has it.
+    const FrameWorkload& in(const NumberSet& set) {
+        if (set.projection.is_fp64()) {
+            return workload;
+        }
+        if (projected.projection.format != set.projection) {
+            projected = make_frame_workload(*cloud, workload.camera, workload.tile_size,
+                                            TileMode::Exact, projected_in(set));
+        }
+        return projected;
+    }
 };
 
 /// Letters, digits and '-' of a name, for files.
@@ -31,11 +45,15 @@ std::string plain(std::string name) {
     return name;
 }
 
-WorstPixel explain(const Frame& frame, const ImageDifference& difference, const NumberSet& set) {
+WorstPixel explain(Frame& frame, const ImageDifference& difference, const NumberSet& set) {
     WorstPixel worst;
     worst.x = difference.worst_x();
     worst.y = difference.worst_y();
-    const PixelBlame blame = blame_pixel(frame.workload, worst.x, worst.y, set, StopRule::Refuse);
+    const FrameWorkload& own = frame.in(set);
+    const PixelBlame blame =
+        &own == &frame.workload
+            ? blame_pixel(own, worst.x, worst.y, set, StopRule::Refuse)
+            : blame_pixel(frame.workload, own, worst.x, worst.y, set, StopRule::Refuse);
     worst.error = blame.error;
     worst.gaussian = blame.id;
     worst.operation = blame.operation;
@@ -44,7 +62,7 @@ WorstPixel explain(const Frame& frame, const ImageDifference& difference, const 
     return worst;
 }
 
-AccuracyRow compare(const Frame& frame, const Image& image, const NumberSet& set) {
+AccuracyRow compare(Frame& frame, const Image& image, const NumberSet& set) {
     ImageDifference difference;
     difference.add(frame.reference, image);
     AccuracyRow row = frame.row;
@@ -67,23 +85,24 @@ AccuracyRow compare(const Frame& frame, const Image& image, const NumberSet& set
     return row;
 }
 
-Image render(const Frame& frame, const NumberSet& set, const std::string& name) {
-    Progress progress(name + " at " + frame.row.resolution + " in " + set.name);
+Image render(Frame& frame, const AccuracyNumbers& numbers, const std::string& name) {
+    Progress progress(name + " at " + frame.row.resolution + " in " + numbers.set.name);
     DataPathRender options;
-    options.numbers = data_path_of(set);
+    options.numbers = numbers.path;
     options.progress = [&progress](double share) { progress.done(share); };
-    return DataPathRenderer(frame.workload, options).render(all_tiles(frame.workload));
+    const FrameWorkload& own = frame.in(numbers.set);
+    return DataPathRenderer(own, options).render(all_tiles(own));
 }
 
-void measure_frame(const SceneAccuracyRequest& request, const Frame& frame, const OutputFolder& out,
+void measure_frame(const SceneAccuracyRequest& request, Frame& frame, const OutputFolder& out,
                    std::vector<AccuracyRow>& rows) {
     for (const std::string& name : request.sets) {
-        const NumberSet set = numbers_of(name, request.span_ends);
-        Image image = render(frame, set, frame.row.scene);
-        AccuracyRow row = compare(frame, image, set);
+        const AccuracyNumbers numbers = numbers_of(name, request.span_ends);
+        Image image = render(frame, numbers, frame.row.scene);
+        AccuracyRow row = compare(frame, image, numbers.set);
         if (request.error_images) {
             row.error_image = "error-" + std::to_string(rows.size()) + "-" + plain(row.scene) +
-                              "-" + row.resolution + "-" + set.name + ".exr";
+                              "-" + row.resolution + "-" + plain(row.numbers) + ".exr";
             subtract(frame.reference, image);
             write_exr(image, out.path(row.error_image));
         }
@@ -111,6 +130,7 @@ std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
             frame.row.camera = view.camera;
             frame.row.resolution =
                 std::to_string(camera.width) + "x" + std::to_string(camera.height);
+            frame.cloud = &loaded.scene.cloud;
             frame.workload =
                 make_frame_workload(loaded.scene.cloud, camera, request.tile_size, TileMode::Exact);
             frame.reference = make_reference(frame.workload).image;

@@ -50,7 +50,7 @@ std::vector<ViewRequest> views_of(const AccuracyOptions& options) {
 SingleGaussianRequest single_request(const AccuracyOptions& options) {
     SingleGaussianRequest request;
     for (const std::string& name : options.numbers) {
-        request.sets.push_back(numbers_of(name, options.span_ends));
+        request.sets.push_back(numbers_of(name, options.span_ends).set);
     }
     request.seed = options.seed;
     request.gaussians = options.splats;
@@ -155,7 +155,9 @@ std::string set_words() {
     for (const std::string& name : number_set_names()) {
         words += (words.empty() ? "" : "; ") + name + ": " + number_set(name).meaning;
     }
-    return words + "; several separated by commas";
+    return words +
+           "; several separated by commas; tuned:projection=fp64:alpha=uq1.15 changes parts "
+           "(pipeline.formats)";
 }
 
 void add_scene_options(CLI::App& command, AccuracyOptions& options) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 
@@ -34,13 +35,19 @@ std::string bytes_of(const RunResult& result) {
     return report(result).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
+/// What frames depend on: format of the projection (empty for fp64, whose frames are the
+/// reference's and come first), side of a tile, tile mode.
+using FrameKind = std::tuple<std::string, int, TileMode>;
+
 /// Configurations that want the same frames.
-std::map<std::pair<int, TileMode>, std::vector<std::size_t>>
-groups_of(const std::vector<NamedConfig>& configs) {
-    std::map<std::pair<int, TileMode>, std::vector<std::size_t>> groups;
+std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedConfig>& configs) {
+    std::map<FrameKind, std::vector<std::size_t>> groups;
     for (std::size_t c = 0; c < configs.size(); ++c) {
         const AcceleratorConfig& config = configs[c].config.accelerator();
-        groups[{config.tile_size_px(), config.tile_mode()}].push_back(c);
+        const ValueFormat projection = config.data_path().projection;
+        groups[{projection.is_fp64() ? "" : projection.name(), config.tile_size_px(),
+                config.tile_mode()}]
+            .push_back(c);
     }
     return groups;
 }
@@ -65,7 +72,7 @@ struct CompareSession::Shared {
         const std::pair<int, TileMode> tiles{mode == TileMode::Exact ? 0 : frames.front().tile_size,
                                              mode};
         if (!reference || reference_tiles != tiles) {
-            reference = make_reference(frames.front());
+            reference = make_reference(*cloud, frames.front(), workload_s);
             reference_tiles = tiles;
         }
     }
@@ -148,7 +155,7 @@ void CompareSession::run_view(const Scene& scene, int camera, const ImageSize& s
         shared.cameras =
             camera_path(scene.cloud, first, request_.path.frames, request_.path.step_degrees);
         shared.load_s = load_s;
-        for (const auto& [tiles, configs] : groups_of(request_.configs)) {
+        for (const auto& [kind, configs] : groups_of(request_.configs)) {
             if (!interrupted_) {
                 run_group(shared, configs);
             }

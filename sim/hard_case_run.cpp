@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "sim/accuracy_numbers.hpp"
 #include "sim/progress.hpp"
@@ -35,12 +36,18 @@ std::vector<const HardCase*> chosen(const std::vector<std::string>& only) {
     return cases;
 }
 
-/// A scene ready to be drawn, and its reference.
+/// A scene's splats as a format projects them, and what they look like in double.
+struct Projected {
+    FrameWorkload workload;
+    std::vector<Image> references;
+};
+
+/// A scene ready to be drawn.
 struct Prepared {
     HardScene scene;
-    FrameWorkload workload;
     std::vector<TileWindow> windows;
-    std::vector<Image> references;
+    Projected exact;                         ///< in double
+    std::map<std::string, Projected> others; ///< by the name of the projection's format
 };
 
 void expect(std::vector<std::string>& problems, const char* what, std::uint64_t found,
@@ -79,33 +86,59 @@ void check_order(const FrameWorkload& workload, std::vector<std::string>& proble
     }
 }
 
+Projected project_in(const Prepared& prepared, const ProjectionOptions& options, int tile_size) {
+    Projected out;
+    out.workload = make_frame_workload(prepared.scene.cloud, prepared.scene.camera, tile_size,
+                                       TileMode::Exact, options);
+    for (const TileWindow& window : prepared.windows) {
+        ReferenceCounts counts;
+        out.references.push_back(render_reference(out.workload, counts, window));
+    }
+    return out;
+}
+
+/// The scene as a set's hardware has it.
+const Projected& projected_for(const NumberSet& set, Prepared& prepared) {
+    if (set.projection.is_fp64()) {
+        return prepared.exact;
+    }
+    const auto [at, added] = prepared.others.try_emplace(set.projection.name());
+    if (added) {
+        at->second = project_in(prepared, projected_in(set, prepared.scene.projection),
+                                prepared.exact.workload.tile_size);
+    }
+    return at->second;
+}
+
 Prepared prepare(const HardCase& hard, HardScene scene, int tile_size,
                  std::vector<std::string>& problems) {
     Prepared out;
     check_counts(sanitize(scene.cloud), scene.dropped, problems);
-    out.workload = make_frame_workload(scene.cloud, scene.camera, tile_size, TileMode::Exact,
-                                       scene.projection);
-    check_counts(out.workload.culled, scene.culled, problems);
-    check_order(out.workload, problems);
-    const std::string problem = hard.check ? hard.check(scene, out.workload) : "";
+    out.scene = std::move(scene);
+    out.exact = project_in(out, out.scene.projection, tile_size);
+    const FrameWorkload& workload = out.exact.workload;
+    check_counts(workload.culled, out.scene.culled, problems);
+    check_order(workload, problems);
+    const std::string problem = hard.check ? hard.check(out.scene, workload) : "";
     if (!problem.empty()) {
         problems.push_back(problem);
     }
-    for (const PixelBox& box : scene.windows) {
+    for (const PixelBox& box : out.scene.windows) {
         ReferenceCounts counts;
-        out.windows.push_back(tiles_around(out.workload, box));
-        out.references.push_back(render_reference(out.workload, counts, out.windows.back()));
+        out.windows.push_back(tiles_around(workload, box));
+        out.exact.references.push_back(render_reference(workload, counts, out.windows.back()));
     }
-    out.scene = std::move(scene);
     return out;
 }
 
-/// Judges the windows of one set.
+/// Judges the windows of one set by what its own splats look like in double: the bound is that of
+/// the formats behind the projection.
 class Judge {
 public:
-    Judge(const Prepared& prepared, const NumberSet& set)
-        : prepared_(prepared), bounded_(set.derivation == Derivation::Reference),
-          tolerance_(tolerance_of(set, prepared.workload)) {}
+    Judge(const Prepared& prepared, const Projected& projected, const NumberSet& set)
+        : prepared_(prepared), projected_(projected),
+          bounded_(set.derivation == Derivation::Reference),
+          tolerance_(tolerance_of(set, projected.workload)) {}
 
     void add(std::size_t window, const Image& image);
     double alpha_bound() const { return tolerance_.alpha; }
@@ -122,6 +155,7 @@ private:
     }
 
     const Prepared& prepared_;
+    const Projected& projected_;
     bool bounded_;
     NumberTolerance tolerance_;
     std::uint64_t beyond_ = 0;
@@ -129,8 +163,8 @@ private:
 };
 
 void Judge::add(std::size_t window, const Image& image) {
-    const Image& reference = prepared_.references[window];
-    const PixelBox box = pixels_of(prepared_.workload, prepared_.windows[window]);
+    const Image& reference = projected_.references[window];
+    const PixelBox box = pixels_of(projected_.workload, prepared_.windows[window]);
     // What no splat can be blamed for: images are floats. Faint errors need no closer look.
     const double harmless = std::min(tolerance_.alpha, 1.0 / 255);
     for (std::size_t i = 0; i < image.pixels(); ++i) {
@@ -143,7 +177,7 @@ void Judge::add(std::size_t window, const Image& image) {
         const int x = box.x0 + static_cast<int>(i) % image.width;
         const int y = box.y0 + static_cast<int>(i) / image.width;
         const double level = std::abs(double{reference.rgb[3 * i]}) + 1;
-        if (!(error <= pixel_tolerance(prepared_.workload, x, y, tolerance_) + 1e-6 * level)) {
+        if (!(error <= pixel_tolerance(projected_.workload, x, y, tolerance_) + 1e-6 * level)) {
             ++beyond_;
         }
     }
@@ -169,22 +203,25 @@ void find_problems(const HardScene& scene, const NumberSet& set, const Judge& ju
     }
 }
 
-HardMeasure measure(const std::vector<Prepared>& scenes, const NumberSet& set,
+HardMeasure measure(std::vector<Prepared>& scenes, const AccuracyNumbers& numbers,
                     const std::string& resolution) {
+    const NumberSet& set = numbers.set;
     HardMeasure out;
     out.set = set.name;
     out.resolution = resolution;
     out.bounded = set.derivation == Derivation::Reference;
     ImageDifference difference;
-    for (const Prepared& prepared : scenes) {
+    for (Prepared& prepared : scenes) {
+        const Projected& projected = projected_for(set, prepared);
         DataPathRender options;
-        options.numbers = data_path_of(set);
-        DataPathRenderer renderer(prepared.workload, options);
-        Judge judge(prepared, set);
+        options.numbers = numbers.path;
+        DataPathRenderer renderer(projected.workload, options);
+        Judge judge(prepared, projected, set);
+        check_order(projected.workload, out.problems);
         for (std::size_t w = 0; w < prepared.windows.size(); ++w) {
             const Image image = renderer.render(prepared.windows[w]);
             judge.add(w, image);
-            difference.add(prepared.references[w], image);
+            difference.add(prepared.exact.references[w], image);
         }
         out.nonfinite = difference.nonfinite();
         out.recounted = difference.recounted();
@@ -204,8 +241,8 @@ void compare_spans(const std::vector<Prepared>& scenes, const std::string& resol
                    HardResult& result) {
     constexpr double kMostOff = 0.05; // of alpha, at the threshold
     for (const Prepared& prepared : scenes) {
-        const SpanDifference spans =
-            degs::compare_spans(prepared.workload, named_numbers("fp32"), named_numbers("ideal"));
+        const SpanDifference spans = degs::compare_spans(
+            prepared.exact.workload, named_numbers("fp32"), named_numbers("ideal"));
         result.notes.push_back(resolution + ": " + grouped(spans.flips) + " of " +
                                grouped(spans.pixels) + " pixels in " + grouped(spans.spans) +
                                " spans flip in fp32, alpha within " + percent(spans.farthest, 2) +

@@ -232,6 +232,7 @@ ordered_json workload_json(const WorkloadFacts& workload, const SceneFacts& scen
           {"transparent", workload.culled.transparent},
           {"degenerate", workload.culled.degenerate},
           {"off_screen", workload.culled.off_screen}}},
+        {"projection", workload.projection},
         {"tile_size", workload.tile_size},
         {"tiles", workload.tiles},
         {"empty_tiles", workload.empty_tiles},

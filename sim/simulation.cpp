@@ -16,6 +16,7 @@ WorkloadFacts facts_of(const FrameWorkload& workload) {
     facts.visible = workload.splats.size();
     facts.tile_pairs = workload.tile_pairs();
     facts.culled = workload.culled;
+    facts.projection = workload.projection.format.name();
     facts.tile_size = workload.tile_size;
     facts.tiles = static_cast<std::uint64_t>(workload.tiles());
     for (std::size_t t = 0; t < facts.tiles; ++t) {
@@ -37,9 +38,11 @@ std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud,
     const Stopwatch clock;
     std::vector<FrameWorkload> workloads;
     workloads.reserve(cameras.size());
+    ProjectionOptions options;
+    options.format = config.data_path().projection;
     for (const Camera& camera : cameras) {
         workloads.push_back(
-            make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode()));
+            make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode(), options));
     }
     seconds += clock.seconds();
     return workloads;
@@ -52,6 +55,19 @@ Reference make_reference(const FrameWorkload& workload) {
     reference.image = render_reference(workload, reference.counts);
     reference.render_s = clock.seconds();
     return reference;
+}
+
+Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame, double& seconds) {
+    if (frame.projection.format.is_fp64()) {
+        return make_reference(frame);
+    }
+    const Stopwatch clock;
+    ProjectionOptions options = frame.projection;
+    options.format = ValueFormat();
+    const FrameWorkload exact =
+        make_frame_workload(cloud, frame.camera, frame.tile_size, frame.tile_mode, options);
+    seconds += clock.seconds();
+    return make_reference(exact);
 }
 
 void judge(RunResult& result, const Reference& reference) {
@@ -83,6 +99,10 @@ RunResult simulate(const RunRequest& request, View view) {
     const std::vector<FrameWorkload> workloads =
         make_workloads(view.scene.cloud, cameras, request.config.accelerator(), workload_s);
     const SceneFacts scene = facts_of(view.scene);
+    std::optional<Reference> reference; // now if it needs the Gaussians, else after the run
+    if (request.reference && !workloads.front().projection.format.is_fp64()) {
+        reference = make_reference(view.scene.cloud, workloads.front(), workload_s);
+    }
     view.scene.cloud = GaussianCloud{}; // everything that follows needs the splats only
     std::vector<const FrameWorkload*> frames;
     frames.reserve(workloads.size());
@@ -92,7 +112,7 @@ RunResult simulate(const RunRequest& request, View view) {
     RunResult result = run_frames(request, frames);
     result.scene = scene;
     if (request.reference) {
-        judge(result, make_reference(workloads.front()));
+        judge(result, reference ? *reference : make_reference(workloads.front()));
     }
     result.host.load_s = view.load_s;
     result.host.workload_s = workload_s;

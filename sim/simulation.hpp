@@ -34,6 +34,7 @@ struct SceneFacts {
 struct WorkloadFacts {
     std::uint64_t gaussians = 0, visible = 0, tile_pairs = 0;
     CullCounts culled;
+    std::string projection; ///< format that the accelerator's splats were projected in
     int tile_size = 0;
     std::uint64_t tiles = 0, empty_tiles = 0;
     std::optional<ReferenceCounts> reference;
@@ -70,11 +71,15 @@ WorkloadFacts facts_of(const FrameWorkload& workload);
 /// Largest resident set of this process so far.
 std::uint64_t peak_rss_bytes();
 
-/// The frames of `cameras` as the accelerator wants them; adds the host seconds to `seconds`.
+/// The frames of `cameras` as the accelerator wants them, projected in its numbers; adds the host
+/// seconds to `seconds`.
 std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds);
 Reference make_reference(const FrameWorkload& workload);
+/// The same for a frame in any format: what was not projected in double is projected again, and the
+/// host seconds of that are added to `seconds`.
+Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame, double& seconds);
 /// Fills in what a comparison of the first frame with its reference says.
 void judge(RunResult& result, const Reference& reference);
 

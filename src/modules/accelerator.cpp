@@ -131,8 +131,10 @@ AcceleratorFault Accelerator::prepare() {
 AcceleratorFault Accelerator::make_workload() {
     std::uint32_t dropped = 0;
     const GaussianCloud cloud = scene_.cloud(dropped);
+    ProjectionOptions options;
+    options.format = config_->data_path().projection;
     FrameWorkload work =
-        make_frame_workload(cloud, request_.camera, job_.tile_size, config_->tile_mode());
+        make_frame_workload(cloud, request_.camera, job_.tile_size, config_->tile_mode(), options);
     registers_.set(Register::Dropped, dropped);
     const std::uint64_t needed = MemoryMap::workspace_bytes(config_->records(), work);
     registers_.set_pair(Register::WorkspaceNeeded, needed);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/formats_config.hpp"
 
-#include <algorithm>
-
 #include "splat/number_override.hpp"
 
 namespace degs {
@@ -50,22 +48,14 @@ void FormatsConfig::describe(ConfigVisitor& visitor) {
     enter("");
 }
 
-bool FormatsConfig::any() const {
-    return std::any_of(values_.begin(), values_.end(),
-                       [](const std::string& value) { return value != kUnchanged; });
-}
-
-std::optional<NumberSet> FormatsConfig::applied_to(const std::string& set) const {
-    if (!any()) {
-        return std::nullopt;
-    }
-    std::vector<std::string> assignments;
+std::vector<std::string> FormatsConfig::assignments() const {
+    std::vector<std::string> changes;
     for (std::size_t i = 0; i < values_.size(); ++i) {
         if (values_[i] != kUnchanged) {
-            assignments.push_back(number_keys()[i].name + "=" + values_[i]);
+            changes.push_back(number_keys()[i].name + "=" + values_[i]);
         }
     }
-    return number_set(set == "fp64" ? "ideal" : set, assignments);
+    return changes;
 }
 
 } // namespace degs

@@ -20,7 +20,7 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
                     "single parts of `numbers` in other formats; set: as they are there");
     std::string problem;
     try {
-        (void)number_set();
+        (void)data_path();
     } catch (const InputError& error) {
         problem = std::string("cannot be computed: ") + error.what();
         problem.pop_back(); // its full stop
@@ -28,8 +28,10 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
     visitor.require(problem.empty(), "formats", problem.c_str());
 }
 
-std::optional<NumberSet> PipelineConfig::number_set() const {
-    return formats.applied_to(number_format_names().at(static_cast<std::size_t>(numbers)));
+DataPathOptions PipelineConfig::options(SpanEnds ends, int delta) const {
+    const char* const name = number_format_names().at(static_cast<std::size_t>(numbers));
+    const DataPathOptions named = named_numbers(name, formats.assignments());
+    return {numbers, ends, delta, stop_rule, named.set, named.projection};
 }
 
 } // namespace degs

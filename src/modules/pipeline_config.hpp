@@ -19,13 +19,8 @@ struct PipelineConfig {
     DataPathOptions data_path() const { return options(SpanEnds::Exact, 0); }
 
 protected:
-    DataPathOptions options(SpanEnds ends, int delta) const {
-        return {numbers, ends, delta, stop_rule, number_set()};
-    }
-
-private:
-    /// `numbers` with other formats; nothing if `formats` changes none.
-    std::optional<NumberSet> number_set() const;
+    /// `numbers` with the changes of `formats`. InputError if the parts do not fit together.
+    DataPathOptions options(SpanEnds ends, int delta) const;
 };
 
 } // namespace degs

@@ -102,7 +102,8 @@ private:
     }
 };
 
-/// Lists the tiles and loads the data path. All workloads must have the same tile size.
+/// Lists the tiles and loads the data path. All workloads must have the same tile size; splats are
+/// drawn as they are, whatever format they were projected in.
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
                           const DataPathOptions& options, int contexts);
 

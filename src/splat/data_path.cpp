@@ -7,6 +7,7 @@
 
 #include "splat/blend_lanes.hpp"
 #include "splat/error.hpp"
+#include "splat/number_override.hpp"
 #include "splat/quantized_data_path.hpp"
 
 namespace degs {
@@ -298,6 +299,7 @@ DataPathOptions options_of(const NumberSet& set) {
     options.ends = set.ends;
     options.delta = set.delta;
     options.set = set;
+    options.projection = set.projection;
     return options;
 }
 
@@ -314,6 +316,21 @@ DataPathOptions named_numbers(const std::string& name) {
     DataPathOptions options = options_of(number_set(name == "fp64" ? "ideal" : name));
     options.set.reset();
     options.numbers = static_cast<NumberFormat>(at - names.begin());
+    return options;
+}
+
+DataPathOptions named_numbers(const std::string& name,
+                              const std::vector<std::string>& assignments) {
+    DataPathOptions options = named_numbers(name);
+    const NumberSet set = number_set(name == "fp64" ? "ideal" : name, assignments);
+    const bool same =
+        std::all_of(assignments.begin(), assignments.end(), [](const std::string& assignment) {
+            return assignment.rfind("projection=", 0) == 0;
+        });
+    if (!same) {
+        return options_of(set);
+    }
+    options.projection = set.projection;
     return options;
 }
 

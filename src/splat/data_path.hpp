@@ -28,12 +28,19 @@ struct DataPathOptions {
     int delta = 0; ///< px added at both ends that are not exact, in place of a number set's own
     StopRule stop = StopRule::Refuse;
     std::optional<NumberSet> set = std::nullopt; ///< in place of `numbers`: any formats
+    /// What its frames are projected in (ProjectionOptions::format). The data path itself takes
+    /// splats as they are.
+    ValueFormat projection = {};
 };
 
-/// The numbers of that name (NumberFormat) with the span ends that their set has; fp64 is exact.
+/// The numbers of that name (NumberFormat) with the span ends and the projection that their set
+/// has; fp64 is exact.
 /// InputError lists the names for any other.
 DataPathOptions named_numbers(const std::string& name);
-/// The formats and span ends of any set.
+/// The same with parts changed ("part=value", see number_override.hpp). fp32 and fp64 stay the
+/// machine's own operations if the projection alone is.
+DataPathOptions named_numbers(const std::string& name, const std::vector<std::string>& assignments);
+/// The formats, span ends and projection of any set.
 DataPathOptions options_of(const NumberSet& set);
 
 /// One row of one splat inside one tile: the Span Vector of the paper (Eq. 20). Values of g0 and d0

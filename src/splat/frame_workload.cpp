@@ -51,6 +51,8 @@ public:
         }
         return runs_;
     }
+    /// The same again.
+    const std::vector<TileRun>& covered() const { return runs_; }
     std::size_t tile(int row, int column) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.tiles_x()) +
                static_cast<std::size_t>(column);
@@ -81,10 +83,11 @@ void count_cull(Cull cull, CullCounts& counts) {
     }
 }
 
-/// Adds the splat to the length of every list it belongs to (kept in tile_begin[tile + 1]).
-std::uint32_t count_tiles(const ProjectedSplat& splat, Binner& binner, FrameWorkload& work) {
+/// Adds a splat to the length of every list it belongs to (kept in tile_begin[tile + 1]).
+std::uint32_t count_tiles(const std::vector<TileRun>& cover, const Binner& binner,
+                          FrameWorkload& work) {
     std::uint32_t touched = 0;
-    for (const TileRun& run : binner.cover(splat)) {
+    for (const TileRun& run : cover) {
         touched += static_cast<std::uint32_t>(run.last - run.first + 1);
         const std::size_t begin = binner.tile(run.row, run.first) + 1;
         const std::size_t end = binner.tile(run.row, run.last) + 1;
@@ -97,25 +100,23 @@ std::uint32_t count_tiles(const ProjectedSplat& splat, Binner& binner, FrameWork
 
 /// Visible splats in cloud order, shaded; lists are counted but not filled.
 void project_all(const GaussianCloud& cloud, Binner& binner, FrameWorkload& work) {
+    const std::unique_ptr<Projector> projector =
+        make_projector(cloud, work.camera, work.projection);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         ProjectedSplat splat;
         // In Ref mode the square decides what is on the screen, not the ellipse.
-        const Cull cull = work.tile_mode == TileMode::Exact
-                              ? project(cloud, i, work.camera, work.projection, splat)
-                              : project_anywhere(cloud, i, work.camera, work.projection, splat);
+        Cull cull = work.tile_mode == TileMode::Exact ? projector->project(i, splat)
+                                                      : projector->project_anywhere(i, splat);
+        if (cull == Cull::None) {
+            cull = binner.cover(splat).empty() ? Cull::OffScreen : projector->shade(i, splat);
+        }
         if (cull != Cull::None) {
             count_cull(cull, work.culled);
             continue;
         }
-        const std::uint32_t touched = count_tiles(splat, binner, work);
-        if (touched == 0) {
-            ++work.culled.off_screen;
-            continue;
-        }
-        shade(cloud, i, work.camera, splat);
         work.splats.push_back(splat);
         work.visible_of.push_back(splat.id);
-        work.tiles_touched.push_back(touched);
+        work.tiles_touched.push_back(count_tiles(binner.covered(), binner, work));
     }
 }
 

@@ -39,8 +39,9 @@ struct FrameWorkload {
     std::uint64_t tile_pairs() const { return tile_splats.size(); }
 };
 
-/// Projects, shades, sorts and bins a scene. The depth key is the view z computed in double and
-/// rounded to float, as the original sorts float bits; ties keep index order. Throws InputError
+/// Projects, shades, sorts and bins a scene, in the format of `options`; culling, lists and order
+/// follow from its splats. The depth key is the view z rounded to float, as the original sorts
+/// float bits; ties keep index order. Throws InputError
 /// for an image without pixels, focal lengths or a tile size below 1, or a negative near plane.
 FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& camera, int tile_size,
                                   TileMode mode, const ProjectionOptions& options = {});

@@ -76,6 +76,8 @@ Part number(const std::string& name, const char* meaning, Number low, Number hig
 void add_stages(std::vector<Part>& parts) {
     using S = NumberSet;
     const std::vector<Part> stages = {
+        stage("projection", "all that makes splats out of Gaussians; fp64 shares the reference's",
+              &S::projection),
         stage("mean", "mu_x, mu_y in the record, px", &S::mean),
         stage("slope", "m in the record", &S::slope),
         stage("c_prime", "C' in the record", &S::c_prime),
@@ -197,10 +199,14 @@ std::string override_number(NumberSet& set, const std::string& name, const std::
 }
 
 void check_numbers(const NumberSet& set) {
-    const std::pair<const char*, const ValueFormat&> with_sign[] = {
-        {"mean", set.mean}, {"slope", set.slope},   {"distance", set.distance},
-        {"edge", set.edge}, {"square", set.square}, {"d0", set.d0},
-        {"term", set.term}};
+    const std::pair<const char*, const ValueFormat&> with_sign[] = {{"projection", set.projection},
+                                                                    {"mean", set.mean},
+                                                                    {"slope", set.slope},
+                                                                    {"distance", set.distance},
+                                                                    {"edge", set.edge},
+                                                                    {"square", set.square},
+                                                                    {"d0", set.d0},
+                                                                    {"term", set.term}};
     for (const auto& [name, format] : with_sign) {
         if (!format.has_sign) {
             refuse(name, format, "has no sign, but its values may be negative");

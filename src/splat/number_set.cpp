@@ -13,7 +13,8 @@ NumberSet uniform(const std::string& name, const std::string& format) {
     NumberSet set;
     set.name = name;
     const ValueFormat value = parse_format(format);
-    for (ValueFormat* stage : {&set.mean,
+    for (ValueFormat* stage : {&set.projection,
+                               &set.mean,
                                &set.slope,
                                &set.c_prime,
                                &set.radius,
@@ -52,14 +53,16 @@ NumberSet ideal_set() {
 
 NumberSet fp32_set() {
     NumberSet set = uniform("fp32", "fp32");
-    set.meaning = "single precision, exact span ends";
+    set.meaning = "single precision, exact span ends; splats from double";
+    set.projection = ValueFormat(); // fp32 would swap splats of nearly equal depth
     set.mean_form = Mean::PixelAndOffset;
     return set;
 }
 
 NumberSet fp16_set() {
     NumberSet set = uniform("fp16", "fp16");
-    set.meaning = "every value and operation of the paper's equations in FP16";
+    set.meaning = "every value and operation of the paper's equations in FP16, projected in FP32";
+    set.projection = parse_format("fp32"); // determinants leave FP16 at 256 px^2
     set.derivation = Derivation::Literal;
     set.vertical = Vertical::Squared;
     set.ends = SpanEnds::Outward;
@@ -69,6 +72,7 @@ NumberSet fp16_set() {
 
 NumberSet paper_set() {
     NumberSet set = uniform("paper", "fp16");
+    set.projection = parse_format("fp32");
     set.meaning =
         "FP16 and tables; screen coordinates in fixed point, six exponent bits where large "
         "splats need them";
@@ -100,6 +104,7 @@ void set_tuned_tables(NumberSet& set) {
 NumberSet tuned_set() {
     NumberSet set;
     set.name = "tuned";
+    set.projection = parse_format("fp32");
     set.meaning = "the record and PE words of paper, spent on fixed point and exponents that fit";
     set.mean = set.distance = set.edge = parse_format("q18.12");
     set.slope = parse_format("e6m17");
@@ -183,6 +188,7 @@ std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set)
         return operation + format.name();
     };
     return {{"record", "bits." + std::to_string(record_bits(set))},
+            {"projection", key("multiply-add.", set.projection)},
             {"span.distance", key("add.", set.distance)},
             {"span.square", key("multiply.", set.square)},
             {"span.ratio", key("multiply.", set.ratio)},

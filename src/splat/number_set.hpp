@@ -10,9 +10,9 @@
 
 namespace degs {
 
-/// How the descriptor of a splat is made. `Reference`: in double precision, then every field
-/// rounded once. `Literal`: A, B, C rounded first, then Eq. 10 and 11 of the paper, every operation
-/// rounded to the format of its result.
+/// How the descriptor of a projected splat is made. `Reference`: in double precision, then every
+/// field rounded once. `Literal`: A, B, C rounded first, then Eq. 10 and 11 of the paper, every
+/// operation rounded to the format of its result.
 enum class Derivation { Reference, Literal };
 /// dy^2 inv_ry^2 and C' dy^2: `Squared` forms dy^2 first (and leaves FP16 at |dy| = 256),
 /// `Stepwise` multiplies by dy twice. `FromRatio` takes C' dy^2 from x = dy^2 inv_ry^2, so that
@@ -42,6 +42,8 @@ enum class Exponent { Natural, Binary };
 struct NumberSet {
     std::string name;
     std::string meaning; ///< a sentence for people
+
+    ValueFormat projection; ///< every value and operation that makes splats (ProjectionOptions)
 
     // Splat record in memory.
     ValueFormat mean;            ///< mu_x, mu_y, px

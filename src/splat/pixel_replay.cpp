@@ -59,16 +59,6 @@ void blend_exactly(const FrameWorkload& work, const TileList& list, PixelReplay&
     }
 }
 
-/// Largest channel difference; infinite for what is no number.
-double distance(const PixelReplay& a, const PixelReplay& b) {
-    double most = 0;
-    for (int c = 0; c < 3; ++c) {
-        const double each = std::abs(a.rgb[c] - b.rgb[c]);
-        most = std::isfinite(each) ? std::max(most, each) : INFINITY;
-    }
-    return most;
-}
-
 /// Everything exact but for the order of operations.
 NumberSet unrounded(NumberSet set) {
     const NumberSet ideal = number_set("ideal");
@@ -172,7 +162,7 @@ std::size_t culprit(const FrameWorkload& work, const TileList& list, const Pixel
         changed.alpha = reference.alpha;
         changed.alpha[i] = test.alpha[i];
         blend_exactly(work, list, changed);
-        const double moved = distance(changed, reference);
+        const double moved = pixel_distance(changed, reference);
         if (moved > most) {
             most = moved;
             worst = i;
@@ -189,6 +179,15 @@ std::string flip_of(const PixelReplay& reference, const PixelReplay& test, std::
 }
 
 } // namespace
+
+double pixel_distance(const PixelReplay& a, const PixelReplay& b) {
+    double most = 0;
+    for (int c = 0; c < 3; ++c) {
+        const double each = std::abs(a.rgb[c] - b.rgb[c]);
+        most = std::isfinite(each) ? std::max(most, each) : INFINITY;
+    }
+    return most;
+}
 
 PixelReplay replay_reference(const FrameWorkload& workload, int x, int y) {
     const TileList list(workload, x, y);
@@ -236,7 +235,7 @@ PixelBlame blame_pixel(const FrameWorkload& workload, int x, int y, const Number
     const PixelReplay reference = replay_reference(workload, x, y);
     const PixelReplay test = replay_row(workload, x, y, QuantizedRow(set), stop);
     PixelBlame blame;
-    blame.error = distance(reference, test);
+    blame.error = pixel_distance(reference, test);
     if (list.length == 0 || blame.error == 0) {
         return blame;
     }
@@ -250,7 +249,8 @@ PixelBlame blame_pixel(const FrameWorkload& workload, int x, int y, const Number
         operation.take(set, alone);
         operation.take(exact, without);
         const auto error_of = [&](const NumberSet& numbers) {
-            return distance(reference, replay_row(workload, x, y, QuantizedRow(numbers), stop));
+            return pixel_distance(reference,
+                                  replay_row(workload, x, y, QuantizedRow(numbers), stop));
         };
         const double share = std::max(error_of(alone), blame.error - error_of(without));
         if (share > blame.explained) {
@@ -267,6 +267,7 @@ std::vector<std::string> blamed_operations() {
     for (const Operation& operation : kOperations) {
         names.emplace_back(operation.name);
     }
+    names.emplace_back("projection");
     return names;
 }
 

@@ -27,13 +27,17 @@ PixelReplay replay_reference(const FrameWorkload& workload, int x, int y);
 PixelReplay replay_row(const FrameWorkload& workload, int x, int y, const QuantizedRow& row,
                        StopRule stop);
 
+/// Largest channel difference; infinite for what is no number.
+double pixel_distance(const PixelReplay& a, const PixelReplay& b);
+
 /// Who is to blame for a pixel's error.
 struct PixelBlame {
     double error = 0;      ///< largest channel difference of the replay, from the reference
     std::uint32_t id = 0;  ///< Gaussian, index in the cloud
-    std::string operation; ///< "mean", "m", "q", "exp", ..., "span ends"; empty without an error
+    std::string operation; ///< "mean", "m", "q", "exp", ..., "span ends", "projection"; empty
+                           ///< without an error
     double explained = 0;  ///< error that the operation makes, see blame_pixel
-    std::string flip;      ///< "stop rule", "span ends" or empty
+    std::string flip;      ///< "stop rule", "span ends", "depth order" or empty
 };
 
 /// Replays a pixel. The Gaussian is the one whose alpha moves the reference's pixel most if it
@@ -43,6 +47,14 @@ struct PixelBlame {
 /// because the pixel ends at another splat, or because only one of them has it in its span.
 PixelBlame blame_pixel(const FrameWorkload& workload, int x, int y, const NumberSet& set,
                        StopRule stop);
+
+/// The same for a set whose frame was projected in a format of its own: `reference` in double,
+/// `projected` in the set's. The operation is "projection" if that explains more than any other:
+/// the error of `projected` drawn in double, or what is gone from the error without it. The
+/// Gaussian is then the one whose part of the pixel changes most, and the flip may be that splats
+/// of both frames come in another order.
+PixelBlame blame_pixel(const FrameWorkload& reference, const FrameWorkload& projected, int x, int y,
+                       const NumberSet& set, StopRule stop);
 
 /// The names that PixelBlame::operation can have.
 std::vector<std::string> blamed_operations();

@@ -3,43 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "splat/spherical_harmonics.hpp"
 
 namespace degs {
 namespace {
-
-/// Rotation matrix of a quaternion in slot order w, x, y, z. Dividing by |q|^2 makes it orthonormal
-/// in double although files store unit quaternions rounded to float; zero gives NaN.
-glm::dmat3 rotation_of(const glm::vec4& slots) {
-    const double w = slots[0], x = slots[1], y = slots[2], z = slots[3];
-    const double s = 2.0 / (w * w + x * x + y * y + z * z);
-    return {{1 - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y)},
-            {s * (x * y - w * z), 1 - s * (x * x + z * z), s * (y * z + w * x)},
-            {s * (x * z + w * y), s * (y * z - w * x), 1 - s * (x * x + y * y)}};
-}
-
-double dot(const glm::dvec3& p, const glm::dvec3& q) {
-    return glm::dot(p, q);
-}
-
-/// x/z of the mean, limited for the Jacobian only: the linearisation is useless far outside.
-double limited_slope(double x, double z, double focal, int pixels, double jacobian_clamp) {
-    const double limit = jacobian_clamp * pixels / (2.0 * focal);
-    return std::clamp(x / z, -limit, limit);
-}
-
-/// The dilated covariance from the rows u, v of J Rv R S (2x3). The determinant is Cauchy-Binet's
-/// sum of non-negative terms; a c - b^2 loses all digits for needles.
-void set_covariance(const glm::dvec3& u, const glm::dvec3& v, double d, ProjectedSplat& out) {
-    const double a0 = dot(u, u);
-    const double c0 = dot(v, v);
-    const glm::dvec3 cross = glm::cross(u, v);
-    out.cov_a = a0 + d;
-    out.cov_b = dot(u, v);
-    out.cov_c = c0 + d;
-    out.det = dot(cross, cross) + d * (a0 + c0) + d * d;
-}
 
 bool is_degenerate(const ProjectedSplat& s) {
     // One sum catches every NaN and infinity: neither can be cancelled away by finite terms.
@@ -48,38 +17,192 @@ bool is_degenerate(const ProjectedSplat& s) {
     return !std::isfinite(sum) || !(s.det > 0);
 }
 
-} // namespace
+bool is_finite(const glm::dvec3& v) {
+    return std::isfinite(v.x + v.y + v.z);
+}
 
-Cull project_anywhere(const GaussianCloud& cloud, std::size_t index, const Camera& camera,
-                      const ProjectionOptions& options, ProjectedSplat& out) {
-    const glm::dmat3& axes = camera.camera_to_world;
-    // Relative to the camera in double first: world offsets of 1e7 must not swallow small splats.
-    const glm::dvec3 offset = cloud.means[index] - camera.position;
-    const double z = dot(axes[2], offset);
-    if (!(z > options.near_plane)) {
-        return Cull::Near;
+/// Rounding leaves a, b, c and det of slightly different ellipses, far apart for needles, and an
+/// opacity beside Q_th. Records are made of b, c, det and Q_th, so the others follow from these, in
+/// double: bounds of tiles and rows then hold for the ellipse that is drawn.
+void make_consistent(ProjectedSplat& s, double alpha_min) {
+    s.cov_a = (s.det + s.cov_b * s.cov_b) / s.cov_c;
+    s.opacity = alpha_min * std::exp(s.q_threshold / 2);
+}
+
+/// What a view asks of every Gaussian, rounded once.
+template <class Numbers>
+struct ViewConstants {
+    using Scalar = typename Numbers::Scalar;
+    Vector3<Scalar> right, down, forward; ///< view axes in the world
+    Scalar fx, fy;
+    Scalar half_width, half_height;    ///< px
+    Scalar most_slope_x, most_slope_y; ///< limits of x/z and y/z in the Jacobian
+    Scalar near_plane, dilation, alpha_min;
+    Scalar half, one, two;
+
+    ViewConstants(const Numbers& n, const Camera& c, const ProjectionOptions& o)
+        : right(vector_in(n, c.camera_to_world[0])), down(vector_in(n, c.camera_to_world[1])),
+          forward(vector_in(n, c.camera_to_world[2])), fx(n(c.fx)), fy(n(c.fy)),
+          half_width(n(0.5 * c.width)), half_height(n(0.5 * c.height)),
+          most_slope_x(n(o.jacobian_clamp * c.width / (2.0 * c.fx))),
+          most_slope_y(n(o.jacobian_clamp * c.height / (2.0 * c.fy))), near_plane(n(o.near_plane)),
+          dilation(n(o.dilation)), alpha_min(n(o.alpha_min)), half(n(0.5)), one(n(1.0)),
+          two(n(2.0)) {}
+};
+
+/// The projection in the arithmetic of `Numbers`; members are rounded, locals of double are not.
+template <class Numbers>
+class ProjectorIn final : public Projector {
+public:
+    ProjectorIn(const GaussianCloud& cloud, const Camera& camera, const ProjectionOptions& options,
+                Numbers numbers)
+        : Projector(camera), cloud_(cloud), position_(camera.position), n_(std::move(numbers)),
+          k_(n_, camera, options), alpha_min_(options.alpha_min) {}
+
+    Cull project_anywhere(std::size_t index, ProjectedSplat& out) const override;
+    Cull shade(std::size_t index, ProjectedSplat& out) const override;
+
+private:
+    using Scalar = typename Numbers::Scalar;
+    using Vector = Vector3<Scalar>;
+    struct Matrix { // columns
+        Vector x, y, z;
+    };
+
+    Matrix rotation_of(const glm::vec4& slots) const;
+    void set_mean(const Scalar& x, const Scalar& y, const Scalar& z, ProjectedSplat& out) const;
+    void set_covariance(std::size_t index, const Scalar& x, const Scalar& y, const Scalar& z,
+                        ProjectedSplat& out) const;
+    Scalar limited(const Scalar& slope, const Scalar& most) const {
+        const Scalar least = n_(0.0) - most;
+        return slope < least ? least : most < slope ? most : slope;
     }
+    /// Row vector times matrix.
+    static Vector times(const Vector& row, const Matrix& m) {
+        return {dot(m.x, row), dot(m.y, row), dot(m.z, row)};
+    }
+
+    const GaussianCloud& cloud_;
+    glm::dvec3 position_;
+    Numbers n_; // before what is made of it
+    ViewConstants<Numbers> k_;
+    double alpha_min_;
+};
+
+/// Rotation matrix of a quaternion in slot order w, x, y, z. Dividing by |q|^2 makes it orthonormal
+/// in double although files store unit quaternions rounded to float; zero gives NaN.
+template <class Numbers>
+auto ProjectorIn<Numbers>::rotation_of(const glm::vec4& slots) const -> Matrix {
+    const Scalar w = n_(double{slots[0]}), x = n_(double{slots[1]});
+    const Scalar y = n_(double{slots[2]}), z = n_(double{slots[3]});
+    const Scalar s = k_.two / (w * w + x * x + y * y + z * z);
+    const Scalar one = k_.one;
+    return {{one - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y)},
+            {s * (x * y - w * z), one - s * (x * x + z * z), s * (y * z + w * x)},
+            {s * (x * z + w * y), s * (y * z - w * x), one - s * (x * x + y * y)}};
+}
+
+template <class Numbers>
+void ProjectorIn<Numbers>::set_mean(const Scalar& x, const Scalar& y, const Scalar& z,
+                                    ProjectedSplat& out) const {
+    out.mu_x = value_of(k_.fx * x / z + k_.half_width - k_.half);
+    out.mu_y = value_of(k_.fy * y / z + k_.half_height - k_.half);
+}
+
+/// The dilated covariance from the rows u, v of J Rv R S (2x3). The determinant is Cauchy-Binet's
+/// sum of non-negative terms; a c - b^2 loses all digits for needles. The slopes x/z and y/z are
+/// limited for the Jacobian only: the linearisation is useless far outside.
+template <class Numbers>
+void ProjectorIn<Numbers>::set_covariance(std::size_t index, const Scalar& x, const Scalar& y,
+                                          const Scalar& z, ProjectedSplat& out) const {
+    const Scalar slope_x = limited(x / z, k_.most_slope_x);
+    const Scalar slope_y = limited(y / z, k_.most_slope_y);
+    const Vector row_x = (k_.right - k_.forward * slope_x) * (k_.fx / z); // rows of J Rv
+    const Vector row_y = (k_.down - k_.forward * slope_y) * (k_.fy / z);
+    const Matrix rotation = rotation_of(cloud_.rotations[index]);
+    const Vector scale = vector_in(n_, glm::dvec3(cloud_.scales[index]));
+    const Vector u = times(row_x, rotation) * scale;
+    const Vector v = times(row_y, rotation) * scale;
+    const Scalar d = k_.dilation;
+    const Scalar a0 = dot(u, u);
+    const Scalar c0 = dot(v, v);
+    const Vector normal = cross(u, v);
+    out.cov_a = value_of(a0 + d);
+    out.cov_b = value_of(dot(u, v));
+    out.cov_c = value_of(c0 + d);
+    out.det = value_of(dot(normal, normal) + d * (a0 + c0) + d * d);
+}
+
+template <class Numbers>
+Cull ProjectorIn<Numbers>::project_anywhere(std::size_t index, ProjectedSplat& out) const {
+    const glm::dvec3 offset = cloud_.means[index] - position_;
+    const Vector rounded = vector_in(n_, offset);
+    const Scalar z = dot(k_.forward, rounded);
+    if (!(z > k_.near_plane)) {
+        return !std::isfinite(value_of(z)) && is_finite(offset) ? Cull::Degenerate : Cull::Near;
+    }
+    const Scalar opacity = n_(double{cloud_.opacities[index]});
     out.id = static_cast<std::uint32_t>(index);
-    out.depth = z;
-    out.opacity = cloud.opacities[index];
-    out.q_threshold = 2.0 * std::log(out.opacity / options.alpha_min);
+    out.depth = value_of(z);
+    out.opacity = value_of(opacity);
+    out.q_threshold = value_of(k_.two * log_of(opacity / k_.alpha_min));
     if (!(out.q_threshold >= 0)) {
         return Cull::Transparent;
     }
-    const double x = dot(axes[0], offset);
-    const double y = dot(axes[1], offset);
-    out.mu_x = camera.fx * x / z + 0.5 * camera.width - 0.5;
-    out.mu_y = camera.fy * y / z + 0.5 * camera.height - 0.5;
+    const Scalar x = dot(k_.right, rounded);
+    const Scalar y = dot(k_.down, rounded);
+    set_mean(x, y, z, out);
+    set_covariance(index, x, y, z, out);
+    if (is_degenerate(out)) {
+        return Cull::Degenerate;
+    }
+    if (!std::is_same_v<Scalar, double>) {
+        make_consistent(out, alpha_min_);
+    }
+    return Cull::None;
+}
 
-    const double jacobian_clamp = options.jacobian_clamp;
-    const double slope_x = limited_slope(x, z, camera.fx, camera.width, jacobian_clamp);
-    const double slope_y = limited_slope(y, z, camera.fy, camera.height, jacobian_clamp);
-    const glm::dvec3 row_x = (axes[0] - slope_x * axes[2]) * (camera.fx / z); // rows of J Rv
-    const glm::dvec3 row_y = (axes[1] - slope_y * axes[2]) * (camera.fy / z);
-    const glm::dmat3 rotation = rotation_of(cloud.rotations[index]);
-    const glm::dvec3 scale(cloud.scales[index]);
-    set_covariance((row_x * rotation) * scale, (row_y * rotation) * scale, options.dilation, out);
-    return is_degenerate(out) ? Cull::Degenerate : Cull::None;
+template <class Numbers>
+Cull ProjectorIn<Numbers>::shade(std::size_t index, ProjectedSplat& out) const {
+    const Vector offset = vector_in(n_, cloud_.means[index] - position_);
+    const Vector direction = offset * (k_.one / root_of(dot(offset, offset)));
+    const Vector sum = evaluate_sh(n_, cloud_.sh_degree, cloud_.sh_of(index), direction);
+    const double rgb[] = {value_of(k_.half + sum.x), value_of(k_.half + sum.y),
+                          value_of(k_.half + sum.z)};
+    const bool finite = std::isfinite(rgb[0] + rgb[1] + rgb[2]);
+    for (int channel = 0; channel < 3; ++channel) {
+        out.colour[channel] = finite && rgb[channel] > 0 ? rgb[channel] : 0.0;
+    }
+    return finite ? Cull::None : Cull::Degenerate;
+}
+
+} // namespace
+
+std::unique_ptr<Projector> make_projector(const GaussianCloud& cloud, const Camera& camera,
+                                          const ProjectionOptions& options) {
+    using Double = MachineNumbers<double>;
+    using Single = MachineNumbers<float>;
+    if (options.format.is_fp64()) {
+        return std::make_unique<ProjectorIn<Double>>(cloud, camera, options, Double());
+    }
+    if (options.format == parse_format("fp32")) {
+        return std::make_unique<ProjectorIn<Single>>(cloud, camera, options, Single());
+    }
+    return make_rounding_projector(cloud, camera, options);
+}
+
+std::unique_ptr<Projector> make_rounding_projector(const GaussianCloud& cloud, const Camera& camera,
+                                                   const ProjectionOptions& options) {
+    return std::make_unique<ProjectorIn<RoundedNumbers>>(cloud, camera, options,
+                                                         RoundedNumbers(options.format));
+}
+
+Cull Projector::project(std::size_t index, ProjectedSplat& out) const {
+    const Cull cull = project_anywhere(index, out);
+    if (cull != Cull::None) {
+        return cull;
+    }
+    return pixel_box(out, width_, height_).empty() ? Cull::OffScreen : Cull::None;
 }
 
 PixelBox pixel_box(const ProjectedSplat& splat, int width, int height) {
@@ -95,23 +218,19 @@ PixelBox pixel_box(const ProjectedSplat& splat, int width, int height) {
     return box;
 }
 
-Cull project(const GaussianCloud& cloud, std::size_t index, const Camera& camera,
-             const ProjectionOptions& options, ProjectedSplat& out) {
-    const Cull cull = project_anywhere(cloud, index, camera, options, out);
-    if (cull != Cull::None) {
-        return cull;
-    }
-    return pixel_box(out, camera.width, camera.height).empty() ? Cull::OffScreen : Cull::None;
+Cull project_anywhere(const GaussianCloud& cloud, std::size_t index, const Camera& camera,
+                      const ProjectionOptions& options, ProjectedSplat& out) {
+    return make_projector(cloud, camera, options)->project_anywhere(index, out);
 }
 
-void shade(const GaussianCloud& cloud, std::size_t index, const Camera& camera,
-           ProjectedSplat& out) {
-    const glm::dvec3 direction = glm::normalize(cloud.means[index] - camera.position);
-    const glm::dvec3 sum = evaluate_sh(cloud.sh_degree, cloud.sh_of(index), direction);
-    for (int channel = 0; channel < 3; ++channel) {
-        const double value = 0.5 + sum[channel];
-        out.colour[channel] = value > 0 ? value : 0.0; // NaN becomes black
-    }
+Cull project(const GaussianCloud& cloud, std::size_t index, const Camera& camera,
+             const ProjectionOptions& options, ProjectedSplat& out) {
+    return make_projector(cloud, camera, options)->project(index, out);
+}
+
+Cull shade(const GaussianCloud& cloud, std::size_t index, const Camera& camera, ProjectedSplat& out,
+           const ProjectionOptions& options) {
+    return make_projector(cloud, camera, options)->shade(index, out);
 }
 
 } // namespace degs

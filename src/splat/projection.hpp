@@ -3,22 +3,26 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "splat/camera.hpp"
 #include "splat/gaussian.hpp"
+#include "splat/number_format.hpp"
 
 namespace degs {
 
-/// Constants of the projection; the defaults are those of the original 3DGS rasteriser.
+/// Constants of the projection; the defaults are those of the original 3DGS rasteriser, in double.
 struct ProjectionOptions {
     double near_plane = 0.2;        ///< scene units; splats at or before it are dropped
     double dilation = 0.3;          ///< px^2, low-pass filter added to both variances
     double jacobian_clamp = 1.3;    ///< times tan(fov/2); limits x/z and y/z in the Jacobian only
     double alpha_min = 1.0 / 255.0; ///< support threshold (paper Eq. 7)
+    ValueFormat format;             ///< every operation is rounded to it; fp64 and fp32 are native
 };
 
-/// A Gaussian on the screen, in double precision. q(x, y) = A dx^2 + 2 B dx dy + C dy^2 with
-/// dx = x - mu_x; pixel (i, j) is sampled at integer (i, j) (mu is shifted by -0.5 accordingly).
+/// A Gaussian on the screen, in the format that projected it; a and opacity fit b, c, det and Q_th.
+/// q(x, y) = A dx^2 + 2 B dx dy + C dy^2 with dx = x - mu_x; pixel (i, j) is sampled at integer
+/// (i, j) (mu is shifted by -0.5 accordingly).
 struct ProjectedSplat {
     double mu_x = 0, mu_y = 0;              ///< px
     double cov_a = 0, cov_b = 0, cov_c = 0; ///< dilated covariance xx, xy, yy; px^2
@@ -34,8 +38,8 @@ struct ProjectedSplat {
     double conic_c() const { return cov_a / det; }
 };
 
-/// Why a Gaussian produced no splat. Degenerate: a result is not finite, or det is not positive
-/// (only possible without dilation).
+/// Why a Gaussian produced no splat. Degenerate: a result is not finite in the projection's format,
+/// or det is not positive (only possible without dilation, or where squares vanish in the format).
 enum class Cull { None, Near, Transparent, Degenerate, OffScreen };
 
 /// Inclusive ranges of pixels, clipped to the image.
@@ -54,20 +58,52 @@ inline double pixel_slack(double magnitude) {
 /// `pixel_slack`; safe against coordinates far beyond the range of int.
 PixelBox pixel_box(const ProjectedSplat& splat, int width, int height);
 
-/// Projects Gaussian `index` wherever it lands; never returns OffScreen. For tile modes that have
-/// their own idea of visibility.
+/// Projects and shades the Gaussians of a scene for one camera, in the format of the options. The
+/// mean's offset from the camera is formed in double and rounded once: a scene is stored relative
+/// to an origin near its cameras, and world offsets of 1e7 must not swallow small splats. Scales,
+/// rotations, opacities, SH coefficients and constants are rounded once; so is every operation.
+///
+/// Not modelled: pixel boxes and tile covers in a format of their own; they are worked out in
+/// double from the splat as it was rounded.
+class Projector {
+public:
+    virtual ~Projector() = default;
+
+    /// Projects Gaussian `index` wherever it lands; never returns OffScreen. For tile modes that
+    /// have their own idea of visibility. On Cull::None `out` is complete except for its colour.
+    /// EWA splatting (paper Eq. 1-3) with the determinant formed without cancellation:
+    /// det = |u x v|^2 + d (|u|^2 + |v|^2) + d^2 with u, v the rows of J R S and d the dilation.
+    virtual Cull project_anywhere(std::size_t index, ProjectedSplat& out) const = 0;
+
+    /// View-dependent colour max(0, 0.5 + sum c_k Y_k(dir)), per channel. None, or Degenerate if a
+    /// channel is not finite (black then).
+    virtual Cull shade(std::size_t index, ProjectedSplat& out) const = 0;
+
+    /// OffScreen means: no pixel centre of the image lies inside the ellipse's bounding box.
+    Cull project(std::size_t index, ProjectedSplat& out) const;
+
+protected:
+    explicit Projector(const Camera& camera) : width_(camera.width), height_(camera.height) {}
+
+private:
+    int width_, height_;
+};
+
+/// The cloud outlives the projector.
+std::unique_ptr<Projector> make_projector(const GaussianCloud& cloud, const Camera& camera,
+                                          const ProjectionOptions& options);
+
+/// The same with every operation computed in double and rounded afterwards, whatever the format;
+/// fp32 is the machine's own to the bit. For tests.
+std::unique_ptr<Projector> make_rounding_projector(const GaussianCloud& cloud, const Camera& camera,
+                                                   const ProjectionOptions& options);
+
+/// Single Gaussians, see Projector.
 Cull project_anywhere(const GaussianCloud& cloud, std::size_t index, const Camera& camera,
                       const ProjectionOptions& options, ProjectedSplat& out);
-
-/// Projects Gaussian `index`; on Cull::None `out` is complete except for its colour.
-/// EWA splatting (paper Eq. 1-3) with the determinant formed without cancellation:
-/// det = |u x v|^2 + d (|u|^2 + |v|^2) + d^2 with u, v the rows of J R S and d the dilation.
-/// OffScreen means: no pixel centre of the image lies inside the ellipse's bounding box.
 Cull project(const GaussianCloud& cloud, std::size_t index, const Camera& camera,
              const ProjectionOptions& options, ProjectedSplat& out);
-
-/// View-dependent colour max(0, 0.5 + sum c_k Y_k(dir)), per channel, in double.
-void shade(const GaussianCloud& cloud, std::size_t index, const Camera& camera,
-           ProjectedSplat& out);
+Cull shade(const GaussianCloud& cloud, std::size_t index, const Camera& camera, ProjectedSplat& out,
+           const ProjectionOptions& options = {});
 
 } // namespace degs

@@ -4,61 +4,95 @@
 namespace degs {
 namespace {
 
-using Basis = std::array<double, kMaxShCoefficients>;
+/// Fills Y_k of one degree after the other.
+template <class Numbers>
+struct Basis {
+    using Scalar = typename Numbers::Scalar;
+    using Values = std::array<Scalar, kMaxShCoefficients>;
 
-void fill_degree_1(const glm::dvec3& d, Basis& basis) {
-    constexpr double kY1 = 0.4886025119029199; // sqrt(3 / (4 pi))
-    basis[1] = -kY1 * d.y;
-    basis[2] = kY1 * d.z;
-    basis[3] = -kY1 * d.x;
-}
+    Basis(const Numbers& numbers, const Vector3<Scalar>& direction)
+        : n(numbers), x(direction.x), y(direction.y), z(direction.z), xx(x * x), yy(y * y),
+          zz(z * z) {}
 
-void fill_degree_2(const glm::dvec3& d, Basis& basis) {
-    const double xx = d.x * d.x, yy = d.y * d.y, zz = d.z * d.z;
-    basis[4] = 1.0925484305920792 * d.x * d.y;
-    basis[5] = -1.0925484305920792 * d.y * d.z;
-    basis[6] = 0.31539156525252005 * (2 * zz - xx - yy);
-    basis[7] = -1.0925484305920792 * d.x * d.z;
-    basis[8] = 0.5462742152960396 * (xx - yy);
-}
+    Values values(int degree) const {
+        const Scalar none = n(0.0);
+        Values out{{n(0.28209479177387814), // 1 / sqrt(4 pi)
+                    none, none, none, none, none, none, none, none, none, none, none, none, none,
+                    none, none}};
+        if (degree >= 1) {
+            fill_degree_1(out);
+        }
+        if (degree >= 2) {
+            fill_degree_2(out);
+        }
+        if (degree >= 3) {
+            fill_degree_3(out);
+        }
+        return out;
+    }
+    void fill_degree_1(Values& out) const {
+        constexpr double kY1 = 0.4886025119029199; // sqrt(3 / (4 pi))
+        out[1] = n(-kY1) * y;
+        out[2] = n(kY1) * z;
+        out[3] = n(-kY1) * x;
+    }
+    void fill_degree_2(Values& out) const {
+        out[4] = n(1.0925484305920792) * x * y;
+        out[5] = n(-1.0925484305920792) * y * z;
+        out[6] = n(0.31539156525252005) * (n(2) * zz - xx - yy);
+        out[7] = n(-1.0925484305920792) * x * z;
+        out[8] = n(0.5462742152960396) * (xx - yy);
+    }
+    void fill_degree_3(Values& out) const {
+        out[9] = n(-0.5900435899266435) * y * (n(3) * xx - yy);
+        out[10] = n(2.890611442640554) * x * y * z;
+        out[11] = n(-0.4570457994644658) * y * (n(4) * zz - xx - yy);
+        out[12] = n(0.3731763325901154) * z * (n(2) * zz - n(3) * xx - n(3) * yy);
+        out[13] = n(-0.4570457994644658) * x * (n(4) * zz - xx - yy);
+        out[14] = n(1.445305721320277) * z * (xx - yy);
+        out[15] = n(-0.5900435899266435) * x * (xx - n(3) * yy);
+    }
 
-void fill_degree_3(const glm::dvec3& d, Basis& basis) {
-    const double xx = d.x * d.x, yy = d.y * d.y, zz = d.z * d.z;
-    basis[9] = -0.5900435899266435 * d.y * (3 * xx - yy);
-    basis[10] = 2.890611442640554 * d.x * d.y * d.z;
-    basis[11] = -0.4570457994644658 * d.y * (4 * zz - xx - yy);
-    basis[12] = 0.3731763325901154 * d.z * (2 * zz - 3 * xx - 3 * yy);
-    basis[13] = -0.4570457994644658 * d.x * (4 * zz - xx - yy);
-    basis[14] = 1.445305721320277 * d.z * (xx - yy);
-    basis[15] = -0.5900435899266435 * d.x * (xx - 3 * yy);
-}
+    const Numbers& n;
+    Scalar x, y, z, xx, yy, zz;
+};
+
+using Double = MachineNumbers<double>;
 
 } // namespace
 
-Basis sh_basis(int degree, const glm::dvec3& direction) {
-    Basis basis{};
-    basis[0] = 0.28209479177387814; // 1 / sqrt(4 pi)
-    if (degree >= 1) {
-        fill_degree_1(direction, basis);
-    }
-    if (degree >= 2) {
-        fill_degree_2(direction, basis);
-    }
-    if (degree >= 3) {
-        fill_degree_3(direction, basis);
-    }
-    return basis;
+std::array<double, kMaxShCoefficients> sh_basis(int degree, const glm::dvec3& direction) {
+    const Double numbers;
+    return Basis<Double>(numbers, vector_in(numbers, direction)).values(degree);
 }
 
-glm::dvec3 evaluate_sh(int degree, const float* coefficients, const glm::dvec3& direction) {
-    const Basis basis = sh_basis(degree, direction);
+template <class Numbers>
+Vector3<typename Numbers::Scalar> evaluate_sh(const Numbers& numbers, int degree,
+                                              const float* coefficients,
+                                              const Vector3<typename Numbers::Scalar>& direction) {
+    const auto basis = Basis<Numbers>(numbers, direction).values(degree);
     const int count = (degree + 1) * (degree + 1);
-    glm::dvec3 sum(0.0);
+    Vector3<typename Numbers::Scalar> sum = vector_in(numbers, glm::dvec3(0.0));
     const float* rgb = coefficients;
     for (int k = 0; k < count; ++k, rgb += 3) {
-        sum += basis[k] * glm::dvec3(rgb[0], rgb[1], rgb[2]);
+        const auto& y = basis[static_cast<std::size_t>(k)];
+        sum = {sum.x + y * numbers(double{rgb[0]}), sum.y + y * numbers(double{rgb[1]}),
+               sum.z + y * numbers(double{rgb[2]})};
     }
     return sum;
+}
+
+template Vector3<double> evaluate_sh(const Double&, int, const float*, const Vector3<double>&);
+template Vector3<float> evaluate_sh(const MachineNumbers<float>&, int, const float*,
+                                    const Vector3<float>&);
+template Vector3<Rounded> evaluate_sh(const RoundedNumbers&, int, const float*,
+                                      const Vector3<Rounded>&);
+
+glm::dvec3 evaluate_sh(int degree, const float* coefficients, const glm::dvec3& direction) {
+    const Double numbers;
+    const Vector3<double> sum =
+        evaluate_sh(numbers, degree, coefficients, vector_in(numbers, direction));
+    return {sum.x, sum.y, sum.z};
 }
 
 } // namespace degs

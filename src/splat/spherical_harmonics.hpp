@@ -3,7 +3,8 @@
 
 #include <array>
 
-#include <glm/glm.hpp>
+#include "splat/rounded.hpp"
+#include "splat/vector3.hpp"
 
 namespace degs {
 
@@ -17,5 +18,12 @@ std::array<double, kMaxShCoefficients> sh_basis(int degree, const glm::dvec3& di
 /// sum c_k Y_k(direction) per channel. `coefficients` is [coefficient][channel], as in
 /// GaussianCloud::sh. The 0.5 that the 3DGS colour adds is not included.
 glm::dvec3 evaluate_sh(int degree, const float* coefficients, const glm::dvec3& direction);
+
+/// The same in the arithmetic of `numbers`: coefficients and constants are rounded once, and so is
+/// the result of every operation. For double, float and Rounded.
+template <class Numbers>
+Vector3<typename Numbers::Scalar> evaluate_sh(const Numbers& numbers, int degree,
+                                              const float* coefficients,
+                                              const Vector3<typename Numbers::Scalar>& direction);
 
 } // namespace degs

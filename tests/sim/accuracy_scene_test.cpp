@@ -47,18 +47,25 @@ TEST(AccuracyScenes, ARowPerSceneResolutionAndSet) {
     EXPECT_NE(read_file(folder / "out/accuracy.svg").find("tuned"), std::string::npos);
 }
 
-// The row, the error image and two images made by other commands say the same.
-TEST(AccuracyScenes, IsTheDifferenceOfRunAndRender) {
+/// The row, the error image and two images made by other commands say the same.
+void expect_difference_of_run_and_render(const std::string& numbers,
+                                         const std::vector<std::string>& keys,
+                                         const std::string& projection) {
     const Folder folder;
     const std::vector<std::string> view{"--scene", kScene, "--camera", "0"};
     const auto with = [&view](std::vector<std::string> arguments) {
         arguments.insert(arguments.end(), view.begin(), view.end());
         return arguments;
     };
-    const json rows = accuracy(folder, with({"--numbers", "paper"}));
+    const json rows = accuracy(folder, with({"--numbers", numbers}));
     ASSERT_EQ(rows.size(), 1U);
     expect_success(degs(with({"render", "--out", folder / "render"})));
-    expect_success(degs(with({"run", config("degs-64"), "--out", folder / "run"})));
+    std::vector<std::string> command{"run", config("degs-64"), "--out", folder / "run"};
+    for (const std::string& key : keys) {
+        command.insert(command.end(), {"--set", key});
+    }
+    expect_success(degs(with(command)));
+    EXPECT_EQ(report_in(folder / "run")["workload"]["projection"], projection);
     const Image run = read_exr(folder / "run/image.exr");
     const Image reference = read_exr(folder / "render/image.exr");
     const Image error = read_exr(folder / "out/" + rows[0]["error_image"].get<std::string>());
@@ -80,6 +87,37 @@ TEST(AccuracyScenes, IsTheDifferenceOfRunAndRender) {
     EXPECT_EQ(worst, std::max({std::abs(error.rgb[3 * at]), std::abs(error.rgb[3 * at + 1]),
                                std::abs(error.rgb[3 * at + 2])}));
     EXPECT_NEAR(pixel["error"], worst, 0.1 * worst); // its replay
+}
+
+TEST(AccuracyScenes, IsTheDifferenceOfRunAndRender) {
+    expect_difference_of_run_and_render(
+        "paper", {"pipeline.numbers=paper", "pipeline.span_ends=slope"}, "fp32");
+}
+
+TEST(AccuracyScenes, ProjectsAsTheRunDoes) {
+    const std::string exact = "pipeline.span_ends=exact";
+    expect_difference_of_run_and_render("fp32:projection=fp32",
+                                        {exact, "pipeline.formats.projection=fp32"}, "fp32");
+    expect_difference_of_run_and_render("fp32:projection=e8m14",
+                                        {exact, "pipeline.formats.projection=e8m14"}, "e8m14");
+    expect_difference_of_run_and_render("tuned:projection=fp64:alpha=uq0.12",
+                                        {exact, "pipeline.numbers=tuned",
+                                         "pipeline.formats.projection=fp64",
+                                         "pipeline.formats.alpha=uq0.12"},
+                                        "fp64");
+}
+
+TEST(AccuracyScenes, EveryRowHasItsOwnProjection) {
+    const Folder folder;
+    const json rows = accuracy(
+        folder, {"--scene", kScene, "--numbers",
+                 "ideal,ideal:projection=e8m14,ideal:projection=bf16,ideal:projection=fp32"});
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_EQ(rows[0]["identical"], true);
+    EXPECT_EQ(rows[1]["numbers"], "ideal projection=e8m14");
+    EXPECT_GT(rows[1]["psnr_db"].get<double>(), rows[2]["psnr_db"].get<double>() + 20);
+    EXPECT_GT(rows[3]["psnr_db"].get<double>(), rows[1]["psnr_db"].get<double>() + 20);
+    EXPECT_EQ(rows[2]["worst_pixel"]["operation"], "projection");
 }
 
 TEST(AccuracyScenes, EqualImagesHaveNoPsnr) {
@@ -115,6 +153,9 @@ TEST(AccuracyScenes, NamesMistakes) {
         expect_mistake(degs(arguments), words);
     };
     mistake({"--scene", kScene, "--numbers", "fp8"}, "'fp8'");
+    mistake({"--scene", kScene, "--numbers", "tuned:alfa=fp16"}, "'alfa' is no part");
+    mistake({"--scene", kScene, "--numbers", "tuned:projection=fp8"}, "'projection' must be");
+    mistake({"--scene", kScene, "--numbers", "tuned:projection=ue8m9"}, "has no sign");
     mistake({"--scene", kScene, "--resolution", "720p,16k"}, "'16k'");
     mistake({"--scene", "absent.ply"}, "absent.ply");
     mistake({"--scene", "synthetic:object,"}, "empty name");

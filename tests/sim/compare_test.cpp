@@ -82,6 +82,36 @@ TEST(CompareRuns, AgreesWithSingleRuns) {
                 2e9 / (ends[2].get<double>() - ends[0].get<double>()), 1e-3);
 }
 
+// The reference is that of double whatever a configuration projects in, and made once.
+TEST(CompareRuns, ProjectionsShareTheReference) {
+    const Folder folder;
+    const std::string tuned = folder / "tuned.yaml";
+    std::ofstream(tuned) << "include: " << config("degs-64")
+                         << "\nname: tuned\npipeline:\n  numbers: tuned\n";
+    expect_success(
+        compare({config("degs-64"), tuned}, folder / "c", {"--cameras", "0", "--width", "96"}));
+    expect_success(
+        compare({tuned, config("degs-64")}, folder / "d", {"--cameras", "0", "--width", "96"}));
+    const auto read = [&](const char* path) {
+        nlohmann::json report = nlohmann::json::parse(read_file(folder / path));
+        report.erase("host");
+        return report;
+    };
+    const nlohmann::json native = read("c/reports/1-object-camera0-96x72/1-degs-64.json");
+    const nlohmann::json own = read("c/reports/1-object-camera0-96x72/2-tuned.json");
+    EXPECT_EQ(native, read("d/reports/1-object-camera0-96x72/2-degs-64.json"));
+    EXPECT_EQ(own, read("d/reports/1-object-camera0-96x72/1-tuned.json"));
+    EXPECT_EQ(native["workload"]["projection"], "fp64");
+    EXPECT_EQ(own["workload"]["projection"], "fp32");
+    EXPECT_EQ(native["workload"]["fragments"], own["workload"]["fragments"]);
+    const std::vector<std::string> single{"run", tuned,     "--scene", kScene,  "--camera",
+                                          "0",   "--width", "96",      "--out", folder / "r"};
+    expect_success(degs(single));
+    nlohmann::json report = report_in(folder / "r");
+    report.erase("host");
+    EXPECT_EQ(own, report);
+}
+
 TEST(CompareRuns, DoesNotDependOnJobs) {
     const Folder folder;
     std::vector<nlohmann::json> results;

@@ -82,8 +82,8 @@ TEST(SmallRunReport, HasEveryKeyOfTheContract) {
     expect_keys(report, {"tool", "schema", "scene", "camera", "config", "workload", "timing",
                          "stages", "slots", "dram", "buffers", "energy", "area", "image", "host"});
     EXPECT_EQ(report["schema"]["version"], 1);
-    expect_keys(report["workload"],
-                {"gaussians", "visible", "tile_pairs", "fragments", "culled", "dropped"});
+    expect_keys(report["workload"], {"gaussians", "visible", "tile_pairs", "fragments", "culled",
+                                     "dropped", "projection"});
     expect_keys(report["timing"], {"cycles", "latency_ms", "fps", "clock_ghz", "blending_cycles",
                                    "preprocessing_cycles", "frames", "throughput_fps"});
     expect_keys(report["slots"], {"total", "useful", "boundary", "terminated", "conflict",

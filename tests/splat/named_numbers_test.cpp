@@ -81,9 +81,28 @@ TEST(NamedNumbers, PartsGoByName) {
     }
     expect_refused({"colour"}, "In 'colour', 'colour' must be fp64");
     expect_refused({"color=fp16"}, "In 'color=fp16', 'color' is no part of a number set; there are "
-                                   "mean, slope, ");
+                                   "projection, mean, slope, ");
+    expect_refused({"projection=ue8m20"}, "The number format ue8m20 of projection has no sign");
     expect_refused({"d0=ue4m12"}, "The number format ue4m12 of d0 has no sign");
     expect_refused({"ratio=uq0.18"}, "The number format uq0.18 of ratio must reach beyond 1");
+}
+
+// fp32 and fp64 keep the machine's own operations if splats alone come from elsewhere.
+TEST(NamedNumbers, ProjectionIsNoPartOfTheDataPath) {
+    for (const char* name : {"fp32", "fp64", "ideal"}) {
+        EXPECT_EQ(named_numbers(name).projection, parse_format("fp64"));
+    }
+    for (const char* name : {"fp16", "paper", "tuned"}) {
+        EXPECT_EQ(named_numbers(name).projection, parse_format("fp32"));
+    }
+    const DataPathOptions native = named_numbers("fp32", {"projection=bf16"});
+    EXPECT_EQ(native.projection, parse_format("bf16"));
+    EXPECT_FALSE(native.set);
+    const DataPathOptions changed = named_numbers("fp64", {"projection=fp32", "alpha=uq0.12"});
+    EXPECT_EQ(changed.projection, parse_format("fp32"));
+    ASSERT_TRUE(changed.set);
+    EXPECT_EQ(changed.set->alpha, parse_format("uq0.12"));
+    EXPECT_THROW(named_numbers("tuned", {"projection=ue8m20"}), InputError);
 }
 
 class HostilePaths : public testing::TestWithParam<std::string> {};

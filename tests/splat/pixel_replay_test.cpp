@@ -135,5 +135,38 @@ TEST(PixelReplay, NothingToBlame) {
     EXPECT_LT(blame.error, 1e-14);
 }
 
+/// Two splats of nearly one depth, the far one first in the cloud.
+FrameWorkload near_pair(const std::string& format) {
+    GaussianCloud cloud;
+    const glm::vec4 upright(1, 0, 0, 0);
+    test::add_gaussian(cloud, {0.03, 0.01, 3.001}, {0.3F, 0.3F, 0.3F}, upright, 0.6F,
+                       {0.1F, 0.1F, 0.9F});
+    test::add_gaussian(cloud, {0.03, 0.01, 3}, {0.3F, 0.3F, 0.3F}, upright, 0.6F,
+                       {0.9F, 0.1F, 0.1F});
+    ProjectionOptions options;
+    options.format = parse_format(format);
+    return make_frame_workload(cloud, test::make_camera(32, 32, 40), 32, TileMode::Exact, options);
+}
+
+TEST(PixelReplay, NamesTheProjection) {
+    const FrameWorkload exact = near_pair("fp64");
+    NumberSet set = number_set("ideal");
+    const auto blame = [&](const std::string& format, int x) {
+        return blame_pixel(exact, near_pair(format), x, 16, set, StopRule::Refuse);
+    };
+    const PixelBlame apart = blame("fp16", 16); // a unit of 1/512: the depths stay apart
+    EXPECT_EQ(apart.operation, "projection");
+    EXPECT_EQ(apart.flip, "");
+    EXPECT_LT(apart.error, 1e-2);
+    const PixelBlame order = blame("e5m9", 16); // 1/256: one depth
+    EXPECT_EQ(order.operation, "projection");
+    EXPECT_EQ(order.flip, "depth order");
+    EXPECT_GT(order.error, 0.1);
+    EXPECT_NEAR(order.explained, order.error, 1e-12);
+    set.sum = parse_format("uq4.2");
+    EXPECT_EQ(blame("fp16", 16).operation, "sum"); // the larger of the two
+    EXPECT_EQ(blame("fp32", 16).operation, "sum");
+}
+
 } // namespace
 } // namespace degs
