@@ -35,7 +35,7 @@ struct AccuracyRow {
     double alpha_error_mean = 0; ///< absolute, against fp64, over all pixels
     double alpha_error_max = 0;  ///< over pixels that both draw
     std::optional<double> psnr_db, ssim, flip, max_abs_error; ///< of images
-    std::uint64_t nonfinite = 0;                        ///< values that are no number
+    std::uint64_t nonfinite = 0;                              ///< values that are no number
 
     // Images only.
     bool identical = false;      ///< to the reference; psnr_db is empty then

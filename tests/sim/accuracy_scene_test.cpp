@@ -95,16 +95,16 @@ TEST(AccuracyScenes, IsTheDifferenceOfRunAndRender) {
 }
 
 TEST(AccuracyScenes, ProjectsAsTheRunDoes) {
-    const std::string exact = "pipeline.span_ends=exact";
-    expect_difference_of_run_and_render("fp32:projection=fp32",
-                                        {exact, "pipeline.formats.projection=fp32"}, "fp32");
-    expect_difference_of_run_and_render("fp32:projection=e8m14",
-                                        {exact, "pipeline.formats.projection=e8m14"}, "e8m14");
-    expect_difference_of_run_and_render("tuned:projection=fp64:alpha=uq0.12",
-                                        {exact, "pipeline.numbers=tuned",
-                                         "pipeline.formats.projection=fp64",
-                                         "pipeline.formats.alpha=uq0.12"},
-                                        "fp64");
+    const auto keys = [](const char* numbers, const char* projection) {
+        return std::vector<std::string>{"pipeline.span_ends=exact",
+                                        std::string("pipeline.numbers=") + numbers,
+                                        std::string("pipeline.formats.projection=") + projection};
+    };
+    expect_difference_of_run_and_render("fp32:projection=fp32", keys("fp32", "fp32"), "fp32");
+    expect_difference_of_run_and_render("fp32:projection=e8m14", keys("fp32", "e8m14"), "e8m14");
+    std::vector<std::string> two = keys("tuned", "fp64");
+    two.emplace_back("pipeline.formats.alpha=uq0.12");
+    expect_difference_of_run_and_render("tuned:projection=fp64:alpha=uq0.12", two, "fp64");
 }
 
 TEST(AccuracyScenes, EveryRowHasItsOwnProjection) {

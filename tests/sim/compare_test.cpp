@@ -85,21 +85,25 @@ TEST(CompareRuns, AgreesWithSingleRuns) {
 // The reference is that of double whatever a configuration projects in, and made once.
 TEST(CompareRuns, ProjectionsShareTheReference) {
     const Folder folder;
-    const std::string tuned = folder / "tuned.yaml";
-    std::ofstream(tuned) << "include: " << config("degs-64")
-                         << "\nname: tuned\npipeline:\n  numbers: tuned\n";
-    expect_success(
-        compare({config("degs-64"), tuned}, folder / "c", {"--cameras", "0", "--width", "96"}));
-    expect_success(
-        compare({tuned, config("degs-64")}, folder / "d", {"--cameras", "0", "--width", "96"}));
+    const auto design = [&folder](const std::string& numbers) {
+        const std::string path = folder / (numbers + ".yaml");
+        std::ofstream(path) << "include: " << config("degs-64") << "\nname: " << numbers
+                            << "\npipeline:\n  numbers: " << numbers << "\n";
+        return path;
+    };
+    const std::string fp32 = design("fp32"); // projects in double
+    const std::string tuned = design("tuned");
+    const std::vector<std::string> view{"--cameras", "0", "--width", "96"};
+    expect_success(compare({fp32, tuned}, folder / "c", view));
+    expect_success(compare({tuned, fp32}, folder / "d", view));
     const auto read = [&](const char* path) {
         nlohmann::json report = nlohmann::json::parse(read_file(folder / path));
         report.erase("host");
         return report;
     };
-    const nlohmann::json native = read("c/reports/1-object-camera0-96x72/1-degs-64.json");
+    const nlohmann::json native = read("c/reports/1-object-camera0-96x72/1-fp32.json");
     const nlohmann::json own = read("c/reports/1-object-camera0-96x72/2-tuned.json");
-    EXPECT_EQ(native, read("d/reports/1-object-camera0-96x72/2-degs-64.json"));
+    EXPECT_EQ(native, read("d/reports/1-object-camera0-96x72/2-fp32.json"));
     EXPECT_EQ(own, read("d/reports/1-object-camera0-96x72/1-tuned.json"));
     EXPECT_EQ(native["workload"]["projection"], "fp64");
     EXPECT_EQ(own["workload"]["projection"], "fp32");
