@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "splat/blend_lanes.hpp"
-#include "splat/error.hpp"
-#include "splat/number_override.hpp"
 #include "splat/quantized_data_path.hpp"
 
 namespace degs {
@@ -288,51 +286,6 @@ private:
 };
 
 } // namespace
-
-const std::vector<const char*>& number_format_names() {
-    static const std::vector<const char*> names{"fp32", "fp64", "ideal", "fp16", "paper", "tuned"};
-    return names;
-}
-
-DataPathOptions options_of(const NumberSet& set) {
-    DataPathOptions options;
-    options.ends = set.ends;
-    options.delta = set.delta;
-    options.set = set;
-    options.projection = set.projection;
-    return options;
-}
-
-DataPathOptions named_numbers(const std::string& name) {
-    const std::vector<const char*>& names = number_format_names();
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end()) {
-        std::string known;
-        for (const char* each : names) {
-            known += (known.empty() ? "" : ", ") + std::string(each);
-        }
-        throw InputError("There are no numbers '" + name + "'; there are " + known + ".");
-    }
-    DataPathOptions options = options_of(number_set(name == "fp64" ? "ideal" : name));
-    options.set.reset();
-    options.numbers = static_cast<NumberFormat>(at - names.begin());
-    return options;
-}
-
-DataPathOptions named_numbers(const std::string& name,
-                              const std::vector<std::string>& assignments) {
-    DataPathOptions options = named_numbers(name);
-    const NumberSet set = number_set(name == "fp64" ? "ideal" : name, assignments);
-    const bool same =
-        std::all_of(assignments.begin(), assignments.end(), [](const std::string& assignment) {
-            return assignment.rfind("projection=", 0) == 0;
-        });
-    if (!same) {
-        return options_of(set);
-    }
-    options.projection = set.projection;
-    return options;
-}
 
 std::unique_ptr<DataPath> make_data_path(const DataPathOptions& options, int tile_size,
                                          int contexts) {
