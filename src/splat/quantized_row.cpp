@@ -30,6 +30,7 @@ QuantizedRow::QuantizedRow(NumberSet set)
     q_mask_ = q_(q_limit_);
     fold_limit_ = level_(q_limit_);
     alpha_max_ = alpha_(0.99);
+    half_unit_ = 0.5 * std::ldexp(1.0, -set_.mean.fraction_bits);
 }
 
 QuantizedSplat QuantizedRow::record(const ProjectedSplat& splat) const {
@@ -157,8 +158,7 @@ bool QuantizedRow::ends(const QuantizedSplat& splat, const Row& row, double cent
             // |dw/dy| = r_x |dy| inv_ry^2 / sqrt(1 - x), for an error of half a unit of dy; at the
             // tips, where it grows without bounds, the span is no longer than a pixel or two.
             const double steep = splat.radius * std::abs(row.dy) * splat.inverse_radius2;
-            const double error = 0.5 * std::ldexp(1.0, -set_.mean.fraction_bits);
-            delta += root > 0 ? std::min(1.0, std::nearbyint(steep / root * error)) : 1.0;
+            delta += root > 0 ? std::min(1.0, std::nearbyint(steep / root * half_unit_)) : 1.0;
         }
         left = std::floor(left) - delta;
         right = std::ceil(right) + delta;

@@ -87,6 +87,7 @@ private:
 
     NumberSet set_;
     double unit_, q_limit_, q_mask_, fold_limit_, alpha_max_;
+    double half_unit_; // of the mean, px
     Rounder mean_, slope_, c_prime_, radius_, inverse_radius2_, conic_, q_threshold_, colour_;
     Rounder distance_, square_, ratio_, edge_, level_, g0_, d0_;
     Rounder term_, q_, alpha_, transmittance_, weight_, sum_;
