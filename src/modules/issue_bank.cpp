@@ -29,7 +29,6 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
     : sc_core::sc_module(name), in("in", inputs), terminated("terminated"),
       context_free("context_free"), config_(config), job_(job), contexts_(contexts),
       tiles_in_flight_(tiles_in_queue(contexts)),
-      slot_mask_(static_cast<TileNumber>(power_of_two(tiles_in_flight_)) - 1),
       by_pixel_(config.termination == TerminationGrain::Pixel), self_(time),
       segmenter_(job.tile_size, config.segment_length, index, config.count, contexts),
       queue_(config.queue_depth, power_of_two(tiles_in_flight_),
@@ -98,14 +97,14 @@ void IssueBank::end_pixels(const Termination& message) {
     if (!in_flight(message.tile)) {
         return; // the tile is over for this bank
     }
-    const int slot = slot_of(message.tile);
+    SegmentQueue::Tile& tile = queue_.tile(message.tile);
     const int domain = segmenter_.domain_of(message.row, message.column);
-    if (queue_.end_pixels(slot, domain, message.mask) == kAllPixels) {
-        while (queue_.has_waiting(slot, domain)) {
-            const Segment& segment = queue_.front(slot, domain);
+    if (SegmentQueue::end_pixels(tile, domain, message.mask) == kAllPixels) {
+        while (SegmentQueue::has_waiting(tile, domain)) {
+            const Segment& segment = SegmentQueue::front(tile, domain);
             features_.release(segment.feature, self_.local());
             drop(segment.run.task.mask);
-            queue_.pop(slot, domain);
+            queue_.pop(tile, domain);
         }
     }
 }
@@ -116,7 +115,8 @@ void IssueBank::enter_tile() {
     const std::vector<Segmenter::Domain>& domains = segmenter_.domains();
     for (std::size_t d = 0; d < domains.size(); ++d) {
         const int inside = std::clamp(width - domains[d].column, 0, config_.segment_length);
-        queue_.end_pixels(slot_of(entering_tile_), static_cast<int>(d), ~bits_between(0, inside));
+        SegmentQueue::end_pixels(queue_.tile(entering_tile_), static_cast<int>(d),
+                                 ~bits_between(0, inside));
     }
     entered_ = true;
 }
@@ -177,16 +177,16 @@ bool IssueBank::open_span(Cycle now) {
 
 // False if the queue has no room; the segment is then cut later.
 bool IssueBank::cut_segment() {
-    const int slot = slot_of(segmenter_.tile());
+    SegmentQueue::Tile& tile = queue_.tile(segmenter_.tile());
     const int domain = segmenter_.domain();
     const std::uint32_t mask = segmenter_.mask();
-    if ((mask & live(slot, domain)) == 0) {
+    if ((mask & live(tile, domain)) == 0) {
         drop(mask);
     } else {
         if (queue_.full()) {
             return false;
         }
-        Segment& segment = queue_.push(slot, domain, sequence_++);
+        Segment& segment = queue_.push(tile, domain, sequence_++);
         segment.feature = features_.current();
         features_.hold(segment.feature);
         segmenter_.fill(segment.run, mask);
@@ -198,14 +198,13 @@ bool IssueBank::cut_segment() {
 
 // True if anything was issued.
 bool IssueBank::issue(Cycle now) {
-    wait_until_ = kNever;
+    no_room_ = false;
     int left = config_.issue_width;
     const TileNumber end = tiles_to_issue();
-    for (TileNumber tile = oldest_tile_; tile < end && left != 0;) {
-        if (queue_.waiting(slot_of(tile)) != 0 && issue_one(now, tile)) {
+    for (TileNumber number = oldest_tile_; number < end && left != 0; ++number) {
+        SegmentQueue::Tile& tile = queue_.tile(number);
+        while (left != 0 && SegmentQueue::waiting(tile) != 0 && issue_one(now, tile)) {
             --left;
-        } else {
-            ++tile;
         }
     }
     width_limited_ = left == 0;
@@ -214,42 +213,40 @@ bool IssueBank::issue(Cycle now) {
     return issued;
 }
 
-bool IssueBank::issue_one(Cycle now, TileNumber tile) {
-    const int slot = slot_of(tile);
-    const int domain = queue_.pick(slot, packing->next_execution(now));
+bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile) {
+    const int domain = queue_.pick(tile, packing->next_execution(now));
     if (domain < 0) {
-        wait_until_ = std::min(wait_until_, queue_.next_ready(slot));
         return false;
     }
-    const Segment& segment = queue_.front(slot, domain);
+    const Segment& segment = SegmentQueue::front(tile, domain);
     const std::uint32_t mask = segment.run.task.mask;
-    const std::uint32_t wanted = mask & live(slot, domain);
+    const std::uint32_t wanted = mask & live(tile, domain);
     const int tasks = __builtin_popcount(wanted);
-    if (!packing->room(now, tasks)) {
-        wait_until_ = now + 1;
+    no_room_ = !packing->room(now, tasks);
+    if (no_room_) {
         return false;
     }
     Cycle last = now;
     if (tasks != 0) {
         last = packing->add(self_, segment.run, wanted) + static_cast<Cycle>(config_.reuse_cycles);
         if (config_.scoreboard) {
-            queue_.set_ready_at(slot, domain, last);
+            queue_.set_ready_at(tile, domain, last);
         }
     }
     stats_.segments_issued++;
     stats_.tasks_issued += static_cast<std::uint64_t>(tasks);
     stats_.tasks_dropped += static_cast<std::uint64_t>(__builtin_popcount(mask) - tasks);
     features_.release(segment.feature, last);
-    queue_.pop(slot, domain);
+    queue_.pop(tile, domain);
     return true;
 }
 
 void IssueBank::finish_tiles() {
     while (oldest_tile_ < entering_tile_ && !job_.over(oldest_tile_) && oldest_tile_ < startable_ &&
-           queue_.waiting(slot_of(oldest_tile_)) == 0 &&
+           SegmentQueue::waiting(queue_.tile(oldest_tile_)) == 0 &&
            !(segmenter_.cutting() && segmenter_.tile() == oldest_tile_)) {
         packing->end_tile(self_, oldest_tile_);
-        queue_.clear(slot_of(oldest_tile_));
+        queue_.clear(queue_.tile(oldest_tile_));
         ++oldest_tile_;
     }
 }
@@ -259,11 +256,26 @@ Idle IssueBank::idle_cause() const {
         return Idle::Starved;
     }
     for (TileNumber tile = oldest_tile_; tile < tiles_to_issue(); ++tile) {
-        if (queue_.waiting(slot_of(tile)) != 0) {
+        if (SegmentQueue::waiting(queue_.tile(tile)) != 0) {
             return width_limited_ ? Idle::Starved : Idle::Conflict;
         }
     }
     return Idle::Blocked;
+}
+
+// The next date at which waiting segments may go, if none went at `now`; kNever if none waits.
+Cycle IssueBank::next_ready(Cycle now) const {
+    if (no_room_) {
+        return now + 1;
+    }
+    Cycle earliest = kNever;
+    for (TileNumber number = oldest_tile_; number < tiles_to_issue(); ++number) {
+        const SegmentQueue::Tile& tile = queue_.tile(number);
+        if (SegmentQueue::waiting(tile) != 0) {
+            earliest = std::min(earliest, queue_.next_ready(tile));
+        }
+    }
+    return earliest;
 }
 
 // The next cycle in which anything can change, if there is nothing left to do at once: a domain
@@ -273,8 +285,9 @@ Cycle IssueBank::next_date(Cycle now) {
     const Cycle next = now + 1;
     Cycle limit = packing->open_until();
     const Cycle latency = packing->next_execution(now) - now;
-    if (wait_until_ != kNever) {
-        limit = std::min(limit, std::max(next, wait_until_ > latency ? wait_until_ - latency : 0));
+    const Cycle ready = next_ready(now);
+    if (ready != kNever) {
+        limit = std::min(limit, std::max(next, ready > latency ? ready - latency : 0));
     }
     if (limit == next) {
         return next; // there is work then, whatever arrives

@@ -69,15 +69,15 @@ private:
     bool cut_segment();
     void drop(std::uint32_t mask);
     bool issue(Cycle now);
-    bool issue_one(Cycle now, TileNumber tile);
+    bool issue_one(Cycle now, SegmentQueue::Tile& tile);
     void finish_tiles();
     Idle idle_cause() const;
+    Cycle next_ready(Cycle now) const;
     Cycle next_date(Cycle now);
 
-    int slot_of(TileNumber tile) const { return static_cast<int>(tile & slot_mask_); }
     /// Pixels of the domain that take tasks, as far as the bank knows and looks at.
-    std::uint32_t live(int slot, int domain) const {
-        const std::uint32_t ended = queue_.ended(slot, domain);
+    std::uint32_t live(const SegmentQueue::Tile& tile, int domain) const {
+        const std::uint32_t ended = SegmentQueue::ended(tile, domain);
         return by_pixel_ || ended == kAllPixels ? ~ended : kAllPixels;
     }
     bool takes(TileNumber tile) const { return tile == entering_tile_ && in_flight(tile); }
@@ -94,8 +94,7 @@ private:
     const RenderJob& job_;
     int contexts_;
     int tiles_in_flight_;
-    TileNumber slot_mask_; // slots are a power of two, at least tiles_in_flight_
-    bool by_pixel_;        // TerminationGrain::Pixel
+    bool by_pixel_; // TerminationGrain::Pixel
     // What the ports are bound to.
     std::vector<DatedFifo<SpanItem>*> inputs_;
     DatedFifo<Termination>* terminations_ = nullptr;
@@ -110,7 +109,7 @@ private:
     bool entered_ = false;         // something of entering_tile_ has been taken
     int ends_seen_ = 0;            // inputs that have delivered everything of entering_tile_
     std::uint64_t sequence_ = 0;   // segments so far
-    Cycle wait_until_ = kNever;    // next date at which waiting work becomes ready
+    bool no_room_ = false;         // a ready segment waits for room in the Packing Buffer
     bool width_limited_ = false;
     bool features_full_ = false;     // the next span waits for a Feature Buffer entry
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep

@@ -25,92 +25,100 @@ enum class DomainScan { RoundRobin, Oldest, Deepest };
 /// of a tile in flight), all sharing one pool of entries. Keeps, per domain, the pixels that have
 /// ended and the date from which the array may touch it again (the scoreboard).
 class SegmentQueue {
-public:
-    SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan);
-    SegmentQueue(const SegmentQueue&) = delete; // slots point into bits_
-    SegmentQueue& operator=(const SegmentQueue&) = delete;
-
-    bool full() const { return free_ == kNone; }
-    bool empty() const { return size_ == 0; }
-    std::size_t size() const { return size_; }
-    std::size_t waiting(int slot) const { return slots_[static_cast<std::size_t>(slot)].waiting; }
-
-    /// Queues a segment that arrived as number `sequence`; the caller fills in its run and feature,
-    /// in place: copying what was just written costs more than all else in here.
-    Segment& push(int slot, int domain, std::uint64_t sequence);
-    Segment& front(int slot, int domain) {
-        return entries_[static_cast<std::size_t>(lists_[at(slot, domain)].head)].segment;
-    }
-    void pop(int slot, int domain);
-
-    std::uint32_t ended(int slot, int domain) const { return lists_[at(slot, domain)].ended; }
-    /// Marks pixels as ended; returns all that have.
-    std::uint32_t end_pixels(int slot, int domain, std::uint32_t mask) {
-        return lists_[at(slot, domain)].ended |= mask;
-    }
-    /// The array may touch the domain again from `date` on; at most kWheel - 1 cycles after the
-    /// execution date of the next pick().
-    void set_ready_at(int slot, int domain, Cycle date);
-    bool has_waiting(int slot, int domain) const { return lists_[at(slot, domain)].head != kNone; }
-
-    /// A domain of `slot` that has a segment and may execute at `date`, chosen by the scan rule; -1
-    /// if none. Dates of successive calls do not fall.
-    int pick(int slot, Cycle date);
-    /// Earliest date at which a waiting domain of `slot` becomes ready; kNever if none is cooling.
-    Cycle next_ready(int slot) const;
-    static constexpr int kWheel = 128;
-
-    /// Prepares `slot` for another tile; it must have no segments waiting.
-    void clear(int slot);
-
-private:
-    static constexpr std::int32_t kNone = -1;
     struct Entry {
         Segment segment;
-        std::int32_t next = kNone;
+        Entry* next = nullptr;
     };
     struct List {
-        std::int32_t head = kNone, tail = kNone;
+        Entry* head = nullptr;
+        Entry* tail = nullptr;
         std::uint32_t ended = 0;
         std::uint32_t length = 0;
     };
+
+public:
     /// What a tile in flight has in the queue. Bit sets run over domains, words_ words each.
-    struct Slot {
+    class Tile {
+        friend class SegmentQueue;
         std::size_t waiting = 0;
         int cursor = 0;                    // domain after the last that was picked
         Cycle turned = 0;                  // the wheel has released everything up to this date
+        List* lists = nullptr;             // by domain
+        std::uint64_t* keys = nullptr;     // by domain: what pick() goes by, see key()
         std::uint64_t* occupied = nullptr; // has segments
         std::uint64_t* cooling = nullptr;  // within the reuse distance
         std::uint64_t* wheel = nullptr;    // kWheel sets: released at date mod kWheel
     };
-    std::size_t at(int slot, int domain) const {
-        return static_cast<std::size_t>(slot * domains_ + domain);
+
+    /// `tiles_in_flight` is a power of two.
+    SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan);
+    SegmentQueue(const SegmentQueue&) = delete; // tiles and entries point at each other
+    SegmentQueue& operator=(const SegmentQueue&) = delete;
+
+    /// The part of tile `number`; tiles a multiple of tiles_in_flight apart share one.
+    Tile& tile(std::size_t number) { return tiles_[number & (tiles_.size() - 1)]; }
+    const Tile& tile(std::size_t number) const { return tiles_[number & (tiles_.size() - 1)]; }
+
+    bool full() const { return free_ == nullptr; }
+    bool empty() const { return size_ == 0; }
+    std::size_t size() const { return size_; }
+    static std::size_t waiting(const Tile& tile) { return tile.waiting; }
+
+    /// Queues a segment that arrived as number `sequence`; the caller fills in its run and feature,
+    /// in place: copying what was just written costs more than all else in here.
+    Segment& push(Tile& tile, int domain, std::uint64_t sequence);
+    static Segment& front(Tile& tile, int domain) { return tile.lists[domain].head->segment; }
+    void pop(Tile& tile, int domain);
+
+    static std::uint32_t ended(const Tile& tile, int domain) { return tile.lists[domain].ended; }
+    /// Marks pixels as ended; returns all that have.
+    static std::uint32_t end_pixels(Tile& tile, int domain, std::uint32_t mask) {
+        return tile.lists[domain].ended |= mask;
     }
+    /// The array may touch the domain again from `date` on; at most kWheel - 1 cycles after the
+    /// execution date of the next pick().
+    void set_ready_at(Tile& tile, int domain, Cycle date) const;
+    static bool has_waiting(const Tile& tile, int domain) {
+        return tile.lists[domain].head != nullptr;
+    }
+
+    /// A domain of `tile` that has a segment and may execute at `date`, chosen by the scan rule; -1
+    /// if none. Dates of successive calls do not fall.
+    int pick(Tile& tile, Cycle date) const;
+    /// Earliest date at which a waiting domain of `tile` becomes ready; kNever if none is cooling.
+    Cycle next_ready(const Tile& tile) const;
+    static constexpr int kWheel = 128;
+
+    /// Prepares `tile` for another one; it must have no segments waiting.
+    void clear(Tile& tile) const;
+
+private:
     /// Arrival order of the head, below (inverse) length where that comes first: the smallest key
     /// of the ready domains is the one to pick. Kept by itself, so that a scan stays in one array.
     std::uint64_t key(std::uint64_t head_sequence, std::uint32_t length) const {
-        return head_sequence | (std::uint64_t{~length & 0xFFFFU} << kSequenceBits & by_length_);
+        return scan_ == DomainScan::Deepest
+                   ? head_sequence | std::uint64_t{~length & 0xFFFFU} << kSequenceBits
+                   : head_sequence;
     }
-    void release_all(Slot& slot) const;
-    void turn_wheel(Slot& slot, Cycle date) const;
-    int pick_next(Slot& slot) const;
-    static std::uint64_t ready(const Slot& slot, std::size_t word) {
-        return slot.occupied[word] & ~slot.cooling[word];
+    void release_all(Tile& tile) const;
+    void turn_wheel(Tile& tile, Cycle date) const;
+    int pick_next(Tile& tile) const;
+    int pick_least(const Tile& tile) const;
+    static std::uint64_t ready(const Tile& tile, std::size_t word) {
+        return tile.occupied[word] & ~tile.cooling[word];
     }
 
     static constexpr int kSequenceBits = 48;
-    static constexpr std::uint64_t kSequence = (std::uint64_t{1} << kSequenceBits) - 1;
 
     int domains_;
     std::size_t words_;
     DomainScan scan_;
-    std::uint64_t by_length_; // all ones if the length counts
     std::vector<std::uint64_t> bits_, keys_;
     std::vector<Entry> entries_;
-    std::int32_t free_ = kNone; // first of the list of free entries
+    Entry* free_ = nullptr; // first of the list of free entries
     std::size_t size_ = 0;
     std::vector<List> lists_;
-    std::vector<Slot> slots_;
+    std::vector<Tile> tiles_;
 };
 
 } // namespace degs

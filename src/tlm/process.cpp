@@ -52,11 +52,20 @@ void Process::set_alarm(FifoBase& fifo, Cycle date) {
     alarms_.push_back({&fifo, date});
 }
 
+void Process::pass_alarm() {
+    if (!alarms_.empty()) {
+        ring_alarms();
+    }
+    if (strict_) {
+        sync();
+    }
+}
+
 // Rings only where the proof exists now: two processes that ask each other in vain would otherwise
 // wake each other for ever.
 void Process::ring_alarms() {
     std::size_t kept = 0;
-    alarm_ = kNever;
+    alarm_ = no_alarm();
     for (std::size_t i = 0; i < alarms_.size(); ++i) {
         const Alarm alarm = alarms_[i];
         if (alarm.fifo->horizon(kProofDepth) > alarm.date) {

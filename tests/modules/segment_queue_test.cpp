@@ -14,48 +14,48 @@ TEST(SegmentQueue, KeepsOrderInsideADomain) {
     SegmentQueue queue(4, 1, 3, DomainScan::Oldest);
     for (std::uint64_t i = 0; i < 4; ++i) {
         EXPECT_FALSE(queue.full());
-        queue.push(0, 1, i);
+        queue.push(queue.tile(0), 1, i);
     }
     EXPECT_TRUE(queue.full());
     EXPECT_EQ(queue.size(), 4U);
-    EXPECT_EQ(queue.waiting(0), 4U);
-    EXPECT_FALSE(queue.has_waiting(0, 0));
+    EXPECT_EQ(queue.waiting(queue.tile(0)), 4U);
+    EXPECT_FALSE(queue.has_waiting(queue.tile(0), 0));
     for (std::uint64_t i = 0; i < 4; ++i) {
-        EXPECT_EQ(queue.front(0, 1).sequence, i);
-        queue.pop(0, 1);
+        EXPECT_EQ(queue.front(queue.tile(0), 1).sequence, i);
+        queue.pop(queue.tile(0), 1);
     }
     EXPECT_TRUE(queue.empty());
-    EXPECT_EQ(queue.pick(0, 100), -1);
+    EXPECT_EQ(queue.pick(queue.tile(0), 100), -1);
 }
 
 void fill_three_domains(SegmentQueue& queue) {
-    queue.push(0, 2, 0);
-    queue.push(0, 1, 1);
-    queue.push(0, 3, 2);
-    queue.push(0, 3, 3);
+    queue.push(queue.tile(0), 2, 0);
+    queue.push(queue.tile(0), 1, 1);
+    queue.push(queue.tile(0), 3, 2);
+    queue.push(queue.tile(0), 3, 3);
 }
 
 TEST(SegmentQueue, OldestPicksTheFirstHead) {
     SegmentQueue queue(8, 1, 4, DomainScan::Oldest);
     fill_three_domains(queue);
-    EXPECT_EQ(queue.pick(0, 0), 2);
-    queue.pop(0, 2);
-    EXPECT_EQ(queue.pick(0, 0), 1);
+    EXPECT_EQ(queue.pick(queue.tile(0), 0), 2);
+    queue.pop(queue.tile(0), 2);
+    EXPECT_EQ(queue.pick(queue.tile(0), 0), 1);
 }
 
 TEST(SegmentQueue, DeepestPicksTheLongestListThenTheOldest) {
     SegmentQueue queue(8, 1, 4, DomainScan::Deepest);
     fill_three_domains(queue);
-    EXPECT_EQ(queue.pick(0, 0), 3);
-    queue.pop(0, 3); // equally deep now
-    EXPECT_EQ(queue.pick(0, 0), 2);
+    EXPECT_EQ(queue.pick(queue.tile(0), 0), 3);
+    queue.pop(queue.tile(0), 3); // equally deep now
+    EXPECT_EQ(queue.pick(queue.tile(0), 0), 2);
 }
 
 TEST(SegmentQueue, RoundRobinGoesOnBehindTheLastPick) {
     SegmentQueue queue(8, 1, 4, DomainScan::RoundRobin);
     fill_three_domains(queue);
     for (const int expected : {1, 2, 3, 1}) {
-        EXPECT_EQ(queue.pick(0, 0), expected);
+        EXPECT_EQ(queue.pick(queue.tile(0), 0), expected);
     }
 }
 
@@ -63,30 +63,30 @@ TEST(SegmentQueue, BlockedAtTMinusOneLegalAtT) {
     for (const DomainScan scan :
          {DomainScan::RoundRobin, DomainScan::Oldest, DomainScan::Deepest}) {
         SegmentQueue queue(8, 1, 2, scan);
-        queue.push(0, 0, 0);
-        queue.push(0, 0, 1);
-        EXPECT_EQ(queue.pick(0, 10), 0);
-        queue.set_ready_at(0, 0, 14);
-        queue.pop(0, 0);
-        EXPECT_EQ(queue.next_ready(0), 14U);
-        EXPECT_EQ(queue.pick(0, 13), -1);
-        EXPECT_EQ(queue.pick(0, 14), 0);
-        EXPECT_EQ(queue.next_ready(0), kNever);
+        queue.push(queue.tile(0), 0, 0);
+        queue.push(queue.tile(0), 0, 1);
+        EXPECT_EQ(queue.pick(queue.tile(0), 10), 0);
+        queue.set_ready_at(queue.tile(0), 0, 14);
+        queue.pop(queue.tile(0), 0);
+        EXPECT_EQ(queue.next_ready(queue.tile(0)), 14U);
+        EXPECT_EQ(queue.pick(queue.tile(0), 13), -1);
+        EXPECT_EQ(queue.pick(queue.tile(0), 14), 0);
+        EXPECT_EQ(queue.next_ready(queue.tile(0)), kNever);
     }
 }
 
 TEST(SegmentQueue, EndedPixelsAddUpUntilTheSlotIsCleared) {
     SegmentQueue queue(4, 2, 2, DomainScan::Oldest);
-    EXPECT_EQ(queue.end_pixels(1, 0, 0x3), 0x3U);
-    EXPECT_EQ(queue.end_pixels(1, 0, 0x6), 0x7U);
-    EXPECT_EQ(queue.ended(1, 0), 0x7U);
-    EXPECT_EQ(queue.ended(0, 0), 0U);
-    EXPECT_EQ(queue.ended(1, 1), 0U);
-    queue.set_ready_at(1, 0, 50);
-    queue.clear(1);
-    EXPECT_EQ(queue.ended(1, 0), 0U);
-    queue.push(1, 0, 0);
-    EXPECT_EQ(queue.pick(1, 1), 0); // nor is it within a reuse distance
+    EXPECT_EQ(queue.end_pixels(queue.tile(1), 0, 0x3), 0x3U);
+    EXPECT_EQ(queue.end_pixels(queue.tile(1), 0, 0x6), 0x7U);
+    EXPECT_EQ(queue.ended(queue.tile(1), 0), 0x7U);
+    EXPECT_EQ(queue.ended(queue.tile(0), 0), 0U);
+    EXPECT_EQ(queue.ended(queue.tile(1), 1), 0U);
+    queue.set_ready_at(queue.tile(1), 0, 50);
+    queue.clear(queue.tile(1));
+    EXPECT_EQ(queue.ended(queue.tile(1), 0), 0U);
+    queue.push(queue.tile(1), 0, 0);
+    EXPECT_EQ(queue.pick(queue.tile(1), 1), 0); // nor is it within a reuse distance
 }
 
 /// The same rules with plain lists and a date per domain.
@@ -147,20 +147,20 @@ TEST_P(SegmentQueueOf, BehavesAsPlainLists) {
             if (!queue.full() && random() % 2 == 0) {
                 const auto domain =
                     static_cast<std::size_t>(random() % static_cast<unsigned>(count));
-                queue.push(1, static_cast<int>(domain), sequence);
+                queue.push(queue.tile(1), static_cast<int>(domain), sequence);
                 model.domains[domain].waiting.push_back(sequence++);
             }
             date += random() % 50 == 0 ? random() % 400 : random() % 3;
-            const int domain = queue.pick(1, date);
+            const int domain = queue.pick(queue.tile(1), date);
             ASSERT_EQ(domain, model.pick(date, GetParam())) << step;
-            ASSERT_EQ(queue.next_ready(1), model.next_ready(date)) << step;
+            ASSERT_EQ(queue.next_ready(queue.tile(1)), model.next_ready(date)) << step;
             if (domain >= 0 && random() % 4 != 0) {
                 Model::Domain& taken = model.domains[static_cast<std::size_t>(domain)];
-                ASSERT_EQ(queue.front(1, domain).sequence, taken.waiting.front());
-                queue.pop(1, domain);
+                ASSERT_EQ(queue.front(queue.tile(1), domain).sequence, taken.waiting.front());
+                queue.pop(queue.tile(1), domain);
                 taken.waiting.pop_front();
                 taken.ready = date + 1 + random() % (SegmentQueue::kWheel - 1);
-                queue.set_ready_at(1, domain, taken.ready);
+                queue.set_ready_at(queue.tile(1), domain, taken.ready);
             }
         }
     }
