@@ -54,7 +54,8 @@ void ArraySlice::end_of_elaboration() {
 
 void ArraySlice::run() {
     while (!job_.over(tiles_done_)) {
-        step();
+        packets_->wait_for_item(self_);
+        pump();
     }
 }
 

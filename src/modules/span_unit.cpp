@@ -49,13 +49,13 @@ void SpanUnit::end_of_elaboration() {
 
 void SpanUnit::run() {
     while (!job_.over(tiles_done_)) {
-        take();
-        deliver();
+        rows_->wait_for_item(self_);
+        pump();
     }
 }
 
 void SpanUnit::pump() {
-    while (deliver() && !rows_->empty()) {
+    while ((!holding_ || deliver()) && !rows_->empty()) {
         take();
     }
 }

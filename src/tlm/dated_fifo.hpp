@@ -40,8 +40,8 @@ public:
               Cycle forward_latency = 1, Cycle release_latency = 0)
         : sc_core::sc_module(name),
           FifoBase(forward_latency, release_latency), time_{time.clock, Fidelity::Exact},
-          cells_(std::max<std::size_t>(depth, 1)), end_(cells_.data() + cells_.size()),
-          front_(cells_.data()), tail_(cells_.data()), earlier_(cells_.data()) {
+          cells_(std::max<std::size_t>(depth, 1)), first_(cells_.data()),
+          end_(first_ + cells_.size()), front_(first_), tail_(first_), earlier_(first_) {
         depth_ = cells_.size();
         head_ = &front_->date;
         free_ = &tail_->date;
@@ -216,7 +216,11 @@ private:
             earlier_ = next(earlier_);
         }
     }
-    Cell* next(Cell* cell) { return ++cell == end_ ? cells_.data() : cell; }
+    Cell* next(Cell* cell) const {
+        Cell* const first = first_; // loaded in any case, so that no branch is needed
+        ++cell;
+        return cell == end_ ? first : cell;
+    }
     void listen() const {
         foreign_listens_ = true;
         announce();
@@ -247,6 +251,7 @@ private:
 
     Timebase time_;
     std::vector<Cell> cells_;
+    Cell* first_;
     Cell* end_;
     Cell* front_;
     Cell* tail_;
