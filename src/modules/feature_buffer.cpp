@@ -12,10 +12,7 @@ FeatureBuffer::FeatureBuffer(int entries)
     }
 }
 
-bool FeatureBuffer::admit(TileNumber tile, std::uint32_t splat, Cycle now) {
-    if (has_current_ && splat_ == splat && tile_ == tile) {
-        return true;
-    }
+bool FeatureBuffer::enter(std::uint64_t splat, Cycle now) {
     close(now);
     if (next_free() > now) {
         waits_ += waiting_ ? 0 : 1;
@@ -26,28 +23,16 @@ bool FeatureBuffer::admit(TileNumber tile, std::uint32_t splat, Cycle now) {
     current_ = free_[first_free_].entry;
     first_free_ = next(first_free_);
     free_count_--;
-    entries_[current_] = {0, now, true};
-    tile_ = tile;
-    splat_ = splat;
-    has_current_ = true;
+    entries_[current_] = {now, 1};
+    current_key_ = splat;
     return true;
 }
 
-void FeatureBuffer::release(std::uint16_t entry, Cycle date) {
-    Entry& e = entries_[entry];
-    e.pending--;
-    e.needed_until = std::max(e.needed_until, date);
-    if (e.pending == 0 && !e.open) {
-        retire(entry, e.needed_until);
-    }
-}
-
 void FeatureBuffer::close(Cycle now) {
-    if (has_current_) {
-        has_current_ = false;
+    if (current_key_ != kNobody) {
+        current_key_ = kNobody;
         Entry& e = entries_[current_];
-        e.open = false;
-        if (e.pending == 0) {
+        if (--e.held == 0) {
             retire(current_, std::max(now, e.needed_until));
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -18,12 +19,20 @@ public:
     explicit FeatureBuffer(int entries);
 
     /// Makes (tile, splat) the splat that enters; false if no entry is free at `now`.
-    bool admit(TileNumber tile, std::uint32_t splat, Cycle now);
+    bool admit(TileNumber tile, std::uint32_t splat, Cycle now) {
+        return key(tile, splat) == current_key_ || enter(key(tile, splat), now);
+    }
     /// Entry of the splat that enters.
     std::uint16_t current() const { return current_; }
-    void hold(std::uint16_t entry) { entries_[entry].pending++; }
+    void hold(std::uint16_t entry) { entries_[entry].held++; }
     /// One held task group is done; the entry is needed until `date`.
-    void release(std::uint16_t entry, Cycle date);
+    void release(std::uint16_t entry, Cycle date) {
+        Entry& e = entries_[entry];
+        e.needed_until = std::max(e.needed_until, date);
+        if (--e.held == 0) {
+            retire(entry, e.needed_until);
+        }
+    }
     /// No more rows of the current splat will come.
     void close(Cycle now);
     /// Date at which the next entry becomes free; kNever if none is on its way.
@@ -33,14 +42,18 @@ public:
 
 private:
     struct Entry {
-        std::uint32_t pending = 0;
         Cycle needed_until = 0;
-        bool open = false;
+        std::uint32_t held = 0; ///< task groups, and one while more rows may come
     };
     struct Free {
         Cycle date; // from which it may be taken
         std::uint16_t entry;
     };
+    static constexpr std::uint64_t kNobody = ~std::uint64_t{0}; // no tile has the number kNoTile
+    static std::uint64_t key(TileNumber tile, std::uint32_t splat) {
+        return std::uint64_t{tile} << 32U | splat;
+    }
+    bool enter(std::uint64_t splat, Cycle now);
     void retire(std::uint16_t entry, Cycle date);
     std::size_t next(std::size_t i) const { return i + 1 == free_.size() ? 0 : i + 1; }
 
@@ -48,10 +61,8 @@ private:
     std::vector<Free> free_; // ring in order of dates, which do not fall
     std::size_t first_free_ = 0, end_free_ = 0, free_count_;
     Cycle last_retired_ = 0;
-    TileNumber tile_ = 0; // of the current splat
-    std::uint32_t splat_ = 0;
+    std::uint64_t current_key_ = kNobody; // key() of the current splat
     std::uint16_t current_ = 0;
-    bool has_current_ = false;
     bool waiting_ = false;
     std::uint64_t waits_ = 0;
 };

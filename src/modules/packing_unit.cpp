@@ -60,6 +60,7 @@ void PackingUnit::open_packet(Process& bank) {
         since_last_ = SlotAccount{};
     }
     next_slot_ = slot;
+    open_until_ = slot - latency_;
     ring_->staged().run_count = 0;
     ends_tile_ = false;
 }
@@ -107,6 +108,7 @@ void PackingUnit::send(Process& bank, Idle cause) {
     stats_.tasks += static_cast<std::uint64_t>(tasks_);
     idle_.idle(cause, static_cast<std::uint64_t>(config_.width - tasks_));
     tasks_ = 0;
+    open_until_ = kNever;
     ends_tile_ = false;
     ring_->put_staged(bank);
 }

@@ -50,7 +50,7 @@ public:
     /// Tells the array that the bank has nothing more for `tile`.
     void end_tile(Process& bank, TileNumber tile);
     /// Must an open packet go at `now`?
-    bool due(Cycle now) const { return open() && next_slot_ <= now + latency_; }
+    bool due(Cycle now) const { return open_until_ <= now; }
     /// Hands over an open packet whose time has come, its empty slots accounted for by `cause`.
     /// Before the bank asks for its next date: others trust that it does nothing until then.
     void send_due(Process& bank, Idle cause);
@@ -58,7 +58,7 @@ public:
     /// given by open_until(). Accounts for those in which the array gets nothing, by `cause`.
     void close_cycles(Process& bank, Cycle until, Idle cause);
     /// Latest date up to which the bank may sleep: an open packet has to go then. kNever if none.
-    Cycle open_until() const { return open() ? next_slot_ - latency_ : kNever; }
+    Cycle open_until() const { return open_until_; }
     /// Would close_cycles(bank, until, ...) account for empty slots? Else its cause does not
     /// matter.
     bool leaves_slots(Cycle until) const {
@@ -86,6 +86,7 @@ private:
     // Execution date of the open packet; else the first that the next one may have. An open packet
     // goes before now + latency passes its date, so next_execution() need not ask which.
     Cycle next_slot_ = 0;
+    Cycle open_until_ = kNever;
     SlotAccount idle_;
     SlotAccount since_last_; // idle after the last packet; counts once another one comes
     Stats stats_;
