@@ -137,12 +137,10 @@ void ArraySlice::execute(const TaskPacket& packet) {
 // The invariant the scoreboard exists for; see the tests that switch it off.
 void ArraySlice::check_reuse(const TaskRun& run, Cycle date) {
     Recent& recent = recent_[static_cast<std::size_t>(run.task.context) * segments_ + run.domain];
-    if (recent.mask != 0 && date - recent.date < static_cast<Cycle>(config_.writeback_cycles)) {
-        stats_.hazards += static_cast<std::uint64_t>(__builtin_popcount(recent.mask & run.part));
-        recent.mask |= run.part;
-    } else {
-        recent.mask = run.part;
-    }
+    const bool late = date - recent.date >= static_cast<Cycle>(config_.writeback_cycles);
+    const std::uint32_t busy = late ? 0 : recent.mask;
+    stats_.hazards += static_cast<std::uint64_t>(__builtin_popcount(busy & run.part));
+    recent.mask = busy | run.part;
     recent.date = date;
 }
 

@@ -31,6 +31,7 @@ SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile,
         tile.occupied = bits;
         tile.cooling = bits + words_;
         tile.wheel = bits + 2 * words_;
+        clear_lists(tile);
         lists += domains_per_tile;
         keys += domains_per_tile;
         bits += words_ * (2 + kWheel);
@@ -50,18 +51,11 @@ Segment& SegmentQueue::push(Tile& tile, int domain, std::uint64_t sequence) {
     entry.segment.sequence = sequence;
     entry.next = nullptr;
     List& list = tile.lists[domain];
+    *list.end = &entry;
+    list.end = &entry.next;
     list.length++;
-    if (list.head == nullptr) {
-        list.head = &entry;
-        tile.keys[domain] = key(sequence, list.length);
-        tile.occupied[word_of(domain)] |= bit_of(domain);
-    } else {
-        list.tail->next = &entry;
-        if (scan_ == DomainScan::Deepest) {
-            tile.keys[domain] = key(list.head->segment.sequence, list.length);
-        }
-    }
-    list.tail = &entry;
+    tile.keys[domain] = key(list.head->segment.sequence, list.length);
+    tile.occupied[word_of(domain)] |= bit_of(domain);
     return entry.segment;
 }
 
@@ -75,12 +69,13 @@ void SegmentQueue::pop(Tile& tile, int domain) {
     tile.waiting--;
     list.head = second;
     list.length--;
-    if (second == nullptr) {
-        tile.occupied[word_of(domain)] &= ~bit_of(domain);
-    } else {
-        tile.keys[domain] = key(second->segment.sequence, list.length);
-        __builtin_prefetch(second->next);
-    }
+    // No branch on what is as likely as not. The key of an empty list is never asked for.
+    const bool last = second == nullptr;
+    const Entry& head = last ? entry : *second;
+    list.end = last ? &list.head : list.end;
+    tile.keys[domain] = key(head.segment.sequence, list.length);
+    tile.occupied[word_of(domain)] ^= std::uint64_t{last} << (static_cast<unsigned>(domain) % 64U);
+    __builtin_prefetch(head.next);
 }
 
 void SegmentQueue::set_ready_at(Tile& tile, int domain, Cycle date) const {
@@ -173,8 +168,15 @@ Cycle SegmentQueue::next_ready(const Tile& tile) const {
     }
 }
 
+void SegmentQueue::clear_lists(Tile& tile) const {
+    for (int d = 0; d < domains_; ++d) {
+        tile.lists[d] = List{};
+        tile.lists[d].end = &tile.lists[d].head;
+    }
+}
+
 void SegmentQueue::clear(Tile& tile) const {
-    std::fill_n(tile.lists, domains_, List{});
+    clear_lists(tile);
     release_all(tile);
     tile.cursor = 0;
 }

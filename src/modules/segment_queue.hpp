@@ -31,7 +31,7 @@ class SegmentQueue {
     };
     struct List {
         Entry* head = nullptr;
-        Entry* tail = nullptr;
+        Entry** end = nullptr; // where the next segment is linked; &head if there is none
         std::uint32_t ended = 0;
         std::uint32_t length = 0;
     };
@@ -100,6 +100,7 @@ private:
                    ? head_sequence | std::uint64_t{~length & 0xFFFFU} << kSequenceBits
                    : head_sequence;
     }
+    void clear_lists(Tile& tile) const;
     void release_all(Tile& tile) const;
     void turn_wheel(Tile& tile, Cycle date) const;
     int pick_next(Tile& tile) const;
