@@ -38,7 +38,7 @@ function(degs_library room)
     set(scope PUBLIC)
     if(sources)
         add_library(degs_${room} STATIC ${sources})
-        # One kernel per instruction set: nothing else may be compiled for wide lanes.
+        # Kernels per instruction set: macros and pragmas that nobody else may see.
         set(lanes ${sources})
         list(FILTER lanes INCLUDE REGEX "_lanes\\.cpp$")
         set_source_files_properties(${lanes} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
