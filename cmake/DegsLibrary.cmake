@@ -38,6 +38,10 @@ function(degs_library room)
     set(scope PUBLIC)
     if(sources)
         add_library(degs_${room} STATIC ${sources})
+        # Kernels per instruction set: macros and pragmas that nobody else may see.
+        set(lanes ${sources})
+        list(FILTER lanes INCLUDE REGEX "_lanes\\.cpp$")
+        set_source_files_properties(${lanes} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
         target_link_libraries(degs_${room} PRIVATE $<BUILD_INTERFACE:degs_flags>)
         # The hot loops call across files; whole-program optimisation saves 5 % of a run.
         if(DEGS_HAS_IPO AND CMAKE_BUILD_TYPE STREQUAL "Release")

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const std::string& folder, const std::string& reason) {
+[[noreturn]] void fail_folder(const std::string& folder, const std::string& reason) {
     throw InputError("The output folder '" + folder + "' cannot be used: " + reason + ".");
 }
 
@@ -26,18 +26,18 @@ OutputFolder::OutputFolder(std::string folder, const std::vector<std::string>& f
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error || !fs::is_directory(folder_, error)) {
-        fail(folder_, error ? error.message() : "it is a file");
+        fail_folder(folder_, error ? error.message() : "it is a file");
     }
     for (const std::string& file : files) {
         if (fs::exists(path(file), error) && !fs::is_regular_file(path(file), error)) {
-            fail(folder_, "'" + file + "' in it is not a file");
+            fail_folder(folder_, "'" + file + "' in it is not a file");
         }
     }
     const std::string probe = path(".degs-probe");
     const bool writable = std::ofstream(probe).put('\n').flush().good();
     fs::remove(probe, error);
     if (!writable) {
-        fail(folder_, "nothing can be written there");
+        fail_folder(folder_, "nothing can be written there");
     }
 }
 
@@ -51,7 +51,7 @@ void OutputFolder::write_text(const std::string& file, const std::string& text) 
         out << text;
         out.close();
         if (!out) {
-            fail(folder_, "writing '" + file + "' failed, the disk may be full");
+            fail_folder(folder_, "writing '" + file + "' failed, the disk may be full");
         }
     });
 }

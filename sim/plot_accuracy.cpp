@@ -9,7 +9,7 @@
 namespace degs::sim {
 namespace {
 
-constexpr double kPanelHeight = 280;
+constexpr double kAccuracyPanelHeight = 280;
 constexpr double kFloor = 20; ///< dB at the bottom, unless a row lies lower
 
 /// Image heights and PSNR of one set.
@@ -59,7 +59,7 @@ Picture picture_of(const std::vector<AccuracyRow>& rows) {
 }
 
 /// Where the data of a panel lie, px.
-struct Axes {
+struct AccuracyAxes {
     double left = 0, right = 0, top = 0, bottom = 0;
     const Picture& picture;
     double x(double height) const {
@@ -73,7 +73,7 @@ struct Axes {
     }
 };
 
-void draw_axes(Svg& svg, const Axes& axes, const Panel& panel) {
+void draw_axes(Svg& svg, const AccuracyAxes& axes, const Panel& panel) {
     for (double tick = axes.picture.low; tick <= axes.picture.high; tick += 20) {
         const double y = axes.y(tick);
         svg.line(axes.left, y, axes.right, y, tick == axes.picture.low ? kGrey : kGrid, 1);
@@ -97,7 +97,7 @@ void draw_axes(Svg& svg, const Axes& axes, const Panel& panel) {
     svg.text(axes.left - 34, axes.top - 10, "PSNR, dB", {kSmallText, kGrey, "start", false});
 }
 
-std::vector<Svg::Points> places_of(const Axes& axes, const Panel& panel) {
+std::vector<Svg::Points> places_of(const AccuracyAxes& axes, const Panel& panel) {
     std::vector<Svg::Points> all;
     for (const std::string& set : axes.picture.sets) {
         Svg::Points places;
@@ -132,12 +132,13 @@ std::string accuracy_svg(const std::vector<AccuracyRow>& rows) {
         const Panel& panel = picture.panels[p];
         const double left = kPlotMargin + width * static_cast<double>(p % columns);
         const std::size_t row = p / columns;
-        const double y = top + kPanelHeight * static_cast<double>(row);
-        const Axes axes{left + 36, left + width - 14, y + 56, y + kPanelHeight - 48, picture};
+        const double y = top + kAccuracyPanelHeight * static_cast<double>(row);
+        const AccuracyAxes axes{left + 36, left + width - 14, y + 56, y + kAccuracyPanelHeight - 48,
+                                picture};
         svg.text(left, y + 20, fitting(panel.heading, 13, width - 10), {13, kInk, "start", true});
         draw_axes(svg, axes, panel);
         draw_lines(svg, places_of(axes, panel));
-        bottom = y + kPanelHeight;
+        bottom = y + kAccuracyPanelHeight;
     }
     return svg.document(kPlotWidth, bottom + 6, title);
 }

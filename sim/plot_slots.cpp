@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "sim/plot_style.hpp"
 #include "sim/plot_svg.hpp"
-#include "sim/svg.hpp"
 #include "sim/words.hpp"
 
 namespace degs::sim {
 namespace {
 
-constexpr double kWidth = 800;
-constexpr double kMargin = 16;
 constexpr double kBar = 24;
 constexpr double kRow = 30;
 constexpr double kHeading = 34;
-constexpr double kSmall = 12;
-constexpr double kLabel = 13;
-constexpr const char* kGrey = "#555555";
-constexpr const char* kGrid = "#d8d8d8";
 
 /// Columns of the picture, chosen by the longest words.
 struct Columns {
@@ -29,15 +23,15 @@ Columns columns_of(const std::vector<SlotGroup>& groups) {
     double note = 0;
     for (const SlotGroup& group : groups) {
         for (const SlotBar& bar : group.bars) {
-            label = std::max(label, text_width(bar.label, kLabel));
-            note = std::max(note, text_width(bar.note, kSmall));
+            label = std::max(label, text_width(bar.label, kLabelText));
+            note = std::max(note, text_width(bar.note, kSmallText));
         }
     }
     Columns columns;
     columns.label_width = std::min(label, 230.0);
     columns.note_width = std::min(note, 170.0);
-    columns.left = kMargin + columns.label_width + 10;
-    columns.right = kWidth - kMargin - columns.note_width - (note > 0 ? 10 : 12);
+    columns.left = kPlotMargin + columns.label_width + 10;
+    columns.right = kPlotWidth - kPlotMargin - columns.note_width - (note > 0 ? 10 : 12);
     return columns;
 }
 
@@ -47,15 +41,15 @@ const char* ink_on(const char* colour) {
         return std::stoi(std::string(colour + at, 2), nullptr, 16);
     };
     const double light = 0.299 * channel(1) + 0.587 * channel(3) + 0.114 * channel(5);
-    return light > 140 ? "#1a1a1a" : "#ffffff";
+    return light > 140 ? kInk : "#ffffff";
 }
 
 /// With one decimal if that fits, else none, else nothing.
 void draw_share(Svg& svg, double x, double y, double width, double share, const char* colour) {
     for (int decimals : {1, 0}) {
         const std::string words = percent(share, decimals);
-        if (text_width(words, kSmall) + 4 <= width && words != "0") {
-            svg.text(x + width / 2, y, words, {kSmall, ink_on(colour), "middle", false});
+        if (text_width(words, kSmallText) + 4 <= width && words != "0") {
+            svg.text(x + width / 2, y, words, {kSmallText, ink_on(colour), "middle", false});
             return;
         }
     }
@@ -63,8 +57,8 @@ void draw_share(Svg& svg, double x, double y, double width, double share, const 
 
 void draw_bar(Svg& svg, const Columns& columns, double y, const SlotBar& bar) {
     const double base = y + kBar / 2 + 4.5;
-    svg.text(columns.left - 10, base, fitting(bar.label, kLabel, columns.label_width),
-             {kLabel, "#1a1a1a", "end", false});
+    svg.text(columns.left - 10, base, fitting(bar.label, kLabelText, columns.label_width),
+             {kLabelText, kInk, "end", false});
     double x = columns.left;
     for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
         const double width = bar.shares[c] * (columns.right - columns.left);
@@ -75,21 +69,21 @@ void draw_bar(Svg& svg, const Columns& columns, double y, const SlotBar& bar) {
         }
         x += width;
     }
-    svg.text(columns.right + 10, base, fitting(bar.note, kSmall, columns.note_width),
-             {kSmall, kGrey, "start", false});
+    svg.text(columns.right + 10, base, fitting(bar.note, kSmallText, columns.note_width),
+             {kSmallText, kGrey, "start", false});
 }
 
 /// Returns the y below it.
-double draw_legend(Svg& svg, double y) {
-    double x = kMargin;
+double draw_slot_legend(Svg& svg, double y) {
+    double x = kPlotMargin;
     for (const SlotClass& slot : kSlotClasses) {
-        const double width = 18 + text_width(slot.key, kSmall) + 16;
-        if (x + width > kWidth - kMargin + 16) {
-            x = kMargin;
+        const double width = 18 + text_width(slot.key, kSmallText) + 16;
+        if (x + width > kPlotWidth - kPlotMargin + 16) {
+            x = kPlotMargin;
             y += 20;
         }
         svg.rectangle(x, y - 11, 13, 13, slot.colour);
-        svg.text(x + 18, y, slot.key, {kSmall, "#1a1a1a", "start", false});
+        svg.text(x + 18, y, slot.key, {kSmallText, kInk, "start", false});
         x += width;
     }
     return y + 14;
@@ -99,11 +93,11 @@ void draw_axis(Svg& svg, const Columns& columns, double top, double bottom) {
     for (int tick = 0; tick <= 100; tick += 20) {
         const double x = columns.left + tick / 100.0 * (columns.right - columns.left);
         svg.line(x, top, x, bottom, kGrid, 1);
-        svg.text(x, bottom + 17, std::to_string(tick), {kSmall, kGrey, "middle", false});
+        svg.text(x, bottom + 17, std::to_string(tick), {kSmallText, kGrey, "middle", false});
     }
     svg.text((columns.left + columns.right) / 2, bottom + 36,
              "% of the PE-cycles from the first task to the last",
-             {kSmall, kGrey, "middle", false});
+             {kSmallText, kGrey, "middle", false});
 }
 
 } // namespace
@@ -111,8 +105,8 @@ void draw_axis(Svg& svg, const Columns& columns, double top, double bottom) {
 std::string slots_svg(const std::string& title, const std::vector<SlotGroup>& groups) {
     const Columns columns = columns_of(groups);
     Svg svg;
-    svg.text(kMargin, 30, title, {16, "#1a1a1a", "start", true});
-    const double top = draw_legend(svg, 56);
+    svg.text(kPlotMargin, 30, title, {16, kInk, "start", true});
+    const double top = draw_slot_legend(svg, 56);
     double bottom = top;
     for (const SlotGroup& group : groups) {
         bottom += kHeading + kRow * static_cast<double>(group.bars.size());
@@ -121,16 +115,17 @@ std::string slots_svg(const std::string& title, const std::vector<SlotGroup>& gr
     double y = top;
     for (const SlotGroup& group : groups) {
         // On the grid, so that the heading needs a white ground.
-        svg.rectangle(kMargin, y + 6, kWidth - 2 * kMargin, kHeading - 10, "#ffffff");
-        svg.text(kMargin, y + 22, fitting(group.heading, kLabel, kWidth - 2 * kMargin),
-                 {kLabel, "#1a1a1a", "start", true});
+        svg.rectangle(kPlotMargin, y + 6, kPlotWidth - 2 * kPlotMargin, kHeading - 10, "#ffffff");
+        svg.text(kPlotMargin, y + 22,
+                 fitting(group.heading, kLabelText, kPlotWidth - 2 * kPlotMargin),
+                 {kLabelText, kInk, "start", true});
         y += kHeading;
         for (const SlotBar& bar : group.bars) {
             draw_bar(svg, columns, y, bar);
             y += kRow;
         }
     }
-    return svg.document(kWidth, bottom + 50, title);
+    return svg.document(kPlotWidth, bottom + 50, title);
 }
 
 } // namespace degs::sim

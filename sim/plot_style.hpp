@@ -15,9 +15,13 @@ namespace degs::sim {
 constexpr double kPlotWidth = 800; ///< px, of a whole picture
 constexpr double kPlotMargin = 16; ///< px
 constexpr double kSmallText = 12;  ///< px
+constexpr double kLabelText = 13;  ///< px
 constexpr const char* kInk = "#1a1a1a";
 constexpr const char* kGrey = "#555555";
 constexpr const char* kGrid = "#d8d8d8";
+
+// Pictures of one chart, px: left and right end, bottom of the chart, height of the picture.
+constexpr double kChartLeft = 70, kChartRight = 780, kChartBottom = 370, kChartHeight = 440;
 
 constexpr const char* kLineColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                         "#e69f00", "#56b4e9", "#1a1a1a"};

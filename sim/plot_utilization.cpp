@@ -9,8 +9,7 @@
 namespace degs::sim {
 namespace {
 
-constexpr double kPanelHeight = 300;
-constexpr double kLabel = 13;
+constexpr double kUtilizationPanelHeight = 300;
 
 /// log2 of the PEs that the axis reaches, with room for the markers at its ends.
 struct Range {
@@ -36,7 +35,7 @@ Range range_of(const std::vector<UtilizationPanel>& panels) {
 }
 
 /// Where the data of a panel lie, px.
-struct Frame {
+struct UtilizationAxes {
     double left = 0, right = 0, top = 0, bottom = 0;
     Range range;
     double x(double log_pes) const {
@@ -47,33 +46,34 @@ struct Frame {
     double y(double share) const { return bottom - share * (bottom - top); }
 };
 
-void draw_axes(Svg& svg, const Frame& frame) {
+void draw_axes(Svg& svg, const UtilizationAxes& axes) {
     for (int tick = 0; tick <= 100; tick += 20) {
-        const double y = frame.y(tick / 100.0);
-        svg.line(frame.left, y, frame.right, y, tick == 0 ? kGrey : kGrid, 1);
-        svg.text(frame.left - 8, y + 4, std::to_string(tick), {kSmallText, kGrey, "end", false});
+        const double y = axes.y(tick / 100.0);
+        svg.line(axes.left, y, axes.right, y, tick == 0 ? kGrey : kGrid, 1);
+        svg.text(axes.left - 8, y + 4, std::to_string(tick), {kSmallText, kGrey, "end", false});
     }
-    const int low = static_cast<int>(frame.range.low);
-    for (int power = low; power <= frame.range.high; power += frame.range.tick_step) {
-        const double x = frame.x(power);
-        svg.line(x, frame.bottom, x, frame.bottom + 5, kGrey, 1);
-        svg.text(x, frame.bottom + 19, std::to_string(1LL << power),
+    const int low = static_cast<int>(axes.range.low);
+    for (int power = low; power <= axes.range.high; power += axes.range.tick_step) {
+        const double x = axes.x(power);
+        svg.line(x, axes.bottom, x, axes.bottom + 5, kGrey, 1);
+        svg.text(x, axes.bottom + 19, std::to_string(1LL << power),
                  {kSmallText, kGrey, "middle", false});
     }
-    svg.text((frame.left + frame.right) / 2, frame.bottom + 38, "PEs, log scale",
+    svg.text((axes.left + axes.right) / 2, axes.bottom + 38, "PEs, log scale",
              {kSmallText, kGrey, "middle", false});
-    svg.text(frame.left - 34, frame.top - 12, "PE utilization, %",
+    svg.text(axes.left - 34, axes.top - 12, "PE utilization, %",
              {kSmallText, kGrey, "start", false});
 }
 
-std::vector<Svg::Points> places_of(const Frame& frame, const std::vector<UtilizationLine>& lines) {
+std::vector<Svg::Points> places_of(const UtilizationAxes& axes,
+                                   const std::vector<UtilizationLine>& lines) {
     std::vector<Svg::Points> all;
     for (const UtilizationLine& line : lines) {
         auto points = line.points;
         std::sort(points.begin(), points.end());
         Svg::Points places;
         for (const auto& [pes, share] : points) {
-            places.emplace_back(frame.x(std::log2(pes)), frame.y(share));
+            places.emplace_back(axes.x(std::log2(pes)), axes.y(share));
         }
         all.push_back(std::move(places));
     }
@@ -102,18 +102,19 @@ std::string utilization_svg(const std::string& title, const std::vector<Utilizat
     for (std::size_t p = 0; p < panels.size(); ++p) {
         const double left =
             kPlotMargin + panel_width * (columns > 1 ? static_cast<double>(p % 2) : 0);
-        const double y = top + kPanelHeight * static_cast<double>(columns > 1 ? p / 2 : p);
-        Frame frame;
-        frame.range = range_of(panels);
-        frame.left = left + 36;
-        frame.right = left + panel_width - 14;
-        frame.top = y + 56;
-        frame.bottom = y + kPanelHeight - 48;
-        svg.text(left, y + 20, fitting(panels[p].heading, kLabel, panel_width - 10),
-                 {kLabel, kInk, "start", true});
-        draw_axes(svg, frame);
-        draw_lines(svg, places_of(frame, panels[p].lines));
-        bottom = y + kPanelHeight;
+        const double y =
+            top + kUtilizationPanelHeight * static_cast<double>(columns > 1 ? p / 2 : p);
+        UtilizationAxes axes;
+        axes.range = range_of(panels);
+        axes.left = left + 36;
+        axes.right = left + panel_width - 14;
+        axes.top = y + 56;
+        axes.bottom = y + kUtilizationPanelHeight - 48;
+        svg.text(left, y + 20, fitting(panels[p].heading, kLabelText, panel_width - 10),
+                 {kLabelText, kInk, "start", true});
+        draw_axes(svg, axes);
+        draw_lines(svg, places_of(axes, panels[p].lines));
+        bottom = y + kUtilizationPanelHeight;
     }
     return svg.document(kPlotWidth, bottom + 6, title);
 }

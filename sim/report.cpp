@@ -13,7 +13,7 @@ namespace {
 using nlohmann::ordered_json;
 
 /// JSON has no infinity: identical images have a PSNR of "inf". What is not a number is null.
-ordered_json number(double value) {
+ordered_json number_or_null(double value) {
     if (std::isinf(value)) {
         return value > 0 ? "inf" : "-inf";
     }
@@ -163,9 +163,9 @@ ordered_json area_json(const AreaConfig& area) {
 ordered_json image_json(const RunResult& result) {
     ordered_json json = {{"psnr_db", nullptr}, {"ssim", nullptr}, {"max_abs_error", nullptr}};
     if (result.error) {
-        json["psnr_db"] = number(result.error->psnr_db);
-        json["ssim"] = number(result.error->ssim);
-        json["max_abs_error"] = number(result.error->max_abs_error);
+        json["psnr_db"] = number_or_null(result.error->psnr_db);
+        json["ssim"] = number_or_null(result.error->ssim);
+        json["max_abs_error"] = number_or_null(result.error->max_abs_error);
     } else {
         json["why"] = "the run was asked not to render the reference (--no-reference)";
     }

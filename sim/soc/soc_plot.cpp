@@ -2,18 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/plot_style.hpp"
 #include "sim/soc/soc_study.hpp"
-#include "sim/svg.hpp"
 #include "sim/words.hpp"
 
 namespace degs::sim {
 namespace {
 
-constexpr double kWidth = 800, kHeight = 440;
-constexpr double kLeft = 70, kRight = 780, kTop = 70, kBottom = 370;
+constexpr double kSocTop = 70; // px
 constexpr int kTicks = 5;
-constexpr const char* kGrey = "#555555";
-constexpr const char* kGrid = "#d8d8d8";
 constexpr const char* kColour = "#0072b2";
 
 } // namespace
@@ -27,20 +24,25 @@ std::string soc_svg(const std::string& title, const std::vector<SocPoint>& point
     }
     const double x_tick = tick_of(load, kTicks);
     const double y_tick = tick_of(latency, kTicks);
-    const auto x = [&](double v) { return kLeft + v / (kTicks * x_tick) * (kRight - kLeft); };
-    const auto y = [&](double v) { return kBottom - v / (kTicks * y_tick) * (kBottom - kTop); };
+    const auto x = [&](double v) {
+        return kChartLeft + v / (kTicks * x_tick) * (kChartRight - kChartLeft);
+    };
+    const auto y = [&](double v) {
+        return kChartBottom - v / (kTicks * y_tick) * (kChartBottom - kSocTop);
+    };
     Svg svg;
-    svg.text(16, 30, title, {16, "#1a1a1a", "start", true});
+    svg.text(16, 30, title, {16, kInk, "start", true});
     for (int i = 0; i <= kTicks; ++i) {
-        svg.line(kLeft, y(i * y_tick), kRight, y(i * y_tick), kGrid, 1);
-        svg.text(kLeft - 8, y(i * y_tick) + 4, three_digits(i * y_tick), {12, kGrey, "end", false});
-        svg.line(x(i * x_tick), kTop, x(i * x_tick), kBottom, kGrid, 1);
-        svg.text(x(i * x_tick), kBottom + 18, three_digits(i * x_tick),
-                 {12, kGrey, "middle", false});
+        svg.line(kChartLeft, y(i * y_tick), kChartRight, y(i * y_tick), kGrid, 1);
+        svg.text(kChartLeft - 8, y(i * y_tick) + 4, three_digits(i * y_tick),
+                 {kSmallText, kGrey, "end", false});
+        svg.line(x(i * x_tick), kSocTop, x(i * x_tick), kChartBottom, kGrid, 1);
+        svg.text(x(i * x_tick), kChartBottom + 18, three_digits(i * x_tick),
+                 {kSmallText, kGrey, "middle", false});
     }
-    svg.text((kLeft + kRight) / 2, kBottom + 42, "competing traffic of the cores, GB/s",
-             {12, kGrey, "middle", false});
-    svg.text(kLeft, kTop - 10, "frame latency, ms", {12, kGrey, "middle", false});
+    svg.text((kChartLeft + kChartRight) / 2, kChartBottom + 42,
+             "competing traffic of the cores, GB/s", {kSmallText, kGrey, "middle", false});
+    svg.text(kChartLeft, kSocTop - 10, "frame latency, ms", {kSmallText, kGrey, "middle", false});
     Svg::Points line;
     for (const SocPoint& p : points) {
         line.emplace_back(x(p.cpu_gb_per_s), y(p.frame.latency_ns / 1e6));
@@ -49,7 +51,7 @@ std::string soc_svg(const std::string& title, const std::vector<SocPoint>& point
     for (const auto& [px, py] : line) {
         svg.marker(Marker::Circle, px, py, kColour);
     }
-    return svg.document(kWidth, kHeight, title);
+    return svg.document(kPlotWidth, kChartHeight, title);
 }
 
 } // namespace degs::sim

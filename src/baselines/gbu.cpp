@@ -4,12 +4,6 @@
 #include <algorithm>
 
 namespace degs {
-namespace {
-
-// Tokens and messages are wires, not buffers: deep enough never to push back.
-constexpr int kTokenDepth = 64;
-
-} // namespace
 
 Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Timebase& time,
          RenderJob& job, const BuildOptions& options)

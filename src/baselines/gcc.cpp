@@ -4,12 +4,6 @@
 #include <algorithm>
 
 namespace degs {
-namespace {
-
-// Feedback and tokens are wires, not buffers: deep enough never to push back.
-constexpr int kTokenDepth = 64;
-
-} // namespace
 
 std::unique_ptr<RenderEngine> GccConfig::build(const char* module, const Timebase& time,
                                                RenderJob& job, const BuildOptions& options) const {

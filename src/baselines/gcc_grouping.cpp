@@ -3,14 +3,9 @@
 
 #include <algorithm>
 
+#include "tlm/ceil_div.hpp"
+
 namespace degs {
-namespace {
-
-std::uint64_t ceil_div(std::uint64_t a, std::uint64_t b) {
-    return (a + b - 1) / b;
-}
-
-} // namespace
 
 void GccGrouping::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("means_per_cycle", means_per_cycle, 1, 1024,

@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tlm/ceil_div.hpp"
+
 namespace degs {
 namespace {
 
 constexpr int kLanes = 32; // pixels per call of the data path
-
-int ceil_div(int a, int b) {
-    return (a + b - 1) / b;
-}
 
 } // namespace
 

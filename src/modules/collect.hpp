@@ -99,6 +99,10 @@ inline std::string numbered(const char* name, std::size_t index) {
     return std::string(name) + "_" + std::to_string(index);
 }
 
+/// Depth of rings of tokens and messages. They are wires, not buffers: deep enough never to push
+/// back, also with a message for every pixel of what a Packing Buffer can hold, a few tiles.
+constexpr int kTokenDepth = 64;
+
 /// A ring of at least one cell, owned by whoever wires blocks together.
 template <class T>
 DatedFifo<T>& add_ring(std::vector<std::unique_ptr<DatedFifo<T>>>& rings, const char* name,

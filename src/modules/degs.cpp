@@ -7,13 +7,6 @@
 #include "modules/row_map.hpp"
 
 namespace degs {
-namespace {
-
-// Feedback and tokens are wires, not buffers: deep enough never to push back (one message per pixel
-// of what a Packing Buffer can hold, a few tiles).
-constexpr int kTokenDepth = 64;
-
-} // namespace
 
 Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const Timebase& time,
            RenderJob& job, const BuildOptions& options)

@@ -2,12 +2,6 @@
 #include "modules/tile_array_engine.hpp"
 
 namespace degs {
-namespace {
-
-// Feedback and tokens are wires, not buffers: deep enough never to push back.
-constexpr int kTokenDepth = 64;
-
-} // namespace
 
 TileArrayEngine::TileArrayEngine(const sc_core::sc_module_name& name, const Parts& parts,
                                  const Timebase& time, RenderJob& job, const BuildOptions& options)

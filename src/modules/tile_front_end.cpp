@@ -4,12 +4,6 @@
 #include "modules/collect.hpp"
 
 namespace degs {
-namespace {
-
-// Frame tokens are wires, not buffers: deep enough never to push back.
-constexpr int kTokenDepth = 64;
-
-} // namespace
 
 TileFrontEnd::TileFrontEnd(const sc_core::sc_module_name& name, const Config& config,
                            const Timebase& time, const RenderJob& job)

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "splat/angles.hpp"
 #include "splat/error.hpp"
 #include "splat/projection.hpp"
 
 namespace degs {
 namespace {
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 /// View depths of the means that project into the image, of Gaussians that are not transparent.
 std::vector<double> depths_of(const GaussianCloud& cloud, const Camera& camera) {

@@ -7,11 +7,7 @@
 namespace degs {
 namespace {
 
-std::vector<HardScene> one(HardBuilder& builder) {
-    return {std::move(builder.scene)};
-}
-
-glm::dvec3 rgb_of(int i) {
+glm::dvec3 cold_rgb(int i) {
     return {0.1 + 0.11 * (i % 8), 0.9 - 0.12 * (i % 7), 0.5};
 }
 
@@ -21,10 +17,10 @@ std::vector<HardScene> make_opaque_stack_case(int width, int height) {
     HardBuilder builder(width, height);
     for (int i = 0; i < 60; ++i) {
         builder.add({builder.middle_x() + i % 3, builder.middle_y() - i % 2, 20.0 + i, 15, 0.1 * i,
-                     0.991 + 0.009 * (i % 2), rgb_of(i), 10.0 + i});
+                     0.991 + 0.009 * (i % 2), cold_rgb(i), 10.0 + i});
     }
     builder.look(builder.middle_x(), builder.middle_y());
-    return one(builder);
+    return only_scene(builder);
 }
 
 // Half of them have an opacity of 1/255, centred on a pixel; the others reach 1/255 at a pixel.
@@ -40,13 +36,13 @@ std::vector<HardScene> make_threshold_case(int width, int height) {
         const double x = builder.middle_x() + column;
         const double y = builder.middle_y() + row;
         if (i % 2 == 0) {
-            builder.add({x, y, sigma, sigma, 0, 1.0 / 255.0, rgb_of(i), 10 + 1e-4 * i});
+            builder.add({x, y, sigma, sigma, 0, 1.0 / 255.0, cold_rgb(i), 10 + 1e-4 * i});
         } else if (i % 200 == 1) {
-            builder.add({x + reach, y, sigma, sigma, 0, 0.5, rgb_of(i), 10 + 1e-4 * i});
+            builder.add({x + reach, y, sigma, sigma, 0, 0.5, cold_rgb(i), 10 + 1e-4 * i});
         }
     }
     builder.look(builder.middle_x(), builder.middle_y(), 40);
-    return one(builder);
+    return only_scene(builder);
 }
 
 std::vector<HardScene> make_saturating_case(int width, int height) {
@@ -61,7 +57,7 @@ std::vector<HardScene> make_saturating_case(int width, int height) {
         ++column;
     }
     builder.look(builder.middle_x(), builder.middle_y(), 60);
-    return one(builder);
+    return only_scene(builder);
 }
 
 std::vector<HardScene> make_equal_depth_case(int width, int height) {
@@ -70,13 +66,13 @@ std::vector<HardScene> make_equal_depth_case(int width, int height) {
     const double next = std::nextafter(depth, 11.0F);
     for (int i = 0; i < 4000; ++i) {
         builder.add({builder.middle_x() + i % 61 - 30, builder.middle_y() + i % 59 - 29, 2, 1,
-                     0.1 * i, 0.3, rgb_of(i), i % 3 == 0 ? next : depth});
+                     0.1 * i, 0.3, cold_rgb(i), i % 3 == 0 ? next : depth});
         if (i % 10 == 0) {
             repeat_last(builder.scene.cloud);
         }
     }
     builder.look(builder.middle_x(), builder.middle_y(), 40);
-    return one(builder);
+    return only_scene(builder);
 }
 
 // Centres on the corners of tiles of 16 px and more, on pixels and between them; the ellipse passes
@@ -90,15 +86,15 @@ std::vector<HardScene> make_corner_case(int width, int height) {
     int i = 0;
     for (const int corner : {-64, -32, -16, 0, 16}) {
         for (const double shift : {-1.0, -0.5, 0.0, 0.5}) {
-            builder.add({x + corner + shift, y + corner + shift, sigma, sigma, 0, 0.7, rgb_of(i),
+            builder.add({x + corner + shift, y + corner + shift, sigma, sigma, 0, 0.7, cold_rgb(i),
                          10.0 + i});
-            builder.add(
-                {x + corner + shift, 1.0 * y - corner, sigma, sigma, 0, 0.7, rgb_of(i), 10.5 + i});
+            builder.add({x + corner + shift, 1.0 * y - corner, sigma, sigma, 0, 0.7, cold_rgb(i),
+                         10.5 + i});
             ++i;
         }
     }
     builder.look(x, y, 64);
-    return one(builder);
+    return only_scene(builder);
 }
 
 std::vector<HardScene> make_image_size_case(int width, int height) {
@@ -110,12 +106,12 @@ std::vector<HardScene> make_image_size_case(int width, int height) {
         for (int i = 0; i < 12; ++i) {
             const double size = 2.0 + 4 * i;
             builder.add({0.09 * i * (w - 1), (1 - 0.09 * i) * (h - 1), size, size / 3, 0.4 * i, 0.6,
-                         rgb_of(i), 10.0 + i});
+                         cold_rgb(i), 10.0 + i});
         }
         builder.look(0, 0);
         builder.look(builder.middle_x(), builder.middle_y());
         builder.look(w - 1, h - 1);
-        scenes.push_back(one(builder).front());
+        scenes.push_back(only_scene(builder).front());
     }
     return scenes;
 }
@@ -125,7 +121,7 @@ std::vector<HardScene> make_empty_case(int width, int height) {
     const auto finish = [&scenes](HardBuilder& builder) {
         builder.look(builder.middle_x(), builder.middle_y());
         builder.look(0, 0);
-        scenes.push_back(one(builder).front());
+        scenes.push_back(only_scene(builder).front());
     };
     HardBuilder nothing(width, height);
     finish(nothing);
@@ -141,7 +137,7 @@ std::vector<HardScene> make_empty_case(int width, int height) {
     finish(single);
     HardBuilder tile(width, height);
     for (int i = 0; i < 500; ++i) {
-        tile.add({2.0 + i % 10, 2.0 + i % 11, 0.5, 0.4, 0.1 * i, 0.1, rgb_of(i), 10.0 + i});
+        tile.add({2.0 + i % 10, 2.0 + i % 11, 0.5, 0.4, 0.1 * i, 0.1, cold_rgb(i), 10.0 + i});
     }
     finish(tile);
     return scenes;
@@ -163,11 +159,11 @@ std::vector<HardScene> make_long_tail_case(int width, int height) {
         }
     }
     for (int i = 0; i < 10000; ++i) {
-        builder.add({double(x), double(y), 0.3, 0.2, 0.01 * i, 0.0045 + 1e-7 * i, rgb_of(i),
+        builder.add({double(x), double(y), 0.3, 0.2, 0.01 * i, 0.0045 + 1e-7 * i, cold_rgb(i),
                      10 + 0.01 * i});
     }
     builder.look(x, y, 16);
-    return one(builder);
+    return only_scene(builder);
 }
 
 // At most 0.02 opaque, a splat of 0.3 px^2 has no second pixel.
@@ -177,10 +173,10 @@ std::vector<HardScene> make_one_pixel_case(int width, int height) {
     for (int i = 0; i < 3000; ++i) {
         const int shift = i < 1500 ? 0 : 3;
         builder.add({builder.middle_x() + shift, builder.middle_y(), 0, 0, 0,
-                     0.005 + 0.014 * (i % 100) / 100, rgb_of(i), 10 + 0.001 * i});
+                     0.005 + 0.014 * (i % 100) / 100, cold_rgb(i), 10 + 0.001 * i});
     }
     builder.look(builder.middle_x(), builder.middle_y(), 8);
-    return one(builder);
+    return only_scene(builder);
 }
 
 } // namespace degs

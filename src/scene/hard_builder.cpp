@@ -3,10 +3,11 @@
 
 #include <cmath>
 
+#include "splat/spherical_harmonics.hpp"
+
 namespace degs {
 namespace {
 
-constexpr double kY0 = 0.28209479177387814;
 constexpr double kFocal = 0.8; ///< widths
 constexpr double kFlat = 1e-9; ///< scene units
 
@@ -36,7 +37,7 @@ void HardBuilder::add_world(const glm::dvec3& mean, const glm::dvec3& scale,
     cloud.rotations.emplace_back(rotation);
     cloud.opacities.push_back(static_cast<float>(opacity));
     for (int channel = 0; channel < 3; ++channel) {
-        cloud.sh.push_back(static_cast<float>((rgb[channel] - 0.5) / kY0));
+        cloud.sh.push_back(static_cast<float>((rgb[channel] - 0.5) / kShY0));
     }
     const auto more = static_cast<std::size_t>(3 * (cloud.sh_coefficients() - 1));
     cloud.sh.insert(cloud.sh.end(), more, 0.0F);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "scene/hard_cases.hpp"
 #include "scene/synthetic_random.hpp"
@@ -41,6 +43,11 @@ public:
 private:
     static int middle_of(int pixels) { return pixels / 2; }
 };
+
+/// Of a case that has no other.
+inline std::vector<HardScene> only_scene(HardBuilder& builder) {
+    return {std::move(builder.scene)};
+}
 
 /// The last Gaussian once more, for what is then changed in it.
 void repeat_last(GaussianCloud& cloud);

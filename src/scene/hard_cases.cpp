@@ -36,7 +36,7 @@ HardCase needles() {
     return out;
 }
 
-HardCase broken_files() {
+HardCase broken_files_case() {
     HardCase out;
     out.id = "H28";
     out.what = "truncated PLY, wrong count, missing properties, plain points, colours alone";
@@ -92,7 +92,7 @@ std::vector<HardCase> make_cases() {
         absent("H25", "node transforms", "no glTF input"),
         drawn("H26", "two meshes interleaved in depth", "one order for both", make_two_meshes_case),
         absent("H27", "quantised inputs", "no SPZ input"),
-        broken_files(),
+        broken_files_case(),
         absent("H29", "malformed GLB", "no glTF input"),
         drawn("H30", "a pixel with 10^4 splats in a tile that is full at once", kPixels,
               make_long_tail_case),

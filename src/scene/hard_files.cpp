@@ -10,15 +10,15 @@
 namespace degs {
 namespace {
 
-const char* const kNames[] = {"x",      "y",       "z",       "f_dc_0",  "f_dc_1",
-                              "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2",
-                              "rot_0",  "rot_1",   "rot_2",   "rot_3"};
+const char* const kProperties[] = {"x",      "y",       "z",       "f_dc_0",  "f_dc_1",
+                                   "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2",
+                                   "rot_0",  "rot_1",   "rot_2",   "rot_3"};
 
 /// A file of `rows` rows that says it has `count`, without one of its properties.
 std::string file_of(int count, int rows, const std::string& missing) {
     std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + "\n";
     std::string row;
-    for (const char* name : kNames) {
+    for (const char* name : kProperties) {
         if (name != missing) {
             text += std::string("property float ") + name + "\n";
             row += "0.5 ";

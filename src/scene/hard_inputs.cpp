@@ -11,7 +11,7 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-std::vector<HardScene> one(HardBuilder& builder) {
+std::vector<HardScene> scene_of_middle(HardBuilder& builder) {
     builder.look(builder.middle_x(), builder.middle_y(), 40);
     return {std::move(builder.scene)};
 }
@@ -30,7 +30,7 @@ void add_ordinary(HardBuilder& builder) {
     }
 }
 
-glm::dvec3 rgb_of(int i) {
+glm::dvec3 warm_rgb(int i) {
     return {0.2 + 0.1 * (i % 7), 0.9 - 0.1 * (i % 5), 0.3};
 }
 
@@ -44,7 +44,7 @@ std::vector<HardScene> make_degenerate_case(int width, int height) {
         add_ordinary(builder);
         for (int i = 0; i < 5; ++i) {
             builder.add({builder.middle_x() + i, builder.middle_y(), 4.0 * i, 0, 0.4 * i, 0.5,
-                         rgb_of(i), 20.0 + i});
+                         warm_rgb(i), 20.0 + i});
             builder.scene.cloud.scales.back() =
                 glm::vec3(static_cast<float>(i) * 0.01F, 0.0F, 0.0F);
         }
@@ -52,7 +52,7 @@ std::vector<HardScene> make_degenerate_case(int width, int height) {
             builder.scene.projection.dilation = 0;
             builder.scene.culled.degenerate = 5;
         }
-        scenes.push_back(one(builder).front());
+        scenes.push_back(scene_of_middle(builder).front());
     }
     return scenes;
 }
@@ -66,11 +66,11 @@ std::vector<HardScene> make_tiny_scene_case(int width, int height) {
             const int column = i % 5;
             const int row = i / 5;
             builder.add({builder.middle_x() + 4 * column, builder.middle_y() + 4 * row, 5, 3,
-                         0.3 * i, 0.5, rgb_of(i), 0.05 + 0.005 * i});
+                         0.3 * i, 0.5, warm_rgb(i), 0.05 + 0.005 * i});
         }
         builder.scene.projection.near_plane = near_plane;
         builder.scene.culled.near = near_plane > 0.1 ? 20 : 0;
-        scenes.push_back(one(builder).front());
+        scenes.push_back(scene_of_middle(builder).front());
     }
     return scenes;
 }
@@ -82,7 +82,7 @@ std::vector<HardScene> make_near_plane_case(int width, int height) {
         builder.add({builder.middle_x(), builder.middle_y(), 8, 5, 0, 0.5, {0.9, 0.2, 0.2}, z});
     }
     builder.scene.culled.near = 2;
-    return one(builder);
+    return scene_of_middle(builder);
 }
 
 std::vector<HardScene> make_not_finite_case(int width, int height) {
@@ -105,7 +105,7 @@ std::vector<HardScene> make_not_finite_case(int width, int height) {
         cloud.sh.back() = 0;
     }
     builder.scene.dropped.non_finite = 12;
-    return one(builder);
+    return scene_of_middle(builder);
 }
 
 // Gaussians 6, 8, 10 have quaternions of other lengths, 7, 9, 11 the same ones of length 1.
@@ -126,7 +126,7 @@ std::vector<HardScene> make_quaternion_case(int width, int height) {
     cloud.rotations.back() = {kNan, 0.0F, 0.0F, 1.0F};
     builder.scene.dropped.zero_rotation = 1;
     builder.scene.dropped.non_finite = 1;
-    return one(builder);
+    return scene_of_middle(builder);
 }
 
 std::string check_quaternion(const HardScene& /*scene*/, const FrameWorkload& workload) {
@@ -150,7 +150,7 @@ std::vector<HardScene> make_opacity_case(int width, int height) {
                                 std::nextafter(limit, 1.0F), 0.004F, 0.99F, 1.0F}) {
         for (const double shift : {0.0, 0.3}) { // on a pixel and beside it
             builder.add({builder.middle_x() + 4 * i - 16 + shift, builder.middle_y() + shift, 3, 2,
-                         0.3, 1, rgb_of(i), 10.0 + i});
+                         0.3, 1, warm_rgb(i), 10.0 + i});
             scene.cloud.opacities.back() = opacity;
             scene.culled.transparent += opacity * 255.0 < 1 ? 1 : 0;
         }
@@ -163,7 +163,7 @@ std::vector<HardScene> make_opacity_case(int width, int height) {
         scene.cloud.opacities.back() = opacity;
     }
     scene.dropped.bad_opacity = 2;
-    return one(builder);
+    return scene_of_middle(builder);
 }
 
 std::vector<HardScene> make_depth_range_case(int width, int height) {
@@ -171,9 +171,9 @@ std::vector<HardScene> make_depth_range_case(int width, int height) {
     for (int i = 0; i < 60; ++i) { // far ones first, so that order cannot come from the index
         const double depth = 1e7 * std::pow(0.21 / 1e7, i / 59.0);
         builder.add({builder.middle_x() + i % 9, builder.middle_y() + i % 7, 12, 7, 0.2 * i, 0.15,
-                     rgb_of(i), depth});
+                     warm_rgb(i), depth});
     }
-    return one(builder);
+    return scene_of_middle(builder);
 }
 
 std::vector<HardScene> make_colour_case(int width, int height) {
@@ -194,7 +194,7 @@ std::vector<HardScene> make_colour_case(int width, int height) {
                 sh[k] = static_cast<float>(random.uniform(-0.1, 0.1) * bright);
             }
         }
-        scenes.push_back(one(builder).front());
+        scenes.push_back(scene_of_middle(builder).front());
     }
     return scenes;
 }
@@ -206,11 +206,11 @@ std::vector<HardScene> make_offset_case(int width, int height) {
         const glm::dvec3 shift(offset, -0.7 * offset, 0.3 * offset);
         for (int i = 0; i < 30; ++i) {
             builder.add({builder.middle_x() + i % 6 * 3, builder.middle_y() + i % 5 * 3, 2, 1,
-                         0.3 * i, 0.5, rgb_of(i), 1.0 + 0.1 * i});
+                         0.3 * i, 0.5, warm_rgb(i), 1.0 + 0.1 * i});
             builder.scene.cloud.means.back() += shift;
         }
         builder.scene.camera.position = shift;
-        scenes.push_back(one(builder).front());
+        scenes.push_back(scene_of_middle(builder).front());
     }
     return scenes;
 }
@@ -240,7 +240,7 @@ std::vector<HardScene> make_two_meshes_case(int width, int height) {
                          10 + 0.1 * i + 0.05 * mesh});
         }
     }
-    return one(builder);
+    return scene_of_middle(builder);
 }
 
 } // namespace degs

@@ -3,16 +3,12 @@
 #include <cmath>
 
 #include "scene/hard_builder.hpp"
+#include "splat/angles.hpp"
 
 namespace degs {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kReach = 3.33; ///< deviations from the middle to the end of an opaque splat
-
-std::vector<HardScene> one(HardBuilder& builder) {
-    return {std::move(builder.scene)};
-}
 
 } // namespace
 
@@ -46,7 +42,7 @@ std::vector<HardScene> make_needle_case(int width, int height) {
         builder.look(x + part * width, y);
         builder.look(x, y + part * height);
     }
-    return one(builder);
+    return only_scene(builder);
 }
 
 // Closer than its size: the projection has no second order, so these are wrong pictures of a
@@ -62,7 +58,7 @@ std::vector<HardScene> make_close_case(int width, int height) {
     builder.look(builder.middle_x(), builder.middle_y());
     builder.look(0, 0);
     builder.look(width - 1, height - 1);
-    return one(builder);
+    return only_scene(builder);
 }
 
 std::vector<HardScene> make_far_mean_case(int width, int height) {
@@ -78,7 +74,7 @@ std::vector<HardScene> make_far_mean_case(int width, int height) {
     builder.look(width - 1, builder.middle_y());
     builder.look(0, builder.middle_y());
     builder.look(builder.middle_x(), builder.middle_y());
-    return one(builder);
+    return only_scene(builder);
 }
 
 std::string check_far_mean(const HardScene& scene, const FrameWorkload& workload) {
@@ -112,7 +108,7 @@ std::vector<HardScene> make_giants_case(int width, int height) {
     builder.look(0, 0);
     builder.look(builder.middle_x(), builder.middle_y());
     builder.look(width - 1, height - 1);
-    return one(builder);
+    return only_scene(builder);
 }
 
 std::string check_giants(const HardScene& scene, const FrameWorkload& workload) {
@@ -143,7 +139,7 @@ std::vector<HardScene> make_subpixel_case(int width, int height) {
                      10 + 1e-5 * i});
     }
     builder.look(builder.middle_x(), builder.middle_y());
-    return one(builder);
+    return only_scene(builder);
 }
 
 std::vector<HardScene> make_fp16_range_case(int width, int height) {
@@ -161,7 +157,7 @@ std::vector<HardScene> make_fp16_range_case(int width, int height) {
         builder.look(x, y + distance);
         builder.look(x - distance, y - distance);
     }
-    return one(builder);
+    return only_scene(builder);
 }
 
 std::vector<HardScene> make_row_case(int width, int height) {
@@ -190,7 +186,7 @@ std::vector<HardScene> make_row_case(int width, int height) {
         }
     }
     builder.look(x, y, 64);
-    return one(builder);
+    return only_scene(builder);
 }
 
 } // namespace degs

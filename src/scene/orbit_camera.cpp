@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "scene/cameras.hpp"
+#include "splat/angles.hpp"
 
 namespace degs {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kNearPlane = 0.2; // scene units; the original rasteriser drops what is nearer
 
 /// The value of this rank in ascending order; reorders them.

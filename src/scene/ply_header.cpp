@@ -53,7 +53,7 @@ Words split(std::string_view line) {
 }
 
 /// User text in a message: printable and short, whatever the file holds.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
     std::string out = "'";
     for (const char c : text.substr(0, 40)) {
         out += c >= ' ' && c <= '~' ? c : '?';
@@ -118,15 +118,16 @@ private:
     }
 
     void parse_format(const Words& words) {
-        constexpr std::array<std::string_view, 3> kNames{"ascii", "binary_little_endian",
-                                                         "binary_big_endian"};
-        const auto* const name =
-            words.size() == 3 ? std::find(kNames.begin(), kNames.end(), words[1]) : kNames.end();
-        if (name == kNames.end() || words[0] != "format" || words[2] != "1.0") {
+        constexpr std::array<std::string_view, 3> kFormats{"ascii", "binary_little_endian",
+                                                           "binary_big_endian"};
+        const auto* const name = words.size() == 3
+                                     ? std::find(kFormats.begin(), kFormats.end(), words[1])
+                                     : kFormats.end();
+        if (name == kFormats.end() || words[0] != "format" || words[2] != "1.0") {
             fail("here must stand 'format', one of ascii, binary_little_endian or "
                  "binary_big_endian, and '1.0'.");
         }
-        header_.format = static_cast<PlyFormat>(name - kNames.begin());
+        header_.format = static_cast<PlyFormat>(name - kFormats.begin());
     }
 
     void parse_statement(const Words& words) {
@@ -135,8 +136,9 @@ private:
         } else if (words[0] == "property") {
             parse_property(words);
         } else {
-            fail(quoted(words[0]) + " is unknown; allowed are element, property, comment, obj_info "
-                                    "and end_header.");
+            fail(in_quotes(words[0]) +
+                 " is unknown; allowed are element, property, comment, obj_info "
+                 "and end_header.");
         }
     }
 
@@ -148,12 +150,12 @@ private:
         const char* const end = words[2].data() + words[2].size();
         const auto [stop, error] = std::from_chars(words[2].data(), end, element.count);
         if (error != std::errc() || stop != end) {
-            fail("the count " + quoted(words[2]) + " of element " + quoted(words[1]) +
+            fail("the count " + in_quotes(words[2]) + " of element " + in_quotes(words[1]) +
                  " is not an integer from 0 to 18446744073709551615.");
         }
         element.name = words[1];
         if (header_.find(element.name) != nullptr) {
-            fail("element " + quoted(words[1]) + " is declared twice.");
+            fail("element " + in_quotes(words[1]) + " is declared twice.");
         }
         header_.elements.push_back(std::move(element));
         if (header_.elements.size() > kMaxElements) {
@@ -173,11 +175,12 @@ private:
         if (is_list) {
             property.list_count = type_named(words[2]);
             if (!is_integer(*property.list_count)) {
-                fail("the length of list " + quoted(property.name) + " must have an integer type.");
+                fail("the length of list " + in_quotes(property.name) +
+                     " must have an integer type.");
             }
         }
         if (header_.elements.back().has(property.name)) {
-            fail("property " + quoted(property.name) + " is declared twice.");
+            fail("property " + in_quotes(property.name) + " is declared twice.");
         }
         if (++properties_ > kMaxProperties) {
             fail("more than " + std::to_string(kMaxProperties) + " properties are not allowed.");
@@ -191,7 +194,7 @@ private:
                 return type;
             }
         }
-        fail("type " + quoted(name) +
+        fail("type " + in_quotes(name) +
              " is unknown; allowed are char, uchar, short, ushort, int, uint, float, double and "
              "int8, uint8, int16, uint16, int32, uint32, float32, float64.");
     }
@@ -250,7 +253,7 @@ void check_claimed_size(const std::string& path, const PlyElement& element, PlyF
     const std::uint64_t available = remaining + (format == PlyFormat::Ascii ? 1 : 0);
     if (row != 0 && element.count > available / row) {
         fail_file(path, "the header promises " + std::to_string(element.count) +
-                            " rows of element " + quoted(element.name) + " of at least " +
+                            " rows of element " + in_quotes(element.name) + " of at least " +
                             std::to_string(row) + " bytes each, but only " +
                             std::to_string(remaining) +
                             " bytes follow; the file is truncated or its header is wrong.");

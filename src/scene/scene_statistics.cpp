@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "splat/angles.hpp"
 #include "splat/reference_renderer.hpp"
 
 namespace degs {
@@ -107,7 +108,6 @@ double rest_rms(const GaussianCloud& cloud) {
 
 /// Pixels inside q <= Q_th, by area: pi Q_th sqrt(det).
 double ellipse_area(const ProjectedSplat& splat) {
-    constexpr double kPi = 3.14159265358979323846;
     return kPi * splat.q_threshold * std::sqrt(splat.det);
 }
 

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "scene/cameras.hpp"
+#include "splat/spherical_harmonics.hpp"
 
 namespace degs {
 namespace {
 
 constexpr double kReferenceCount = 100000; ///< sizes in looks are for this many Gaussians
 constexpr double kSmallestAxis = 1e-9;     ///< scene units; trained scenes go down to e^-20
-constexpr double kY0 = 0.28209479177387814;
 
 } // namespace
 
@@ -44,7 +44,7 @@ void SyntheticBuilder::add_exact(const glm::dvec3& mean, const glm::dvec3& scale
     cloud_.rotations.emplace_back(rotation);
     cloud_.opacities.push_back(static_cast<float>(opacity));
     for (int channel = 0; channel < 3; ++channel) {
-        cloud_.sh.push_back(static_cast<float>((rgb[channel] - 0.5) / kY0));
+        cloud_.sh.push_back(static_cast<float>((rgb[channel] - 0.5) / kShY0));
     }
     for (int degree = 1; degree <= cloud_.sh_degree; ++degree, view_dependence /= 2) {
         const int values = 3 * (2 * degree + 1);

@@ -38,7 +38,7 @@ struct ColumnRecord {
 
 constexpr int kFarRow = 1 << 29; // beyond every image; leaves room to add to it
 
-std::int32_t to_pixel(double value) {
+std::int32_t nearest_pixel(double value) {
     constexpr double kLimit = 1 << 30;
     return static_cast<std::int32_t>(std::lround(std::clamp(value, -kLimit, kLimit)));
 }
@@ -46,8 +46,8 @@ std::int32_t to_pixel(double value) {
 template <class T>
 SpanRecord<T> derive(const ProjectedSplat& splat) {
     SpanRecord<T> record{};
-    record.pixel_x = to_pixel(splat.mu_x);
-    record.pixel_y = to_pixel(splat.mu_y);
+    record.pixel_x = nearest_pixel(splat.mu_x);
+    record.pixel_y = nearest_pixel(splat.mu_y);
     record.offset_x = static_cast<T>(splat.mu_x - record.pixel_x);
     record.offset_y = static_cast<T>(splat.mu_y - record.pixel_y);
     record.slope = static_cast<T>(splat.cov_b / splat.cov_c);
@@ -57,11 +57,11 @@ SpanRecord<T> derive(const ProjectedSplat& splat) {
     record.q_threshold = static_cast<T>(splat.q_threshold);
     record.fold = static_cast<T>(2.0 * std::log(splat.opacity));
     const double reach = std::sqrt(splat.q_threshold * splat.cov_c);
-    record.first_row = to_pixel(std::ceil(splat.mu_y - reach));
-    record.last_row = to_pixel(std::floor(splat.mu_y + reach));
+    record.first_row = nearest_pixel(std::ceil(splat.mu_y - reach));
+    record.last_row = nearest_pixel(std::floor(splat.mu_y + reach));
     const double reach_x = std::sqrt(splat.q_threshold * splat.cov_a);
-    record.first_column = to_pixel(std::ceil(splat.mu_x - reach_x));
-    record.last_column = to_pixel(std::floor(splat.mu_x + reach_x));
+    record.first_column = nearest_pixel(std::ceil(splat.mu_x - reach_x));
+    record.last_column = nearest_pixel(std::floor(splat.mu_x + reach_x));
     return record;
 }
 

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstddef>
 
+#include "splat/angles.hpp"
 #include "splat/flip_colour.hpp"
 
 namespace degs {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kFeatureWidth = 0.082; // degrees; of the widest edge that is seen as one
 
 /// a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees: the publication's model of a channel's contrast
@@ -40,7 +40,7 @@ double sum_of(const std::vector<double>& taps) {
 }
 
 /// Positive taps to sum 1, negative ones to sum -1.
-FlipKernels::Taps normalised(const std::vector<double>& taps) {
+FlipKernels::Taps taps_of_unit_sum(const std::vector<double>& taps) {
     double positive = 0;
     double negative = 0;
     for (const double tap : taps) {
@@ -75,15 +75,15 @@ FlipKernels::FlipKernels(double pixels_per_degree) {
     const auto channel = [&](const Sensitivity& of) {
         return taps_of(sigma_of(of, pixels_per_degree), sensitivity_radius);
     };
-    achromatic = normalised(channel(kAchromatic));
-    red_green = normalised(channel(kRedGreen));
+    achromatic = taps_of_unit_sum(channel(kAchromatic));
+    red_green = taps_of_unit_sum(channel(kRedGreen));
     double mass[2];
     for (int i = 0; i < 2; ++i) {
         const double line = sum_of(channel(kBlueYellow[i]));
         mass[i] = kBlueYellow[i].a * std::sqrt(kPi / kBlueYellow[i].b) * line * line;
     }
-    blue_yellow_wide = normalised(channel(kBlueYellow[0]));
-    blue_yellow_narrow = normalised(channel(kBlueYellow[1]));
+    blue_yellow_wide = taps_of_unit_sum(channel(kBlueYellow[0]));
+    blue_yellow_narrow = taps_of_unit_sum(channel(kBlueYellow[1]));
     wide_weight = static_cast<float>(mass[0] / (mass[0] + mass[1]));
     narrow_weight = 1 - wide_weight;
 
@@ -95,9 +95,9 @@ FlipKernels::FlipKernels(double pixels_per_degree) {
         first[at] *= -x;
         second[at] *= x * x / (feature * feature) - 1;
     }
-    smooth = normalised(bell);
-    edge = normalised(first);
-    point = normalised(second);
+    smooth = taps_of_unit_sum(bell);
+    edge = taps_of_unit_sum(first);
+    point = taps_of_unit_sum(second);
 }
 
 FlipFilter::FlipFilter(const Image& image, const FlipKernels& kernels)

@@ -23,7 +23,7 @@ bool all_finite(const float* values, std::size_t count) {
     return finite;
 }
 
-bool is_finite(const GaussianCloud& cloud, std::size_t i) {
+bool all_finite(const GaussianCloud& cloud, std::size_t i) {
     const glm::dvec3& mean = cloud.means[i];
     return std::isfinite(mean.x) && std::isfinite(mean.y) && std::isfinite(mean.z) &&
            all_finite(&cloud.scales[i].x, 3) && all_finite(&cloud.rotations[i].x, 4) &&
@@ -32,7 +32,7 @@ bool is_finite(const GaussianCloud& cloud, std::size_t i) {
 }
 
 Defect find_defect(const GaussianCloud& cloud, std::size_t i) {
-    if (!is_finite(cloud, i)) {
+    if (!all_finite(cloud, i)) {
         return Defect::NonFinite;
     }
     if (cloud.rotations[i] == glm::vec4(0.0F)) {
@@ -56,7 +56,7 @@ void count(Defect defect, SanitizeReport& report) {
 /// Every finite float squares without overflow or underflow in double. A quaternion that is as
 /// close to unit length as rounding to float allows stays as it is, so that sanitizing twice
 /// changes nothing.
-glm::vec4 normalised(const glm::vec4& rotation) {
+glm::vec4 unit_rotation(const glm::vec4& rotation) {
     constexpr double kRounding = 1.2e-7; // 2 * 2^-24 relative error of the squared length
     const glm::dvec4 q(rotation);
     const double squared = glm::dot(q, q);
@@ -94,7 +94,7 @@ SanitizeReport sanitize(GaussianCloud& cloud) {
         if (kept != i) {
             move_gaussian(cloud, i, kept);
         }
-        cloud.rotations[kept] = normalised(cloud.rotations[kept]);
+        cloud.rotations[kept] = unit_rotation(cloud.rotations[kept]);
         ++kept;
     }
     truncate(cloud, kept);

@@ -10,7 +10,6 @@
 namespace degs {
 namespace {
 
-constexpr double kHalfLog2e = 0.72134752044448170;
 constexpr double kMostShift = 126; // what a float's exponent can take
 
 /// x limited to low .. high; high if x is no number.

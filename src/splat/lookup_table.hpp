@@ -9,6 +9,9 @@
 
 namespace degs {
 
+/// log2(e) / 2: exp(-q / 2) = 2^-(kHalfLog2e q).
+constexpr double kHalfLog2e = 0.72134752044448170;
+
 /// What a table holds. All fall with x.
 enum class TableFunction {
     SqrtOneMinus, ///< sqrt(1 - x), x in 0 .. 1 (paper Sec. IV-A)

@@ -14,13 +14,13 @@ namespace {
 /// Stores a value; returns what it must be instead, or nothing.
 using Store = std::function<std::string(NumberSet&, const std::string&)>;
 
-struct Part {
+struct NumberPart {
     NumberKey key;
     Store store;
 };
 
 template <class Get>
-Part format(const char* name, const char* meaning, const Get& get) {
+NumberPart format(const char* name, const char* meaning, const Get& get) {
     return {{name, std::string("format: ") + meaning},
             [get](NumberSet& set, const std::string& value) -> std::string {
                 try {
@@ -33,14 +33,14 @@ Part format(const char* name, const char* meaning, const Get& get) {
             }};
 }
 
-Part stage(const char* name, const char* meaning, ValueFormat NumberSet::*member) {
+NumberPart stage(const char* name, const char* meaning, ValueFormat NumberSet::*member) {
     return format(name, meaning, [member](NumberSet& set) -> ValueFormat& { return set.*member; });
 }
 
 /// `words` in the order of the enumeration.
 template <class Put>
-Part choice(const std::string& name, const char* meaning, const std::vector<std::string>& words,
-            const Put& put) {
+NumberPart choice(const std::string& name, const char* meaning,
+                  const std::vector<std::string>& words, const Put& put) {
     std::string allowed;
     for (const std::string& word : words) {
         allowed += (allowed.empty() ? "" : &word == &words.back() ? " or " : ", ") + word;
@@ -57,8 +57,8 @@ Part choice(const std::string& name, const char* meaning, const std::vector<std:
 }
 
 template <class Number, class Get>
-Part number(const std::string& name, const char* meaning, Number low, Number high,
-            const char* allowed, const Get& get) {
+NumberPart number(const std::string& name, const char* meaning, Number low, Number high,
+                  const char* allowed, const Get& get) {
     return {{name, std::string(allowed) + ": " + meaning},
             [=](NumberSet& set, const std::string& value) -> std::string {
                 Number read{};
@@ -73,9 +73,9 @@ Part number(const std::string& name, const char* meaning, Number low, Number hig
             }};
 }
 
-void add_stages(std::vector<Part>& parts) {
+void add_stages(std::vector<NumberPart>& parts) {
     using S = NumberSet;
-    const std::vector<Part> stages = {
+    const std::vector<NumberPart> stages = {
         stage("projection", "all that makes splats out of Gaussians; fp64 shares the reference's",
               &S::projection),
         stage("mean", "mu_x, mu_y in the record, px", &S::mean),
@@ -102,8 +102,8 @@ void add_stages(std::vector<Part>& parts) {
     parts.insert(parts.end(), stages.begin(), stages.end());
 }
 
-void add_orders(std::vector<Part>& parts) {
-    const std::vector<Part> orders = {
+void add_orders(std::vector<NumberPart>& parts) {
+    const std::vector<NumberPart> orders = {
         choice("derivation", "descriptor in double, or in its own formats",
                {"reference", "literal"},
                [](NumberSet& set, int i) { set.derivation = static_cast<Derivation>(i); }),
@@ -128,7 +128,8 @@ void add_orders(std::vector<Part>& parts) {
     parts.insert(parts.end(), orders.begin(), orders.end());
 }
 
-void add_table(std::vector<Part>& parts, const std::string& table, TableSpec NumberSet::*member) {
+void add_table(std::vector<NumberPart>& parts, const std::string& table,
+               TableSpec NumberSet::*member) {
     const auto spec = [member](NumberSet& set) -> TableSpec& { return set.*member; };
     parts.push_back(choice(table + ".interpolation", "no table, or what a cell holds",
                            {"exact", "nearest", "linear"}, [spec](NumberSet& set, int i) {
@@ -146,9 +147,9 @@ void add_table(std::vector<Part>& parts, const std::string& table, TableSpec Num
                            [spec](NumberSet& set) -> ValueFormat& { return spec(set).values; }));
 }
 
-const std::vector<Part>& parts() {
-    static const std::vector<Part> all = [] {
-        std::vector<Part> list;
+const std::vector<NumberPart>& parts() {
+    static const std::vector<NumberPart> all = [] {
+        std::vector<NumberPart> list;
         add_stages(list);
         add_orders(list);
         add_table(list, "sqrt", &NumberSet::sqrt);
@@ -173,7 +174,7 @@ const std::vector<Part>& parts() {
 const std::vector<NumberKey>& number_keys() {
     static const std::vector<NumberKey> keys = [] {
         std::vector<NumberKey> list;
-        for (const Part& part : parts()) {
+        for (const NumberPart& part : parts()) {
             list.push_back(part.key);
         }
         return list;
@@ -183,7 +184,7 @@ const std::vector<NumberKey>& number_keys() {
 
 std::string override_number(NumberSet& set, const std::string& name, const std::string& value) {
     std::string names;
-    for (const Part& part : parts()) {
+    for (const NumberPart& part : parts()) {
         if (part.key.name == name) {
             const std::string allowed = part.store(set, value);
             if (allowed.empty()) {

@@ -5,11 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "splat/pixel_rules.hpp"
+
 namespace degs {
 namespace {
-
-constexpr double kAlphaMax = 0.99;
-constexpr double kStopTransmittance = 1e-4;
 
 /// The list of the tile that holds a pixel.
 struct TileList {
@@ -171,7 +170,8 @@ std::size_t culprit(const FrameWorkload& work, const TileList& list, const Pixel
     return most < 0 && reference.ended < list.length ? reference.ended : worst;
 }
 
-std::string flip_of(const PixelReplay& reference, const PixelReplay& test, std::size_t entry) {
+std::string flipped_decision(const PixelReplay& reference, const PixelReplay& test,
+                             std::size_t entry) {
     if ((reference.alpha[entry] > 0) != (test.alpha[entry] > 0)) {
         return "span ends";
     }
@@ -241,7 +241,7 @@ PixelBlame blame_pixel(const FrameWorkload& workload, int x, int y, const Number
     }
     const std::size_t entry = culprit(workload, list, reference, test);
     blame.id = workload.splats[list.first[entry]].id;
-    blame.flip = flip_of(reference, test, entry);
+    blame.flip = flipped_decision(reference, test, entry);
     const NumberSet exact = unrounded(set);
     for (const Operation& operation : kOperations) {
         NumberSet alone = exact;

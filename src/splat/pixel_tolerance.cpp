@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "splat/pixel_rules.hpp"
+
 namespace degs {
 namespace {
 
@@ -96,7 +98,7 @@ double pixel_tolerance(const FrameWorkload& workload, int x, int y,
         const double dy = y - s.mu_y;
         const double u = x - s.mu_x - s.cov_b / s.cov_c * dy;
         const double q = s.conic_a() * u * u + dy * dy / s.cov_c;
-        const double alpha = std::min(0.99, s.opacity * std::exp(-0.5 * q));
+        const double alpha = std::min(kAlphaMax, s.opacity * std::exp(-0.5 * q));
         if (alpha < (numbers.outward ? kNoAlpha : alpha_min - numbers.alpha)) {
             continue;
         }
@@ -112,7 +114,7 @@ double pixel_tolerance(const FrameWorkload& workload, int x, int y,
         if (next < 2e-4) { // ends here or a little later
             sum += left;
         }
-        if (next < 1e-4) {
+        if (next < kStopTransmittance) {
             break;
         }
         left = next;

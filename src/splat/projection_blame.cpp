@@ -10,8 +10,8 @@
 namespace degs {
 namespace {
 
-/// A Gaussian's part of a pixel.
-struct Part {
+/// A Gaussian's share of a pixel.
+struct Share {
     double alpha = 0;
     double rgb[3] = {0, 0, 0};
 };
@@ -22,7 +22,7 @@ std::uint32_t id_of(const FrameWorkload& work, std::uint64_t begin, std::size_t 
 
 /// The list of the pixel's tile, by Gaussian.
 struct Listed {
-    std::map<std::uint32_t, Part> parts;
+    std::map<std::uint32_t, Share> parts;
     std::vector<std::uint32_t> order; ///< Gaussians that the pixel is in, near to far
 
     Listed(const FrameWorkload& work, int x, int y, const PixelReplay& replay) {
@@ -31,7 +31,7 @@ struct Listed {
         const std::uint64_t begin = work.tile_begin[tile];
         for (std::size_t i = 0; i < replay.alpha.size(); ++i) {
             const ProjectedSplat& splat = work.splats[work.tile_splats[begin + i]];
-            Part& part = parts[id_of(work, begin, i)];
+            Share& part = parts[id_of(work, begin, i)];
             part.alpha = replay.alpha[i];
             for (int c = 0; c < 3; ++c) {
                 part.rgb[c] = replay.weight[i] * splat.colour[c];
@@ -41,9 +41,9 @@ struct Listed {
             }
         }
     }
-    Part part(std::uint32_t id) const {
+    Share part(std::uint32_t id) const {
         const auto at = parts.find(id);
-        return at == parts.end() ? Part() : at->second;
+        return at == parts.end() ? Share() : at->second;
     }
 };
 
@@ -53,8 +53,8 @@ std::uint32_t most_changed(const Listed& a, const Listed& b) {
     double most = -1;
     for (const Listed* side : {&a, &b}) {
         for (const auto& entry : side->parts) {
-            const Part left = a.part(entry.first);
-            const Part right = b.part(entry.first);
+            const Share left = a.part(entry.first);
+            const Share right = b.part(entry.first);
             for (int c = 0; c < 3; ++c) {
                 const double change = std::abs(left.rgb[c] - right.rgb[c]);
                 if (change > most) {
@@ -77,7 +77,7 @@ std::vector<std::uint32_t> shared(const Listed& of, const Listed& other) {
     return ids;
 }
 
-std::string flip_of(const Listed& a, const Listed& b, std::uint32_t id) {
+std::string flipped_list(const Listed& a, const Listed& b, std::uint32_t id) {
     if ((a.part(id).alpha > 0) != (b.part(id).alpha > 0)) {
         return "span ends";
     }
@@ -105,7 +105,7 @@ PixelBlame blame_pixel(const FrameWorkload& reference, const FrameWorkload& proj
         blame.id = most_changed(exact, rounded);
         blame.operation = "projection";
         blame.explained = share;
-        blame.flip = flip_of(exact, rounded, blame.id);
+        blame.flip = flipped_list(exact, rounded, blame.id);
     }
     return blame;
 }

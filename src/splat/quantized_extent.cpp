@@ -8,8 +8,6 @@
 namespace degs {
 namespace {
 
-constexpr int kFarPixel = 1 << 29; // beyond every image; leaves room to add to it
-
 int to_pixel(double x) {
     const double below = x < kFarPixel ? x : kFarPixel; // also what is no number
     return static_cast<int>(below > -kFarPixel ? below : -kFarPixel);

@@ -8,12 +8,8 @@
 namespace degs {
 namespace {
 
-constexpr double kHalfLog2e = 0.72134752044448170;
-/// Pixels beyond every image; keeps conversions to int defined.
-constexpr double kFarPixel = 1 << 29;
-
 int to_int(double pixel) {
-    return static_cast<int>(std::clamp(pixel, -kFarPixel, kFarPixel));
+    return static_cast<int>(std::clamp<double>(pixel, -kFarPixel, kFarPixel));
 }
 
 } // namespace
@@ -36,8 +32,8 @@ QuantizedRow::QuantizedRow(NumberSet set)
 QuantizedSplat QuantizedRow::record(const ProjectedSplat& splat) const {
     QuantizedSplat out;
     if (set_.mean_form == Mean::PixelAndOffset) {
-        out.pixel_x = std::clamp(std::nearbyint(splat.mu_x), -kFarPixel, kFarPixel);
-        out.pixel_y = std::clamp(std::nearbyint(splat.mu_y), -kFarPixel, kFarPixel);
+        out.pixel_x = std::clamp<double>(std::nearbyint(splat.mu_x), -kFarPixel, kFarPixel);
+        out.pixel_y = std::clamp<double>(std::nearbyint(splat.mu_y), -kFarPixel, kFarPixel);
     }
     out.mean_x = mean_(splat.mu_x - out.pixel_x);
     out.mean_y = mean_(splat.mu_y - out.pixel_y);

@@ -6,6 +6,10 @@
 
 namespace degs {
 
+/// A row or column beyond every image: what a float says is limited to it before it is an int, and
+/// it leaves room to add to it.
+constexpr int kFarPixel = 1 << 29;
+
 /// The record of a splat in the formats of a number set; double only carries the values.
 struct QuantizedSplat {
     double pixel_x = 0, pixel_y = 0; ///< Mean::PixelAndOffset: nearest pixel, else 0

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "splat/pixel_rules.hpp"
+
 namespace degs {
 namespace {
 
-constexpr double kAlphaMax = 0.99;
-constexpr double kStopTransmittance = 1e-4;
 /// Pixels this far outside Q_th need no exponential; far above the rounding of q.
 constexpr double kQMargin = 1e-6;
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "splat/pixel_rules.hpp"
+
 namespace degs {
 namespace {
 
-constexpr double kAlphaMin = 1.0 / 255.0;
-constexpr double kAlphaMax = 0.99;
 constexpr double kLog2e = 1.4426950408889634;
 
 /// 0 .. 1, the same on every machine: the engine's bits are fixed by the standard, its

@@ -16,9 +16,8 @@ struct Basis {
 
     Values values(int degree) const {
         const Scalar none = n(0.0);
-        Values out{{n(0.28209479177387814), // 1 / sqrt(4 pi)
-                    none, none, none, none, none, none, none, none, none, none, none, none, none,
-                    none, none}};
+        Values out{{n(kShY0), none, none, none, none, none, none, none, none, none, none, none,
+                    none, none, none, none}};
         if (degree >= 1) {
             fill_degree_1(out);
         }

@@ -10,6 +10,7 @@ namespace degs {
 
 constexpr int kMaxShDegree = 3;
 constexpr int kMaxShCoefficients = (kMaxShDegree + 1) * (kMaxShDegree + 1);
+constexpr double kShY0 = 0.28209479177387814; ///< Y_0 = 1 / sqrt(4 pi), in every direction
 
 /// Real spherical harmonics Y_k(direction) with the Condon-Shortley phase, k < (degree + 1)^2; the
 /// rest is 0. `direction` has length 1. Order inside a degree: m = -l .. +l.

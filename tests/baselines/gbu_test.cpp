@@ -123,9 +123,9 @@ TEST(SmallRunGbu, FramesOverlapAsFarAsTheyMay) {
 }
 
 /// A random GBU and random frames.
-class Draw {
+class RandomGbu {
 public:
-    explicit Draw(unsigned seed) : random_(seed) {}
+    explicit RandomGbu(unsigned seed) : random_(seed) {}
     int upto(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
     bool chance(int n) { return upto(n) == 0; }
     int among(std::initializer_list<int> values) {
@@ -165,7 +165,7 @@ private:
 class SmallRunGbuFidelity : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(SmallRunGbuFidelity, ExactIsStrict) {
-    Draw draw(GetParam());
+    RandomGbu draw(GetParam());
     const GbuConfig config = draw.config();
     std::vector<FrameWorkload> frames;
     for (int f = draw.chance(3) ? 4 : 1; f > 0; --f) {

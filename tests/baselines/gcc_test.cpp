@@ -12,9 +12,9 @@ using test::make_frame;
 using test::one_pixel;
 
 /// Random configurations whose sizes fit together.
-class Draw {
+class RandomGcc {
 public:
-    explicit Draw(unsigned seed) : random_(seed) {}
+    explicit RandomGcc(unsigned seed) : random_(seed) {}
     int upto(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n + 1)); }
     int among(std::initializer_list<int> values) {
         return values.begin()[upto(static_cast<int>(values.size()) - 1)];
@@ -73,7 +73,7 @@ class SmallRunGcc : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(SmallRunGcc, ExactIsStrict) {
     const unsigned index = GetParam();
-    Draw draw(index);
+    RandomGcc draw(index);
     const GccConfig config = draw.config(index);
     std::vector<FrameWorkload> frames;
     for (int f = index % 4 == 3 ? 3 : 1; f > 0; --f) {

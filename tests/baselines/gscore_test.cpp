@@ -12,9 +12,9 @@ using test::EngineRun;
 using test::make_frame;
 
 /// Random configurations whose sizes fit together.
-class Draw {
+class RandomGscore {
 public:
-    explicit Draw(unsigned seed) : random_(seed) {}
+    explicit RandomGscore(unsigned seed) : random_(seed) {}
     int upto(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n + 1)); }
     int among(std::initializer_list<int> values) {
         return values.begin()[upto(static_cast<int>(values.size()) - 1)];
@@ -67,7 +67,7 @@ class SmallRunGscore : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(SmallRunGscore, ExactIsStrict) {
     const unsigned index = GetParam();
-    Draw draw(index);
+    RandomGscore draw(index);
     const GscoreConfig config = draw.config(index);
     std::vector<FrameWorkload> frames;
     for (int f = index % 4 == 3 ? 3 : 1; f > 0; --f) {

@@ -15,8 +15,6 @@ using test::one_pixel;
 using test::one_row;
 using Config = LockstepArray::Config;
 
-constexpr Cycle kStart = LockstepBench::kStart;
-
 Config lanes(int n) {
     Config config;
     config.lanes = n;
@@ -39,7 +37,7 @@ void expect_one_tile(const Config& config, const std::vector<ProjectedSplat>& sp
     LockstepBench::start();
     const LockstepArray::Stats& stats = bench.stats();
     EXPECT_EQ(stats.passes, expected.passes);
-    EXPECT_EQ(stats.window.first, kStart);
+    EXPECT_EQ(stats.window.first, LockstepBench::kStart);
     EXPECT_EQ(stats.window.cycles(), expected.passes);
     EXPECT_EQ(stats.slots.useful, expected.useful);
     EXPECT_EQ(stats.slots.boundary,
@@ -144,7 +142,7 @@ TEST_P(Termination, TileStopsWhenItsLastSubtileIsSeenDone) {
     EXPECT_EQ(bench.stats().pixels_ended, 256U);
     EXPECT_EQ(bench.stats().splats, late == 0 ? 3U : 4U);
     EXPECT_EQ(bench.stats().tiles_stopped, 0U); // the list was there to its end
-    const Cycle stop = kStart + 12 + late;
+    const Cycle stop = LockstepBench::kStart + 12 + late;
     EXPECT_EQ(bench.tile_state[0], stop + 1);
     EXPECT_EQ(bench.tile_done[0], stop + static_cast<Cycle>(config.pipeline_cycles));
     EXPECT_TRUE(bench.all_ended[0]);
@@ -161,8 +159,8 @@ TEST_P(ChunkAfterTheEnd, IsWorkedOnWhileTheEndIsNotSeen) {
     LockstepBench bench(
         "bench", config,
         make_frame(std::vector<ProjectedSplat>(20, blanket(8, 8, 1e4, 0.98)), 16, 16, 16), {});
-    bench.chunk(0, 3, kStart);
-    bench.chunk(0, 17, kStart + GetParam());
+    bench.chunk(0, 3, LockstepBench::kStart);
+    bench.chunk(0, 17, LockstepBench::kStart + GetParam());
     LockstepBench::start();
     // Cycles 14, 15 (sub-tiles 2, 3 are seen done from 18, 19 on; 0 and 1 from 16, 17 on): the
     // splats of the chunk go round the sub-tiles that are not seen done yet, a slot per cycle.
@@ -171,7 +169,7 @@ TEST_P(ChunkAfterTheEnd, IsWorkedOnWhileTheEndIsNotSeen) {
     EXPECT_EQ(bench.stats().slots.terminated, 256 + used * 64);
     EXPECT_EQ(bench.stats().slots.starved, used == 0 ? 0 : (GetParam() - 12) * 64);
     EXPECT_EQ(bench.stats().tiles_stopped, used == 0 ? 1U : 0U);
-    EXPECT_EQ(bench.tile_state[0], kStart + 19 + 1);
+    EXPECT_EQ(bench.tile_state[0], LockstepBench::kStart + 19 + 1);
     EXPECT_TRUE(bench.all_ended[0]);
     bench.expect_sound();
 }
@@ -251,8 +249,8 @@ TEST(LockstepClusters, DoNotWaitForEachOtherWithinATile) {
     std::vector<ProjectedSplat> splats(8, one_pixel(3, 3, 0.1)); // sub-tile 0: 16 cycles
     splats.insert(splats.end(), 8, one_pixel(11, 3, 0.1));       // sub-tile 1
     LockstepBench bench("bench", config, make_frame(splats, 16, 16, 16), {});
-    bench.chunk(0, 8, kStart);
-    bench.chunk(0, 8, kStart + 5);
+    bench.chunk(0, 8, LockstepBench::kStart);
+    bench.chunk(0, 8, LockstepBench::kStart + 5);
     LockstepBench::start();
     EXPECT_EQ(bench.stats().window.cycles(), 5U + 16);
     EXPECT_EQ(bench.stats().slots.starved, 5U * 32); // cluster 1 until its first splat

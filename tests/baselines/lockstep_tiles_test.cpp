@@ -14,8 +14,6 @@ using test::make_frame;
 using test::one_pixel;
 using Config = LockstepArray::Config;
 
-constexpr Cycle kStart = LockstepBench::kStart;
-
 /// `tiles` tiles in a row, all covered by each of `count` splats.
 FrameWorkload blankets(int tiles, int count, double opacity) {
     return make_frame(std::vector<ProjectedSplat>(static_cast<std::size_t>(count),
@@ -63,14 +61,14 @@ TEST_P(StarvedAndBlocked, AreToldApart) {
     sizes.contexts = 1;
     sizes.readout = 20;
     LockstepBench bench("bench", config, blankets(2, 10, 0.1), sizes);
-    const Cycle free = kStart + 40 + 27;
+    const Cycle free = LockstepBench::kStart + 40 + 27;
     const Cycle there = free + static_cast<Cycle>(5 + GetParam()) - 5;
-    bench.chunk(0, 10, kStart);
+    bench.chunk(0, 10, LockstepBench::kStart);
     bench.chunk(1, 10, there);
     LockstepBench::start();
     const Cycle blocked = there < free ? free - there : 0;
     EXPECT_EQ(bench.stats().slots.blocked, blocked * 64);
-    EXPECT_EQ(bench.stats().slots.starved, (there - (kStart + 40)) * 64);
+    EXPECT_EQ(bench.stats().slots.starved, (there - (LockstepBench::kStart + 40)) * 64);
     EXPECT_EQ(bench.stats().window.last, std::max(free, there) + 39);
     bench.expect_sound();
 }
@@ -97,12 +95,12 @@ TEST(LockstepTiles, RestOfAStoppedTileIsDroppedOnTheSide) {
     LockstepBench::Sizes sizes;
     sizes.inputs = 2;
     LockstepBench bench("bench", {}, blankets(4, 20, 0.98), sizes);
-    bench.chunk(0, 5, kStart);
-    bench.chunk(0, 5, kStart + 2);   // there when the tile stops
-    bench.chunk(0, 10, kStart + 20); // comes in the middle of tile 1
-    bench.chunk(1, 20, kStart);
-    bench.chunk(2, 20, kStart + 21);
-    bench.chunk(3, 20, kStart);
+    bench.chunk(0, 5, LockstepBench::kStart);
+    bench.chunk(0, 5, LockstepBench::kStart + 2);   // there when the tile stops
+    bench.chunk(0, 10, LockstepBench::kStart + 20); // comes in the middle of tile 1
+    bench.chunk(1, 20, LockstepBench::kStart);
+    bench.chunk(2, 20, LockstepBench::kStart + 21);
+    bench.chunk(3, 20, LockstepBench::kStart);
     LockstepBench::start();
     // 12 slots a tile; tile 1 follows at once, tile 2 when it is there.
     EXPECT_EQ(bench.stats().window.cycles(), 4U * 12);
@@ -110,16 +108,17 @@ TEST(LockstepTiles, RestOfAStoppedTileIsDroppedOnTheSide) {
     EXPECT_EQ(bench.stats().tiles_stopped, 1U);
     EXPECT_EQ(bench.stats().splats, 4U * 3);
     EXPECT_EQ(bench.tile_state,
-              (std::vector<Cycle>{kStart + 13, kStart + 25, kStart + 37, kStart + 49}));
+              (std::vector<Cycle>{LockstepBench::kStart + 13, LockstepBench::kStart + 25,
+                                  LockstepBench::kStart + 37, LockstepBench::kStart + 49}));
     bench.expect_sound();
 }
 
 // With one input the next tile's list is behind the rest of the stopped one.
 TEST(LockstepTiles, WithOneInputTheRestIsInTheWay) {
     LockstepBench bench("bench", {}, blankets(2, 20, 0.98), {});
-    bench.chunk(0, 5, kStart);
-    bench.chunk(0, 15, kStart + 50);
-    bench.chunk(1, 20, kStart + 60);
+    bench.chunk(0, 5, LockstepBench::kStart);
+    bench.chunk(0, 15, LockstepBench::kStart + 50);
+    bench.chunk(1, 20, LockstepBench::kStart + 60);
     LockstepBench::start();
     EXPECT_EQ(bench.stats().window.cycles(), 60U + 12);
     EXPECT_EQ(bench.stats().slots.starved, (60U - 12) * 64);

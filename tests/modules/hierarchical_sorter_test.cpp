@@ -10,18 +10,11 @@ namespace {
 
 using test::make_frame;
 using test::one_pixel;
-using Bench = test::UnitBench;
-
-FrameWorkload many_splats(int count) {
-    std::vector<ProjectedSplat> splats;
-    for (int i = 0; i < count; ++i) {
-        splats.push_back(one_pixel(i % 16, i / 16 % 16));
-    }
-    return make_frame(splats, 16, 16, 16);
-}
+using test::one_pixel_splats;
+using test::UnitBench;
 
 struct SorterBench {
-    Bench bench;
+    UnitBench bench;
     HierarchicalSorter sorter;
     DatedFifo<std::uint32_t> start;
     DatedFifo<SortedRun> sorted;
@@ -29,7 +22,7 @@ struct SorterBench {
 
     SorterBench(int keys, const HierarchicalSorter::Config& config, std::uint64_t capacity,
                 std::size_t depth = 64, Cycle cancelled = kNever)
-        : bench(many_splats(keys)),
+        : bench(one_pixel_splats(keys)),
           sorter("sorter", config, {}, bench.time, bench.job, 0, capacity),
           start("start", bench.time, 1), sorted("sorted", bench.time, depth),
           cancel("cancel", bench.time, 4) {
@@ -61,18 +54,18 @@ HierarchicalSorter::Config small(int chunk) {
     return config;
 }
 
-struct SortCase {
+struct ChunkSortCase {
     int keys, chunk, levels;
 };
-std::ostream& operator<<(std::ostream& out, const SortCase& c) {
+std::ostream& operator<<(std::ostream& out, const ChunkSortCase& c) {
     return out << c.keys << "_by_" << c.chunk;
 }
-class HierarchicalSorting : public ::testing::TestWithParam<SortCase> {};
+class HierarchicalSorting : public ::testing::TestWithParam<ChunkSortCase> {};
 
 // Start at 100, list there at 101; ceil(log2(n / chunk)) levels of ceil(n / 4) cycles, then chunk
 // after chunk, each a cycle for the question whether the tile is cancelled and 3 per key.
 TEST_P(HierarchicalSorting, LevelsThenChunksOneAfterTheOther) {
-    const SortCase& c = GetParam();
+    const ChunkSortCase& c = GetParam();
     SorterBench units(c.keys, small(c.chunk), 1U << 20U);
     const auto& got = units.bench.drain(units.sorted);
     sc_core::sc_start();
@@ -93,10 +86,10 @@ TEST_P(HierarchicalSorting, LevelsThenChunksOneAfterTheOther) {
               static_cast<std::uint64_t>((c.keys * 8 + 63) / 64 * 64));
 }
 INSTANTIATE_TEST_SUITE_P(Lists, HierarchicalSorting,
-                         ::testing::Values(SortCase{1, 16, 0}, SortCase{16, 16, 0},
-                                           SortCase{17, 16, 1}, SortCase{32, 16, 1},
-                                           SortCase{33, 16, 2}, SortCase{200, 16, 4},
-                                           SortCase{200, 256, 0}),
+                         ::testing::Values(ChunkSortCase{1, 16, 0}, ChunkSortCase{16, 16, 0},
+                                           ChunkSortCase{17, 16, 1}, ChunkSortCase{32, 16, 1},
+                                           ChunkSortCase{33, 16, 2}, ChunkSortCase{200, 16, 4},
+                                           ChunkSortCase{200, 256, 0}),
                          ::testing::PrintToStringParamName());
 
 // 200 keys where 50 fit: two levels (100, 50) read and write everything, the last two happen in the

@@ -21,7 +21,7 @@ TaskRun run_of(std::uint32_t mask, std::int16_t row = 0, TileNumber tile = 0) {
 }
 
 /// A Packing Unit of four tasks per packet, a bank that drives it and an array that listens.
-struct Bench {
+struct PackingBench {
     struct Got {
         Cycle date;
         TaskPacket packet;
@@ -34,7 +34,7 @@ struct Bench {
     std::vector<Got> got;
     std::unique_ptr<Script> driver, listener;
 
-    Bench() { unit.out.bind(ring); }
+    PackingBench() { unit.out.bind(ring); }
     void drive(const std::function<void()>& body) {
         ring.connect_writer(bank);
         driver = std::make_unique<Script>("driver", [this, body] {
@@ -65,7 +65,7 @@ int bits(std::uint32_t mask) {
 
 // Segments of 3, 6, 1 and 2 tasks: 12 tasks, 3 packets of 4, nothing reordered.
 TEST(PackingUnit, CompactsSegmentsInOrder) {
-    Bench bench;
+    PackingBench bench;
     const std::uint32_t masks[] = {0xE0, 0x3F00, 0x1, 0x30000};
     bench.drive([&] {
         bench.bank.advance(10);
@@ -111,7 +111,7 @@ TEST(PackingUnit, CompactsSegmentsInOrder) {
 
 // A packet that is not full waits for company as long as the array is busy, and goes in time.
 TEST(PackingUnit, AnOpenPacketGoesWhenItsSlotComes) {
-    Bench bench;
+    PackingBench bench;
     bench.drive([&] {
         EXPECT_EQ(bench.unit.open_until(), kNever);
         EXPECT_EQ(bench.add(run_of(0xFFF)), kLatency + 2); // slots 2, 3, 4
@@ -141,7 +141,7 @@ TEST(PackingUnit, AnOpenPacketGoesWhenItsSlotComes) {
 
 // Slots after the last packet are the drain's, not the unit's.
 TEST(PackingUnit, NothingIsIdleAfterTheLastPacket) {
-    Bench bench;
+    PackingBench bench;
     bench.drive([&] {
         bench.next_cycle(50);
         bench.add(run_of(0xF));
@@ -153,7 +153,7 @@ TEST(PackingUnit, NothingIsIdleAfterTheLastPacket) {
 
 // depth 8 packets of 4 tasks: room counts what the array has not taken yet.
 TEST(PackingUnit, RoomIsTheBufferMinusWhatIsQueued) {
-    Bench bench;
+    PackingBench bench;
     bench.drive([&] {
         EXPECT_TRUE(bench.unit.room(0, 32));
         EXPECT_FALSE(bench.unit.room(0, 33));
@@ -172,7 +172,7 @@ TEST(PackingUnit, RoomIsTheBufferMinusWhatIsQueued) {
 // An end of tile rides on the open packet that holds the tile's last tasks, or travels alone and
 // costs the array no cycle.
 TEST(PackingUnit, EndsOfTilesCostNothing) {
-    Bench bench;
+    PackingBench bench;
     bench.drive([&] {
         bench.unit.end_tile(bench.bank, 0); // alone
         bench.add(run_of(0x3, 0, 1));

@@ -13,21 +13,14 @@ namespace {
 
 using test::make_frame;
 using test::one_pixel;
-using Bench = test::UnitBench;
+using test::one_pixel_splats;
+using test::UnitBench;
 
 /// `count` one-pixel splats on one tile.
-FrameWorkload many_splats(int count) {
-    std::vector<ProjectedSplat> splats;
-    for (int i = 0; i < count; ++i) {
-        splats.push_back(one_pixel(i % 16, i / 16 % 16));
-    }
-    return make_frame(splats, 16, 16, 16);
-}
-
 // Chunk k is read at k, projected in 10 cycles behind its predecessor, 32 cycles deep, then shaded
 // at 3 cycles per splat.
 TEST(ProjectionUnit, ThreeStepsOverlap) {
-    Bench bench(many_splats(40));
+    UnitBench bench(one_pixel_splats(40));
     ProjectionUnit::Config config;
     config.count = 1;
     config.chunk = 10;
@@ -53,7 +46,7 @@ TEST(ProjectionUnit, ThreeStepsOverlap) {
 
 // pairs / rate cycles per chunk, at least one; lists are complete when their last write is.
 TEST(TileBinner, AFrameIsBinnedWhenItsListsAreInMemory) {
-    Bench bench(many_splats(50));
+    UnitBench bench(one_pixel_splats(50));
     TileBinner::Config config;
     config.pairs_per_cycle = 4;
     TileBinner unit("unit", config, {}, bench.time, bench.job, 10, 1, 1);
@@ -93,7 +86,7 @@ struct SortAndFetch {
     DatedFifo<TileNumber> cancel;
     DatedFifo<SplatChunk> out;
 
-    SortAndFetch(Bench& bench, const SortingUnit::Config& config, std::uint64_t capacity)
+    SortAndFetch(UnitBench& bench, const SortingUnit::Config& config, std::uint64_t capacity)
         : sorter("sorter", config, {}, bench.time, bench.job, 0, capacity),
           fetcher("fetcher", {}, {}, bench.time, bench.job, 1, false),
           start("start", bench.time, 1), sorted("sorted", bench.time, 1),
@@ -113,19 +106,19 @@ struct SortAndFetch {
     }
 };
 
-struct SortCase {
+struct MergeSortCase {
     int keys, ways, rate, passes;
 };
-std::ostream& operator<<(std::ostream& out, const SortCase& c) {
+std::ostream& operator<<(std::ostream& out, const MergeSortCase& c) {
     return out << c.keys << "_keys_" << c.ways << "_ways_" << c.rate << "_per_cycle";
 }
-class Sorting : public ::testing::TestWithParam<SortCase> {};
+class Sorting : public ::testing::TestWithParam<MergeSortCase> {};
 
 // Load 1 cycle, ceil(keys x passes / rate) cycles of merging, then a chunk of records per two
 // cycles (one for the question whether the tile is cancelled).
 TEST_P(Sorting, MergePassesOverTheRate) {
-    const SortCase& c = GetParam();
-    Bench bench(many_splats(c.keys));
+    const MergeSortCase& c = GetParam();
+    UnitBench bench(one_pixel_splats(c.keys));
     SortingUnit::Config config;
     config.count = 1;
     config.keys_per_cycle = c.rate;
@@ -146,13 +139,13 @@ TEST_P(Sorting, MergePassesOverTheRate) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lists, Sorting,
-                         ::testing::Values(SortCase{1, 16, 4, 1}, SortCase{16, 16, 4, 1},
-                                           SortCase{17, 16, 4, 2}, SortCase{100, 2, 3, 7},
-                                           SortCase{200, 16, 8, 2}));
+                         ::testing::Values(MergeSortCase{1, 16, 4, 1}, MergeSortCase{16, 16, 4, 1},
+                                           MergeSortCase{17, 16, 4, 2}, MergeSortCase{100, 2, 3, 7},
+                                           MergeSortCase{200, 16, 8, 2}));
 
 // Lists longer than the buffer: ceil(log_ways runs) more passes, each writing and reading all.
 TEST(SortingUnit, LongListsTakeExtraPassesThroughMemory) {
-    Bench bench(many_splats(200));
+    UnitBench bench(one_pixel_splats(200));
     SortingUnit::Config config;
     config.count = 1;
     config.merge_ways = 2;

@@ -8,15 +8,15 @@ namespace {
 using test::blanket;
 using test::one_pixel;
 using test::one_row;
-using Bench = test::SchedulerBench;
+using test::SchedulerBench;
 
 class FirstExecution : public ::testing::TestWithParam<int> {};
 
 // Issued in the cycle in which the span enters, executed the packing latency later.
 TEST_P(FirstExecution, IsThePackingLatencyAfterTheSpan) {
-    Bench::Sizes sizes;
+    SchedulerBench::Sizes sizes;
     sizes.packing_latency = GetParam();
-    Bench bench(sizes, {one_row(0, 15, 3)});
+    SchedulerBench bench(sizes, {one_row(0, 15, 3)});
     bench.run({{37, 0, 3}});
     EXPECT_EQ(bench.stats().window.first, 37U + static_cast<Cycle>(GetParam()));
     EXPECT_EQ(bench.stats().window.last, bench.stats().window.first);
@@ -27,10 +27,10 @@ TEST_P(FirstExecution, IsThePackingLatencyAfterTheSpan) {
 
 // The slice hands its tile over in the cycle after the last packet, and it is written back then.
 TEST_P(FirstExecution, TheTileIsDoneWhenItsLastPixelIsWrittenBack) {
-    Bench::Sizes sizes;
+    SchedulerBench::Sizes sizes;
     sizes.packing_latency = GetParam();
     sizes.writeback = 3;
-    Bench bench(sizes, {one_row(0, 15, 3)});
+    SchedulerBench bench(sizes, {one_row(0, 15, 3)});
     bench.run({{37, 0, 3}});
     EXPECT_EQ(bench.tile_done, std::vector<Cycle>{bench.stats().window.last + 1 + 3});
     EXPECT_EQ(bench.tile_state, bench.tile_done);
@@ -43,10 +43,10 @@ class FullTile : public ::testing::TestWithParam<int> {};
 // 16 rows of 16 px, one row per cycle: as soon as a packet takes no more than a cycle brings, the
 // array never waits; packets = ceil(tasks / width).
 TEST_P(FullTile, PacketsAreTasksOverWidth) {
-    Bench::Sizes sizes;
+    SchedulerBench::Sizes sizes;
     sizes.width = GetParam();
-    Bench bench(sizes, {blanket(8, 8, 16)});
-    bench.run(Bench::rows(0, 16, 20, 1));
+    SchedulerBench bench(sizes, {blanket(8, 8, 16)});
+    bench.run(SchedulerBench::rows(0, 16, 20, 1));
     const auto packets = static_cast<Cycle>((256 + sizes.width - 1) / sizes.width);
     EXPECT_EQ(bench.stats().packets, packets);
     EXPECT_EQ(bench.stats().window.first, 22U);
@@ -64,11 +64,11 @@ class Reuse : public ::testing::TestWithParam<int> {};
 // waits in the bank.
 TEST_P(Reuse, OnePixelSplatsExecuteTheReuseDistanceApart) {
     constexpr std::uint32_t kSplats = 12;
-    Bench::Sizes sizes;
+    SchedulerBench::Sizes sizes;
     sizes.reuse = GetParam();
     sizes.writeback = std::min(GetParam(), 4);
-    Bench bench(sizes, std::vector<ProjectedSplat>(kSplats, one_pixel(5, 5, 0.1)));
-    std::vector<Bench::Feed> feeds;
+    SchedulerBench bench(sizes, std::vector<ProjectedSplat>(kSplats, one_pixel(5, 5, 0.1)));
+    std::vector<SchedulerBench::Feed> feeds;
     for (std::uint32_t i = 0; i < kSplats; ++i) {
         feeds.push_back({10, i, 5});
     }
@@ -85,11 +85,11 @@ TEST_P(Reuse, OnePixelSplatsExecuteTheReuseDistanceApart) {
 
 // A segment over several packets is busy until its last one has executed.
 TEST_P(Reuse, CountsFromTheLastPacketOfASegment) {
-    Bench::Sizes sizes;
+    SchedulerBench::Sizes sizes;
     sizes.width = 4; // 16 px: four packets
     sizes.reuse = GetParam();
     sizes.writeback = 1;
-    Bench bench(sizes, {one_row(0, 15, 2, 0.1), one_row(0, 15, 2, 0.1)});
+    SchedulerBench bench(sizes, {one_row(0, 15, 2, 0.1), one_row(0, 15, 2, 0.1)});
     bench.run({{10, 0, 2}, {10, 1, 2}});
     EXPECT_EQ(bench.stats().packets, 8U);
     // 12 .. 15, then 15 + reuse .. 18 + reuse
@@ -100,8 +100,8 @@ INSTANTIATE_TEST_SUITE_P(Distances, Reuse, ::testing::Values(1, 4, 5, 13));
 
 // Other rows fill the cycles between two updates of a row.
 TEST(IssueBank, OtherDomainsFillTheGap) {
-    Bench bench({}, std::vector<ProjectedSplat>(3, blanket(8, 8, 16, 0.1)));
-    std::vector<Bench::Feed> feeds;
+    SchedulerBench bench({}, std::vector<ProjectedSplat>(3, blanket(8, 8, 16, 0.1)));
+    std::vector<SchedulerBench::Feed> feeds;
     for (std::uint32_t splat = 0; splat < 3; ++splat) {
         for (int row = 0; row < 4; ++row) {
             feeds.push_back({10, splat, row});
@@ -128,12 +128,12 @@ class TerminationOf : public ::testing::TestWithParam<Feedback> {};
 TEST_P(TerminationOf, SegmentsBehindTheReportAreDropped) {
     constexpr std::uint64_t kSplats = 20;
     const Feedback f = GetParam();
-    Bench::Sizes sizes;
+    SchedulerBench::Sizes sizes;
     sizes.packing_latency = f.packing_latency;
     sizes.reuse = f.reuse;
     sizes.writeback = f.writeback;
-    Bench bench(sizes, std::vector<ProjectedSplat>(kSplats, blanket(8, 8, 1e4, 0.98)));
-    std::vector<Bench::Feed> feeds;
+    SchedulerBench bench(sizes, std::vector<ProjectedSplat>(kSplats, blanket(8, 8, 1e4, 0.98)));
+    std::vector<SchedulerBench::Feed> feeds;
     for (std::uint32_t i = 0; i < kSplats; ++i) {
         feeds.push_back({10, i, 0});
     }
@@ -156,8 +156,8 @@ INSTANTIATE_TEST_SUITE_P(Delays, TerminationOf,
                                            Feedback{9, 5, 5}));
 
 /// Three splats end one pixel; six more cover its whole row.
-std::vector<Bench::Feed> end_one_pixel(std::vector<ProjectedSplat>& splats) {
-    std::vector<Bench::Feed> feeds;
+std::vector<SchedulerBench::Feed> end_one_pixel(std::vector<ProjectedSplat>& splats) {
+    std::vector<SchedulerBench::Feed> feeds;
     for (std::uint32_t i = 0; i < 9; ++i) {
         splats.push_back(i < 3 ? one_pixel(4, 0, 0.98) : one_row(0, 15, 0, 0.1));
         feeds.push_back({i < 3 ? Cycle{10} : Cycle{60}, i, 0});
@@ -168,9 +168,9 @@ std::vector<Bench::Feed> end_one_pixel(std::vector<ProjectedSplat>& splats) {
 TEST(IssueBank, ByPixelsEndedPixelsAreMaskedOut) {
     std::vector<ProjectedSplat> splats;
     const auto feeds = end_one_pixel(splats);
-    Bench::Sizes sizes;
+    SchedulerBench::Sizes sizes;
     sizes.grain = TerminationGrain::Pixel;
-    Bench bench(sizes, splats);
+    SchedulerBench bench(sizes, splats);
     bench.run(feeds);
     EXPECT_EQ(bench.stats().slots.useful, 2U + 6 * 15);
     EXPECT_EQ(bench.stats().slots.terminated, 1U);
@@ -180,7 +180,7 @@ TEST(IssueBank, ByPixelsEndedPixelsAreMaskedOut) {
 TEST(IssueBank, BySegmentsEndedPixelsCostTheirSlots) {
     std::vector<ProjectedSplat> splats;
     const auto feeds = end_one_pixel(splats);
-    Bench bench({}, splats);
+    SchedulerBench bench({}, splats);
     bench.run(feeds);
     EXPECT_EQ(bench.stats().slots.useful, 2U + 6 * 15);
     EXPECT_EQ(bench.stats().slots.terminated, 1U + 6);
@@ -189,9 +189,9 @@ TEST(IssueBank, BySegmentsEndedPixelsCostTheirSlots) {
 
 // One context: the second tile's segments wait in the bank until the Pixel Buffer hands it back.
 TEST(IssueBank, TheNextTileStartsWhenItsContextIsFree) {
-    Bench bench({}, {blanket(16, 8, 32, 0.2)}, 16, 2);
+    SchedulerBench bench({}, {blanket(16, 8, 32, 0.2)}, 16, 2);
     bench.next_context = 100;
-    std::vector<Bench::Feed> feeds = Bench::rows(0, 4, 10);
+    std::vector<SchedulerBench::Feed> feeds = SchedulerBench::rows(0, 4, 10);
     for (int row = 0; row < 4; ++row) {
         feeds.push_back({10, 0, row, 1});
     }
@@ -207,13 +207,13 @@ TEST(IssueBank, TheNextTileStartsWhenItsContextIsFree) {
 class Hazards : public ::testing::TestWithParam<bool> {};
 
 TEST_P(Hazards, OnlyTheScoreboardPreventsThem) {
-    Bench::Sizes sizes;
+    SchedulerBench::Sizes sizes;
     sizes.width = 4;
     sizes.packets = 64;
     sizes.scoreboard = GetParam();
     constexpr std::uint32_t kSplats = 30;
-    Bench bench(sizes, std::vector<ProjectedSplat>(kSplats, blanket(8, 8, 100, 0.05)));
-    std::vector<Bench::Feed> feeds;
+    SchedulerBench bench(sizes, std::vector<ProjectedSplat>(kSplats, blanket(8, 8, 100, 0.05)));
+    std::vector<SchedulerBench::Feed> feeds;
     for (std::uint32_t i = 0; i < kSplats; ++i) {
         feeds.push_back({10, i, static_cast<int>(i % 2)});
     }

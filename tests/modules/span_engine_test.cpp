@@ -15,11 +15,11 @@ using test::blanket;
 using test::make_frame;
 using test::one_pixel;
 using test::one_row;
-using Bench = test::UnitBench;
+using test::UnitBench;
 
 // A row per cycles_per_row; its span is there a latency later; an empty row costs its cycle too.
 TEST(SpanUnit, ARowPerIntervalAndTheLatencyOfThePipeline) {
-    Bench bench(make_frame({one_row(2, 9, 1), one_row(2, 9, 3)}, 16, 16, 16));
+    UnitBench bench(make_frame({one_row(2, 9, 1), one_row(2, 9, 3)}, 16, 16, 16));
     SpanUnit::Config config;
     config.count = 1;
     config.cycles_per_row = 3;
@@ -63,7 +63,8 @@ class Slicing : public ::testing::TestWithParam<int> {};
 
 // `rows_per_cycle` rows of a splat per cycle, a new splat in a new cycle.
 TEST_P(Slicing, RowsPerCycle) {
-    Bench bench(make_frame({blanket(8, 8, 32), one_pixel(3, 4), blanket(8, 8, 32)}, 16, 16, 16));
+    UnitBench bench(
+        make_frame({blanket(8, 8, 32), one_pixel(3, 4), blanket(8, 8, 32)}, 16, 16, 16));
     GaussianSlicingUnit::Config config;
     config.count = 1;
     config.rows_per_cycle = GetParam();
@@ -104,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Rates, Slicing, ::testing::Values(1, 3, 4, 16));
 
 // A cancelled tile's chunks go by at one per cycle and send nothing but the end.
 TEST(GaussianSlicingUnit, DropsWhatWasCancelled) {
-    Bench bench(make_frame({blanket(8, 8, 32)}, 16, 16, 16));
+    UnitBench bench(make_frame({blanket(8, 8, 32)}, 16, 16, 16));
     GaussianSlicingUnit::Config config;
     config.count = 1;
     GaussianSlicingUnit unit("unit", config, bench.time, bench.job, 0, 1, 1, 0, 16);
@@ -138,7 +139,7 @@ TEST(GaussianSlicingUnit, DropsWhatWasCancelled) {
 
 // Reports of all slices, then the latency of the ring that stands for the wires.
 TEST(TileMonitor, CancelsWhenTheLastSliceHasReported) {
-    Bench bench(make_frame({blanket(16, 8, 64)}, 32, 16, 16)); // two tiles
+    UnitBench bench(make_frame({blanket(16, 8, 64)}, 32, 16, 16)); // two tiles
     const TileMonitor::Config config;
     TileMonitor unit("unit", config, bench.time, bench.job, 2, 1);
     DatedFifo<SliceReport> slice0("slice0", bench.time, 4, 4);
@@ -167,7 +168,7 @@ TEST(TileMonitor, CancelsWhenTheLastSliceHasReported) {
 
 // A tile is read out at readout_pixels per cycle; its context is free then.
 TEST(PixelBuffer, ContextsComeBackAfterTheReadout) {
-    Bench bench(make_frame({blanket(24, 8, 64)}, 48, 13, 16)); // three tiles of 16 x 13
+    UnitBench bench(make_frame({blanket(24, 8, 64)}, 48, 13, 16)); // three tiles of 16 x 13
     PixelBuffer::Config config;
     config.readout_pixels = 10;
     PixelBuffer unit("unit", config, {}, bench.time, bench.job, 2, 1, PixelBuffer::Share{});

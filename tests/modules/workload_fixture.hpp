@@ -85,4 +85,13 @@ inline FrameWorkload random_frame(unsigned seed, int width, int height, int tile
     return make_frame(splats, width, height, tile_size);
 }
 
+/// Splats of one pixel each, in one tile.
+inline FrameWorkload one_pixel_splats(int count) {
+    std::vector<ProjectedSplat> splats;
+    for (int i = 0; i < count; ++i) {
+        splats.push_back(one_pixel(i % 16, i / 16 % 16));
+    }
+    return make_frame(splats, 16, 16, 16);
+}
+
 } // namespace degs::test

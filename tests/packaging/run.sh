@@ -49,6 +49,8 @@ PKG_CONFIG_LIBDIR=$work/no_pkg_config cmake -S "$here/embedded" -B "$embedded" -
     -DDEGS_SOURCE="$sources" -DSystemCLanguage_DIR="$work/systemc" -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_BUILD_TYPE="$(cached CMAKE_BUILD_TYPE)" -DDEGS_ARCH="$(cached DEGS_ARCH)" \
     -DDEGS_WARNINGS_AS_ERRORS="$(cached DEGS_WARNINGS_AS_ERRORS)" -DDEGS_FAT_ARCHIVES="$(cached DEGS_FAT_ARCHIVES)" \
+    -DCMAKE_UNITY_BUILD="$(cached CMAKE_UNITY_BUILD)" \
+    -DCMAKE_UNITY_BUILD_BATCH_SIZE="$(cached CMAKE_UNITY_BUILD_BATCH_SIZE)" \
     -DCMAKE_CXX_COMPILER_LAUNCHER="$(cached DEGS_CCACHE)" >"$work/embedded.log" ||
     { cat "$work/embedded.log"; exit 1; }
 if grep -q '^SYSTEMC_FOUND:INTERNAL=1' "$embedded/CMakeCache.txt"; then

@@ -28,7 +28,7 @@ std::string file_with(const std::string& key, const std::string& value) {
     return out + "}]";
 }
 
-std::string complaint_about(const std::string& text) {
+std::string complaint_about_cameras(const std::string& text) {
     const test::Folder folder;
     const std::string path = folder.write("cameras.json", text);
     std::string sentence = test::complaint([&] { read_cameras(path); });
@@ -68,8 +68,8 @@ TEST(HostileCameras, EveryMistakeHasItsSentence) {
         {"rotation", "[[1,0,0],[0,1,0],[0,0,-1]]", "mirrors"},
     };
     for (const auto& [key, value, sentence] : cases) {
-        EXPECT_THAT(complaint_about(file_with(key, value)), IsSentenceWith(sentence));
-        EXPECT_THAT(complaint_about(file_with(key, value)), IsSentenceWith("camera 0"));
+        EXPECT_THAT(complaint_about_cameras(file_with(key, value)), IsSentenceWith(sentence));
+        EXPECT_THAT(complaint_about_cameras(file_with(key, value)), IsSentenceWith("camera 0"));
     }
 }
 
@@ -88,11 +88,11 @@ TEST(HostileCameras, FilesThatAreNoCameraFiles) {
         {file_with("width", "64") + "x", "not valid JSON"},
     };
     for (const auto& [text, sentence] : cases) {
-        EXPECT_THAT(complaint_about(text), IsSentenceWith(sentence));
+        EXPECT_THAT(complaint_about_cameras(text), IsSentenceWith(sentence));
     }
     const std::string deep = std::string(100000, '[') + std::string(100000, ']');
-    EXPECT_THAT(complaint_about(deep), IsSentenceWith("camera 0 is not an object"));
-    EXPECT_THAT(complaint_about(""), IsSentenceWith("empty"));
+    EXPECT_THAT(complaint_about_cameras(deep), IsSentenceWith("camera 0 is not an object"));
+    EXPECT_THAT(complaint_about_cameras(""), IsSentenceWith("empty"));
     EXPECT_THAT(test::complaint([] { read_cameras("/no/such/cameras.json"); }),
                 IsSentenceWith("/no/such/cameras.json: there is no such file"));
 }
@@ -101,7 +101,7 @@ TEST(HostileCameras, NameTheEntry) {
     std::string two = file_with("width", "64");
     two.pop_back();
     two += "," + file_with("fx", "0").substr(1);
-    EXPECT_THAT(complaint_about(two), IsSentenceWith("camera 1 "));
+    EXPECT_THAT(complaint_about_cameras(two), IsSentenceWith("camera 1 "));
 }
 
 } // namespace

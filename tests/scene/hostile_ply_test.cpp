@@ -24,7 +24,7 @@ PlyBuilder good(int rest_count = 0) {
     return ply;
 }
 
-std::string complaint_about(const std::string& bytes) {
+std::string complaint_about_ply(const std::string& bytes) {
     const test::Folder folder;
     const std::string path = folder.write("bad.ply", bytes);
     std::string sentence = test::complaint([&] { read_ply(path); });
@@ -57,7 +57,7 @@ TEST(HostilePly, CountsThatLie) {
             PlyBuilder ply = good();
             ply.format = format;
             ply.count = count;
-            EXPECT_THAT(complaint_about(ply.file()),
+            EXPECT_THAT(complaint_about_ply(ply.file()),
                         IsSentenceWith(std::string(format) == "ascii" && std::string(count) == "4"
                                            ? "truncated"
                                            : count));
@@ -66,7 +66,7 @@ TEST(HostilePly, CountsThatLie) {
     for (const char* const count : {"-1", "18446744073709551616", "3.5", "many", "0x10"}) {
         PlyBuilder ply = good();
         ply.count = count;
-        EXPECT_THAT(complaint_about(ply.file()), IsSentenceWith("is not an integer"));
+        EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("is not an integer"));
     }
 }
 
@@ -75,7 +75,7 @@ TEST(HostilePly, CountsThatLieBeforeTheVertices) {
          {"property float a\n", "property list uchar int a\n", "property double a\n"}) {
         PlyBuilder ply = good();
         ply.before = std::string("element other 9223372036854775808\n") + properties;
-        EXPECT_THAT(complaint_about(ply.file()), IsSentenceWith("9223372036854775808"));
+        EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("9223372036854775808"));
     }
     PlyBuilder ply = good(); // rows of nothing cost nothing
     ply.before = "element other 9223372036854775808\n";
@@ -87,17 +87,17 @@ TEST(HostilePly, ListsThatLie) {
     PlyBuilder ply = good();
     ply.before = "element path 1\nproperty list uint double points\n";
     ply.body_before = ply.encode("uint", 4e9);
-    EXPECT_THAT(complaint_about(ply.file()), IsSentenceWith("32000000000 bytes"));
+    EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("32000000000 bytes"));
     ply.before = "element path 1\nproperty list int double points\n";
     ply.body_before = ply.encode("int", -1);
-    EXPECT_THAT(complaint_about(ply.file()), IsSentenceWith("length of the list"));
+    EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("length of the list"));
     ply.before = "element path 1\nproperty list float double points\n";
-    EXPECT_THAT(complaint_about(ply.file()), IsSentenceWith("integer type"));
+    EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("integer type"));
     ply.format = "ascii";
     ply.before = "element path 1\nproperty list int double points\n";
     for (const char* const length : {"1e30 ", "nan ", "-1 ", "0.5 "}) {
         ply.body_before = length;
-        EXPECT_THAT(complaint_about(ply.file()), IsSentenceWith("length of the list"));
+        EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("length of the list"));
     }
 }
 
@@ -107,26 +107,26 @@ TEST(HostilePly, MissingPropertiesAreAllNamed) {
         PlyBuilder ply = PlyBuilder::splat();
         ply.remove(property.name);
         if (property.name[0] != 'n') { // normals may be missing
-            EXPECT_THAT(complaint_about(ply.file()), IsSentenceWith("'" + property.name + "'"));
+            EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("'" + property.name + "'"));
         }
     }
     PlyBuilder ply = PlyBuilder::splat();
     ply.remove("rot_3");
     ply.remove("y");
-    EXPECT_THAT(complaint_about(ply.file()), IsSentenceWith("'y', 'rot_3'"));
+    EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("'y', 'rot_3'"));
     ply = PlyBuilder::splat();
     ply.properties[0].type = "list uchar float"; // x as a list is no x
-    EXPECT_THAT(complaint_about(ply.file()), IsSentenceWith("'x'"));
+    EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("'x'"));
 }
 
 TEST(HostilePly, WrongNumbersOfRestCoefficients) {
     for (const int count : {1, 8, 10, 44, 46, 72}) {
-        EXPECT_THAT(complaint_about(good(count).file()),
+        EXPECT_THAT(complaint_about_ply(good(count).file()),
                     IsSentenceWith("has " + std::to_string(count) + " properties f_rest_*"));
     }
     PlyBuilder ply = good(9); // nine, but not 0 to 8
     ply.properties[9].name = "f_rest_99999999999999999999";
-    EXPECT_THAT(complaint_about(ply.file()), IsSentenceWith("'f_rest_0'"));
+    EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("'f_rest_0'"));
 }
 
 TEST(HostilePly, FilesOfAnotherKind) {
@@ -154,7 +154,7 @@ TEST(HostilePly, FilesOfAnotherKind) {
         {std::string(5000, 'x'), "longer than"},
     };
     for (const auto& [file, sentence] : cases) {
-        EXPECT_THAT(complaint_about(file), IsSentenceWith(sentence));
+        EXPECT_THAT(complaint_about_ply(file), IsSentenceWith(sentence));
     }
 }
 
@@ -178,7 +178,7 @@ TEST(HostilePly, HeadersThatMakeNoSense) {
         {start + "comment " + std::string(5000, 'c') + "\n", "longer than"},
     };
     for (const auto& [file, sentence] : cases) {
-        EXPECT_THAT(complaint_about(file), IsSentenceWith(sentence));
+        EXPECT_THAT(complaint_about_ply(file), IsSentenceWith(sentence));
     }
 }
 
@@ -194,9 +194,9 @@ TEST(HostilePly, HeadersWithoutEnd) {
     for (int i = 0; i < 5000; ++i) {
         properties += "property float p" + std::to_string(i) + "\n";
     }
-    EXPECT_THAT(complaint_about(comments), IsSentenceWith("not closed"));
-    EXPECT_THAT(complaint_about(properties), IsSentenceWith("more than 4096 properties"));
-    EXPECT_THAT(complaint_about(elements), IsSentenceWith("more than 64 elements"));
+    EXPECT_THAT(complaint_about_ply(comments), IsSentenceWith("not closed"));
+    EXPECT_THAT(complaint_about_ply(properties), IsSentenceWith("more than 4096 properties"));
+    EXPECT_THAT(complaint_about_ply(elements), IsSentenceWith("more than 64 elements"));
 }
 
 TEST(HostilePly, AsciiThatIsNoNumber) {
@@ -206,10 +206,10 @@ TEST(HostilePly, AsciiThatIsNoNumber) {
         ply.count = "1";
         ply.rows.clear();
         ply.body_after = "0 0 0 0 0 0 0 0 0 " + std::string(word) + " 0 0 0 1 0 0 0\n";
-        EXPECT_THAT(complaint_about(ply.file()),
+        EXPECT_THAT(complaint_about_ply(ply.file()),
                     IsSentenceWith("row 0 of element 'vertex', property 'opacity'"));
         ply.body_after = std::string(600, '1') + " ";
-        EXPECT_THAT(complaint_about(ply.file()), IsSentenceWith("longer than 512"));
+        EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("longer than 512"));
     }
 }
 

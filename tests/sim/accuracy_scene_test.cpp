@@ -12,9 +12,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kScene = "synthetic:object,gaussians=800";
+constexpr const char* kAccuracyScene = "synthetic:object,gaussians=800";
 
-json accuracy(const Folder& folder, std::vector<std::string> arguments) {
+json accuracy_of_scenes(const Folder& folder, std::vector<std::string> arguments) {
     std::vector<std::string> all{"accuracy", "--out", folder / "out"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const Outcome outcome = degs(all);
@@ -25,9 +25,9 @@ json accuracy(const Folder& folder, std::vector<std::string> arguments) {
 
 TEST(AccuracyScenes, ARowPerSceneResolutionAndSet) {
     const Folder folder;
-    const json rows =
-        accuracy(folder, {"--scene", std::string(kScene) + ",synthetic:single", "--camera", "1",
-                          "--numbers", "ideal,tuned", "--resolution", "720p,1080p"});
+    const json rows = accuracy_of_scenes(
+        folder, {"--scene", std::string(kAccuracyScene) + ",synthetic:single", "--camera", "1",
+                 "--numbers", "ideal,tuned", "--resolution", "720p,1080p"});
     ASSERT_EQ(rows.size(), 8U);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const json& row = rows[i];
@@ -52,12 +52,12 @@ void expect_difference_of_run_and_render(const std::string& numbers,
                                          const std::vector<std::string>& keys,
                                          const std::string& projection) {
     const Folder folder;
-    const std::vector<std::string> view{"--scene", kScene, "--camera", "0"};
+    const std::vector<std::string> view{"--scene", kAccuracyScene, "--camera", "0"};
     const auto with = [&view](std::vector<std::string> arguments) {
         arguments.insert(arguments.end(), view.begin(), view.end());
         return arguments;
     };
-    const json rows = accuracy(folder, with({"--numbers", numbers}));
+    const json rows = accuracy_of_scenes(folder, with({"--numbers", numbers}));
     ASSERT_EQ(rows.size(), 1U);
     expect_success(degs(with({"render", "--out", folder / "render"})));
     std::vector<std::string> command{"run", config("degs-64"), "--out", folder / "run"};
@@ -109,8 +109,8 @@ TEST(AccuracyScenes, ProjectsAsTheRunDoes) {
 
 TEST(AccuracyScenes, EveryRowHasItsOwnProjection) {
     const Folder folder;
-    const json rows = accuracy(
-        folder, {"--scene", kScene, "--numbers",
+    const json rows = accuracy_of_scenes(
+        folder, {"--scene", kAccuracyScene, "--numbers",
                  "ideal,ideal:projection=e8m14,ideal:projection=bf16,ideal:projection=fp32"});
     ASSERT_EQ(rows.size(), 4U);
     EXPECT_EQ(rows[0]["identical"], true);
@@ -122,7 +122,7 @@ TEST(AccuracyScenes, EveryRowHasItsOwnProjection) {
 
 TEST(AccuracyScenes, EqualImagesHaveNoPsnr) {
     const Folder folder;
-    const json rows = accuracy(
+    const json rows = accuracy_of_scenes(
         folder, {"--scene", "synthetic:single", "--numbers", "ideal", "--no-error-images"});
     ASSERT_EQ(rows.size(), 1U);
     EXPECT_EQ(rows[0]["identical"], true);
@@ -135,9 +135,9 @@ TEST(AccuracyScenes, EqualImagesHaveNoPsnr) {
 
 TEST(AccuracyScenes, SpanEndsCanBeChosen) {
     const Folder folder;
-    const json own = accuracy(folder, {"--scene", kScene, "--numbers", "paper"});
-    const json exact =
-        accuracy(folder, {"--scene", kScene, "--numbers", "paper", "--span-ends", "exact"});
+    const json own = accuracy_of_scenes(folder, {"--scene", kAccuracyScene, "--numbers", "paper"});
+    const json exact = accuracy_of_scenes(
+        folder, {"--scene", kAccuracyScene, "--numbers", "paper", "--span-ends", "exact"});
     EXPECT_EQ(own[0]["span_ends"], "slope");
     EXPECT_EQ(exact[0]["span_ends"], "exact");
     EXPECT_GT(exact[0]["psnr_db"], own[0]["psnr_db"]);
@@ -152,22 +152,23 @@ TEST(AccuracyScenes, NamesMistakes) {
         arguments.insert(arguments.end(), {"--out", out});
         expect_mistake(degs(arguments), words);
     };
-    mistake({"--scene", kScene, "--numbers", "fp8"}, "'fp8'");
-    mistake({"--scene", kScene, "--numbers", "tuned:alfa=fp16"}, "'alfa' is no part");
-    mistake({"--scene", kScene, "--numbers", "tuned:projection=fp8"}, "'projection' must be");
-    mistake({"--scene", kScene, "--numbers", "tuned:projection=ue8m9"}, "has no sign");
-    mistake({"--scene", kScene, "--resolution", "720p,16k"}, "'16k'");
+    mistake({"--scene", kAccuracyScene, "--numbers", "fp8"}, "'fp8'");
+    mistake({"--scene", kAccuracyScene, "--numbers", "tuned:alfa=fp16"}, "'alfa' is no part");
+    mistake({"--scene", kAccuracyScene, "--numbers", "tuned:projection=fp8"},
+            "'projection' must be");
+    mistake({"--scene", kAccuracyScene, "--numbers", "tuned:projection=ue8m9"}, "has no sign");
+    mistake({"--scene", kAccuracyScene, "--resolution", "720p,16k"}, "'16k'");
     mistake({"--scene", "absent.ply"}, "absent.ply");
     mistake({"--scene", "synthetic:object,"}, "empty name");
-    mistake({"--scene", kScene, "--camera", "9"}, "Camera 9");
-    mistake({"--scene", kScene, "--span-ends", "inward"}, "inward");
-    mistake({"--scene", kScene, "--tile-size", "0"}, "--tile-size");
+    mistake({"--scene", kAccuracyScene, "--camera", "9"}, "Camera 9");
+    mistake({"--scene", kAccuracyScene, "--span-ends", "inward"}, "inward");
+    mistake({"--scene", kAccuracyScene, "--tile-size", "0"}, "--tile-size");
     mistake({"--only", "H1"}, "--hard-cases");
     mistake({"--hard-cases", "--only", "H99"}, "'H99'");
     mistake({"--hard-cases", "--numbers", "fp8"}, "'fp8'");
     mistake({"--hard-cases", "--resolution", "9k"}, "'9k'");
     std::ofstream(folder / "file") << "no folder";
-    expect_mistake(degs({"accuracy", "--scene", kScene, "--out", folder / "file"}), "file");
+    expect_mistake(degs({"accuracy", "--scene", kAccuracyScene, "--out", folder / "file"}), "file");
     expect_mistake(degs({"accuracy", "--hard-cases", "--out", folder / "file/below"}), "below");
 }
 

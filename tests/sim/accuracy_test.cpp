@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-json accuracy(const Folder& folder, std::vector<std::string> arguments) {
+json accuracy_of_gaussians(const Folder& folder, std::vector<std::string> arguments) {
     std::vector<std::string> all{"accuracy", "--single-gaussian", "--out", folder / "out"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const Outcome outcome = degs(all);
@@ -21,7 +21,7 @@ json accuracy(const Folder& folder, std::vector<std::string> arguments) {
 
 TEST(AccuracyCommand, WritesARowPerKindAndSet) {
     const Folder folder;
-    const json rows = accuracy(folder, {"--numbers", "paper,tuned", "--splats", "40"});
+    const json rows = accuracy_of_gaussians(folder, {"--numbers", "paper,tuned", "--splats", "40"});
     ASSERT_EQ(rows.size(), 6U);
     const std::vector<std::string> numbers{"fp16-direct", "paper", "tuned"};
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -43,20 +43,25 @@ TEST(AccuracyCommand, WritesARowPerKindAndSet) {
 
 TEST(AccuracyCommand, DependsOnItsSeedAndOnNothingElse) {
     const Folder folder;
-    const json one = accuracy(folder, {"--numbers", "tuned", "--splats", "20", "--seed", "5"});
-    EXPECT_EQ(accuracy(folder, {"--numbers", "tuned", "--splats", "20", "--seed", "5"}), one);
-    EXPECT_NE(accuracy(folder, {"--numbers", "tuned", "--splats", "20", "--seed", "6"}), one);
+    const json one =
+        accuracy_of_gaussians(folder, {"--numbers", "tuned", "--splats", "20", "--seed", "5"});
+    EXPECT_EQ(
+        accuracy_of_gaussians(folder, {"--numbers", "tuned", "--splats", "20", "--seed", "5"}),
+        one);
+    EXPECT_NE(
+        accuracy_of_gaussians(folder, {"--numbers", "tuned", "--splats", "20", "--seed", "6"}),
+        one);
     // The Gaussians do not depend on which sets look at them.
     const json both =
-        accuracy(folder, {"--numbers", "fp32,tuned", "--splats", "20", "--seed", "5"});
+        accuracy_of_gaussians(folder, {"--numbers", "fp32,tuned", "--splats", "20", "--seed", "5"});
     EXPECT_EQ(both[2], one[1]);
 }
 
 TEST(AccuracyCommand, ProjectsScenes) {
     const Folder folder;
-    const json rows = accuracy(folder, {"--numbers", "ideal", "--splats", "30", "--scene",
-                                        "synthetic:object,gaussians=500", "--camera", "1",
-                                        "--resolution", "720p"});
+    const json rows = accuracy_of_gaussians(folder, {"--numbers", "ideal", "--splats", "30",
+                                                     "--scene", "synthetic:object,gaussians=500",
+                                                     "--camera", "1", "--resolution", "720p"});
     ASSERT_EQ(rows.size(), 6U);
     EXPECT_EQ(rows[5]["camera"], 1);
     EXPECT_EQ(rows[5]["resolution"], "1280x720");
@@ -79,8 +84,7 @@ TEST(AccuracyCommand, NamesMistakes) {
 
 // Real Gaussians, projected: what `tuned` must keep (mean, largest away from flips, flips).
 TEST(AccuracyCommand, TunedMeetsItsTargetsOnTrainedScenes) {
-    const char* const folder_name = std::getenv("DEGS_SCENES");
-    const fs::path scenes = folder_name != nullptr ? folder_name : DEGS_SCENES_DEFAULT;
+    const fs::path scenes = trained_scenes();
     if (!fs::exists(scenes / "seal")) {
         GTEST_SKIP() << "This test needs " << scenes << "; set DEGS_SCENES";
     }
@@ -90,7 +94,7 @@ TEST(AccuracyCommand, TunedMeetsItsTargetsOnTrainedScenes) {
     for (const char* scene : {"seal", "skull", "flowers", "st-peter"}) {
         arguments.insert(arguments.end(), {"--scene", (scenes / scene / "scene.ply").string()});
     }
-    const json rows = accuracy(folder, arguments);
+    const json rows = accuracy_of_gaussians(folder, arguments);
     ASSERT_EQ(rows.size(), 12U);
     for (std::size_t i = 5; i < rows.size(); i += 2) {
         const json& row = rows[i];

@@ -27,6 +27,12 @@ inline std::string read_file(const fs::path& path) {
     return text.str();
 }
 
+/// Where the trained scenes are.
+inline fs::path trained_scenes() {
+    const char* variable = std::getenv("DEGS_SCENES");
+    return variable != nullptr ? fs::path(variable) : fs::path(DEGS_SCENES_DEFAULT);
+}
+
 /// A folder of its own for one test, gone afterwards.
 class Folder {
 public:

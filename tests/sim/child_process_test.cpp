@@ -22,14 +22,14 @@ namespace {
 using sim_test::Folder;
 using sim_test::fs::exists;
 
-struct Result {
+struct Children {
     bool complete = false;
     std::map<std::size_t, ChildOutcome> outcomes;
     std::vector<std::size_t> order;
 };
 
-Result run(const std::vector<ChildJob>& jobs, int at_once = 1) {
-    Result result;
+Children run_children(const std::vector<ChildJob>& jobs, int at_once = 1) {
+    Children result;
     ChildWatcher watcher;
     watcher.ended = [&result](std::size_t job, ChildOutcome&& outcome) {
         EXPECT_TRUE(result.outcomes.emplace(job, std::move(outcome)).second);
@@ -40,7 +40,7 @@ Result run(const std::vector<ChildJob>& jobs, int at_once = 1) {
 }
 
 ChildOutcome run_one(const std::function<std::string()>& work) {
-    Result result = run({{"job", work}});
+    Children result = run_children({{"job", work}});
     EXPECT_TRUE(result.complete);
     return std::move(result.outcomes.at(0));
 }
@@ -109,7 +109,7 @@ TEST(ChildProcess, OneFailureLeavesTheOthersAlone) {
                                 return std::to_string(i * i);
                             }});
         }
-        const Result result = run(jobs, at_once);
+        const Children result = run_children(jobs, at_once);
         EXPECT_TRUE(result.complete);
         ASSERT_EQ(result.outcomes.size(), 5U);
         for (const auto& [job, outcome] : result.outcomes) {
@@ -120,7 +120,7 @@ TEST(ChildProcess, OneFailureLeavesTheOthersAlone) {
             EXPECT_TRUE(std::is_sorted(result.order.begin(), result.order.end()));
         }
     }
-    EXPECT_TRUE(run({}).complete);
+    EXPECT_TRUE(run_children({}).complete);
 }
 
 TEST(ChildProcess, RunsAsManyAtOnceAsAllowed) {
@@ -182,8 +182,8 @@ int end_of_parent(const Folder& folder, const std::function<void(pid_t)>& act) {
             std::ofstream(folder / "late");
             return "";
         };
-        const Result result =
-            run({{"a", [] { return ""; }}, {"b", sleep_and_tell}, {"c", sleep_and_tell}}, 2);
+        const Children result = run_children(
+            {{"a", [] { return ""; }}, {"b", sleep_and_tell}, {"c", sleep_and_tell}}, 2);
         ::_exit(!result.complete && result.outcomes.size() == 1 ? kInterrupted : 1);
     }
     const Stopwatch clock;

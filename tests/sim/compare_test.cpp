@@ -10,14 +10,14 @@
 namespace degs::sim_test {
 namespace {
 
-const char* const kScene = "synthetic:object,gaussians=300";
+const char* const kComparedScene = "synthetic:object,gaussians=300";
 
 nlohmann::json comparison_in(const std::string& folder) {
     return nlohmann::json::parse(read_file(fs::path(folder) / "compare.json"));
 }
 
 Outcome compare(std::vector<std::string> configs, const std::string& out,
-                const std::vector<std::string>& more, const std::string& scene = kScene) {
+                const std::vector<std::string>& more, const std::string& scene = kComparedScene) {
     std::vector<std::string> arguments{"compare"};
     arguments.insert(arguments.end(), configs.begin(), configs.end());
     arguments.insert(arguments.end(), {"--scene", scene, "--out", out});
@@ -37,24 +37,24 @@ TEST(CompareRuns, AgreesWithSingleRuns) {
         compare({config("degs-16"), config("degs-64")}, folder / "c",
                 {"--cameras", "1,0", "--width", "96", "--frames", "3", "--jobs", "2"});
     expect_success(outcome);
-    const nlohmann::json json = comparison_in(folder / "c");
-    ASSERT_EQ(json["runs"].size(), 4U);
-    ASSERT_EQ(json["views"].size(), 2U);
-    EXPECT_EQ(json["views"][0]["camera"], 1);
-    EXPECT_EQ(json["means"].size(), 2U);
-    EXPECT_EQ(json["frames"], 3);
-    EXPECT_EQ(json["runs"][0]["ratio"]["latency"], 1);
-    EXPECT_EQ(json["runs"][0]["ratio"]["throughput"], 1);
+    const nlohmann::json written = comparison_in(folder / "c");
+    ASSERT_EQ(written["runs"].size(), 4U);
+    ASSERT_EQ(written["views"].size(), 2U);
+    EXPECT_EQ(written["views"][0]["camera"], 1);
+    EXPECT_EQ(written["means"].size(), 2U);
+    EXPECT_EQ(written["frames"], 3);
+    EXPECT_EQ(written["runs"][0]["ratio"]["latency"], 1);
+    EXPECT_EQ(written["runs"][0]["ratio"]["throughput"], 1);
     EXPECT_NE(outcome.out.find("geometric means over 2 views"), std::string::npos);
     EXPECT_EQ(lines_of(read_file(folder / "c/compare.csv")), 5U);
     EXPECT_TRUE(fs::exists(folder / "c/slots.svg"));
     EXPECT_TRUE(fs::exists(folder / "c/utilization.svg"));
     EXPECT_TRUE(fs::exists(folder / "c/reports/1-object-camera1-96x54/2-degs-64-path.json"));
 
-    const nlohmann::json& row = json["runs"][3]; // degs-64, camera 0
+    const nlohmann::json& row = written["runs"][3]; // degs-64, camera 0
     const std::vector<std::string> single{
-        "run", config("degs-64"), "--scene", kScene,  "--camera",
-        "0",   "--width",         "96",      "--out", folder / "r"};
+        "run", config("degs-64"), "--scene", kComparedScene, "--camera",
+        "0",   "--width",         "96",      "--out",        folder / "r"};
     expect_success(degs(single));
     const nlohmann::json report = report_in(folder / "r");
     EXPECT_EQ(row["cycles"], report["timing"]["cycles"]);
@@ -108,8 +108,9 @@ TEST(CompareRuns, ProjectionsShareTheReference) {
     EXPECT_EQ(native["workload"]["projection"], "fp64");
     EXPECT_EQ(own["workload"]["projection"], "fp32");
     EXPECT_EQ(native["workload"]["fragments"], own["workload"]["fragments"]);
-    const std::vector<std::string> single{"run", tuned,     "--scene", kScene,  "--camera",
-                                          "0",   "--width", "96",      "--out", folder / "r"};
+    const std::vector<std::string> single{"run",      tuned,       "--scene", kComparedScene,
+                                          "--camera", "0",         "--width", "96",
+                                          "--out",    folder / "r"};
     expect_success(degs(single));
     nlohmann::json report = report_in(folder / "r");
     report.erase("host");
@@ -141,14 +142,14 @@ TEST(CompareRuns, LeavesOutWhatIsNotAskedFor) {
     const Outcome outcome = compare({config("degs-64")}, folder / ".",
                                     {"--width", "64", "--no-reference", "--array-only"});
     expect_success(outcome);
-    const nlohmann::json json = comparison_in(folder / ".");
-    const nlohmann::json& run = json["runs"][0];
-    EXPECT_EQ(json["array_only"], true);
+    const nlohmann::json written = comparison_in(folder / ".");
+    const nlohmann::json& run = written["runs"][0];
+    EXPECT_EQ(written["array_only"], true);
     EXPECT_TRUE(run["dram"]["bytes_read"].is_null());
     EXPECT_TRUE(run["image"]["psnr_db"].is_null());
     EXPECT_TRUE(run["throughput_fps"].is_null());
-    EXPECT_TRUE(json["views"][0]["fragments"].is_null());
-    EXPECT_TRUE(json["means"].empty());
+    EXPECT_TRUE(written["views"][0]["fragments"].is_null());
+    EXPECT_TRUE(written["means"].empty());
     EXPECT_FALSE(fs::exists(folder / "utilization.svg"));
     EXPECT_EQ(outcome.out.find("PSNR"), std::string::npos);
 }
@@ -165,8 +166,8 @@ TEST(CompareCommand, AllConfigurationsOnOneView) {
         }
     }
     expect_success(compare(configs, folder / "c", {"--width", "96", "--cameras", "2"}));
-    const nlohmann::json json = comparison_in(folder / "c");
-    for (const auto& run : json["runs"]) {
+    const nlohmann::json written = comparison_in(folder / "c");
+    for (const auto& run : written["runs"]) {
         names.erase(run["config"]);
         const auto& slots = run["slots"];
         double sum = 0;
@@ -188,8 +189,8 @@ TEST(CompareCommand, AFailureIsNamedAndTheRestReported) {
     EXPECT_EQ(lines_of(outcome.err), 1U) << outcome.err;
     EXPECT_NE(outcome.err.find("absent.ply"), std::string::npos);
     EXPECT_NE(outcome.out.find("failed: "), std::string::npos) << outcome.out;
-    const nlohmann::json json = comparison_in(folder / "c");
-    EXPECT_EQ(json["runs"].size(), 1U);
+    const nlohmann::json written = comparison_in(folder / "c");
+    EXPECT_EQ(written["runs"].size(), 1U);
     // Cameras, too: the second is not there.
     const Outcome camera =
         compare({config("degs-64")}, folder / "d", {"--width", "64", "--cameras", "0,77"});
@@ -238,8 +239,8 @@ TEST(CompareCommand, ARunThatBreaksCostsOnlyItself) {
     const Folder folder;
     const std::string out = folder / "c";
     const pid_t program =
-        start({"compare", "a=" + config("degs-64"), "b=" + config("degs-64"), "--scene", kScene,
-               "--no-reference", "--resolution", "2k", "--out", out},
+        start({"compare", "a=" + config("degs-64"), "b=" + config("degs-64"), "--scene",
+               kComparedScene, "--no-reference", "--resolution", "2k", "--out", out},
               folder / "err");
     pid_t victim = 0;
     for (int i = 0; i < 4000 && victim == 0; ++i) {
@@ -255,20 +256,20 @@ TEST(CompareCommand, ARunThatBreaksCostsOnlyItself) {
     EXPECT_EQ(message.rfind("degs: a, object · camera 0 · 1920×1440: The process was ended", 0), 0U)
         << message;
     EXPECT_EQ(lines_of(message), 1U) << message;
-    const nlohmann::json json = comparison_in(out);
-    ASSERT_EQ(json["runs"].size(), 1U);
-    EXPECT_EQ(json["runs"][0]["config"], "b");
-    EXPECT_TRUE(json["runs"][0]["ratio"]["latency"].is_null()); // nothing to compare with
-    EXPECT_EQ(json["failed"][0]["config"], "a");
-    EXPECT_TRUE(json["configs"][0]["pes"].is_null());
+    const nlohmann::json written = comparison_in(out);
+    ASSERT_EQ(written["runs"].size(), 1U);
+    EXPECT_EQ(written["runs"][0]["config"], "b");
+    EXPECT_TRUE(written["runs"][0]["ratio"]["latency"].is_null()); // nothing to compare with
+    EXPECT_EQ(written["failed"][0]["config"], "a");
+    EXPECT_TRUE(written["configs"][0]["pes"].is_null());
 }
 
 TEST(CompareCommand, AnInterruptKeepsWhatIsFinished) {
     const Folder folder;
     const std::string out = folder / "c";
     const pid_t program =
-        start({"compare", config("degs-64"), "--scene", kScene, "--scene", "synthetic:object",
-               "--no-reference", "--resolution", "4k", "--out", out},
+        start({"compare", config("degs-64"), "--scene", kComparedScene, "--scene",
+               "synthetic:object", "--no-reference", "--resolution", "4k", "--out", out},
               folder / "err");
     for (int i = 0; i < 2000 && !fs::exists(out + "/compare.json"); ++i) {
         ::usleep(20000);
@@ -292,7 +293,7 @@ TEST(HostileCompare, Mistakes) {
     };
     bad({"absent.yaml"}, {}, "absent.yaml");
     bad({file, file}, {}, "NAME=FILE");
-    bad({file}, {"--scene", kScene}, "twice");
+    bad({file}, {"--scene", kComparedScene}, "twice");
     bad({file}, {"--cameras", "99"}, "Camera 99");
     bad({file}, {"--cameras", "0,0"}, "twice");
     bad({file}, {"--cameras", "first"}, "'first'");
@@ -308,7 +309,7 @@ TEST(HostileCompare, Mistakes) {
     // A tile whose pixels have no room in the Pixel Buffer.
     bad({file}, {"--set", "degs-64:pixel_buffer.bytes=64"}, "pixel_buffer");
     expect_mistake(degs({"compare", file}), "--scene");
-    expect_mistake(degs({"compare", "--scene", kScene}), "config");
+    expect_mistake(degs({"compare", "--scene", kComparedScene}), "config");
     expect_mistake(compare({file}, folder / "c", {}, "synthetic:teapot"), "teapot");
     expect_mistake(compare({file}, folder / "c", {}, ""), "empty");
     std::ofstream(folder / "file") << "x";

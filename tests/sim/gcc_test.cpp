@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-GccConfig load(const std::string& name) {
+GccConfig load_gcc(const std::string& name) {
     const sim::RunConfig run =
         sim::load_run_config(std::string(DEGS_CONFIGS) + "/" + name + ".yaml", {});
     EXPECT_EQ(run.problem(), "") << name;
@@ -26,7 +26,7 @@ TEST(GccConfigs, ScalingPoints) {
     };
     for (const Row& row :
          {Row{16, 4, 1.2125}, Row{64, 8, 2.69}, Row{256, 16, 8.6}, Row{1024, 32, 32.24}}) {
-        const GccConfig config = load("gcc-" + std::to_string(row.pes));
+        const GccConfig config = load_gcc("gcc-" + std::to_string(row.pes));
         EXPECT_EQ(config.pes(), row.pes);
         EXPECT_EQ(config.array.window, row.window);
         EXPECT_EQ(config.view_size, 16 * row.window);
@@ -63,16 +63,11 @@ TEST(HostileConfigGcc, MistakesNameTheirKey) {
     }
 }
 
-fs::path scenes() {
-    const char* variable = std::getenv("DEGS_SCENES");
-    return variable != nullptr ? fs::path(variable) : fs::path(DEGS_SCENES_DEFAULT);
-}
-
 class SceneGcc : public testing::TestWithParam<const char*> {};
 
 // Single precision against the double reference; all but 1e-5 of its pixel updates.
 TEST_P(SceneGcc, MatchesTheReference) {
-    const fs::path scene = scenes() / GetParam() / "scene.ply";
+    const fs::path scene = trained_scenes() / GetParam() / "scene.ply";
     if (!fs::exists(scene)) {
         GTEST_SKIP() << scene << " is not there; set DEGS_SCENES";
     }

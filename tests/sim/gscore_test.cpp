@@ -14,7 +14,7 @@ using nlohmann::json;
 using sim::load_run_config;
 using sim::RunConfig;
 
-RunConfig load(const std::string& name) {
+RunConfig load_gscore(const std::string& name) {
     return load_run_config(config(name), {});
 }
 
@@ -22,7 +22,7 @@ RunConfig load(const std::string& name) {
 TEST(GscoreConfigs, ScaleByTheShadedRowsOfTableI) {
     for (const int lanes : {16, 64, 256, 1024}) {
         SCOPED_TRACE(lanes);
-        const RunConfig file = load("gscore-" + std::to_string(lanes));
+        const RunConfig file = load_gscore("gscore-" + std::to_string(lanes));
         const auto& c = dynamic_cast<const GscoreConfig&>(file.accelerator());
         EXPECT_EQ(c.name, "gscore-" + std::to_string(lanes));
         EXPECT_EQ(c.pes(), lanes);
@@ -40,11 +40,11 @@ TEST(GscoreConfigs, ScaleByTheShadedRowsOfTableI) {
 TEST(GscoreConfigs, SixtyFourLanesAreTheDefault) {
     const Folder folder;
     std::ofstream(folder / "c.yaml") << "accelerator: gscore\n";
-    EXPECT_EQ(resolved(load("gscore-64")).dump(2),
+    EXPECT_EQ(resolved(load_gscore("gscore-64")).dump(2),
               resolved(load_run_config(folder / "c.yaml", {})).dump(2));
 }
 
-Outcome run(const std::string& configuration, const std::vector<std::string>& more) {
+Outcome run_gscore(const std::string& configuration, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"run", config(configuration)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return degs(arguments);
@@ -53,8 +53,8 @@ Outcome run(const std::string& configuration, const std::vector<std::string>& mo
 TEST(HostileConfigGscore, Mistakes) {
     const Folder folder;
     const auto with = [&folder](const std::string& set) {
-        return run("gscore-64",
-                   {"--scene", "synthetic:single", "--out", folder / "out", "--set", set});
+        return run_gscore("gscore-64",
+                          {"--scene", "synthetic:single", "--out", folder / "out", "--set", set});
     };
     expect_mistake(with("array.lanes=100"), "16, 64, 256 or 1024");
     expect_mistake(with("array.lanes=2048"), "16 to 1024");
@@ -68,11 +68,6 @@ TEST(HostileConfigGscore, Mistakes) {
     expect_mistake(with("pixel_buffer.bytes=1000000"), "buffer.bytes");
     expect_mistake(with("buffer.bytes=9000"), "buffer.bytes");
     expect_mistake(with("sorting.chunk=65536"), "sort_share");
-}
-
-fs::path scenes() {
-    const char* variable = std::getenv("DEGS_SCENES");
-    return variable != nullptr ? fs::path(variable) : fs::path(DEGS_SCENES_DEFAULT);
 }
 
 struct View {
@@ -89,14 +84,14 @@ class SceneOnGscore : public testing::TestWithParam<View> {};
 // precision, all but 1e-5 of the pixel updates (a threshold may flip).
 TEST_P(SceneOnGscore, MatchesTheReference) {
     const View& view = GetParam();
-    const fs::path file = scenes() / view.scene / "scene.ply";
+    const fs::path file = trained_scenes() / view.scene / "scene.ply";
     if (!fs::exists(file)) {
         GTEST_SKIP() << file << " is not there; set DEGS_SCENES";
     }
     const Folder folder;
     const Outcome outcome =
-        run(view.configuration, {"--scene", file.string(), "--camera", std::to_string(view.camera),
-                                 "--out", folder / "out"});
+        run_gscore(view.configuration, {"--scene", file.string(), "--camera",
+                                        std::to_string(view.camera), "--out", folder / "out"});
     expect_success(outcome);
     const json report = report_in(folder / "out");
     EXPECT_GE(report["image"]["psnr_db"].get<double>(), 90.0);

@@ -14,7 +14,8 @@ using sim::HardCaseRequest;
 using sim::HardMeasure;
 using sim::HardResult;
 
-std::vector<HardResult> run(const std::vector<std::string>& only, const std::string& resolution) {
+std::vector<HardResult> run_hard_cases(const std::vector<std::string>& only,
+                                       const std::string& resolution) {
     const Folder folder;
     HardCaseRequest request;
     request.only = only;
@@ -32,7 +33,7 @@ void expect_holds(const std::vector<HardResult>& results) {
 }
 
 TEST(HardCases, AllHoldAt720p) {
-    const std::vector<HardResult> results = run({}, "720p");
+    const std::vector<HardResult> results = run_hard_cases({}, "720p");
     ASSERT_EQ(results.size(), 32U);
     expect_holds(results);
     for (const HardResult& result : results) {
@@ -48,7 +49,7 @@ TEST(HardCases, AllHoldAt720p) {
 }
 
 TEST(HardCases, ThoseThatBreakHoldAt8k) {
-    expect_holds(run({"H1", "H3", "H6", "H7", "H24", "H32"}, "8k"));
+    expect_holds(run_hard_cases({"H1", "H3", "H6", "H7", "H24", "H32"}, "8k"));
 }
 
 // What is found is what was built: the suite notices a wrong expectation and coarse numbers.

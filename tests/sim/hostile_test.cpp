@@ -7,7 +7,7 @@
 namespace degs::sim_test {
 namespace {
 
-const char* const kScene = "synthetic:single";
+const char* const kSingleScene = "synthetic:single";
 
 Outcome run_scene(const std::string& scene, const Folder& folder,
                   std::vector<std::string> more = {}) {
@@ -34,8 +34,8 @@ TEST(HostileScene, MissingFile) {
 TEST(HostileScene, EmptyNames) {
     const Folder folder;
     expect_mistake(run_scene("", folder), "empty name");
-    expect_mistake(degs({"run", "", "--scene", kScene}), "''");
-    expect_mistake(degs({"run", config("degs-64"), "--scene", kScene, "--out", ""}), "''");
+    expect_mistake(degs({"run", "", "--scene", kSingleScene}), "''");
+    expect_mistake(degs({"run", config("degs-64"), "--scene", kSingleScene, "--out", ""}), "''");
 }
 
 TEST(HostileScene, TruncatedPly) {
@@ -108,7 +108,7 @@ TEST(HostileScene, NothingInView) {
 
 TEST(HostileView, OnePixel) {
     const Folder folder;
-    expect_success(run_scene(kScene, folder, {"--width", "1", "--height", "1"}));
+    expect_success(run_scene(kSingleScene, folder, {"--width", "1", "--height", "1"}));
     const nlohmann::json report = report_in(folder / "result");
     EXPECT_EQ(report["camera"]["width"], 1);
     EXPECT_EQ(report["camera"]["height"], 1);
@@ -117,37 +117,42 @@ TEST(HostileView, OnePixel) {
 
 TEST(HostileView, BadSizes) {
     const Folder folder;
-    expect_mistake(run_scene(kScene, folder, {"--width", "0"}), "--width is 0");
-    expect_mistake(run_scene(kScene, folder, {"--height", "-4"}), "--height is -4");
-    expect_mistake(run_scene(kScene, folder, {"--width", "100000000"}), "35 389 440");
-    expect_mistake(run_scene(kScene, folder, {"--width", "1", "--height", "2000000000"}),
+    expect_mistake(run_scene(kSingleScene, folder, {"--width", "0"}), "--width is 0");
+    expect_mistake(run_scene(kSingleScene, folder, {"--height", "-4"}), "--height is -4");
+    expect_mistake(run_scene(kSingleScene, folder, {"--width", "100000000"}), "35 389 440");
+    expect_mistake(run_scene(kSingleScene, folder, {"--width", "1", "--height", "2000000000"}),
                    "35 389 440");
-    expect_mistake(run_scene(kScene, folder, {"--width", "99999999999999"}), "--width");
-    expect_mistake(run_scene(kScene, folder, {"--width", "wide"}), "--width");
+    expect_mistake(run_scene(kSingleScene, folder, {"--width", "99999999999999"}), "--width");
+    expect_mistake(run_scene(kSingleScene, folder, {"--width", "wide"}), "--width");
 }
 
 TEST(HostileView, BadResolutions) {
     const Folder folder;
-    expect_mistake(run_scene(kScene, folder, {"--resolution", "5k"}), "'5k'");
-    expect_mistake(run_scene(kScene, folder, {"--resolution", "5k"}), "720p, 1080p, 2k, 4k, 8k");
-    expect_mistake(run_scene(kScene, folder, {"--resolution", "4k", "--width", "64"}), "--width");
-    expect_mistake(run_scene(kScene, folder, {"--resolution", "4k", "--height", "9"}), "--height");
-    expect_mistake(degs({"scene", "info", kScene, "--resolution", "4k"}), "--camera");
+    expect_mistake(run_scene(kSingleScene, folder, {"--resolution", "5k"}), "'5k'");
+    expect_mistake(run_scene(kSingleScene, folder, {"--resolution", "5k"}),
+                   "720p, 1080p, 2k, 4k, 8k");
+    expect_mistake(run_scene(kSingleScene, folder, {"--resolution", "4k", "--width", "64"}),
+                   "--width");
+    expect_mistake(run_scene(kSingleScene, folder, {"--resolution", "4k", "--height", "9"}),
+                   "--height");
+    expect_mistake(degs({"scene", "info", kSingleScene, "--resolution", "4k"}), "--camera");
 }
 
 TEST(HostileView, BadCameras) {
     const Folder folder;
-    expect_mistake(run_scene(kScene, folder, {"--camera", "99"}), "Camera 99");
-    expect_mistake(run_scene(kScene, folder, {"--camera", "-1"}), "Camera -1");
-    expect_mistake(run_scene(kScene, folder, {"--cameras", folder / "absent.json"}), "absent.json");
+    expect_mistake(run_scene(kSingleScene, folder, {"--camera", "99"}), "Camera 99");
+    expect_mistake(run_scene(kSingleScene, folder, {"--camera", "-1"}), "Camera -1");
+    expect_mistake(run_scene(kSingleScene, folder, {"--cameras", folder / "absent.json"}),
+                   "absent.json");
     std::ofstream(folder / "broken.json") << R"([{"width": 4)";
-    expect_mistake(run_scene(kScene, folder, {"--cameras", folder / "broken.json"}), "broken.json");
+    expect_mistake(run_scene(kSingleScene, folder, {"--cameras", folder / "broken.json"}),
+                   "broken.json");
 }
 
 TEST(HostileConfig, UnknownKey) {
     const Folder folder;
     std::ofstream(folder / "c.yaml") << "name: x\nscheduler:\n  bank: 8\n";
-    const Outcome outcome = degs({"run", folder / "c.yaml", "--scene", kScene});
+    const Outcome outcome = degs({"run", folder / "c.yaml", "--scene", kSingleScene});
     expect_mistake(outcome, "c.yaml:3");
     EXPECT_NE(outcome.err.find("scheduler.banks"), std::string::npos) << outcome.err;
 }
@@ -155,29 +160,30 @@ TEST(HostileConfig, UnknownKey) {
 TEST(HostileConfig, UnknownAccelerator) {
     const Folder folder;
     std::ofstream(folder / "c.yaml") << "accelerator: abacus\n";
-    expect_mistake(degs({"run", folder / "c.yaml", "--scene", kScene}), "abacus");
+    expect_mistake(degs({"run", folder / "c.yaml", "--scene", kSingleScene}), "abacus");
 }
 
 TEST(HostileConfig, MissingFile) {
     const Folder folder;
-    expect_mistake(degs({"run", folder / "absent.yaml", "--scene", kScene}), "absent.yaml");
+    expect_mistake(degs({"run", folder / "absent.yaml", "--scene", kSingleScene}), "absent.yaml");
 }
 
 TEST(HostileConfig, BadOverrides) {
     const Folder folder;
-    expect_mistake(run_scene(kScene, folder, {"--set", "banks"}), "--set");
-    expect_mistake(run_scene(kScene, folder, {"--set", "scheduler.bank=8"}), "scheduler.bank");
-    expect_mistake(run_scene(kScene, folder, {"--set", "scheduler.banks=eight"}), "1 to 64");
-    expect_mistake(run_scene(kScene, folder, {"--set", "scheduler.banks=65"}), "1 to 64");
+    expect_mistake(run_scene(kSingleScene, folder, {"--set", "banks"}), "--set");
+    expect_mistake(run_scene(kSingleScene, folder, {"--set", "scheduler.bank=8"}),
+                   "scheduler.bank");
+    expect_mistake(run_scene(kSingleScene, folder, {"--set", "scheduler.banks=eight"}), "1 to 64");
+    expect_mistake(run_scene(kSingleScene, folder, {"--set", "scheduler.banks=65"}), "1 to 64");
     // In range, but does not fit together.
-    expect_mistake(run_scene(kScene, folder, {"--set", "array.writeback_cycles=9"}),
+    expect_mistake(run_scene(kSingleScene, folder, {"--set", "array.writeback_cycles=9"}),
                    "reuse_cycles");
 }
 
 TEST(HostileOutput, UnwritableFolder) {
     const Folder folder;
     std::ofstream(folder / "file") << "x";
-    const std::vector<std::string> head{"run", config("degs-64"), "--scene", kScene, "--out"};
+    const std::vector<std::string> head{"run", config("degs-64"), "--scene", kSingleScene, "--out"};
     for (const std::string& out :
          {folder / "file", folder / "file/below", std::string("/proc/x")}) {
         std::vector<std::string> arguments = head;
@@ -190,7 +196,7 @@ TEST(HostileOutput, UnwritableFolder) {
 TEST(HostileOutput, FolderInPlaceOfAResult) {
     const Folder folder;
     fs::create_directories(folder / "result/report.json");
-    expect_mistake(run_scene(kScene, folder), "report.json");
+    expect_mistake(run_scene(kSingleScene, folder), "report.json");
     EXPECT_FALSE(fs::exists(folder / "result/image.exr"));
 }
 
@@ -201,12 +207,13 @@ TEST(HostileCommandLine, Mistakes) {
     expect_mistake(degs({"scene", "fly"}), "'fly'");
     expect_mistake(degs({"run"}), "required");
     expect_mistake(degs({"run", config("degs-64")}), "--scene");
-    expect_mistake(degs({"run", config("degs-64"), "--scene", kScene, "--fidelity", "sloppy"}),
-                   "sloppy");
-    expect_mistake(degs({"run", config("degs-64"), "--scene", kScene, "--frames", "-2"}),
+    expect_mistake(
+        degs({"run", config("degs-64"), "--scene", kSingleScene, "--fidelity", "sloppy"}),
+        "sloppy");
+    expect_mistake(degs({"run", config("degs-64"), "--scene", kSingleScene, "--frames", "-2"}),
                    "--frames");
-    expect_mistake(degs({"render", "--scene", kScene, "--tiles", "round"}), "round");
-    expect_mistake(degs({"render", "--scene", kScene, "--tile-size", "0"}), "--tile-size");
+    expect_mistake(degs({"render", "--scene", kSingleScene, "--tiles", "round"}), "round");
+    expect_mistake(degs({"render", "--scene", kSingleScene, "--tile-size", "0"}), "--tile-size");
     expect_mistake(degs({"scene", "info", "synthetic:teapot"}), "teapot");
     expect_mistake(degs({"scene", "generate", "object", "--out", "scene.txt"}), ".ply");
     expect_mistake(degs({"scene", "generate", "object", "--gaussians", "-1", "--out", "x.ply"}),

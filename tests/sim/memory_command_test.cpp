@@ -24,18 +24,18 @@ nlohmann::json measure(const std::string& name, std::vector<std::string> options
     return nlohmann::json::parse(read_file(folder / "out/memory.json"));
 }
 
-double fraction(const nlohmann::json& json) {
-    return json["bandwidth_fraction"].get<double>();
+double fraction(const nlohmann::json& written) {
+    return written["bandwidth_fraction"].get<double>();
 }
 
 TEST(MemoryCommand, StreamsUseTheBus) {
     for (const char* name : {"lpddr5-6400x256", "lpddr5-6400x128", "lpddr5-3200x128"}) {
-        const auto json = measure(name, {"--requests", "50000"});
-        EXPECT_GE(fraction(json), 0.90) << name;
-        EXPECT_LE(fraction(json), 0.947) << name << ": the refresh ceiling";
-        EXPECT_NEAR(json["bandwidth_gb_per_s"].get<double>(),
-                    fraction(json) * json["peak_gb_per_s"].get<double>(), 1e-6);
-        EXPECT_GT(json["row_hit_rate"].get<double>(), 0.9);
+        const auto written = measure(name, {"--requests", "50000"});
+        EXPECT_GE(fraction(written), 0.90) << name;
+        EXPECT_LE(fraction(written), 0.947) << name << ": the refresh ceiling";
+        EXPECT_NEAR(written["bandwidth_gb_per_s"].get<double>(),
+                    fraction(written) * written["peak_gb_per_s"].get<double>(), 1e-6);
+        EXPECT_GT(written["row_hit_rate"].get<double>(), 0.9);
     }
 }
 
@@ -43,30 +43,30 @@ TEST(MemoryCommand, StreamsUseTheBus) {
 TEST(MemoryCommand, RandomTrafficNeedsDeepQueues) {
     double before = 0;
     for (const char* queue : {"8", "32", "64"}) {
-        const auto json = measure("lpddr5-6400x256",
-                                  {"--pattern", "random", "--queue", queue, "--requests", "50000"});
-        EXPECT_GE(fraction(json), before);
-        EXPECT_LE(fraction(json), 0.80) << "five commands for four CK of data";
-        EXPECT_GE(fraction(json), std::string(queue) == "8" ? 0.4 : 0.6);
-        EXPECT_NEAR(json["row_hit_rate"].get<double>(), 0.5, 0.01) << "the second burst of each";
-        EXPECT_NEAR(json["access_hit_rate"].get<double>(), 0.0, 0.01);
-        before = fraction(json);
+        const auto written = measure(
+            "lpddr5-6400x256", {"--pattern", "random", "--queue", queue, "--requests", "50000"});
+        EXPECT_GE(fraction(written), before);
+        EXPECT_LE(fraction(written), 0.80) << "five commands for four CK of data";
+        EXPECT_GE(fraction(written), std::string(queue) == "8" ? 0.4 : 0.6);
+        EXPECT_NEAR(written["row_hit_rate"].get<double>(), 0.5, 0.01) << "the second burst of each";
+        EXPECT_NEAR(written["access_hit_rate"].get<double>(), 0.0, 0.01);
+        before = fraction(written);
     }
 }
 
 // Every request of 64 B is two bursts; a saturated closed loop obeys Little's law.
 TEST(MemoryCommand, CountsAddUp) {
-    const auto json = measure("lpddr5-3200x128", {"--requests", "30000"});
-    const auto& commands = json["commands"];
+    const auto written = measure("lpddr5-3200x128", {"--requests", "30000"});
+    const auto& commands = written["commands"];
     const double bursts = commands["rd"].get<double>() + commands["rda"].get<double>();
-    const double requests = json["traffic"]["requests"].get<double>();
+    const double requests = written["traffic"]["requests"].get<double>();
     EXPECT_NEAR(bursts, 2 * requests, 0.01 * requests);
     EXPECT_EQ(commands["wr"].get<double>() + commands["wra"].get<double>(), 0);
     EXPECT_NEAR(commands["act1"].get<double>(), commands["act2"].get<double>(), 8);
     const double window = 32 + 3 + 1; // the queue, 11 CK of 4 CK each, and one
-    EXPECT_NEAR(json["latency_ns"]["mean"].get<double>(),
-                8 * window * 64 / json["bandwidth_gb_per_s"].get<double>(), 15);
-    const auto& energy = json["energy"];
+    EXPECT_NEAR(written["latency_ns"]["mean"].get<double>(),
+                8 * window * 64 / written["bandwidth_gb_per_s"].get<double>(), 15);
+    const auto& energy = written["energy"];
     EXPECT_NEAR(energy["read_nj"].get<double>(), 2.75e-3 * 256 * bursts, 1e-3 * bursts);
     EXPECT_GT(energy["background_nj"].get<double>(), 0);
 }
@@ -85,8 +85,8 @@ TEST(MemoryCommand, CurveRisesWithTheLoad) {
                                   "--requests", "20000", "--out", folder / "out"});
     expect_success(outcome);
     EXPECT_NE(outcome.out.find("offered %"), std::string::npos);
-    const auto json = nlohmann::json::parse(read_file(folder / "out/memory.json"));
-    const auto& curve = json["curve"];
+    const auto written = nlohmann::json::parse(read_file(folder / "out/memory.json"));
+    const auto& curve = written["curve"];
     ASSERT_GE(curve.size(), 5U);
     for (std::size_t i = 1; i < curve.size(); ++i) {
         EXPECT_GT(curve[i]["latency_ns"]["mean"], curve[i - 1]["latency_ns"]["mean"]);

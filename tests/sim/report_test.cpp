@@ -10,14 +10,14 @@ namespace {
 
 using nlohmann::json;
 
-struct Result {
+struct ReportedRun {
     json report;
     std::string exr, png, text;
 };
 
-Result run(const std::vector<std::string>& more, const std::string& name = "degs-64",
-           const std::string& scene = "synthetic:object,gaussians=2000",
-           const std::string& width = "200") {
+ReportedRun reported_run(const std::vector<std::string>& more, const std::string& name = "degs-64",
+                         const std::string& scene = "synthetic:object,gaussians=2000",
+                         const std::string& width = "200") {
     const Folder folder;
     std::vector<std::string> arguments{"run",     config(name), "--scene", scene,
                                        "--width", width,        "--out",   folder / "out"};
@@ -78,7 +78,7 @@ void expect_laws(const json& report) {
 }
 
 TEST(SmallRunReport, HasEveryKeyOfTheContract) {
-    const json report = run({}).report;
+    const json report = reported_run({}).report;
     expect_keys(report, {"tool", "schema", "scene", "camera", "config", "workload", "timing",
                          "stages", "slots", "dram", "buffers", "energy", "area", "image", "host"});
     EXPECT_EQ(report["schema"]["version"], 1);
@@ -119,7 +119,7 @@ void collect_keys(const json& value, std::set<std::string>& keys) {
 }
 
 TEST(SmallRunReport, IsDocumentedKeyByKey) {
-    json report = run({}).report;
+    json report = reported_run({}).report;
     report["config"] = json::object(); // `degs config` documents these
     std::set<std::string> keys;
     collect_keys(report, keys);
@@ -132,7 +132,7 @@ TEST(SmallRunReport, IsDocumentedKeyByKey) {
 }
 
 TEST(SmallRunReport, DerivedNumbersFollowFromTheCounters) {
-    const json report = run({"--set", "clock_ghz=2"}).report;
+    const json report = reported_run({"--set", "clock_ghz=2"}).report;
     const auto cycles = report["timing"]["cycles"].get<double>();
     const auto useful = report["slots"]["useful"].get<double>();
     EXPECT_DOUBLE_EQ(report["timing"]["latency_ms"], cycles / 2e6);
@@ -153,7 +153,7 @@ TEST(SmallRunReport, DerivedNumbersFollowFromTheCounters) {
 class SmallRunLaws : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SmallRunLaws, Hold) {
-    expect_laws(run({"--no-reference"}, GetParam()).report);
+    expect_laws(reported_run({"--no-reference"}, GetParam()).report);
 }
 
 INSTANTIATE_TEST_SUITE_P(Configs, SmallRunLaws,
@@ -166,8 +166,8 @@ TEST(SmallRunReport, DoublePrecisionCountsAndPaintsLikeTheReference) {
     for (const char* scene : {"synthetic:object,gaussians=2000", "synthetic:needles,gaussians=300",
                               "synthetic:dense,gaussians=2000"}) {
         const json report =
-            run({"--set", "pipeline.numbers=fp64", "--set", "pipeline.span_ends=exact"}, "degs-64",
-                scene)
+            reported_run({"--set", "pipeline.numbers=fp64", "--set", "pipeline.span_ends=exact"},
+                         "degs-64", scene)
                 .report;
         EXPECT_EQ(report["slots"]["useful"], report["workload"]["fragments"]) << scene;
         const json& psnr = report["image"]["psnr_db"];
@@ -177,8 +177,8 @@ TEST(SmallRunReport, DoublePrecisionCountsAndPaintsLikeTheReference) {
 
 TEST(SmallRunReport, ExactAndStrictAgreeToTheByte) {
     for (const char* name : {"degs-64", "degs-64-tuned"}) {
-        const Result exact = run({}, name);
-        const Result strict = run({"--fidelity", "strict"}, name);
+        const ReportedRun exact = reported_run({}, name);
+        const ReportedRun strict = reported_run({"--fidelity", "strict"}, name);
         EXPECT_EQ(without_host(exact.report), without_host(strict.report)) << name;
         EXPECT_EQ(exact.exr, strict.exr) << name;
         EXPECT_EQ(exact.png, strict.png) << name;
@@ -187,17 +187,17 @@ TEST(SmallRunReport, ExactAndStrictAgreeToTheByte) {
 }
 
 TEST(SmallRunReport, TwoRunsAgreeToTheByte) {
-    const Result first = run({});
-    const Result second = run({});
+    const ReportedRun first = reported_run({});
+    const ReportedRun second = reported_run({});
     EXPECT_EQ(without_host(first.report).dump(), without_host(second.report).dump());
     EXPECT_EQ(first.exr, second.exr);
     EXPECT_EQ(first.png, second.png);
-    EXPECT_NE(first.exr, run({}, "degs-64", "synthetic:object,gaussians=2000,seed=2").exr);
+    EXPECT_NE(first.exr, reported_run({}, "degs-64", "synthetic:object,gaussians=2000,seed=2").exr);
 }
 
 TEST(SmallRunReport, WithoutReferenceItsNumbersAreNull) {
-    const json with = run({}).report;
-    const json without = run({"--no-reference"}).report;
+    const json with = reported_run({}).report;
+    const json without = reported_run({"--no-reference"}).report;
     EXPECT_TRUE(without["workload"]["fragments"].is_null());
     EXPECT_TRUE(without["image"]["psnr_db"].is_null());
     EXPECT_TRUE(without["host"]["render_s"].is_null());
@@ -207,25 +207,23 @@ TEST(SmallRunReport, WithoutReferenceItsNumbersAreNull) {
 }
 
 TEST(SmallRunTerminal, SummaryAndExplanation) {
-    const std::string text = run({"--explain"}).text;
+    const std::string text = reported_run({"--explain"}).text;
     for (const char* line : {"scene ", "design ", "frame ", "slots ", "stages ", "memory ",
                              "image ", "host ", "limited by: ", "culled", "tiles list no splat"}) {
         EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
     }
     EXPECT_EQ(text.find("SystemC 2"), std::string::npos) << "the kernel's banner";
-    EXPECT_EQ(run({}).text.find("left out"), std::string::npos);
+    EXPECT_EQ(reported_run({}).text.find("left out"), std::string::npos);
 }
 
 TEST(TrainedScene, DoublePrecisionCountsLikeTheReference) {
-    const char* const set = std::getenv("DEGS_SCENES");
-    const fs::path scene =
-        fs::path(set != nullptr ? set : DEGS_SCENES_DEFAULT) / "flowers-small" / "scene.ply";
+    const fs::path scene = trained_scenes() / "flowers-small" / "scene.ply";
     if (!fs::exists(scene)) {
         GTEST_SKIP() << "There is no trained scene " << scene << "; set DEGS_SCENES to their "
                      << "folder.";
     }
-    const json report = run({"--camera", "1", "--set", "pipeline.numbers=fp64"}, "degs-64-tuned",
-                            scene.string(), "1280")
+    const json report = reported_run({"--camera", "1", "--set", "pipeline.numbers=fp64"},
+                                     "degs-64-tuned", scene.string(), "1280")
                             .report;
     expect_laws(report);
     EXPECT_EQ(report["slots"]["useful"], report["workload"]["fragments"]);

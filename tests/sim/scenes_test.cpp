@@ -11,19 +11,16 @@ namespace {
 
 using nlohmann::json;
 
-fs::path scenes() {
-    const char* variable = std::getenv("DEGS_SCENES");
-    return variable != nullptr ? fs::path(variable) : fs::path(DEGS_SCENES_DEFAULT);
-}
-
 const std::vector<std::string> kCloseUps{"flowers", "guitar", "seal", "skull", "st-peter"};
 
-json run(const std::string& configuration, const std::string& scene, int camera,
-         const std::vector<std::string>& more = {}) {
+json report_of(const std::string& configuration, const std::string& scene, int camera,
+               const std::vector<std::string>& more = {}) {
     const Folder folder;
     std::vector<std::string> arguments{
-        "run",      config(configuration),  "--scene", (scenes() / scene / "scene.ply").string(),
-        "--camera", std::to_string(camera), "--out",   folder / "out"};
+        "run",      config(configuration),
+        "--scene",  (trained_scenes() / scene / "scene.ply").string(),
+        "--camera", std::to_string(camera),
+        "--out",    folder / "out"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = degs(arguments);
     expect_success(outcome);
@@ -40,8 +37,8 @@ double psnr(const json& report) {
 }
 
 #define DEGS_NEEDS(scene)                                                                          \
-    if (!fs::exists(scenes() / (scene) / "scene.ply")) {                                           \
-        GTEST_SKIP() << "the trained scene " << (scene) << " is not in " << scenes()               \
+    if (!fs::exists(trained_scenes() / (scene) / "scene.ply")) {                                   \
+        GTEST_SKIP() << "the trained scene " << (scene) << " is not in " << trained_scenes()       \
                      << "; set DEGS_SCENES";                                                       \
     }
 
@@ -53,7 +50,7 @@ TEST_P(Scene, EveryCameraMatchesTheReference) {
     DEGS_NEEDS(GetParam());
     for (int camera = 0; camera < 3; ++camera) {
         const json report =
-            run("degs-64-tuned", GetParam(), camera, {"--set", "pipeline.numbers=fp32"});
+            report_of("degs-64-tuned", GetParam(), camera, {"--set", "pipeline.numbers=fp32"});
         EXPECT_GE(psnr(report), 90.0) << camera;
         const auto useful = report["slots"]["useful"].get<double>();
         const auto fragments = report["workload"]["fragments"].get<double>();
@@ -73,7 +70,8 @@ INSTANTIATE_TEST_SUITE_P(All, Scene,
 TEST(Scenes, DoublePrecisionUpdatesExactlyTheReferencesPixels) {
     DEGS_NEEDS("flowers");
     for (const char* scene : {"flowers", "st-peter"}) {
-        const json report = run("degs-64-tuned", scene, 2, {"--set", "pipeline.numbers=fp64"});
+        const json report =
+            report_of("degs-64-tuned", scene, 2, {"--set", "pipeline.numbers=fp64"});
         EXPECT_EQ(report["slots"]["useful"], report["workload"]["fragments"]) << scene;
     }
 }
@@ -83,7 +81,7 @@ TEST(Scenes, GbuMatchesTheReference) {
     DEGS_NEEDS("flowers");
     for (const char* scene : {"flowers", "guitar", "st-peter"}) {
         for (int camera = 1; camera < 3; ++camera) {
-            const json report = run("gbu-64", scene, camera);
+            const json report = report_of("gbu-64", scene, camera);
             EXPECT_GE(psnr(report), 90.0) << scene << ", camera " << camera;
             const auto useful = report["slots"]["useful"].get<double>();
             const auto fragments = report["workload"]["fragments"].get<double>();
@@ -94,7 +92,8 @@ TEST(Scenes, GbuMatchesTheReference) {
 
 TEST(Scenes, OutwardSpanEndsCostTensOfDecibels) {
     DEGS_NEEDS("flowers");
-    const double literal = psnr(run("degs-64", "flowers", 2, {"--set", "pipeline.numbers=fp32"}));
+    const double literal =
+        psnr(report_of("degs-64", "flowers", 2, {"--set", "pipeline.numbers=fp32"}));
     EXPECT_GE(literal, 55.0);
     EXPECT_LE(literal, 80.0);
 }
@@ -102,17 +101,18 @@ TEST(Scenes, OutwardSpanEndsCostTensOfDecibels) {
 // `paper` has outward ends, too, and coarse formats; `tuned` has neither.
 TEST(Scenes, HardwareNumbersOfTheConfigurations) {
     DEGS_NEEDS("flowers");
-    const double paper = psnr(run("degs-64", "flowers", 2));
+    const double paper = psnr(report_of("degs-64", "flowers", 2));
     EXPECT_GE(paper, 55.0);
     EXPECT_LE(paper, 80.0);
-    EXPECT_GE(psnr(run("degs-64-tuned", "flowers", 2)), 80.0);
+    EXPECT_GE(psnr(report_of("degs-64-tuned", "flowers", 2)), 80.0);
 }
 
 TEST(Scenes, TunedArrayIsBusyOnCloseUps) {
     DEGS_NEEDS("skull");
     double logarithms = 0;
     for (const std::string& scene : kCloseUps) {
-        logarithms += std::log(utilization(run("degs-64-tuned", scene, 2, {"--no-reference"})));
+        logarithms +=
+            std::log(utilization(report_of("degs-64-tuned", scene, 2, {"--no-reference"})));
     }
     EXPECT_GE(std::exp(logarithms / static_cast<double>(kCloseUps.size())), 0.88);
 }
@@ -122,7 +122,7 @@ TEST(Scenes, MorePesFinishEarlierAndIdleMore) {
     double last_utilization = 1.0;
     double last_cycles = INFINITY;
     for (const char* configuration : {"degs-16", "degs-64", "degs-256", "degs-1024"}) {
-        const json report = run(configuration, "guitar", 2, {"--no-reference"});
+        const json report = report_of(configuration, "guitar", 2, {"--no-reference"});
         EXPECT_LT(utilization(report), last_utilization) << configuration;
         EXPECT_LT(report["timing"]["cycles"].get<double>(), last_cycles) << configuration;
         last_utilization = utilization(report);
@@ -132,10 +132,10 @@ TEST(Scenes, MorePesFinishEarlierAndIdleMore) {
 
 TEST(Scenes, HalvingABufferNeverHelps) {
     DEGS_NEEDS("flowers");
-    const json whole = run("degs-64", "flowers", 1, {"--no-reference"});
+    const json whole = report_of("degs-64", "flowers", 1, {"--no-reference"});
     for (const char* half : {"gaussian_buffer.bytes=36864", "span_buffer.bytes=1024",
                              "packing.bytes=16384", "feature_buffer.bytes=4096"}) {
-        const json less = run("degs-64", "flowers", 1, {"--no-reference", "--set", half});
+        const json less = report_of("degs-64", "flowers", 1, {"--no-reference", "--set", half});
         EXPECT_GE(less["timing"]["cycles"].get<double>(),
                   0.995 * whole["timing"]["cycles"].get<double>())
             << half;
@@ -144,7 +144,7 @@ TEST(Scenes, HalvingABufferNeverHelps) {
 
 TEST(Scenes, LargestFrameFitsTwoGibibytes) {
     DEGS_NEEDS("skull");
-    const json report = run("degs-64-tuned", "skull", 2);
+    const json report = report_of("degs-64-tuned", "skull", 2);
     EXPECT_LE(report["host"]["peak_rss_bytes"].get<double>(), 2.0 * 1024 * 1024 * 1024);
 }
 

@@ -12,17 +12,17 @@ TEST(SmallRunSoc, LatencyRisesWithTheLoadAndPixelsStay) {
               "160", "--load", "0", "120", "--cores", "2", "--out", folder / "out"});
     expect_success(outcome);
     EXPECT_NE(outcome.out.find("the same under every load"), std::string::npos) << outcome.out;
-    const auto json = nlohmann::json::parse(read_file(folder / "out/soc.json"));
-    ASSERT_EQ(json["points"].size(), 2U);
-    const auto& alone = json["points"][0];
-    const auto& loaded = json["points"][1];
+    const auto written = nlohmann::json::parse(read_file(folder / "out/soc.json"));
+    ASSERT_EQ(written["points"].size(), 2U);
+    const auto& alone = written["points"][0];
+    const auto& loaded = written["points"][1];
     EXPECT_EQ(alone["cpu_gb_per_s"], 0.0);
     EXPECT_GT(loaded["cpu_gb_per_s"], 10.0);
     EXPECT_LE(loaded["cpu_gb_per_s"], 121.0); // offered, and one line per core more
     EXPECT_GT(loaded["latency_ns"], alone["latency_ns"]);
     EXPECT_EQ(loaded["bytes_written"], alone["bytes_written"]);
     EXPECT_EQ(loaded["fragments"], alone["fragments"]);
-    EXPECT_GT(json["psnr_db"], 45.0); // 8 bits alone: 20 log10(255 sqrt 12) = 58.9 dB
+    EXPECT_GT(written["psnr_db"], 45.0); // 8 bits alone: 20 log10(255 sqrt 12) = 58.9 dB
     EXPECT_NE(read_file(folder / "out/soc.svg").find("<svg"), std::string::npos);
 }
 

@@ -45,12 +45,12 @@ struct Lane {
     }
 };
 
-constexpr std::size_t kPixels = 96;
+constexpr std::size_t kRowPixels = 96;
 constexpr std::size_t kFirst = 32; ///< pixel of mask bit 0
 
 template <class T>
 struct Planes {
-    PixelPlanes<T> pixels{kPixels + kLanePadding};
+    PixelPlanes<T> pixels{kRowPixels + kLanePadding};
     Lane read(std::size_t i) const {
         const PixelValue value = pixels.read(i);
         Lane lane;
@@ -75,7 +75,7 @@ template <class T>
 Planes<T> random_planes(std::mt19937& random) {
     std::uniform_real_distribution<double> unit(0, 1);
     Planes<T> planes;
-    for (std::size_t i = 0; i < kPixels + kLanePadding; ++i) {
+    for (std::size_t i = 0; i < kRowPixels + kLanePadding; ++i) {
         planes.pixels.transmittance[i] = static_cast<T>(std::pow(10.0, -4 * unit(random)));
         planes.pixels.r[i] = static_cast<T>(unit(random));
         planes.pixels.g[i] = static_cast<T>(unit(random));
@@ -122,7 +122,7 @@ void expect_scalar_recurrence(BlendFunction<T> blend, bool refuse, double relati
         ASSERT_EQ(outcome.boundary & outcome.terminated, 0U);
         ASSERT_EQ(outcome.useful | outcome.boundary | outcome.terminated, task.mask);
         ASSERT_EQ(outcome.ended & ~task.mask, 0U);
-        for (std::size_t i = 0; i < kPixels + kLanePadding; ++i) {
+        for (std::size_t i = 0; i < kRowPixels + kLanePadding; ++i) {
             const bool lane = i >= kFirst && i < kFirst + 32;
             const auto bit = static_cast<int>(i - kFirst);
             if (!lane || (task.mask >> bit & 1U) == 0) {
@@ -188,7 +188,7 @@ TEST_P(BlendLanes, VariantsGiveTheSameBits) {
             ASSERT_EQ(outcome.boundary, expected.boundary);
             ASSERT_EQ(outcome.terminated, expected.terminated);
             ASSERT_EQ(outcome.ended, expected.ended);
-            for (std::size_t i = 0; i < kPixels + kLanePadding; ++i) {
+            for (std::size_t i = 0; i < kRowPixels + kLanePadding; ++i) {
                 ASSERT_TRUE(planes.same(first, i));
             }
         }

@@ -21,6 +21,8 @@ using Matrix = glm::mat<3, 3, Real, glm::defaultp>;
 using Vector = glm::vec<3, Real, glm::defaultp>;
 
 constexpr double kPi = 3.14159265358979323846;
+inline const glm::vec4 kNoTurn(1, 0, 0, 0);
+inline const glm::vec3 kGrey(0.5F);
 
 inline Camera make_camera(int width, int height, double focal) {
     Camera camera;

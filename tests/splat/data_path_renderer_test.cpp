@@ -10,7 +10,7 @@
 namespace degs {
 namespace {
 
-FrameWorkload frame(int tile_size) {
+FrameWorkload random_view(int tile_size) {
     return make_frame_workload(test::random_cloud(300, 5), test::make_camera(100, 70, 80),
                                tile_size, TileMode::Exact);
 }
@@ -35,7 +35,7 @@ int differences(const Image& whole, const Image& part, const PixelBox& box) {
 
 TEST(DataPathRenderer, DoublePrecisionIsTheReference) {
     for (const int tile_size : {1, 16, 48, 128}) {
-        const FrameWorkload work = frame(tile_size);
+        const FrameWorkload work = random_view(tile_size);
         DataPathRender options;
         options.numbers.numbers = NumberFormat::Fp64;
         ReferenceCounts wanted;
@@ -52,7 +52,7 @@ TEST(DataPathRenderer, DoublePrecisionIsTheReference) {
 }
 
 TEST(DataPathRenderer, AWindowIsAPartOfTheImage) {
-    const FrameWorkload work = frame(16);
+    const FrameWorkload work = random_view(16);
     ReferenceCounts wanted;
     DataPathRenderer renderer(work, {});
     const Image image = renderer.render(all_tiles(work));
@@ -73,7 +73,7 @@ TEST(DataPathRenderer, AWindowIsAPartOfTheImage) {
 }
 
 TEST(DataPathRenderer, TellsItsProgress) {
-    const FrameWorkload work = frame(16);
+    const FrameWorkload work = random_view(16);
     std::vector<double> shares;
     DataPathRender options;
     options.progress = [&](double share) { shares.push_back(share); };

@@ -9,13 +9,13 @@
 
 #include <gtest/gtest.h>
 
+#include "splat/angles.hpp"
 #include "splat/error.hpp"
 
 namespace degs {
 namespace {
 
 using Colour = std::array<double, 3>;
-constexpr double kPi = 3.14159265358979323846;
 
 Image filled(int width, int height, float r, float g, float b) {
     Image image(width, height);

@@ -12,9 +12,6 @@ namespace {
 using test::add_gaussian;
 using test::make_camera;
 
-const glm::vec4 kNoTurn(1, 0, 0, 0);
-const glm::vec3 kGrey(0.5F);
-
 std::vector<std::uint32_t> ids(const FrameWorkload& work) {
     std::vector<std::uint32_t> out;
     for (const ProjectedSplat& splat : work.splats) {
@@ -85,10 +82,10 @@ TEST_P(Workload, EmptyAndFullyCulledScenes) {
     EXPECT_EQ(empty.tile_pairs(), 0U);
     EXPECT_EQ(empty.tile_begin, std::vector<std::uint64_t>(5, 0));
     GaussianCloud behind;
-    add_gaussian(behind, {0, 0, -5}, glm::vec3(0.1F), kNoTurn, 0.5F, kGrey);
-    add_gaussian(behind, {0, 0, 5}, glm::vec3(0.1F), kNoTurn, 0.001F, kGrey);
-    add_gaussian(behind, {0, 0, 5}, glm::vec3(0.1F), glm::vec4(0), 0.5F, kGrey);
-    add_gaussian(behind, {90, 0, 5}, glm::vec3(0.1F), kNoTurn, 0.5F, kGrey);
+    add_gaussian(behind, {0, 0, -5}, glm::vec3(0.1F), test::kNoTurn, 0.5F, test::kGrey);
+    add_gaussian(behind, {0, 0, 5}, glm::vec3(0.1F), test::kNoTurn, 0.001F, test::kGrey);
+    add_gaussian(behind, {0, 0, 5}, glm::vec3(0.1F), glm::vec4(0), 0.5F, test::kGrey);
+    add_gaussian(behind, {90, 0, 5}, glm::vec3(0.1F), test::kNoTurn, 0.5F, test::kGrey);
     const FrameWorkload culled =
         make_frame_workload(behind, make_camera(20, 20, 20), 16, GetParam());
     EXPECT_TRUE(culled.splats.empty());
@@ -109,7 +106,7 @@ TEST(WorkloadOrder, EqualDepthsKeepIndexOrder) {
     const double same_float = std::nextafter(5.0, 6.0);
     GaussianCloud cloud;
     for (const double depth : {next_float, same_float, z, same_float, z, 4.0, next_float}) {
-        add_gaussian(cloud, {0, 0, depth}, glm::vec3(0.5F), kNoTurn, 0.5F, kGrey);
+        add_gaussian(cloud, {0, 0, depth}, glm::vec3(0.5F), test::kNoTurn, 0.5F, test::kGrey);
     }
     const auto work = make_frame_workload(cloud, make_camera(20, 20, 20), 16, TileMode::Exact);
     EXPECT_EQ(ids(work), (std::vector<std::uint32_t>{5, 1, 2, 3, 4, 0, 6}));
@@ -118,7 +115,7 @@ TEST(WorkloadOrder, EqualDepthsKeepIndexOrder) {
 TEST(WorkloadOrder, ThousandsAtOneDepth) {
     GaussianCloud cloud;
     for (int i = 0; i < 5000; ++i) {
-        add_gaussian(cloud, {0, 0, 5}, glm::vec3(0.5F), kNoTurn, 0.5F, kGrey);
+        add_gaussian(cloud, {0, 0, 5}, glm::vec3(0.5F), test::kNoTurn, 0.5F, test::kGrey);
     }
     const auto work = make_frame_workload(cloud, make_camera(20, 20, 20), 16, TileMode::Exact);
     std::vector<std::uint32_t> expected(5000);
@@ -130,8 +127,8 @@ TEST(WorkloadOrder, ThousandsAtOneDepth) {
 TEST(WorkloadOrder, DepthRangeOfEightDecades) {
     GaussianCloud cloud;
     for (const double depth : {1e7, 0.2001, 9.99e6, 0.20011, 3.0}) {
-        add_gaussian(cloud, {0, 0, depth}, glm::vec3(0.1F * static_cast<float>(depth)), kNoTurn,
-                     0.5F, kGrey);
+        add_gaussian(cloud, {0, 0, depth}, glm::vec3(0.1F * static_cast<float>(depth)),
+                     test::kNoTurn, 0.5F, test::kGrey);
     }
     const auto work = make_frame_workload(cloud, make_camera(20, 20, 20), 16, TileMode::Exact);
     EXPECT_EQ(ids(work), (std::vector<std::uint32_t>{1, 3, 4, 2, 0}));
@@ -141,9 +138,9 @@ TEST(WorkloadModes, VisibilityFollowsTheTilesOfTheMode) {
     const Camera camera = make_camera(32, 32, 100);
     GaussianCloud cloud; // sigma 4.04 px, 3-sigma radius 13 px, left of the image
     // At -10 with reach 1.8 sigma: only the square touches the image.
-    add_gaussian(cloud, {-25.5 * 0.05, 0, 5}, glm::vec3(0.2F), kNoTurn, 0.02F, kGrey);
+    add_gaussian(cloud, {-25.5 * 0.05, 0, 5}, glm::vec3(0.2F), test::kNoTurn, 0.02F, test::kGrey);
     // At -12.5 with reach 3.33 sigma: only the ellipse does; the square ends one pixel short.
-    add_gaussian(cloud, {-28 * 0.05, 0, 5}, glm::vec3(0.2F), kNoTurn, 1.0F, kGrey);
+    add_gaussian(cloud, {-28 * 0.05, 0, 5}, glm::vec3(0.2F), test::kNoTurn, 1.0F, test::kGrey);
     const auto exact = make_frame_workload(cloud, camera, 16, TileMode::Exact);
     EXPECT_EQ(ids(exact), std::vector<std::uint32_t>{1});
     const auto square = make_frame_workload(cloud, camera, 16, TileMode::Ref);
@@ -153,7 +150,7 @@ TEST(WorkloadModes, VisibilityFollowsTheTilesOfTheMode) {
 TEST(WorkloadModes, ASplatBetweenPixelCentresIsNotVisible) {
     GaussianCloud cloud; // its bounding box holds pixels, the thin faint ellipse none
     const auto turn = test::turn_about_z(test::kPi / 4);
-    add_gaussian(cloud, {0.025, 0, 5}, glm::vec3(0.2F, 0, 0), turn, 1.1F / 255, kGrey);
+    add_gaussian(cloud, {0.025, 0, 5}, glm::vec3(0.2F, 0, 0), turn, 1.1F / 255, test::kGrey);
     ProjectedSplat splat;
     const Camera camera = make_camera(32, 32, 100);
     ASSERT_EQ(project(cloud, 0, camera, {}, splat), Cull::None);

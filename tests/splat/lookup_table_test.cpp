@@ -36,8 +36,8 @@ TableSpec spec_of(TableFunction function, Interpolation interpolation, Reduction
     return spec;
 }
 
-using Shape = std::tuple<TableFunction, Interpolation, Reduction, int>;
-class Tables : public testing::TestWithParam<Shape> {};
+using TableShape = std::tuple<TableFunction, Interpolation, Reduction, int>;
+class Tables : public testing::TestWithParam<TableShape> {};
 
 // Every result is within shape_error of the truth, and some result is nearly that far.
 TEST_P(Tables, AreAsFarFromTheirFunctionAsTheySay) {
@@ -59,7 +59,7 @@ TEST_P(Tables, AreAsFarFromTheirFunctionAsTheySay) {
     EXPECT_LE(worst, table.shape_error() * (1 + 1e-6));
     EXPECT_GE(worst, table.shape_error() * 0.97);
 }
-std::string shape_name(const ::testing::TestParamInfo<Shape>& shape) {
+std::string shape_name(const ::testing::TestParamInfo<TableShape>& shape) {
     constexpr const char* kFunctions[] = {"SqrtOneMinus", "ExpHalf", "Exp2"};
     const auto [function, interpolation, reduction, entries] = shape.param;
     return std::string(kFunctions[static_cast<std::size_t>(function)]) +

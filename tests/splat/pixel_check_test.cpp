@@ -17,7 +17,7 @@ using test::path_of;
 using test::path_options;
 using test::random_splat;
 
-constexpr int kTile = 32;
+constexpr int kTileSize = 32;
 
 DataPathOptions stop_options(NumberFormat numbers, StopRule stop) {
     DataPathOptions options = path_options(numbers);
@@ -53,12 +53,13 @@ double q_error(const ProjectedSplat& s, double x, double y, double eps) {
 }
 
 /// What the words of the paper (Eq. 5-8) make of one pixel, in double.
-struct Expected {
+struct ExpectedPixel {
     double transmittance, red;
     bool useful = false, boundary = false, terminated = false, ended = false;
     double q, next;
 
-    Expected(const ProjectedSplat& s, const PixelValue& before, double x, double y, bool refuse)
+    ExpectedPixel(const ProjectedSplat& s, const PixelValue& before, double x, double y,
+                  bool refuse)
         : transmittance(before.transmittance), red(before.rgb[0]),
           q(static_cast<double>(exact_q(s, x, y))) {
         const double alpha = std::min(0.99, s.opacity * std::exp(-0.5 * q));
@@ -82,32 +83,32 @@ bool bit(std::uint32_t mask, int i) {
     return (mask >> i & 1U) != 0;
 }
 
-void expect_brute_force(NumberFormat numbers, StopRule stop) {
+void expect_blended_by_hand(NumberFormat numbers, StopRule stop) {
     const double eps = numbers == NumberFormat::Fp32 ? 0x1p-24 : 0x1p-53;
     const double exp_error = numbers == NumberFormat::Fp32 ? 3e-7 : 1e-15;
     std::mt19937 random(21);
     std::vector<ProjectedSplat> splats;
     for (int i = 0; i < 2000; ++i) {
-        splats.push_back(random_splat(random, 0, 0, kTile));
+        splats.push_back(random_splat(random, 0, 0, kTileSize));
     }
-    const auto path = path_of(splats, stop_options(numbers, stop), kTile);
-    std::vector<PixelValue> before(kTile), after(kTile);
+    const auto path = path_of(splats, stop_options(numbers, stop), kTileSize);
+    std::vector<PixelValue> before(kTileSize), after(kTileSize);
     int compared = 0, useful = 0;
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
         if (i % 40 == 0) {
-            test::begin_tile(*path, 0, kTile);
+            test::begin_tile(*path, 0, kTileSize);
         }
-        for (int y = 0; y < kTile; ++y) {
+        for (int y = 0; y < kTileSize; ++y) {
             const std::uint32_t mask =
                 random() % 2 == 0 ? ~0U : static_cast<std::uint32_t>(random());
-            path->read_row(0, y, kTile, before.data());
+            path->read_row(0, y, kTileSize, before.data());
             const BlendOutcome outcome = path->test(test_of(i, y, mask));
-            path->read_row(0, y, kTile, after.data());
+            path->read_row(0, y, kTileSize, after.data());
             ASSERT_EQ(outcome.useful & outcome.boundary, 0U);
             ASSERT_EQ((outcome.useful | outcome.boundary) & outcome.terminated, 0U);
             ASSERT_EQ(outcome.useful | outcome.boundary | outcome.terminated, mask);
             ASSERT_EQ(outcome.ended & ~(outcome.useful | outcome.terminated), 0U);
-            for (int x = 0; x < kTile; ++x) {
+            for (int x = 0; x < kTileSize; ++x) {
                 const PixelValue& old = before[static_cast<std::size_t>(x)];
                 const PixelValue& now = after[static_cast<std::size_t>(x)];
                 ASSERT_EQ(now.updates, old.updates + (bit(outcome.useful, x) ? 1U : 0U));
@@ -117,7 +118,7 @@ void expect_brute_force(NumberFormat numbers, StopRule stop) {
                 }
                 ASSERT_EQ(now.ended, old.ended || bit(outcome.ended, x));
                 const ProjectedSplat& s = splats[i];
-                const Expected expected(s, old, x, y, stop == StopRule::Refuse);
+                const ExpectedPixel expected(s, old, x, y, stop == StopRule::Refuse);
                 const double slack = q_error(s, x, y, eps);
                 // alpha is right to slack / 2 and the exponential's own error; 1 - alpha >= 0.01.
                 const double tolerance = slack + 4 * exp_error;
@@ -140,19 +141,19 @@ void expect_brute_force(NumberFormat numbers, StopRule stop) {
 }
 
 TEST(PixelCheck, Fp32AgainstBruteForce) {
-    expect_brute_force(NumberFormat::Fp32, StopRule::Refuse);
-    expect_brute_force(NumberFormat::Fp32, StopRule::After);
+    expect_blended_by_hand(NumberFormat::Fp32, StopRule::Refuse);
+    expect_blended_by_hand(NumberFormat::Fp32, StopRule::After);
 }
 
 TEST(PixelCheck, Fp64AgainstBruteForce) {
-    expect_brute_force(NumberFormat::Fp64, StopRule::Refuse);
-    expect_brute_force(NumberFormat::Fp64, StopRule::After);
+    expect_blended_by_hand(NumberFormat::Fp64, StopRule::Refuse);
+    expect_blended_by_hand(NumberFormat::Fp64, StopRule::After);
 }
 
 /// The same row by its span.
 BlendOutcome blend_span(DataPath& path, std::uint32_t splat, int y, int context) {
     RowSpan span;
-    if (!path.solve_row(splat, y, 0, kTile, 0, span)) {
+    if (!path.solve_row(splat, y, 0, kTileSize, 0, span)) {
         return {};
     }
     BlendTask task;
@@ -172,29 +173,29 @@ TEST(PixelCheck, SameMasksAndPixelsAsExactSpans) {
     std::mt19937 random(22);
     std::vector<ProjectedSplat> splats;
     while (splats.size() < 1000) {
-        const ProjectedSplat s = random_splat(random, 0, 0, kTile);
+        const ProjectedSplat s = random_splat(random, 0, 0, kTileSize);
         bool close = false; // the two forms of q may round to either side of the limit
-        for (int p = 0; p < kTile * kTile; ++p) {
-            const auto q = static_cast<double>(exact_q(s, p % kTile, p / kTile));
+        for (int p = 0; p < kTileSize * kTileSize; ++p) {
+            const auto q = static_cast<double>(exact_q(s, p % kTileSize, p / kTileSize));
             close = close || std::abs(q - s.q_threshold) < 1e-6;
         }
         if (!close) {
             splats.push_back(s);
         }
     }
-    const auto path = path_of(splats, path_options(NumberFormat::Fp64), kTile, 2);
-    std::vector<PixelValue> spans(kTile), tests(kTile);
+    const auto path = path_of(splats, path_options(NumberFormat::Fp64), kTileSize, 2);
+    std::vector<PixelValue> spans(kTileSize), tests(kTileSize);
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
-        for (int y = 0; y < kTile; ++y) {
+        for (int y = 0; y < kTileSize; ++y) {
             const BlendOutcome by_span = blend_span(*path, i, y, 0);
             const BlendOutcome by_test = path->test(test_of(i, y, ~0U, 1));
             ASSERT_EQ(by_test.useful, by_span.useful);
             ASSERT_EQ(by_test.terminated, by_span.terminated);
             ASSERT_EQ(by_test.ended, by_span.ended);
             ASSERT_EQ(by_test.boundary, ~(by_span.useful | by_span.terminated));
-            path->read_row(0, y, kTile, spans.data());
-            path->read_row(1, y, kTile, tests.data());
-            for (std::size_t x = 0; x < kTile; ++x) {
+            path->read_row(0, y, kTileSize, spans.data());
+            path->read_row(1, y, kTileSize, tests.data());
+            for (std::size_t x = 0; x < kTileSize; ++x) {
                 ASSERT_EQ(tests[x].updates, spans[x].updates);
                 ASSERT_NEAR(tests[x].transmittance, spans[x].transmittance, 1e-9);
                 ASSERT_NEAR(tests[x].rgb[0], spans[x].rgb[0], 1e-9);
@@ -209,7 +210,7 @@ TEST(PixelCheck, RefuseOrAfter) {
                                              make_splat(4, 4, 500, 500, 0, 0.1)};
     for (const StopRule stop : {StopRule::Refuse, StopRule::After}) {
         const bool refuse = stop == StopRule::Refuse;
-        const auto path = path_of(splats, stop_options(NumberFormat::Fp64, stop), kTile);
+        const auto path = path_of(splats, stop_options(NumberFormat::Fp64, stop), kTileSize);
         EXPECT_EQ(path->test(test_of(0, 4, 0x10)).useful, 0x10U);
         EXPECT_EQ(path->test(test_of(0, 4, 0x10)).useful, 0x10U);
         const BlendOutcome last = path->test(test_of(0, 4, 0x10));
@@ -220,8 +221,8 @@ TEST(PixelCheck, RefuseOrAfter) {
         const BlendOutcome weak = path->test(test_of(1, 4, 0x10));
         EXPECT_EQ(weak.terminated, 0x10U);
         EXPECT_EQ(weak.ended, 0U);
-        std::vector<PixelValue> row(kTile);
-        path->read_row(0, 4, kTile, row.data());
+        std::vector<PixelValue> row(kTileSize);
+        path->read_row(0, 4, kTileSize, row.data());
         EXPECT_EQ(row[4].updates, refuse ? 2U : 3U);
         EXPECT_NEAR(row[4].transmittance, refuse ? 4e-4 : 8e-6, 1e-12);
     }
@@ -230,7 +231,7 @@ TEST(PixelCheck, RefuseOrAfter) {
 // Outside the ellipse is boundary, on an ended pixel too.
 TEST(PixelCheck, OutsideIsBoundaryAlsoOnEndedPixels) {
     const auto path = path_of({make_splat(4, 4, 500, 500, 0, 1.0), make_splat(20, 4, 1, 1, 0, 1.0)},
-                              path_options(NumberFormat::Fp32), kTile);
+                              path_options(NumberFormat::Fp32), kTileSize);
     for (int i = 0; i < 3; ++i) {
         path->test(test_of(0, 4, ~0U));
     }

@@ -10,7 +10,7 @@
 namespace degs {
 namespace {
 
-FrameWorkload frame() {
+FrameWorkload replayed_view() {
     return make_frame_workload(test::random_cloud(4000, 11), test::make_camera(60, 50, 50), 16,
                                TileMode::Exact);
 }
@@ -33,7 +33,7 @@ double distance(const Image& image, const Replay& replay) {
 }
 
 TEST(PixelReplay, ReferenceIsTheReference) {
-    const FrameWorkload work = frame();
+    const FrameWorkload work = replayed_view();
     ReferenceCounts counts;
     const Image image = render_reference(work, counts);
     ASSERT_GT(counts.terminated, 0U); // ends are replayed, too
@@ -41,7 +41,7 @@ TEST(PixelReplay, ReferenceIsTheReference) {
 }
 
 TEST(PixelReplay, RowPathIsTheDataPath) {
-    const FrameWorkload work = frame();
+    const FrameWorkload work = replayed_view();
     for (const char* name : {"ideal", "paper", "tuned"}) {
         DataPathRender options;
         options.numbers = named_numbers(name);

@@ -11,7 +11,7 @@
 namespace degs {
 namespace {
 
-FrameWorkload frame(unsigned seed) {
+FrameWorkload bounded_view(unsigned seed) {
     return make_frame_workload(test::random_cloud(250, seed), test::make_camera(90, 70, 70), 32,
                                TileMode::Exact);
 }
@@ -42,7 +42,7 @@ int beyond(const FrameWorkload& work, const char* drawn, const char* claimed, do
 
 TEST(PixelTolerance, HoldsForEverySetThatHasOne) {
     for (const unsigned seed : {1U, 2U, 3U}) {
-        const FrameWorkload work = frame(seed);
+        const FrameWorkload work = bounded_view(seed);
         for (const char* name : {"ideal", "fp32", "paper", "tuned"}) {
             double largest = 0;
             EXPECT_EQ(beyond(work, name, name, largest), 0) << name << ", seed " << seed;
@@ -51,7 +51,7 @@ TEST(PixelTolerance, HoldsForEverySetThatHasOne) {
 }
 
 TEST(PixelTolerance, IsBrokenByCoarserNumbers) {
-    const FrameWorkload work = frame(4);
+    const FrameWorkload work = bounded_view(4);
     double largest = 0;
     EXPECT_GT(beyond(work, "tuned", "fp32", largest), 100);
     EXPECT_GT(beyond(work, "paper", "fp32", largest), 10);
@@ -59,7 +59,7 @@ TEST(PixelTolerance, IsBrokenByCoarserNumbers) {
 }
 
 TEST(SpanDifference, EqualNumbersHaveEqualSpans) {
-    const FrameWorkload work = frame(5);
+    const FrameWorkload work = bounded_view(5);
     const SpanDifference same = compare_spans(work, named_numbers("fp32"), named_numbers("fp32"));
     EXPECT_GT(same.spans, 1000U);
     EXPECT_GT(same.pixels, same.spans);

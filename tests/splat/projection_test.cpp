@@ -12,9 +12,6 @@ using test::add_gaussian;
 using test::brute_project;
 using test::make_camera;
 
-const glm::vec4 kNoTurn(1, 0, 0, 0);
-const glm::vec3 kGrey(0.5F);
-
 /// One Gaussian in front of a 64 x 48 camera of focal length 100.
 struct OneGaussian {
     GaussianCloud cloud;
@@ -23,8 +20,8 @@ struct OneGaussian {
     ProjectedSplat splat;
 
     explicit OneGaussian(const glm::dvec3& mean, const glm::vec3& scale = glm::vec3(0.1F),
-                         float opacity = 0.5F, const glm::vec4& rotation = kNoTurn) {
-        add_gaussian(cloud, mean, scale, rotation, opacity, kGrey);
+                         float opacity = 0.5F, const glm::vec4& rotation = test::kNoTurn) {
+        add_gaussian(cloud, mean, scale, rotation, opacity, test::kGrey);
     }
     Cull run() { return project(cloud, 0, camera, options, splat); }
 };
@@ -221,7 +218,7 @@ TEST(Projection, LargeWorldOffsetChangesNothing) {
 // H22
 TEST(Projection, ColourIsClampedBelowOnly) {
     GaussianCloud cloud;
-    add_gaussian(cloud, {0, 0, 5}, glm::vec3(0.1F), kNoTurn, 0.5F, {-0.5F, 1.5F, 100});
+    add_gaussian(cloud, {0, 0, 5}, glm::vec3(0.1F), test::kNoTurn, 0.5F, {-0.5F, 1.5F, 100});
     ProjectedSplat splat;
     shade(cloud, 0, make_camera(64, 48, 100), splat);
     EXPECT_EQ(splat.colour[0], 0);

@@ -45,14 +45,14 @@ struct Pixel {
     }
 };
 
-struct Case {
+struct PathCase {
     std::string name;
     std::vector<std::string> changes;
     SpanEnds ends;
     StopRule stop;
 };
 
-std::ostream& operator<<(std::ostream& out, const Case& c) {
+std::ostream& operator<<(std::ostream& out, const PathCase& c) {
     out << c.name;
     for (const std::string& change : c.changes) {
         out << " " << change;
@@ -60,7 +60,7 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
     return out << " " << static_cast<int>(c.ends);
 }
 
-class QuantizedPaths : public testing::TestWithParam<Case> {
+class QuantizedPaths : public testing::TestWithParam<PathCase> {
 protected:
     NumberSet set_ = with_ends(number_set(GetParam().name, GetParam().changes), GetParam().ends, 1);
     QuantizedRow row_{set_};
@@ -219,20 +219,20 @@ TEST_P(QuantizedPaths, ExtentsHoldEverySpan) {
 INSTANTIATE_TEST_SUITE_P(
     Sets, QuantizedPaths,
     testing::Values(
-        Case{"ideal", {}, SpanEnds::Exact, StopRule::Refuse},
-        Case{"fp32", {"alpha=fp16"}, SpanEnds::Outward, StopRule::After},
-        Case{"fp16", {}, SpanEnds::Outward, StopRule::Refuse},
-        Case{"fp16", {}, SpanEnds::Exact, StopRule::After},
-        Case{"paper", {}, SpanEnds::Slope, StopRule::Refuse},
-        Case{"paper", {}, SpanEnds::Exact, StopRule::After},
-        Case{"paper", {"base=vertex", "q_mask=true"}, SpanEnds::Outward, StopRule::Refuse},
-        Case{"paper", {"alpha=uq1.15", "sqrt.entries=16"}, SpanEnds::Exact, StopRule::Refuse},
-        Case{"tuned", {}, SpanEnds::Exact, StopRule::Refuse},
-        Case{"tuned", {}, SpanEnds::Outward, StopRule::After},
-        Case{"tuned",
-             {"exp.interpolation=exact", "guard=0.25"},
-             SpanEnds::Exact,
-             StopRule::Refuse}));
+        PathCase{"ideal", {}, SpanEnds::Exact, StopRule::Refuse},
+        PathCase{"fp32", {"alpha=fp16"}, SpanEnds::Outward, StopRule::After},
+        PathCase{"fp16", {}, SpanEnds::Outward, StopRule::Refuse},
+        PathCase{"fp16", {}, SpanEnds::Exact, StopRule::After},
+        PathCase{"paper", {}, SpanEnds::Slope, StopRule::Refuse},
+        PathCase{"paper", {}, SpanEnds::Exact, StopRule::After},
+        PathCase{"paper", {"base=vertex", "q_mask=true"}, SpanEnds::Outward, StopRule::Refuse},
+        PathCase{"paper", {"alpha=uq1.15", "sqrt.entries=16"}, SpanEnds::Exact, StopRule::Refuse},
+        PathCase{"tuned", {}, SpanEnds::Exact, StopRule::Refuse},
+        PathCase{"tuned", {}, SpanEnds::Outward, StopRule::After},
+        PathCase{"tuned",
+                 {"exp.interpolation=exact", "guard=0.25"},
+                 SpanEnds::Exact,
+                 StopRule::Refuse}));
 
 } // namespace
 } // namespace degs

@@ -13,7 +13,7 @@
 namespace degs {
 namespace {
 
-constexpr int kPixels = kAlphaWindow;
+constexpr int kWindowPixels = kAlphaWindow;
 
 struct Work {
     QuantizedSplat splat;
@@ -28,8 +28,8 @@ bool make_work(const QuantizedRow& path, std::mt19937_64& random, Work& work) {
         channel = static_cast<double>(random() % 1000) / 500;
     }
     work.splat = path.record(splat);
-    const int y = static_cast<int>(random() % kPixels);
-    const QuantizedSpan span = path.solve(work.splat, y, 0, kPixels);
+    const int y = static_cast<int>(random() % kWindowPixels);
+    const QuantizedSpan span = path.solve(work.splat, y, 0, kWindowPixels);
     if (span.empty()) {
         return false;
     }
@@ -47,14 +47,14 @@ bool make_work(const QuantizedRow& path, std::mt19937_64& random, Work& work) {
 }
 
 /// What must become of one pixel.
-struct Expected {
+struct ExpectedLane {
     QuantizedPixel pixel;
     bool live = true, useful = false, boundary = false, terminated = false, ended = false;
 };
 
-Expected expected(const QuantizedRow& path, const Work& work, int x, const PixelValue& before,
-                  double q_limit) {
-    Expected e;
+ExpectedLane expected(const QuantizedRow& path, const Work& work, int x, const PixelValue& before,
+                      double q_limit) {
+    ExpectedLane e;
     e.live = !before.ended;
     e.pixel.transmittance = before.transmittance;
     std::copy_n(before.rgb, 3, e.pixel.rgb);
@@ -97,7 +97,7 @@ TEST_P(Lanes, AreTheRowPath) {
     const double tolerance = name == "tuned" ? 1.0 / (1 << 18) + 2.0 / (1 << 16) : 0;
     for (const QuantizedBlendFunction blend : quantized_blend_variants(numbers.family)) {
         std::mt19937_64 random(3);
-        PixelPlanes<float> planes(kPixels + kLanePadding);
+        PixelPlanes<float> planes(kWindowPixels + kLanePadding);
         int compared = 0;
         int different = 0;
         int ended = 0;
@@ -107,13 +107,13 @@ TEST_P(Lanes, AreTheRowPath) {
                 continue;
             }
             if (trial % 100 == 0) {
-                planes.clear(0, kPixels);
+                planes.clear(0, kWindowPixels);
             }
             const PixelPlanes<float> before = planes;
             const BlendOutcome outcome = blend(work.task, work.record, numbers, true, planes, 0);
-            for (int x = 0; x < kPixels; ++x) {
+            for (int x = 0; x < kWindowPixels; ++x) {
                 const auto at = static_cast<std::size_t>(x);
-                const Expected e = expected(path, work, x, before.read(at), q_limit);
+                const ExpectedLane e = expected(path, work, x, before.read(at), q_limit);
                 const PixelValue after = planes.read(at);
                 const auto bit = [x](std::uint32_t mask) { return (mask >> x & 1U) != 0; };
                 ASSERT_EQ(bit(outcome.useful), e.useful);
@@ -143,7 +143,7 @@ TEST_P(Lanes, AreTheSameAtEveryWidth) {
         std::vector<PixelPlanes<float>> results;
         for (const QuantizedBlendFunction blend : quantized_blend_variants(numbers.family)) {
             std::mt19937_64 random(4);
-            results.emplace_back(kPixels + kLanePadding);
+            results.emplace_back(kWindowPixels + kLanePadding);
             for (int trial = 0; trial < 300; ++trial) {
                 Work work;
                 if (make_work(path, random, work)) {
@@ -174,8 +174,8 @@ TEST(LaneFamilies, ComputeTheSame) {
         EXPECT_EQ(numbers.family,
                   std::string(name) == "paper" ? LaneFamily::Half : LaneFamily::Fixed);
         std::mt19937_64 random(8);
-        PixelPlanes<float> fast(kPixels + kLanePadding);
-        PixelPlanes<float> general(kPixels + kLanePadding);
+        PixelPlanes<float> fast(kWindowPixels + kLanePadding);
+        PixelPlanes<float> general(kWindowPixels + kLanePadding);
         for (int trial = 0; trial < 2000; ++trial) {
             Work work;
             if (!make_work(path, random, work)) {

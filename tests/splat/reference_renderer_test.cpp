@@ -13,8 +13,6 @@ using test::BruteSplat;
 using test::expect_same_image;
 using test::make_camera;
 
-const glm::vec4 kNoTurn(1, 0, 0, 0);
-
 struct Rendered {
     Image image;
     ReferenceCounts counts;
@@ -44,7 +42,7 @@ void expect_brute_force(const GaussianCloud& cloud, const Camera& camera, int ti
 
 TEST(ReferenceRenderer, OneIsotropicSplatFollowsTheFormula) {
     GaussianCloud cloud;
-    add_gaussian(cloud, {0, 0, 5}, glm::vec3(0.25F), kNoTurn, 0.75F, {0.5F, 1, 2});
+    add_gaussian(cloud, {0, 0, 5}, glm::vec3(0.25F), test::kNoTurn, 0.75F, {0.5F, 1, 2});
     const Rendered out = render(cloud, make_camera(65, 65, 100)); // sigma^2 = 25.3, centre (32, 32)
     std::uint64_t inside = 0;
     for (int y = 0; y < 65; ++y) {
@@ -162,7 +160,7 @@ TEST(ReferenceRendererHardCases, OpacityAtTheThreshold) {
     const float threshold = 1.0F / 255; // as float slightly above 1/255
     const auto fragments = [](float opacity) {
         GaussianCloud cloud;
-        add_gaussian(cloud, {0, 0, 5}, glm::vec3(0.25F), kNoTurn, opacity, glm::vec3(1));
+        add_gaussian(cloud, {0, 0, 5}, glm::vec3(0.25F), test::kNoTurn, opacity, glm::vec3(1));
         return render(cloud, make_camera(65, 65, 100)).counts.fragments;
     };
     EXPECT_EQ(fragments(0), 0U);
@@ -170,7 +168,7 @@ TEST(ReferenceRendererHardCases, OpacityAtTheThreshold) {
     EXPECT_EQ(fragments(threshold), 1U);
     EXPECT_EQ(fragments(threshold * 1.05F), 9U); // q <= 0.0976: distance^2 <= 2.47
     GaussianCloud above;
-    add_gaussian(above, {0, 0, 5}, glm::vec3(0.25F), kNoTurn, 3.0F, glm::vec3(1));
+    add_gaussian(above, {0, 0, 5}, glm::vec3(0.25F), test::kNoTurn, 3.0F, glm::vec3(1));
     expect_brute_force(above, make_camera(65, 65, 100));
 }
 
@@ -178,7 +176,7 @@ TEST(ReferenceRendererHardCases, OpacityAtTheThreshold) {
 TEST(ReferenceRendererHardCases, SaturatedPixelRefusesTheCrossingSplat) {
     GaussianCloud cloud;
     for (int i = 0; i < 100; ++i) {
-        add_gaussian(cloud, {0, 0, 5 + i}, glm::vec3(100), kNoTurn, 1.0F, glm::vec3(1));
+        add_gaussian(cloud, {0, 0, 5 + i}, glm::vec3(100), test::kNoTurn, 1.0F, glm::vec3(1));
     }
     const Rendered out = render(cloud, make_camera(20, 20, 20));
     EXPECT_EQ(out.counts.terminated, 400U);
@@ -193,7 +191,7 @@ TEST(ReferenceRendererHardCases, TheStopIsPermanent) {
         GaussianCloud cloud;
         double z = 5;
         for (const float opacity : opacities) {
-            add_gaussian(cloud, {0, 0, z++}, glm::vec3(10), kNoTurn, opacity, glm::vec3(1));
+            add_gaussian(cloud, {0, 0, z++}, glm::vec3(10), test::kNoTurn, opacity, glm::vec3(1));
         }
         const Rendered out = render(cloud, make_camera(1, 1, 10));
         return std::make_pair(out.image.fragments[0], out.counts.terminated);
@@ -206,9 +204,9 @@ TEST(ReferenceRendererHardCases, TheStopIsPermanent) {
 // H14: duplicates and equal depths in index order.
 TEST(ReferenceRendererHardCases, EqualDepthsBlendInIndexOrder) {
     GaussianCloud cloud;
-    add_gaussian(cloud, {0, 0, 5}, glm::vec3(10), kNoTurn, 0.5F, {1, 0, 0});
-    add_gaussian(cloud, {0, 0, 5}, glm::vec3(10), kNoTurn, 0.5F, {0, 1, 0});
-    add_gaussian(cloud, {0, 0, 5}, glm::vec3(10), kNoTurn, 0.5F, {0, 0, 1});
+    add_gaussian(cloud, {0, 0, 5}, glm::vec3(10), test::kNoTurn, 0.5F, {1, 0, 0});
+    add_gaussian(cloud, {0, 0, 5}, glm::vec3(10), test::kNoTurn, 0.5F, {0, 1, 0});
+    add_gaussian(cloud, {0, 0, 5}, glm::vec3(10), test::kNoTurn, 0.5F, {0, 0, 1});
     const Rendered out = render(cloud, make_camera(1, 1, 10));
     EXPECT_NEAR(out.image.rgb[0], 0.5, 1e-6);
     EXPECT_NEAR(out.image.rgb[1], 0.25, 1e-6);
@@ -232,8 +230,8 @@ TEST(ReferenceRendererHardCases, CentresOnTheGrid) {
     const double px = 0.0625; // exact in binary: z = 4, focal length 64
     for (const double x : {0.0, 7.5, 8.0, 15.5, 16.0, 31.5, 32.0}) {
         for (const double y : {0.0, 7.5, 15.5, 16.0, 31.5}) {
-            add_gaussian(cloud, {(x - 15.5) * px, (y - 15.5) * px, 4}, glm::vec3(0.05F), kNoTurn,
-                         0.6F, {0.3F, 0.6F, 0.9F});
+            add_gaussian(cloud, {(x - 15.5) * px, (y - 15.5) * px, 4}, glm::vec3(0.05F),
+                         test::kNoTurn, 0.6F, {0.3F, 0.6F, 0.9F});
         }
     }
     expect_brute_force(cloud, make_camera(32, 32, 64));
@@ -250,7 +248,7 @@ TEST(ReferenceRendererHardCases, OddSizes) {
 // H21
 TEST(ReferenceRendererHardCases, EmptyScenesAreBackground) {
     GaussianCloud behind;
-    add_gaussian(behind, {0, 0, -5}, glm::vec3(1), kNoTurn, 1, glm::vec3(1));
+    add_gaussian(behind, {0, 0, -5}, glm::vec3(1), test::kNoTurn, 1, glm::vec3(1));
     for (const GaussianCloud& cloud : {GaussianCloud(), behind}) {
         const Rendered out = render(cloud, make_camera(33, 17, 20));
         EXPECT_EQ(out.image.rgb, std::vector<float>(33 * 17 * 3, 0.0F));
@@ -262,7 +260,7 @@ TEST(ReferenceRendererHardCases, EmptyScenesAreBackground) {
 // H22: negative colours are black, large ones are kept.
 TEST(ReferenceRendererHardCases, ColoursAreNotClampedAbove) {
     GaussianCloud cloud;
-    add_gaussian(cloud, {0, 0, 5}, glm::vec3(10), kNoTurn, 0.5F, {-3, 2, 1000});
+    add_gaussian(cloud, {0, 0, 5}, glm::vec3(10), test::kNoTurn, 0.5F, {-3, 2, 1000});
     const Rendered out = render(cloud, make_camera(1, 1, 10));
     EXPECT_EQ(out.image.rgb[0], 0);
     EXPECT_NEAR(out.image.rgb[1], 1, 1e-6);

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "splat/angles.hpp"
+
 namespace degs {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Integral over the sphere of Y_j Y_k: Gauss-Legendre in z (exact to degree 9), equal steps in the
 /// azimuth (exact for frequencies below 16); the products have degree 6 at most.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "splat/angles.hpp"
 #include "tests/splat/projected.hpp"
 
 namespace degs {
@@ -11,8 +12,6 @@ namespace {
 using test::exact_q;
 using test::make_splat;
 using test::random_splat;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Sub-tiles of the tile at (x0, y0) with a pixel q <= limit, one pixel at a time; only pixels of
 /// the first `width` x `height`.
@@ -29,17 +28,17 @@ SubtileMask brute_mask(const ProjectedSplat& s, long double limit, int x0, int y
     return mask;
 }
 
-struct Shape {
+struct SubtileShape {
     int tile, side;
 };
-std::ostream& operator<<(std::ostream& out, const Shape& s) {
+std::ostream& operator<<(std::ostream& out, const SubtileShape& s) {
     return out << s.tile << "px_by_" << s.side;
 }
-class SubtileCover : public ::testing::TestWithParam<Shape> {};
+class SubtileCover : public ::testing::TestWithParam<SubtileShape> {};
 
 // No sub-tile with a valid pixel is ever missed, and the box is never tighter than the ellipse.
 TEST_P(SubtileCover, RandomSplatsAgainstBruteForce) {
-    const Shape shape = GetParam();
+    const SubtileShape shape = GetParam();
     SubtileGrid grid(shape.tile, shape.side);
     std::mt19937 random(31);
     int skipped_by_box = 0, skipped_by_both = 0;
@@ -68,8 +67,9 @@ TEST_P(SubtileCover, RandomSplatsAgainstBruteForce) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, SubtileCover,
-                         ::testing::Values(Shape{16, 4}, Shape{16, 8}, Shape{32, 16}, Shape{64, 32},
-                                           Shape{16, 16}),
+                         ::testing::Values(SubtileShape{16, 4}, SubtileShape{16, 8},
+                                           SubtileShape{32, 16}, SubtileShape{64, 32},
+                                           SubtileShape{16, 16}),
                          ::testing::PrintToStringParamName());
 
 // A round splat of sigma s and Q_th = 2 ln 255: half length 3.329 s on both axes, so its box is a

@@ -10,7 +10,7 @@ using test::path_of;
 using test::path_options;
 using test::random_splat;
 
-constexpr int kTile = 32;
+constexpr int kTestedTile = 32;
 
 /// The row as test() sees it on pixels that no splat has touched.
 std::uint32_t tested(DataPath& path, std::uint32_t splat, int x, int y) {
@@ -49,13 +49,13 @@ TEST_P(TestedColumns, AreThoseThatPassTheTest) {
     for (const int corner : corners) {
         std::vector<ProjectedSplat> splats;
         for (int i = 0; i < 400; ++i) {
-            splats.push_back(random_splat(random, corner, corner / 2, kTile));
+            splats.push_back(random_splat(random, corner, corner / 2, kTestedTile));
         }
-        const auto path = path_of(splats, path_options(GetParam()), kTile);
+        const auto path = path_of(splats, path_options(GetParam()), kTestedTile);
         for (std::uint32_t i = 0; i < splats.size(); ++i) {
-            for (int y = corner / 2; y < corner / 2 + kTile; ++y) {
+            for (int y = corner / 2; y < corner / 2 + kTestedTile; ++y) {
                 const std::uint32_t pixels = tested(*path, i, corner, y);
-                ASSERT_EQ(named(*path, i, corner, y, kTile), pixels) << corner << " " << i;
+                ASSERT_EQ(named(*path, i, corner, y, kTestedTile), pixels) << corner << " " << i;
                 ASSERT_EQ(named(*path, i, corner, y, 5), pixels & 31U);
                 covered += __builtin_popcount(pixels);
             }
@@ -74,10 +74,10 @@ TEST_P(TestedColumns, OnTheRim) {
         s.det = s.cov_a * s.cov_c;
         splats.push_back(s);
     }
-    const auto path = path_of(splats, path_options(GetParam()), kTile);
+    const auto path = path_of(splats, path_options(GetParam()), kTestedTile);
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
-        for (int y = 0; y < kTile; ++y) {
-            ASSERT_EQ(named(*path, i, 0, y, kTile), tested(*path, i, 0, y)) << i << " " << y;
+        for (int y = 0; y < kTestedTile; ++y) {
+            ASSERT_EQ(named(*path, i, 0, y, kTestedTile), tested(*path, i, 0, y)) << i << " " << y;
         }
     }
 }
@@ -87,12 +87,12 @@ TEST_P(TestedColumns, NothingToName) {
     ProjectedSplat broken = make_splat(3, 3, 1, 1, 0, 0.5);
     broken.cov_b = std::nan("");
     const auto path =
-        path_of({make_splat(3, 3, 2, 2, 0, 0.5), broken}, path_options(GetParam()), kTile);
+        path_of({make_splat(3, 3, 2, 2, 0, 0.5), broken}, path_options(GetParam()), kTestedTile);
     int first = 0;
     int last = 0;
     EXPECT_FALSE(path->tested_columns(0, 3, 5, 5, first, last));
-    EXPECT_FALSE(path->tested_columns(1, 3, 0, kTile, first, last));
-    EXPECT_TRUE(path->tested_columns(0, 3, 0, kTile, first, last));
+    EXPECT_FALSE(path->tested_columns(1, 3, 0, kTestedTile, first, last));
+    EXPECT_TRUE(path->tested_columns(0, 3, 0, kTestedTile, first, last));
 }
 
 std::string format_name(const ::testing::TestParamInfo<NumberFormat>& row) {

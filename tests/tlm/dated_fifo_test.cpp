@@ -14,7 +14,7 @@ namespace {
 using test::Script;
 
 constexpr std::size_t kStages = 4;
-constexpr std::size_t kItems = 400;
+constexpr std::size_t kRandomItems = 400;
 
 /// A source, two stages and a sink; three rings between them.
 struct Pipeline {
@@ -50,7 +50,7 @@ Pipeline random_pipeline(std::mt19937& random) {
     for (auto& work : p.work) {
         const unsigned longest = 1 + static_cast<unsigned>(random() % 8);
         const unsigned burst = 1 + static_cast<unsigned>(random() % 40);
-        for (std::size_t i = 0; i < kItems; ++i) {
+        for (std::size_t i = 0; i < kRandomItems; ++i) {
             work.push_back(i / burst % 2 == 0 ? upto(longest) : 0);
         }
     }
@@ -61,7 +61,7 @@ Pipeline random_pipeline(std::mt19937& random) {
 Dates recurrence(const Pipeline& p) {
     Dates d;
     Cycle local[kStages] = {};
-    for (std::size_t i = 0; i < kItems; ++i) {
+    for (std::size_t i = 0; i < kRandomItems; ++i) {
         for (std::size_t k = 0; k < kStages; ++k) {
             if (k > 0) {
                 const std::size_t ring = k - 1;
@@ -106,7 +106,7 @@ public:
 private:
     void run(std::size_t k) {
         Process& self = *processes_[k];
-        for (std::size_t i = 0; i < kItems; ++i) {
+        for (std::size_t i = 0; i < kRandomItems; ++i) {
             if (k > 0) {
                 ordered_ = take(*rings_[k - 1], self, i) == static_cast<int>(i) && ordered_;
                 dates_.read[k - 1].push_back(self.local());
@@ -160,7 +160,7 @@ void expect_rule(const DatedPipeline& run, const Dates& expected, const Pipeline
         EXPECT_EQ(run.dates().written[k], expected.written[k]);
         EXPECT_EQ(run.dates().read[k], expected.read[k]);
         const auto& stats = run.ring(k).stats();
-        EXPECT_EQ(stats.items, kItems);
+        EXPECT_EQ(stats.items, kRandomItems);
         EXPECT_EQ(stats.full_cycles, expected.full[k]);
         EXPECT_EQ(stats.empty_cycles, expected.empty[k]);
         EXPECT_EQ(stats.occupied_cycles, expected.occupied[k]);

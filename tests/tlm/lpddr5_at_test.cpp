@@ -12,14 +12,10 @@ namespace {
 
 using test::AtInitiator;
 using test::Command;
+using test::lpddr5_without_refresh;
 using test::Lpddr5Bench;
 
-constexpr std::uint64_t kCk = 1250; // ps at 6400 MT/s
-
-Lpddr5Config config(std::vector<std::string> overrides = {}) {
-    overrides.emplace_back("controller.refresh=none");
-    return test::lpddr5_config("lpddr5-6400x256", overrides);
-}
+constexpr std::uint64_t kCkPs = 1250; // ps at 6400 MT/s
 
 AtInitiator::Request request(std::uint64_t date_ps, std::uint64_t address, unsigned bytes = 64,
                              bool write = false) {
@@ -47,29 +43,29 @@ std::vector<AtInitiator::Request> random_requests(unsigned seed, int count, unsi
 
 // A request between two CK starts at the next one; 64 B in one group end a tCCD_L later.
 TEST(Lpddr5At, UnloadedReadTakesTheClosedForm) {
-    Lpddr5Bench bench(config(), 1, 0);
-    bench.at[0]->requests = {request(100 * kCk, 0), request(1000 * kCk - 7, 64)};
+    Lpddr5Bench bench(lpddr5_without_refresh(), 1, 0);
+    bench.at[0]->requests = {request(100 * kCkPs, 0), request(1000 * kCkPs - 7, 64)};
     sc_core::sc_start();
     const auto& got = bench.at[0]->requests;
-    EXPECT_EQ(got[0].answered_ps, (100 + 15 + 17 + 2 + 4) * kCk);
-    EXPECT_EQ(got[1].answered_ps, (1000 + 17 + 2 + 4) * kCk);
+    EXPECT_EQ(got[0].answered_ps, (100 + 15 + 17 + 2 + 4) * kCkPs);
+    EXPECT_EQ(got[1].answered_ps, (1000 + 17 + 2 + 4) * kCkPs);
     EXPECT_EQ(got[0].accepted_ps, got[0].begun_ps);
 }
 
 TEST(Lpddr5At, ControllerLatencyIsAddedInWholeCk) {
-    Lpddr5Bench bench(config({"controller_latency_ns=10.1"}), 1, 0);
-    bench.at[0]->requests = {request(100 * kCk, 0), request(900 * kCk, 0, 64, true)};
+    Lpddr5Bench bench(lpddr5_without_refresh({"controller_latency_ns=10.1"}), 1, 0);
+    bench.at[0]->requests = {request(100 * kCkPs, 0), request(900 * kCkPs, 0, 64, true)};
     sc_core::sc_start();
-    EXPECT_EQ(bench.at[0]->requests[0].answered_ps, (100 + 38 + 9) * kCk);
-    EXPECT_EQ(bench.at[0]->requests[1].answered_ps, (900 + 1 + 9) * kCk) << "a posted write";
+    EXPECT_EQ(bench.at[0]->requests[0].answered_ps, (100 + 38 + 9) * kCkPs);
+    EXPECT_EQ(bench.at[0]->requests[1].answered_ps, (900 + 1 + 9) * kCkPs) << "a posted write";
 }
 
 TEST(Lpddr5At, AnnotatedDelayIsPartOfTheDate) {
-    Lpddr5Bench bench(config(), 1, 0);
-    bench.at[0]->requests = {request(100 * kCk, 0)};
-    bench.at[0]->requests[0].annotated_ps = 40 * kCk;
+    Lpddr5Bench bench(lpddr5_without_refresh(), 1, 0);
+    bench.at[0]->requests = {request(100 * kCkPs, 0)};
+    bench.at[0]->requests[0].annotated_ps = 40 * kCkPs;
     sc_core::sc_start();
-    EXPECT_EQ(bench.at[0]->requests[0].answered_ps, (100 + 38) * kCk);
+    EXPECT_EQ(bench.at[0]->requests[0].answered_ps, (100 + 38) * kCkPs);
 }
 
 class Lpddr5AtEndings
@@ -96,7 +92,7 @@ TEST_P(Lpddr5AtEndings, KeepProtocolAndBytes) {
         for (const auto& r : bench.at[i]->requests) {
             EXPECT_EQ(r.answers, 1);
             EXPECT_GE(r.accepted_ps, r.begun_ps);
-            EXPECT_GE(r.answered_ps, r.begun_ps + (r.write ? 1 : kCk));
+            EXPECT_GE(r.answered_ps, r.begun_ps + (r.write ? 1 : kCkPs));
             reads += r.write ? 0 : 1;
             bytes[r.write] += ((r.address + r.bytes + 31) / 32 - r.address / 32) * 32;
         }
@@ -130,21 +126,22 @@ INSTANTIATE_TEST_SUITE_P(All, Lpddr5AtEndings,
 
 // 40 requests to one bank at once: 8 fill the queue, 4 more get END_REQ, the next one has to wait.
 TEST(Lpddr5At, WithheldEndReqIsTheBackPressure) {
-    const Lpddr5Config small = config({"controller.read_queue=8", "waiting_requests=4"});
+    const Lpddr5Config small =
+        lpddr5_without_refresh({"controller.read_queue=8", "waiting_requests=4"});
     const Lpddr5Mapping mapping(small.mapping, small.timing, 16);
     Lpddr5Bench bench(small, 1, 0);
     for (unsigned row = 0; row < 40; ++row) {
-        bench.at[0]->requests.push_back(request(100 * kCk, mapping.address({3, 5, row, 0})));
+        bench.at[0]->requests.push_back(request(100 * kCkPs, mapping.address({3, 5, row, 0})));
     }
     sc_core::sc_start();
     const auto& got = bench.at[0]->requests;
     for (std::size_t i = 0; i < 12; ++i) {
-        EXPECT_LE(got[i].accepted_ps, 102 * kCk) << i;
+        EXPECT_LE(got[i].accepted_ps, 102 * kCkPs) << i;
     }
     // One row after the other: a place is free every tRC, when the last burst has been sent.
     for (std::size_t i = 13; i < 40; ++i) {
-        EXPECT_EQ(got[i].accepted_ps - got[i - 1].accepted_ps, 49 * kCk) << i;
-        EXPECT_EQ(got[i].answered_ps - got[i - 1].answered_ps, 49 * kCk) << i;
+        EXPECT_EQ(got[i].accepted_ps - got[i - 1].accepted_ps, 49 * kCkPs) << i;
+        EXPECT_EQ(got[i].answered_ps - got[i - 1].answered_ps, 49 * kCkPs) << i;
     }
     EXPECT_EQ(bench.at[0]->outstanding_most, 8 + 4 + 2); // one held back, one whose data return
 }
@@ -159,7 +156,7 @@ std::vector<std::uint64_t> answers_in_order(bool reversed) {
         initiators[i]->out.bind(memory.in[i]);
         initiators[i]->requests = random_requests(static_cast<unsigned>(i) % 2, 500, 1250);
         for (auto& r : initiators[i]->requests) {
-            r.date_ps = r.date_ps / kCk * kCk; // many equal dates
+            r.date_ps = r.date_ps / kCkPs * kCkPs; // many equal dates
             r.annotated_ps = i % 2 == 0 ? 0 : std::min(r.date_ps, r.annotated_ps);
         }
     }
@@ -206,7 +203,7 @@ std::vector<std::uint64_t> answers_while_watched(bool watched) {
     }
     const test::Script script("script", [&] {
         for (int i = 0; watched && i < 4000; ++i) {
-            sc_core::wait(sc_core::sc_time::from_value(kCk / 3 + 100 * (i % 7)));
+            sc_core::wait(sc_core::sc_time::from_value(kCkPs / 3 + 100 * (i % 7)));
             bench.memory.commands();
         }
     });
@@ -228,7 +225,7 @@ TEST(Lpddr5At, ChannelsThatStayBehindAnswerTheSame) {
 
 // No window of time carries more than the data bus can.
 TEST(Lpddr5At, NeverExceedsThePeakInAnyWindow) {
-    Lpddr5Bench bench(config(), 4, 0);
+    Lpddr5Bench bench(lpddr5_without_refresh(), 4, 0);
     for (unsigned i = 0; i < 4; ++i) {
         for (std::uint64_t n = 0; n < 400; ++n) {
             bench.at[i]->requests.push_back(request(0, (n * 4 + i) * 512, 512));

@@ -28,6 +28,12 @@ inline Lpddr5Config lpddr5_config(const std::string& name,
     return memory;
 }
 
+/// The faster memory, for dates in closed form.
+inline Lpddr5Config lpddr5_without_refresh(std::vector<std::string> overrides = {}) {
+    overrides.emplace_back("controller.refresh=none");
+    return lpddr5_config("lpddr5-6400x256", overrides);
+}
+
 /// How two commands lie to each other.
 enum class Relation { SameBank, SameGroup, Other };
 

@@ -14,27 +14,24 @@ namespace {
 using sc_core::sc_time;
 using sc_core::sc_time_stamp;
 using test::AtInitiator;
+using test::lpddr5_without_refresh;
 using test::Lpddr5Bench;
 using test::Script;
 
-const sc_time kCk(1.25, sc_core::SC_NS);
-
-Lpddr5Config config(std::vector<std::string> overrides = {}) {
-    overrides.emplace_back("controller.refresh=none");
-    return test::lpddr5_config("lpddr5-6400x256", overrides);
-}
+const sc_time kCkTime(1.25, sc_core::SC_NS);
 
 // The delay that comes in is part of the date, and the call returns within a cycle of that date.
 TEST(Lpddr5Lt, AnnotatesTheClosedForm) {
-    Lpddr5Bench bench(config(), 0, 1);
+    Lpddr5Bench bench(lpddr5_without_refresh(), 0, 1);
     unsigned char data[64];
     const Script script("script", [&] {
         for (const int ck : {0, 200, 1000}) {
-            const sc_time date = sc_time_stamp() + ck * kCk;
-            const sc_time on_grid = std::ceil(date / kCk - 1e-9) * kCk;
-            const auto answer = bench.lt[0]->access(tlm::TLM_READ_COMMAND, 0, data, 64, ck * kCk);
+            const sc_time date = sc_time_stamp() + ck * kCkTime;
+            const sc_time on_grid = std::ceil(date / kCkTime - 1e-9) * kCkTime;
+            const auto answer =
+                bench.lt[0]->access(tlm::TLM_READ_COMMAND, 0, data, 64, ck * kCkTime);
             const int row = ck == 0 ? 15 : 0;
-            EXPECT_EQ(answer.done, on_grid + (row + 17 + 2 + 4) * kCk);
+            EXPECT_EQ(answer.done, on_grid + (row + 17 + 2 + 4) * kCkTime);
             EXPECT_LT(sc_time_stamp(), date + sc_time(1, sc_core::SC_NS));
             sc_core::wait(answer.done - sc_time_stamp());
         }
@@ -45,7 +42,7 @@ TEST(Lpddr5Lt, AnnotatesTheClosedForm) {
 
 /// When `count` reads of 256 B, one per 10 ns, are complete; in ps.
 std::vector<std::uint64_t> pipelined(bool at) {
-    Lpddr5Bench bench(config({"waiting_requests=1000"}), at ? 1 : 0, at ? 0 : 1);
+    Lpddr5Bench bench(lpddr5_without_refresh({"waiting_requests=1000"}), at ? 1 : 0, at ? 0 : 1);
     constexpr unsigned kCount = 200;
     std::vector<std::uint64_t> done;
     std::vector<unsigned char> data(256);
@@ -77,7 +74,7 @@ std::vector<std::uint64_t> pipelined(bool at) {
     return done;
 }
 
-std::vector<std::uint64_t> in_child(bool at) {
+std::vector<std::uint64_t> dates_in_child(bool at) {
     int ends[2];
     EXPECT_EQ(::pipe(ends), 0);
     const pid_t child = ::fork();
@@ -94,8 +91,8 @@ std::vector<std::uint64_t> in_child(bool at) {
 
 // Where no later request overtakes, what is predicted at the request is what happens.
 TEST(Lpddr5Lt, PredictsWhatAtInitiatorsSee) {
-    const auto lt = in_child(false);
-    const auto at = in_child(true);
+    const auto lt = dates_in_child(false);
+    const auto at = dates_in_child(true);
     std::size_t equal = 0;
     double difference = 0;
     double latency = 0;
@@ -140,7 +137,7 @@ TEST(Lpddr5Lt, WorksBehindAMemoryPort) {
         }
     };
     const Timebase time;
-    Lpddr5 memory("memory", config(), time, 1);
+    Lpddr5 memory("memory", lpddr5_without_refresh(), time, 1);
     Block block("block", time);
     block.port.out.bind(memory.in[0]);
     sc_core::sc_start();
@@ -151,7 +148,7 @@ TEST(Lpddr5Lt, WorksBehindAMemoryPort) {
 
 // Random writes and reads by everybody against a plain array.
 TEST(Lpddr5Lt, ContentsFollowTheOrderOfDates) {
-    Lpddr5Bench bench(config(), 0, 1);
+    Lpddr5Bench bench(lpddr5_without_refresh(), 0, 1);
     std::vector<unsigned char> shadow(20000, 0);
     const Script script("script", [&] {
         std::mt19937 random(2);
@@ -180,7 +177,7 @@ TEST(Lpddr5Lt, ContentsFollowTheOrderOfDates) {
 }
 
 TEST(Lpddr5Lt, TimingOnlyTakesTimeAndKeepsNothing) {
-    Lpddr5Bench bench(config(), 0, 1);
+    Lpddr5Bench bench(lpddr5_without_refresh(), 0, 1);
     TimingOnly timing_only;
     const Script script("script", [&] {
         unsigned char data[64] = {7};
@@ -194,7 +191,7 @@ TEST(Lpddr5Lt, TimingOnlyTakesTimeAndKeepsNothing) {
 }
 
 TEST(HostileLpddr5, AnswersMistakesWithErrors) {
-    Lpddr5Bench bench(config(), 0, 1);
+    Lpddr5Bench bench(lpddr5_without_refresh(), 0, 1);
     const Script script("script", [&] {
         const std::uint64_t capacity = bench.memory.channels().mapping().capacity();
         unsigned char data[64] = {};
@@ -228,7 +225,7 @@ TEST(HostileLpddr5, AnswersMistakesWithErrors) {
 }
 
 TEST(Lpddr5Lt, DmiIsGrantedOnlyIfConfigured) {
-    Lpddr5Config with = config({"dmi=true"});
+    Lpddr5Config with = lpddr5_without_refresh({"dmi=true"});
     Lpddr5Bench bench(with, 0, 1);
     const Script script("script", [&] {
         unsigned char data[4] = {1, 2, 3, 4};
@@ -240,7 +237,7 @@ TEST(Lpddr5Lt, DmiIsGrantedOnlyIfConfigured) {
         ASSERT_LE(dmi.get_start_address(), 10000U);
         ASSERT_GE(dmi.get_end_address(), 10003U);
         EXPECT_EQ(dmi.get_dmi_ptr()[10000 - dmi.get_start_address() + 2], 3);
-        EXPECT_EQ(dmi.get_read_latency(), 19 * kCk);
+        EXPECT_EQ(dmi.get_read_latency(), 19 * kCkTime);
         dmi.get_dmi_ptr()[10001 - dmi.get_start_address()] = 9;
         bench.lt[0]->access(tlm::TLM_READ_COMMAND, 10000, data, 4);
         EXPECT_EQ(data[1], 9);
@@ -249,7 +246,7 @@ TEST(Lpddr5Lt, DmiIsGrantedOnlyIfConfigured) {
 }
 
 TEST(Lpddr5Lt, DmiIsRefusedByDefault) {
-    Lpddr5Bench bench(config(), 0, 1);
+    Lpddr5Bench bench(lpddr5_without_refresh(), 0, 1);
     tlm::tlm_generic_payload payload;
     unsigned char data[4];
     test::Initiator::fill(payload, tlm::TLM_READ_COMMAND, 0, data, 4);
@@ -259,7 +256,7 @@ TEST(Lpddr5Lt, DmiIsRefusedByDefault) {
 
 // One access of 64 B in 1 us: one activation, 512 bits, no refresh, standby with a row open.
 TEST(Lpddr5Lt, EnergyIsEventsTimesConstants) {
-    Lpddr5Bench bench(config({"channels=1"}), 0, 1);
+    Lpddr5Bench bench(lpddr5_without_refresh({"channels=1"}), 0, 1);
     const Script script("script", [&] {
         unsigned char data[64];
         bench.lt[0]->access(tlm::TLM_READ_COMMAND, 0, data, 64);

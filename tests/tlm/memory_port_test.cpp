@@ -15,12 +15,12 @@ namespace {
 using test::Script;
 
 /// One port at one memory of 64 GB/s and 100 ns.
-struct Bench {
+struct PortBench {
     Timebase time;
     Memory memory;
     MemoryPort port;
     Process self;
-    explicit Bench(double gigahertz = 1.0)
+    explicit PortBench(double gigahertz = 1.0)
         : time{ClockDomain(gigahertz), Fidelity::Exact}, memory("memory", config(), time, 1),
           port("port", time), self(time) {
         port.out.bind(memory.in[0]);
@@ -34,7 +34,7 @@ struct Bench {
 };
 
 TEST(MemoryPort, ReturnsTheCompletionAndLeavesTheDate) {
-    Bench bench;
+    PortBench bench;
     const Script script("script", [&] {
         bench.self.advance(30);
         EXPECT_EQ(bench.port.read(bench.self, 0, 128), 30U + 100 + 2);
@@ -50,7 +50,7 @@ TEST(MemoryPort, ReturnsTheCompletionAndLeavesTheDate) {
 
 // The answer is the first whole cycle at or after the transfer's end.
 TEST(MemoryPort, RoundsUpToCyclesOfItsClock) {
-    Bench bench(0.7); // 1429 ps
+    PortBench bench(0.7); // 1429 ps
     const Script script("script", [&] {
         bench.self.advance(7);
         const Cycle done = bench.port.read(bench.self, 0, 64);
@@ -61,7 +61,7 @@ TEST(MemoryPort, RoundsUpToCyclesOfItsClock) {
 }
 
 TEST(MemoryPort, NothingCostsNothing) {
-    Bench bench;
+    PortBench bench;
     const Script script("script", [&] {
         bench.self.advance(3);
         EXPECT_EQ(bench.port.read(bench.self, 0, 0), 3U);
@@ -72,7 +72,7 @@ TEST(MemoryPort, NothingCostsNothing) {
 }
 
 TEST(MemoryPort, WritesRealBytesOrOnlyTheirTime) {
-    Bench bench;
+    PortBench bench;
     std::vector<unsigned char> data(100);
     std::iota(data.begin(), data.end(), static_cast<unsigned char>(1));
     std::vector<unsigned char> back(100);

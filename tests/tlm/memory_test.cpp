@@ -14,15 +14,12 @@ namespace {
 using sc_core::sc_time;
 using sc_core::sc_time_stamp;
 using test::Initiator;
+using test::memory_config;
+using test::MemoryBench;
 using test::Script;
-using Bench = test::MemoryBench;
-
-Memory::Config config(double latency_ns = 100, double gb_per_s = 64, int granule = 64) {
-    return test::memory_config(latency_ns, gb_per_s, granule);
-}
 
 TEST(Memory, PartialAccessesCostWholeGranules) {
-    Bench bench(config(0), 1);
+    MemoryBench bench(memory_config(0), 1);
     const Script script("script", [&] {
         unsigned char data[256];
         const struct {
@@ -46,7 +43,7 @@ TEST(Memory, PartialAccessesCostWholeGranules) {
 }
 
 TEST(Memory, WhatWasWrittenIsReadBack) {
-    Bench bench(config(), 2);
+    MemoryBench bench(memory_config(), 2);
     std::mt19937 random(3);
     std::vector<unsigned char> model(20000, 0);
     constexpr std::uint64_t kBase = 0xABCDEF000; // far apart pages must not meet
@@ -84,7 +81,7 @@ TEST(Memory, WhatWasWrittenIsReadBack) {
 
 // The debug interface costs no time and counts as no traffic.
 TEST(Memory, DebugAccessesTakeNoTime) {
-    Bench bench(config(), 1);
+    MemoryBench bench(memory_config(), 1);
     const Script script("script", [&] {
         unsigned char data[64] = {1};
         bench[0].debug(tlm::TLM_WRITE_COMMAND, 0, data, 64);
@@ -95,7 +92,7 @@ TEST(Memory, DebugAccessesTakeNoTime) {
 }
 
 TEST(Memory, TimingOnlyAccessesTakeTheirTimeAndKeepNothing) {
-    Bench bench(config(), 1);
+    MemoryBench bench(memory_config(), 1);
     const Script script("script", [&] {
         unsigned char data[64];
         TimingOnly mark;
@@ -117,7 +114,7 @@ TEST(Memory, TimingOnlyAccessesTakeTheirTimeAndKeepNothing) {
 
 // What the memory cannot do is a TLM response, not an exception, and costs nothing.
 TEST(Memory, HostileRequestsAreErrorResponses) {
-    Bench bench(config(), 1);
+    MemoryBench bench(memory_config(), 1);
     const Script script("script", [&] {
         unsigned char data[64] = {};
         unsigned char enables[64] = {};

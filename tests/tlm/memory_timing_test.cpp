@@ -11,15 +11,12 @@ namespace {
 
 using sc_core::sc_time;
 using sc_core::sc_time_stamp;
+using test::memory_config;
+using test::MemoryBench;
 using test::Script;
-using Bench = test::MemoryBench;
-
-Memory::Config config(double latency_ns = 100, double gb_per_s = 64, int granule = 64) {
-    return test::memory_config(latency_ns, gb_per_s, granule);
-}
 
 TEST(Memory, UnloadedLatencyIsLatencyPlusTransfer) {
-    Bench bench(config(), 1);
+    MemoryBench bench(memory_config(), 1);
     std::vector<unsigned char> data(4096);
     const Script script("script", [&] {
         for (const unsigned bytes : {64U, 128U, 640U, 4096U}) {
@@ -41,7 +38,7 @@ TEST(Memory, UnloadedLatencyIsLatencyPlusTransfer) {
 
 // b_transport comes back within the cycle of the request, so one thread has many in flight.
 TEST(Memory, RequestsOfOneInitiatorOverlap) {
-    Bench bench(config(), 1);
+    MemoryBench bench(memory_config(), 1);
     std::vector<unsigned char> data(64);
     const Script script("script", [&] {
         for (Cycle i = 0; i < 50; ++i) {
@@ -75,7 +72,7 @@ struct Request {
 };
 
 /// Random requests of several sockets in cycles of 1 ns; fills in `done` by running them.
-std::vector<Request> run_random(std::size_t sockets, unsigned seed, Bench& bench) {
+std::vector<Request> run_random(std::size_t sockets, unsigned seed, MemoryBench& bench) {
     std::mt19937 random(seed);
     std::vector<std::vector<Request>> of(sockets);
     for (std::size_t s = 0; s < sockets; ++s) {
@@ -122,8 +119,8 @@ class MemoryOf : public ::testing::TestWithParam<std::tuple<double, double, int>
 
 // start = max(date, end of the transfer before) in the order of (date, socket).
 TEST_P(MemoryOf, ServesByDateThenSocket) {
-    const Memory::Config c = std::apply(config, GetParam());
-    Bench bench(c, 5);
+    const Memory::Config c = std::apply(memory_config, GetParam());
+    MemoryBench bench(c, 5);
     const std::vector<Request> requests = run_random(5, 7, bench);
     double free = 0;
     double busy = 0;
@@ -147,8 +144,8 @@ TEST_P(MemoryOf, ServesByDateThenSocket) {
 
 // Any window (from, to] of time: the bytes whose transfer lies in it fit the bandwidth.
 TEST_P(MemoryOf, NeverExceedsItsBandwidthInAnyWindow) {
-    const Memory::Config c = std::apply(config, GetParam());
-    Bench bench(c, 3);
+    const Memory::Config c = std::apply(memory_config, GetParam());
+    MemoryBench bench(c, 3);
     std::vector<Request> requests = run_random(3, 8, bench);
     std::sort(requests.begin(), requests.end(),
               [](const Request& a, const Request& b) { return a.done < b.done; });
@@ -171,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(Configs, MemoryOf,
 
 // Sockets ask at one date, in any host order; the lower socket is served first.
 TEST(Memory, EqualDatesGoBySocket) {
-    Bench bench(config(10), 3);
+    MemoryBench bench(memory_config(10), 3);
     std::vector<sc_time> done(3);
     std::vector<std::unique_ptr<Script>> scripts;
     for (const std::size_t s : {2U, 0U, 1U}) {

@@ -66,8 +66,8 @@ TEST_P(SmallRunArbitration, EqualsCycleByCycleInBothFidelities) {
 INSTANTIATE_TEST_SUITE_P(Seeds, SmallRunArbitration, ::testing::Range(1U, 9U));
 
 /// A ring whose two sides are processes of the same test.
-struct Bench {
-    explicit Bench(Fidelity fidelity = Fidelity::Exact) : time{ClockDomain(1.0), fidelity} {}
+struct ProcessBench {
+    explicit ProcessBench(Fidelity fidelity = Fidelity::Exact) : time{ClockDomain(1.0), fidelity} {}
     std::unique_ptr<DatedFifo<int>> ring(const char* name, std::size_t depth, Cycle forward = 1) {
         return std::make_unique<DatedFifo<int>>(name, time, depth, forward);
     }
@@ -78,7 +78,7 @@ struct Bench {
 // yet when the arbiter asks. The writer's next date is 5 and not that of `busy`'s reader, who has
 // gone on to 105 meanwhile.
 TEST(Process, AWriterWhoseCellIsFreeAlreadyCountsFromThatDate) {
-    Bench bench;
+    ProcessBench bench;
     const auto busy = bench.ring("busy", 1);
     const auto slow = bench.ring("slow", 4);
     const auto fast = bench.ring("fast", 4);
@@ -124,7 +124,7 @@ TEST(Process, AWriterWhoseCellIsFreeAlreadyCountsFromThatDate) {
 // The writer waits for a full ring whose reader may next act at 10: the cell is free at 10 + 1, and
 // the arbiter must not believe that it has longer. Readable at 12, at the date of the other item.
 TEST(Process, AWriterWithoutRoomCountsFromItsReadersDate) {
-    Bench bench;
+    ProcessBench bench;
     DatedFifo<int> busy("busy", bench.time, 1, 1, 1);
     const auto slow = bench.ring("slow", 4);
     const auto fast = bench.ring("fast", 4);
@@ -166,7 +166,7 @@ class ProcessIn : public ::testing::TestWithParam<Fidelity> {};
 
 // Four items of one date: ports in order, whatever order the host runs the writers in.
 TEST_P(ProcessIn, TiesGoByPortNotByHostOrder) {
-    Bench bench(GetParam());
+    ProcessBench bench(GetParam());
     std::vector<std::unique_ptr<DatedFifo<int>>> rings;
     std::vector<FifoBase*> inputs;
     std::vector<std::unique_ptr<Process>> writers;
@@ -204,7 +204,7 @@ TEST_P(ProcessIn, TiesGoByPortNotByHostOrder) {
 }
 
 TEST_P(ProcessIn, NextArrivalStaysBetweenFromAndLimit) {
-    Bench bench(GetParam());
+    ProcessBench bench(GetParam());
     const auto ring = bench.ring("ring", 4, 3);
     Process writer(bench.time);
     Process reader(bench.time);
@@ -239,7 +239,7 @@ TEST_P(ProcessIn, NextArrivalStaysBetweenFromAndLimit) {
 
 // Written at 7 with forward latency 2: not there at 8, there at 9.
 TEST_P(ProcessIn, ArrivedIsExactToTheCycle) {
-    Bench bench(GetParam());
+    ProcessBench bench(GetParam());
     const auto ring = bench.ring("ring", 1, 2);
     Process writer(bench.time);
     Process reader(bench.time);
@@ -264,7 +264,7 @@ TEST_P(ProcessIn, ArrivedIsExactToTheCycle) {
 // A process that everybody asks for its date has one alarm per listener; there is no limit.
 TEST_P(ProcessIn, AnyNumberOfReadersMayAskOneWriter) {
     constexpr std::size_t kReaders = 200;
-    Bench bench(GetParam());
+    ProcessBench bench(GetParam());
     Process writer(bench.time);
     std::vector<std::unique_ptr<DatedFifo<int>>> rings;
     std::vector<std::unique_ptr<Process>> readers;
@@ -294,7 +294,7 @@ TEST_P(ProcessIn, AnyNumberOfReadersMayAskOneWriter) {
 }
 
 TEST_P(ProcessIn, LocalDatesOnlyRise) {
-    Bench bench(GetParam());
+    ProcessBench bench(GetParam());
     Process self(bench.time);
     const Script script("script", [&] {
         self.advance(3);
