@@ -99,7 +99,7 @@ void IssueBank::end_pixels(const Termination& message) {
     }
     SegmentQueue::Tile& tile = queue_.tile(message.tile);
     const int domain = segmenter_.domain_of(message.row, message.column);
-    if (SegmentQueue::end_pixels(tile, domain, message.mask) == kAllPixels) {
+    if (end_pixels(tile, domain, message.mask) == kAllPixels) {
         while (SegmentQueue::has_waiting(tile, domain)) {
             const Segment& segment = SegmentQueue::front(tile, domain);
             features_.release(segment.feature, self_.local());
@@ -109,14 +109,22 @@ void IssueBank::end_pixels(const Termination& message) {
     }
 }
 
+// All pixels of the domain that have ended. The bank looks at single pixels or at whole segments.
+std::uint32_t IssueBank::end_pixels(SegmentQueue::Tile& tile, int domain,
+                                    std::uint32_t mask) const {
+    const std::uint32_t ended = SegmentQueue::end_pixels(tile, domain, mask);
+    const bool all = ended == kAllPixels;
+    SegmentQueue::set_live(tile, domain, by_pixel_ || all ? ~ended : kAllPixels);
+    return ended;
+}
+
 // Called when the first item of a tile is taken. Pixels outside of the image count as ended.
 void IssueBank::enter_tile() {
     const int width = job_.tiles[entering_tile_].width;
     const std::vector<Segmenter::Domain>& domains = segmenter_.domains();
     for (std::size_t d = 0; d < domains.size(); ++d) {
         const int inside = std::clamp(width - domains[d].column, 0, config_.segment_length);
-        SegmentQueue::end_pixels(queue_.tile(entering_tile_), static_cast<int>(d),
-                                 ~bits_between(0, inside));
+        end_pixels(queue_.tile(entering_tile_), static_cast<int>(d), ~bits_between(0, inside));
     }
     entered_ = true;
 }
@@ -180,7 +188,7 @@ bool IssueBank::cut_segment() {
     SegmentQueue::Tile& tile = queue_.tile(segmenter_.tile());
     const int domain = segmenter_.domain();
     const std::uint32_t mask = segmenter_.mask();
-    if ((mask & live(tile, domain)) == 0) {
+    if ((mask & SegmentQueue::live(tile, domain)) == 0) {
         drop(mask);
     } else {
         if (queue_.full()) {
@@ -190,7 +198,9 @@ bool IssueBank::cut_segment() {
         segment.feature = features_.current();
         features_.hold(segment.feature);
         segmenter_.fill(segment.run, mask);
-        stats_.queue_high_water = std::max<std::uint64_t>(stats_.queue_high_water, queue_.size());
+        if (queue_.size() > stats_.queue_high_water) {
+            stats_.queue_high_water = queue_.size();
+        }
     }
     segmenter_.next();
     return true;
@@ -199,18 +209,21 @@ bool IssueBank::cut_segment() {
 // True if anything was issued.
 bool IssueBank::issue(Cycle now) {
     no_room_ = false;
-    int left = config_.issue_width;
+    width_limited_ = false;
+    int issued = 0;
     const TileNumber end = tiles_to_issue();
-    for (TileNumber number = oldest_tile_; number < end && left != 0; ++number) {
+    for (TileNumber number = oldest_tile_; number < end; ++number) {
         SegmentQueue::Tile& tile = queue_.tile(number);
-        while (left != 0 && SegmentQueue::waiting(tile) != 0 && issue_one(now, tile)) {
-            --left;
+        while (SegmentQueue::waiting(tile) != 0 && issue_one(now, tile)) {
+            if (++issued == config_.issue_width) {
+                width_limited_ = true;
+                stats_.busy++;
+                return true;
+            }
         }
     }
-    width_limited_ = left == 0;
-    const bool issued = left != config_.issue_width;
-    stats_.busy += issued ? 1 : 0;
-    return issued;
+    stats_.busy += issued != 0 ? 1 : 0;
+    return issued != 0;
 }
 
 bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile) {
@@ -220,7 +233,7 @@ bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile) {
     }
     const Segment& segment = SegmentQueue::front(tile, domain);
     const std::uint32_t mask = segment.run.task.mask;
-    const std::uint32_t wanted = mask & live(tile, domain);
+    const std::uint32_t wanted = mask & SegmentQueue::live(tile, domain);
     const int tasks = __builtin_popcount(wanted);
     no_room_ = !packing->room(now, tasks);
     if (no_room_) {

@@ -63,6 +63,7 @@ private:
     void see_terminations();
     void see_contexts();
     void end_pixels(const Termination& message);
+    std::uint32_t end_pixels(SegmentQueue::Tile& tile, int domain, std::uint32_t mask) const;
     void enter_tile();
     void accept(Cycle now);
     bool open_span(Cycle now);
@@ -75,11 +76,6 @@ private:
     Cycle next_ready(Cycle now) const;
     Cycle next_date(Cycle now);
 
-    /// Pixels of the domain that take tasks, as far as the bank knows and looks at.
-    std::uint32_t live(const SegmentQueue::Tile& tile, int domain) const {
-        const std::uint32_t ended = SegmentQueue::ended(tile, domain);
-        return by_pixel_ || ended == kAllPixels ? ~ended : kAllPixels;
-    }
     bool takes(TileNumber tile) const { return tile == entering_tile_ && in_flight(tile); }
     /// Tiles below this number may be issued from.
     TileNumber tiles_to_issue() const {

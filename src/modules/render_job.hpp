@@ -28,7 +28,7 @@ struct JobTile {
 /// Tiles that keep their place when others join, so that blocks may hold on to one.
 class TileList {
 public:
-    std::size_t size() const { return index_.size(); }
+    std::size_t size() const { return size_; }
     bool empty() const { return index_.empty(); }
     JobTile& operator[](std::size_t number) { return *index_[number]; }
     const JobTile& operator[](std::size_t number) const { return *index_[number]; }
@@ -36,6 +36,7 @@ public:
     void push_back(const JobTile& tile) {
         tiles_.push_back(tile);
         index_.push_back(&tiles_.back());
+        size_ = index_.size();
     }
     std::deque<JobTile>::const_iterator begin() const { return tiles_.begin(); }
     std::deque<JobTile>::const_iterator end() const { return tiles_.end(); }
@@ -43,6 +44,7 @@ public:
 private:
     std::deque<JobTile> tiles_;
     std::vector<JobTile*> index_; // what the hot loops ask; a deque would have to divide
+    std::size_t size_ = 0;        // likewise
 };
 
 /// What an accelerator is asked to render, and the arithmetic it renders with.

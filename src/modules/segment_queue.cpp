@@ -17,7 +17,8 @@ std::size_t word_of(int domain) {
 
 SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan)
     : domains_(domains_per_tile), words_((static_cast<std::size_t>(domains_per_tile) + 63) / 64),
-      scan_(scan), bits_(static_cast<std::size_t>(tiles_in_flight) * words_ * (2 + kWheel)),
+      tile_mask_(static_cast<std::size_t>(tiles_in_flight) - 1), scan_(scan),
+      bits_(static_cast<std::size_t>(tiles_in_flight) * words_ * (2 + kWheel)),
       keys_(static_cast<std::size_t>(tiles_in_flight * domains_per_tile)),
       entries_(static_cast<std::size_t>(depth)),
       lists_(static_cast<std::size_t>(tiles_in_flight * domains_per_tile)),
@@ -89,18 +90,33 @@ void SegmentQueue::release_all(Tile& tile) const {
 }
 
 void SegmentQueue::turn_wheel(Tile& tile, Cycle date) const {
+    if (date <= tile.turned) {
+        return;
+    }
     if (date >= tile.turned + kWheel) {
         release_all(tile);
         tile.turned = date;
+        return;
     }
-    while (tile.turned < date) {
-        ++tile.turned;
-        std::uint64_t* const released = tile.wheel + tile.turned % kWheel * words_;
+    Cycle turned = tile.turned;
+    tile.turned = date;
+    if (words_ == 1) {
+        std::uint64_t cooling = *tile.cooling;
+        do {
+            std::uint64_t& released = tile.wheel[++turned % kWheel];
+            cooling &= ~released;
+            released = 0;
+        } while (turned < date);
+        *tile.cooling = cooling;
+        return;
+    }
+    do {
+        std::uint64_t* const released = tile.wheel + ++turned % kWheel * words_;
         for (std::size_t w = 0; w < words_; ++w) {
             tile.cooling[w] &= ~released[w];
             released[w] = 0;
         }
-    }
+    } while (turned < date);
 }
 
 int SegmentQueue::pick(Tile& tile, Cycle date) const {
@@ -134,7 +150,7 @@ int SegmentQueue::pick_next(Tile& tile) const {
             return -1;
         }
         const std::uint64_t rotated = bits >> cursor | bits << ((64 - cursor) % 64);
-        domain = (__builtin_ctzll(rotated) + tile.cursor) % 64;
+        domain = static_cast<int>((static_cast<unsigned>(__builtin_ctzll(rotated)) + cursor) % 64);
     } else {
         std::size_t w = word_of(tile.cursor);
         std::uint64_t bits = ready(tile, w) & ~(bit_of(tile.cursor) - 1);

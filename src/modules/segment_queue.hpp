@@ -33,6 +33,7 @@ class SegmentQueue {
         Entry* head = nullptr;
         Entry** end = nullptr; // where the next segment is linked; &head if there is none
         std::uint32_t ended = 0;
+        std::uint32_t live = ~0U;
         std::uint32_t length = 0;
     };
 
@@ -56,8 +57,8 @@ public:
     SegmentQueue& operator=(const SegmentQueue&) = delete;
 
     /// The part of tile `number`; tiles a multiple of tiles_in_flight apart share one.
-    Tile& tile(std::size_t number) { return tiles_[number & (tiles_.size() - 1)]; }
-    const Tile& tile(std::size_t number) const { return tiles_[number & (tiles_.size() - 1)]; }
+    Tile& tile(std::size_t number) { return tiles_[number & tile_mask_]; }
+    const Tile& tile(std::size_t number) const { return tiles_[number & tile_mask_]; }
 
     bool full() const { return free_ == nullptr; }
     bool empty() const { return size_ == 0; }
@@ -70,10 +71,14 @@ public:
     static Segment& front(Tile& tile, int domain) { return tile.lists[domain].head->segment; }
     void pop(Tile& tile, int domain);
 
-    static std::uint32_t ended(const Tile& tile, int domain) { return tile.lists[domain].ended; }
     /// Marks pixels as ended; returns all that have.
     static std::uint32_t end_pixels(Tile& tile, int domain, std::uint32_t mask) {
         return tile.lists[domain].ended |= mask;
+    }
+    /// Pixels of the domain that take tasks, which is for the bank to say; at first all.
+    static std::uint32_t live(const Tile& tile, int domain) { return tile.lists[domain].live; }
+    static void set_live(Tile& tile, int domain, std::uint32_t mask) {
+        tile.lists[domain].live = mask;
     }
     /// The array may touch the domain again from `date` on; at most kWheel - 1 cycles after the
     /// execution date of the next pick().
@@ -112,7 +117,7 @@ private:
     static constexpr int kSequenceBits = 48;
 
     int domains_;
-    std::size_t words_;
+    std::size_t words_, tile_mask_;
     DomainScan scan_;
     std::vector<std::uint64_t> bits_, keys_;
     std::vector<Entry> entries_;

@@ -5,10 +5,9 @@
 
 namespace degs {
 
-/// Bits begin .. end - 1 of a mask of neighbouring pixels; 0 <= begin <= 32, end <= 32.
+/// Bits begin .. end - 1 of a mask of neighbouring pixels; 0 <= begin <= end <= 32.
 inline std::uint32_t bits_between(int begin, int end) {
-    const auto upto = [](int n) { return static_cast<std::uint32_t>((std::uint64_t{1} << n) - 1); };
-    return upto(end) & ~upto(begin);
+    return static_cast<std::uint32_t>((std::uint64_t{1} << end) - (std::uint64_t{1} << begin));
 }
 
 } // namespace degs

@@ -41,8 +41,7 @@ struct Timebase {
 class Process {
 public:
     explicit Process(const Timebase& time)
-        : clock_(&time.clock), strict_(time.fidelity == Fidelity::Strict),
-          alarm_(no_alarm()) {}
+        : clock_(&time.clock), strict_(time.fidelity == Fidelity::Strict), alarm_(no_alarm()) {}
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
     ~Process() = default;
@@ -103,8 +102,8 @@ public:
 
 private:
     bool arrived_after_asking(FifoBase& input);
-    /// Date beyond which advance_to() has more to do, without alarms: strict processes sleep to each
-    /// date.
+    /// Date beyond which advance_to() has more to do, without alarms: strict processes sleep to
+    /// each date.
     Cycle no_alarm() const { return strict_ ? 0 : kNever; }
     void sleep();
     void sleep_until(Cycle half_after_date);
@@ -171,10 +170,10 @@ protected:
 };
 
 inline bool Process::arrived(FifoBase& input) {
+    if (local_ < input.quiet_until_) { // never in strict mode
+        return false;
+    }
     if (!strict_) {
-        if (local_ < input.quiet_until_) {
-            return false;
-        }
         const Cycle next = input.empty() ? input.horizon(1) : input.head_date();
         if (next > local_) {
             input.quiet_until_ = next;

@@ -75,16 +75,25 @@ TEST(SegmentQueue, BlockedAtTMinusOneLegalAtT) {
     }
 }
 
+TEST(SegmentQueue, LivePixelsAreTheBanksUntilTheTileIsCleared) {
+    SegmentQueue queue(4, 2, 2, DomainScan::Oldest);
+    EXPECT_EQ(queue.live(queue.tile(1), 0), ~0U);
+    queue.set_live(queue.tile(1), 0, 0x5);
+    EXPECT_EQ(queue.live(queue.tile(3), 0), 0x5U) << "tiles two apart share a part";
+    EXPECT_EQ(queue.live(queue.tile(0), 0), ~0U);
+    queue.clear(queue.tile(1));
+    EXPECT_EQ(queue.live(queue.tile(1), 0), ~0U);
+}
+
 TEST(SegmentQueue, EndedPixelsAddUpUntilTheSlotIsCleared) {
     SegmentQueue queue(4, 2, 2, DomainScan::Oldest);
     EXPECT_EQ(queue.end_pixels(queue.tile(1), 0, 0x3), 0x3U);
     EXPECT_EQ(queue.end_pixels(queue.tile(1), 0, 0x6), 0x7U);
-    EXPECT_EQ(queue.ended(queue.tile(1), 0), 0x7U);
-    EXPECT_EQ(queue.ended(queue.tile(0), 0), 0U);
-    EXPECT_EQ(queue.ended(queue.tile(1), 1), 0U);
+    EXPECT_EQ(queue.end_pixels(queue.tile(0), 0, 0), 0U);
+    EXPECT_EQ(queue.end_pixels(queue.tile(1), 1, 0), 0U);
     queue.set_ready_at(queue.tile(1), 0, 50);
     queue.clear(queue.tile(1));
-    EXPECT_EQ(queue.ended(queue.tile(1), 0), 0U);
+    EXPECT_EQ(queue.end_pixels(queue.tile(1), 0, 0), 0U);
     queue.push(queue.tile(1), 0, 0);
     EXPECT_EQ(queue.pick(queue.tile(1), 1), 0); // nor is it within a reuse distance
 }
