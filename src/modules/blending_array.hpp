@@ -58,7 +58,6 @@ private:
     void end_of_elaboration() override;
     void run();
     void pump() override;
-    void step();
     void start_tile(TileNumber number);
     void execute(const TaskPacket& packet);
     void check_reuse(const TaskRun& run, Cycle date);

@@ -49,6 +49,7 @@ void IssueBank::end_of_elaboration() {
     contexts_freed_ = context_free.operator->();
     contexts_freed_->connect_reader(self_);
     packing->out->connect_writer(self_);
+    watched_.resize(inputs_.size() + 2);
 }
 
 void IssueBank::run() {
@@ -305,15 +306,15 @@ Cycle IssueBank::next_date(Cycle now) {
     if (limit == next) {
         return next; // there is work then, whatever arrives
     }
-    watched_.clear();
+    std::size_t watched = 0;
     if (!queue_.full() && !segmenter_.cutting()) {
         bool spans_waiting = false;
         for (DatedFifo<SpanItem>* input : inputs_) {
             if (input->empty()) {
-                watched_.push_back(input);
+                watched_[watched++] = input;
             } else if (takes(input->front().tile)) {
                 if (input->head_date() > now) {
-                    watched_.push_back(input);
+                    watched_[watched++] = input;
                 } else {
                     spans_waiting = true;
                 }
@@ -323,12 +324,12 @@ Cycle IssueBank::next_date(Cycle now) {
             limit = std::min(limit, features_full_ ? std::max(next, features_.next_free()) : next);
         }
     }
-    watched_.push_back(terminations_);
+    watched_[watched++] = terminations_;
     // A context comes back only after this bank, too, has ended the tile that holds it.
     if (startable_ < oldest_tile_ + static_cast<TileNumber>(contexts_)) {
-        watched_.push_back(contexts_freed_);
+        watched_[watched++] = contexts_freed_;
     }
-    limit = self_.next_arrival(watched_.data(), watched_.size(), next, std::max(next, limit));
+    limit = self_.next_arrival(watched_.data(), watched, next, std::max(next, limit));
     if (limit >= kNever) {
         throw std::logic_error(std::string(name()) + ": nothing left to wait for, but tile " +
                                std::to_string(oldest_tile_) + " is not finished");

@@ -175,7 +175,14 @@ Cycle SegmentQueue::next_ready(const Tile& tile) const {
     if (waiting == 0) {
         return kNever;
     }
-    for (Cycle date = tile.turned + 1;; ++date) {
+    Cycle date = tile.turned + 1;
+    if (words_ == 1) {
+        while ((tile.wheel[date % kWheel] & waiting) == 0) {
+            ++date;
+        }
+        return date;
+    }
+    for (;; ++date) {
         for (std::size_t w = 0; w < words_; ++w) {
             if ((tile.wheel[date % kWheel * words_ + w] & tile.occupied[w]) != 0) {
                 return date;

@@ -200,7 +200,7 @@ private:
             announce();
         }
         // Last, because a reader without a thread takes the item at once.
-        if (reader_ != nullptr && was_empty && reader_->blocked()) {
+        if (was_empty && reader_ != nullptr && reader_->blocked()) {
             reader_->wake();
         }
     }
