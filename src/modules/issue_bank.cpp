@@ -167,14 +167,16 @@ bool IssueBank::open_span(Cycle now) {
         if (!entered_) {
             enter_tile();
         }
-        if (!item.end) {
+        const bool span = !item.end;
+        if (span) {
             segmenter_.start(item);
             stats_.spans++;
             stats_.tasks_in += static_cast<std::uint64_t>(item.span.length);
-            source->drop(self_);
-            return true;
         }
         source->drop(self_);
+        if (span) {
+            return true;
+        }
         if (++ends_seen_ == static_cast<int>(inputs_.size())) {
             features_.close(now);
             ends_seen_ = 0;

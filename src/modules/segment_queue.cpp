@@ -4,17 +4,6 @@
 #include <algorithm>
 
 namespace degs {
-namespace {
-
-std::uint64_t bit_of(int domain) {
-    return std::uint64_t{1} << (static_cast<unsigned>(domain) % 64U);
-}
-std::size_t word_of(int domain) {
-    return static_cast<std::size_t>(domain) / 64;
-}
-
-} // namespace
-
 SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan)
     : domains_(domains_per_tile), words_((static_cast<std::size_t>(domains_per_tile) + 63) / 64),
       tile_mask_(static_cast<std::size_t>(tiles_in_flight) - 1), scan_(scan),
@@ -58,25 +47,6 @@ Segment& SegmentQueue::push(Tile& tile, int domain, std::uint64_t sequence) {
     tile.keys[domain] = key(list.head->segment.sequence, list.length);
     tile.occupied[word_of(domain)] |= bit_of(domain);
     return entry.segment;
-}
-
-void SegmentQueue::pop(Tile& tile, int domain) {
-    List& list = tile.lists[domain];
-    Entry& entry = *list.head;
-    Entry* const second = entry.next;
-    entry.next = free_;
-    free_ = &entry;
-    size_--;
-    tile.waiting--;
-    list.head = second;
-    list.length--;
-    // No branch on what is as likely as not. The key of an empty list is never asked for.
-    const bool last = second == nullptr;
-    const Entry& head = last ? entry : *second;
-    list.end = last ? &list.head : list.end;
-    tile.keys[domain] = key(head.segment.sequence, list.length);
-    tile.occupied[word_of(domain)] ^= std::uint64_t{last} << (static_cast<unsigned>(domain) % 64U);
-    __builtin_prefetch(head.next);
 }
 
 void SegmentQueue::set_ready_at(Tile& tile, int domain, Cycle date) const {

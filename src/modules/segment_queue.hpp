@@ -69,7 +69,7 @@ public:
     /// in place: copying what was just written costs more than all else in here.
     Segment& push(Tile& tile, int domain, std::uint64_t sequence);
     static Segment& front(Tile& tile, int domain) { return tile.lists[domain].head->segment; }
-    void pop(Tile& tile, int domain);
+    inline void pop(Tile& tile, int domain);
 
     /// Marks pixels as ended; returns all that have.
     static std::uint32_t end_pixels(Tile& tile, int domain, std::uint32_t mask) {
@@ -110,6 +110,10 @@ private:
     void turn_wheel(Tile& tile, Cycle date) const;
     int pick_next(Tile& tile) const;
     int pick_least(const Tile& tile) const;
+    static std::uint64_t bit_of(int domain) {
+        return std::uint64_t{1} << (static_cast<unsigned>(domain) % 64U);
+    }
+    static std::size_t word_of(int domain) { return static_cast<std::size_t>(domain) / 64; }
     static std::uint64_t ready(const Tile& tile, std::size_t word) {
         return tile.occupied[word] & ~tile.cooling[word];
     }
@@ -126,5 +130,25 @@ private:
     std::vector<List> lists_;
     std::vector<Tile> tiles_;
 };
+
+// In the hot loop; a call costs as much as the work.
+inline __attribute__((always_inline)) void SegmentQueue::pop(Tile& tile, int domain) {
+    List& list = tile.lists[domain];
+    Entry& entry = *list.head;
+    Entry* const second = entry.next;
+    entry.next = free_;
+    free_ = &entry;
+    size_--;
+    tile.waiting--;
+    list.head = second;
+    list.length--;
+    // No branch on what is as likely as not. The key of an empty list is never asked for.
+    const bool last = second == nullptr;
+    const Entry& head = last ? entry : *second;
+    list.end = last ? &list.head : list.end;
+    tile.keys[domain] = key(head.segment.sequence, list.length);
+    tile.occupied[word_of(domain)] ^= std::uint64_t{last} << (static_cast<unsigned>(domain) % 64U);
+    __builtin_prefetch(head.next);
+}
 
 } // namespace degs
