@@ -130,6 +130,18 @@ bool Process::arrived_after_asking(FifoBase& input) {
     return !input.empty() && input.head_date() <= local_;
 }
 
+// The first date at which an item could be read that is not in the empty ring yet. Proofs are kept:
+// asks for a new one only if the last does not reach beyond `date`.
+Cycle Process::quiet_until(FifoBase& input, Cycle date) const {
+    if (strict_) {
+        return input.horizon(kProofDepth);
+    }
+    if (input.quiet_until_ <= date) {
+        input.quiet_until_ = std::max(input.quiet_until_, input.horizon(kProofDepth));
+    }
+    return input.quiet_until_;
+}
+
 Cycle Process::next_arrival(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit) {
     for (;;) {
         Cycle known = limit;
@@ -146,7 +158,7 @@ Cycle Process::next_arrival(FifoBase* const* inputs, std::size_t count, Cycle fr
         } else {
             for (std::size_t i = 0; i < count && proven > known; ++i) {
                 if (inputs[i]->empty()) {
-                    proven = std::min(proven, inputs[i]->horizon(kProofDepth));
+                    proven = std::min(proven, quiet_until(*inputs[i], known));
                 }
             }
             // An item that is not visible yet comes at `proven` or later.
