@@ -23,15 +23,6 @@ constexpr int kLanes = 8;
 #include "splat/blend_kernel.inc"
 } // namespace wide
 #pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl")
-#define DEGS_MASK_REGISTERS
-namespace widest {
-constexpr int kLanes = 16;
-#include "splat/blend_kernel.inc"
-} // namespace widest
-#undef DEGS_MASK_REGISTERS
-#pragma GCC pop_options
 #endif
 
 namespace {
@@ -44,20 +35,10 @@ bool has_wide_lanes() {
 #endif
 }
 
-#ifdef DEGS_HAS_WIDE_LANES
-bool has_widest_lanes() {
-    return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
-           __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512vl") != 0;
-}
-#endif
-
 } // namespace
 
 BlendFunction<float> blend_function(float /*type*/) {
 #ifdef DEGS_HAS_WIDE_LANES
-    if (has_widest_lanes()) {
-        return &widest::blend_float;
-    }
     if (has_wide_lanes()) {
         return &wide::blend_float;
     }
@@ -71,9 +52,6 @@ BlendFunction<double> blend_function(double /*type*/) {
 
 TestFunction<float> test_function(float /*type*/) {
 #ifdef DEGS_HAS_WIDE_LANES
-    if (has_widest_lanes()) {
-        return &widest::test_float;
-    }
     if (has_wide_lanes()) {
         return &wide::test_float;
     }
@@ -91,9 +69,6 @@ std::vector<BlendFunction<float>> blend_variants() {
     if (has_wide_lanes()) {
         variants.push_back(&wide::blend_float);
     }
-    if (has_widest_lanes()) {
-        variants.push_back(&widest::blend_float);
-    }
 #endif
     return variants;
 }
@@ -103,9 +78,6 @@ std::vector<TestFunction<float>> test_variants() {
 #ifdef DEGS_HAS_WIDE_LANES
     if (has_wide_lanes()) {
         variants.push_back(&wide::test_float);
-    }
-    if (has_widest_lanes()) {
-        variants.push_back(&widest::test_float);
     }
 #endif
     return variants;

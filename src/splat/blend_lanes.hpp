@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <vector>
 
 #include "splat/data_path.hpp"
@@ -18,36 +17,12 @@ struct BlendRecord {
     T r, g, b;
 };
 
-/// Memory that starts with a cache line, so that 16 floats in step with it are one load.
-template <class T>
-struct CacheLineAllocator {
-    using value_type = T;
-    static constexpr std::align_val_t kLine{64};
-    CacheLineAllocator() = default;
-    template <class Other>
-    explicit CacheLineAllocator(const CacheLineAllocator<Other>& /*same*/) {}
-    T* allocate(std::size_t count) {
-        return static_cast<T*>(::operator new(count * sizeof(T), kLine));
-    }
-    void deallocate(T* memory, std::size_t /*count*/) { ::operator delete(memory, kLine); }
-    template <class Other>
-    bool operator==(const CacheLineAllocator<Other>& /*other*/) const {
-        return true;
-    }
-    template <class Other>
-    bool operator!=(const CacheLineAllocator<Other>& /*other*/) const {
-        return false;
-    }
-};
-template <class T>
-using Plane = std::vector<T, CacheLineAllocator<T>>;
-
 /// Pixel state as planes, so that neighbouring pixels are neighbouring lanes.
 template <class T>
 struct PixelPlanes {
-    Plane<T> transmittance, r, g, b;
-    Plane<T> live; // 1 while the pixel takes splats, 0 once it has ended
-    Plane<std::uint32_t> updates;
+    std::vector<T> transmittance, r, g, b;
+    std::vector<T> live; // 1 while the pixel takes splats, 0 once it has ended
+    std::vector<std::uint32_t> updates;
 
     explicit PixelPlanes(std::size_t size)
         : transmittance(size, T(1)), r(size, T(0)), g(size, T(0)), b(size, T(0)), live(size, T(1)),
@@ -56,7 +31,7 @@ struct PixelPlanes {
     void clear(std::size_t first, std::size_t count) {
         std::fill_n(transmittance.begin() + static_cast<std::ptrdiff_t>(first), count, T(1));
         std::fill_n(live.begin() + static_cast<std::ptrdiff_t>(first), count, T(1));
-        for (Plane<T>* plane : {&r, &g, &b}) {
+        for (std::vector<T>* plane : {&r, &g, &b}) {
             std::fill_n(plane->begin() + static_cast<std::ptrdiff_t>(first), count, T(0));
         }
         std::fill_n(updates.begin() + static_cast<std::ptrdiff_t>(first), count, 0U);
