@@ -59,12 +59,12 @@ void IssueBank::run() {
         see_contexts();
         accept(now);
         const bool worked = issue(now);
-        finish_tiles();
+        const bool over = finish_tiles() && job_.over(oldest_tile_);
         if (packing->due(now)) {
             packing->send_due(self_, idle_cause());
         }
         Cycle next = now + 1;
-        if (job_.over(oldest_tile_)) {
+        if (over) {
             const Cycle open = packing->open_until();
             next = open == kNever ? next : std::max(open, next);
         } else if (!worked && !(segmenter_.cutting() && !queue_.full())) {
@@ -214,7 +214,7 @@ bool IssueBank::issue(Cycle now) {
     no_room_ = false;
     width_limited_ = false;
     int issued = 0;
-    const TileNumber end = tiles_to_issue();
+    const TileNumber end = startable_;
     for (TileNumber number = oldest_tile_; number < end; ++number) {
         SegmentQueue::Tile& tile = queue_.tile(number);
         while (SegmentQueue::waiting(tile) != 0 && issue_one(now, tile)) {
@@ -257,7 +257,9 @@ bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile) {
     return true;
 }
 
-void IssueBank::finish_tiles() {
+// True if a tile has ended.
+bool IssueBank::finish_tiles() {
+    const TileNumber before = oldest_tile_;
     while (oldest_tile_ < entering_tile_ && !job_.over(oldest_tile_) && oldest_tile_ < startable_ &&
            SegmentQueue::waiting(queue_.tile(oldest_tile_)) == 0 &&
            !(segmenter_.cutting() && segmenter_.tile() == oldest_tile_)) {
@@ -265,13 +267,14 @@ void IssueBank::finish_tiles() {
         queue_.clear(queue_.tile(oldest_tile_));
         ++oldest_tile_;
     }
+    return oldest_tile_ != before;
 }
 
 Idle IssueBank::idle_cause() const {
     if (queue_.empty()) {
         return Idle::Starved;
     }
-    for (TileNumber tile = oldest_tile_; tile < tiles_to_issue(); ++tile) {
+    for (TileNumber tile = oldest_tile_; tile < startable_; ++tile) {
         if (SegmentQueue::waiting(queue_.tile(tile)) != 0) {
             return width_limited_ ? Idle::Starved : Idle::Conflict;
         }
@@ -285,7 +288,7 @@ Cycle IssueBank::next_ready(Cycle now) const {
         return now + 1;
     }
     Cycle earliest = kNever;
-    for (TileNumber number = oldest_tile_; number < tiles_to_issue(); ++number) {
+    for (TileNumber number = oldest_tile_; number < startable_; ++number) {
         const SegmentQueue::Tile& tile = queue_.tile(number);
         if (SegmentQueue::waiting(tile) != 0) {
             earliest = std::min(earliest, queue_.next_ready(tile));

@@ -71,16 +71,12 @@ private:
     void drop(std::uint32_t mask);
     bool issue(Cycle now);
     bool issue_one(Cycle now, SegmentQueue::Tile& tile);
-    void finish_tiles();
+    bool finish_tiles();
     Idle idle_cause() const;
     Cycle next_ready(Cycle now) const;
     Cycle next_date(Cycle now);
 
     bool takes(TileNumber tile) const { return tile == entering_tile_ && in_flight(tile); }
-    /// Tiles below this number may be issued from.
-    TileNumber tiles_to_issue() const {
-        return std::min(startable_, oldest_tile_ + static_cast<TileNumber>(tiles_in_flight_));
-    }
     bool in_flight(TileNumber tile) const {
         return tile >= oldest_tile_ &&
                tile < oldest_tile_ + static_cast<TileNumber>(tiles_in_flight_);
@@ -99,8 +95,9 @@ private:
     Segmenter segmenter_;
     SegmentQueue queue_;
     FeatureBuffer features_;
-    TileNumber oldest_tile_ = 0;   // first tile that is not over for this bank
-    TileNumber startable_ = 0;     // tiles below this number have a Pixel Buffer context
+    TileNumber oldest_tile_ = 0; // first tile that is not over for this bank
+    // Tiles below this number have a Pixel Buffer context; at most contexts_ beyond oldest_tile_.
+    TileNumber startable_ = 0;
     TileNumber entering_tile_ = 0; // tile whose spans are accepted: one at a time, in order
     bool entered_ = false;         // something of entering_tile_ has been taken
     int ends_seen_ = 0;            // inputs that have delivered everything of entering_tile_

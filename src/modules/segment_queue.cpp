@@ -44,7 +44,9 @@ Segment& SegmentQueue::push(Tile& tile, int domain, std::uint64_t sequence) {
     *list.end = &entry;
     list.end = &entry.next;
     list.length++;
-    tile.keys[domain] = key(list.head->segment.sequence, list.length);
+    if (scan_ != DomainScan::RoundRobin) {
+        tile.keys[domain] = key(list.head->segment.sequence, list.length);
+    }
     tile.occupied[word_of(domain)] |= bit_of(domain);
     return entry.segment;
 }

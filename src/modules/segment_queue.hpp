@@ -42,10 +42,11 @@ public:
     class Tile {
         friend class SegmentQueue;
         std::size_t waiting = 0;
-        int cursor = 0;                    // domain after the last that was picked
-        Cycle turned = 0;                  // the wheel has released everything up to this date
-        List* lists = nullptr;             // by domain
-        std::uint64_t* keys = nullptr;     // by domain: what pick() goes by, see key()
+        int cursor = 0;        // domain after the last that was picked
+        Cycle turned = 0;      // the wheel has released everything up to this date
+        List* lists = nullptr; // by domain
+        std::uint64_t* keys =
+            nullptr; // by domain: what pick() goes by, see key(); not for RoundRobin
         std::uint64_t* occupied = nullptr; // has segments
         std::uint64_t* cooling = nullptr;  // within the reuse distance
         std::uint64_t* wheel = nullptr;    // kWheel sets: released at date mod kWheel
@@ -146,7 +147,9 @@ inline __attribute__((always_inline)) void SegmentQueue::pop(Tile& tile, int dom
     const bool last = second == nullptr;
     const Entry& head = last ? entry : *second;
     list.end = last ? &list.head : list.end;
-    tile.keys[domain] = key(head.segment.sequence, list.length);
+    if (scan_ != DomainScan::RoundRobin) {
+        tile.keys[domain] = key(head.segment.sequence, list.length);
+    }
     tile.occupied[word_of(domain)] ^= std::uint64_t{last} << (static_cast<unsigned>(domain) % 64U);
     __builtin_prefetch(head.next);
 }
