@@ -19,16 +19,12 @@ std::uint32_t lowest_bits(std::uint32_t mask, int count) {
     return picked;
 }
 
-constexpr Cycle kMostTasks = 32; // of a segment: bits of BlendTask::mask
-
 } // namespace
 
 PackingUnit::PackingUnit(const sc_core::sc_module_name& name, const Config& config)
     : sc_core::sc_module(name), out("out"), config_(config),
       latency_(static_cast<Cycle>(config.latency_cycles)), width_(static_cast<Cycle>(config.width)),
-      capacity_(width_ * static_cast<Cycle>(config.depth)),
-      easy_lead_(capacity_ > kMostTasks + width_ ? (capacity_ - kMostTasks - width_) / width_ : 0) {
-}
+      capacity_(width_ * static_cast<Cycle>(config.depth)) {}
 
 Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask) {
     std::uint32_t left = mask;

@@ -40,10 +40,7 @@ public:
     Cycle next_execution(Cycle now) const { return std::max(now + latency_, next_slot_); }
     /// Packets' worth of room for `tasks` more tasks at `now`?
     bool room(Cycle now, int tasks) const {
-        if (next_slot_ < now + easy_lead_) {
-            return true; // as nearly always
-        }
-        const Cycle queued = next_slot_ > now + 1 ? next_slot_ - now - 1 : 0;
+        const Cycle queued = std::max(next_slot_, now + 1) - (now + 1);
         // ceil((open + new) / width) more packets fit, without dividing.
         return queued * width_ + static_cast<Cycle>(tasks_ + tasks) <= capacity_;
     }
@@ -82,7 +79,6 @@ private:
     Config config_;
     Cycle latency_;
     Cycle width_, capacity_; // tasks: of a packet, of the Packing Buffer
-    Cycle easy_lead_;        // cycles planned ahead at which any segment still finds room
     DatedFifo<TaskPacket>* ring_ = nullptr;
     // The open packet is filled in its cell of the ring.
     int tasks_ = 0;          // in the open packet; 0: none is open
