@@ -67,6 +67,31 @@ inline Value round_half(const Value& x, const LaneRounding& /*fp16*/) {
 #include "splat/quantized_kernel.inc"
 } // namespace wide_numbers
 #pragma GCC pop_options
+
+// A segment of 16 px in one block, a table of 16 cells in one register.
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512bw,avx512dq,avx512vl")
+#define DEGS_WIDEST_MOVEMASK
+namespace widest_numbers {
+constexpr int kLanes = 16;
+using Value = float __attribute__((vector_size(64)));
+using Bits = std::int32_t __attribute__((vector_size(64)));
+#include "splat/rounding.inc"
+inline Value floor_lanes(const Value& x) {
+    return same_bits<Value>(_mm512_floor_ps(same_bits<__m512>(x)));
+}
+inline Value look_up(const float* table, const Bits& cell, bool few) {
+    const auto cells = same_bits<__m512i>(cell);
+    return same_bits<Value>(few ? _mm512_permutexvar_ps(cells, _mm512_loadu_ps(table))
+                                : _mm512_i32gather_ps(cells, table, 4));
+}
+inline Value round_half(const Value& x, const LaneRounding& /*fp16*/) {
+    const __m256i halves = _mm512_cvtps_ph(same_bits<__m512>(x), _MM_FROUND_TO_NEAREST_INT);
+    return same_bits<Value>(_mm512_cvtph_ps(halves));
+}
+#include "splat/quantized_kernel.inc"
+} // namespace widest_numbers
+#pragma GCC pop_options
 #endif
 
 namespace {
@@ -84,6 +109,13 @@ bool has_wide_numbers() {
     return false;
 #endif
 }
+
+#ifdef DEGS_HAS_WIDE_LANES
+bool has_widest_numbers() {
+    return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
+           __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512vl") != 0;
+}
+#endif
 
 bool is_power_of_two(double value) {
     int exponent = 0;
@@ -128,6 +160,9 @@ std::vector<Variant> variants_of() {
 #ifdef DEGS_HAS_WIDE_LANES
     if (has_wide_numbers()) {
         variants.push_back({&wide_numbers::blend_run<family>, &wide_numbers::test_run<family>});
+    }
+    if (has_widest_numbers()) {
+        variants.push_back({&widest_numbers::blend_run<family>, &widest_numbers::test_run<family>});
     }
 #endif
     return variants;
