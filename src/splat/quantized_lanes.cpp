@@ -76,18 +76,23 @@ namespace widest_numbers {
 constexpr int kLanes = 16;
 using Value = float __attribute__((vector_size(64)));
 using Bits = std::int32_t __attribute__((vector_size(64)));
+// The forms that zero what a mask leaves out: g++ 12 takes those without a mask for uninitialised.
+constexpr __mmask16 kAllLanes = 0xFFFF;
 #include "splat/rounding.inc"
 inline Value floor_lanes(const Value& x) {
-    return same_bits<Value>(_mm512_floor_ps(same_bits<__m512>(x)));
+    return same_bits<Value>(_mm512_maskz_roundscale_ps(kAllLanes, same_bits<__m512>(x),
+                                                       _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
 }
 inline Value look_up(const float* table, const Bits& cell, bool few) {
     const auto cells = same_bits<__m512i>(cell);
-    return same_bits<Value>(few ? _mm512_permutexvar_ps(cells, _mm512_loadu_ps(table))
-                                : _mm512_i32gather_ps(cells, table, 4));
+    return same_bits<Value>(
+        few ? _mm512_maskz_permutexvar_ps(kAllLanes, cells, _mm512_loadu_ps(table))
+            : _mm512_mask_i32gather_ps(_mm512_setzero_ps(), kAllLanes, cells, table, 4));
 }
 inline Value round_half(const Value& x, const LaneRounding& /*fp16*/) {
-    const __m256i halves = _mm512_cvtps_ph(same_bits<__m512>(x), _MM_FROUND_TO_NEAREST_INT);
-    return same_bits<Value>(_mm512_cvtph_ps(halves));
+    const __m256i halves =
+        _mm512_maskz_cvtps_ph(kAllLanes, same_bits<__m512>(x), _MM_FROUND_TO_NEAREST_INT);
+    return same_bits<Value>(_mm512_maskz_cvtph_ps(kAllLanes, halves));
 }
 #include "splat/quantized_kernel.inc"
 } // namespace widest_numbers
