@@ -84,11 +84,11 @@ public:
         inputs_.front() = &input;
         input_count_ = 1;
     }
-    /// In the next delta cycle, not at the date of what it waits for: dates are in the rings, and
-    /// kernel time only has to pass where somebody sleeps for it.
     /// A thread-less body holds a result for which `room` has none; nullptr: no longer.
     void hold_for(FifoBase* room) { room_ = room; }
-    /// Inlined everywhere, so that each caller's jump has one target, which the host then foresees.
+    /// In the next delta cycle, not at the date of what it waits for: dates are in the rings, and
+    /// kernel time only has to pass where somebody sleeps for it. Inlined everywhere, so that each
+    /// caller's jump into a thread-less body has one target, which the host then foresees.
     __attribute__((always_inline)) void wake() {
         if (body_ != nullptr) {
             body_->pump();

@@ -16,7 +16,6 @@ using test::one_pixel;
 using test::one_pixel_splats;
 using test::UnitBench;
 
-/// `count` one-pixel splats on one tile.
 // Chunk k is read at k, projected in 10 cycles behind its predecessor, 32 cycles deep, then shaded
 // at 3 cycles per splat.
 TEST(ProjectionUnit, ThreeStepsOverlap) {
