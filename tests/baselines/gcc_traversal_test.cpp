@@ -10,7 +10,6 @@
 namespace degs {
 namespace {
 
-using test::make_splat;
 using test::path_of;
 using test::path_options;
 using test::random_splat;

@@ -8,8 +8,6 @@
 namespace degs {
 namespace {
 
-using test::make_frame;
-using test::one_pixel;
 using test::one_pixel_splats;
 using test::UnitBench;
 

@@ -11,7 +11,6 @@ namespace degs {
 namespace {
 
 using test::exact_q;
-using test::frame_of;
 using test::make_splat;
 using test::path_of;
 using test::path_options;
