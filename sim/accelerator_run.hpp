@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "modules/render_engine.hpp"
-#include "sim/progress.hpp"
+#include "sim/text/progress.hpp"
 
 namespace degs::sim {
 

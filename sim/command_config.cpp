@@ -3,9 +3,9 @@
 #include <iostream>
 #include <memory>
 
+#include "config/config_document.hpp"
 #include "sim/commands.hpp"
 #include "sim/run_config.hpp"
-#include "tlm/config_document.hpp"
 
 namespace degs::sim {
 namespace {

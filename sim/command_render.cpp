@@ -10,9 +10,9 @@
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
 #include "sim/stopwatch.hpp"
-#include "sim/terminal.hpp"
+#include "sim/text/terminal.hpp"
+#include "sim/text/words.hpp"
 #include "sim/view_options.hpp"
-#include "sim/words.hpp"
 
 namespace degs::sim {
 namespace {

@@ -10,7 +10,7 @@
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
-#include "sim/terminal.hpp"
+#include "sim/text/terminal.hpp"
 #include "sim/view_options.hpp"
 
 namespace degs::sim {

@@ -6,14 +6,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/ply.hpp"
-#include "scene/synthetic.hpp"
+#include "config/error.hpp"
+#include "scene/ply/ply.hpp"
+#include "scene/synthetic/synthetic.hpp"
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
-#include "sim/scene_words.hpp"
+#include "sim/text/scene_words.hpp"
 #include "sim/view_options.hpp"
-#include "splat/error.hpp"
 
 namespace degs::sim {
 namespace {

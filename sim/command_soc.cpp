@@ -5,12 +5,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/config_source.hpp"
+#include "config/error.hpp"
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/soc/soc_study.hpp"
 #include "sim/view_options.hpp"
-#include "splat/error.hpp"
-#include "tlm/config_source.hpp"
 
 namespace degs::sim {
 namespace {

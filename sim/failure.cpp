@@ -5,8 +5,8 @@
 
 #include <systemc>
 
-#include "splat/error.hpp"
-#include "tlm/config.hpp"
+#include "config/config.hpp"
+#include "config/error.hpp"
 
 namespace degs::sim {
 

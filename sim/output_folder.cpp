@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/error.hpp"
 #include "scene/output_file.hpp"
-#include "splat/error.hpp"
 
 namespace degs::sim {
 namespace {

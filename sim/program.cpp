@@ -7,9 +7,9 @@
 #include <CLI/CLI.hpp>
 #include <systemc>
 
+#include "config/config_words.hpp"
 #include "sim/commands.hpp"
 #include "sim/failure.hpp"
-#include "tlm/config_words.hpp"
 
 namespace degs::sim {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tlm/config_document.hpp"
+#include "config/config_document.hpp"
 
 namespace degs::sim {
 namespace {

@@ -2,7 +2,7 @@
 #include "sim/run_config.hpp"
 
 #include "baselines/accelerators.hpp"
-#include "tlm/config_source.hpp"
+#include "config/config_source.hpp"
 
 namespace degs::sim {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "config/config_source.hpp"
 #include "modules/render_engine.hpp"
-#include "tlm/config_source.hpp"
 
 namespace degs::sim {
 

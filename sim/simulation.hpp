@@ -10,7 +10,7 @@
 #include "sim/accelerator_run.hpp"
 #include "sim/run_config.hpp"
 #include "sim/view.hpp"
-#include "splat/image_metrics.hpp"
+#include "splat/images/image_metrics.hpp"
 #include "splat/reference_renderer.hpp"
 
 namespace degs::sim {

@@ -6,10 +6,10 @@
 #include <cctype>
 #include <cmath>
 
-#include "sim/progress.hpp"
+#include "config/error.hpp"
 #include "sim/stopwatch.hpp"
-#include "sim/words.hpp"
-#include "splat/error.hpp"
+#include "sim/text/progress.hpp"
+#include "sim/text/words.hpp"
 
 namespace degs::sim {
 namespace {

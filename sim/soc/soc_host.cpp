@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "modules/scene_copy.hpp"
-#include "splat/error.hpp"
+#include "config/error.hpp"
+#include "platform/scene_copy.hpp"
 
 namespace degs::sim {
 

@@ -10,7 +10,7 @@
 #include <tlm>
 #include <tlm_utils/simple_initiator_socket.h>
 
-#include "modules/accelerator_registers.hpp"
+#include "platform/accelerator_registers.hpp"
 #include "splat/camera.hpp"
 #include "splat/gaussian.hpp"
 

@@ -6,10 +6,10 @@
 
 #include <systemc>
 
-#include "modules/accelerator.hpp"
+#include "dram/lpddr5.hpp"
+#include "platform/accelerator.hpp"
 #include "sim/soc/address_bus.hpp"
 #include "sim/soc/soc_study.hpp"
-#include "tlm/lpddr5.hpp"
 
 namespace degs::sim {
 

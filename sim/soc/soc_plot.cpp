@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/plot_style.hpp"
+#include "sim/plot/plot_style.hpp"
 #include "sim/soc/soc_study.hpp"
-#include "sim/words.hpp"
+#include "sim/text/words.hpp"
 
 namespace degs::sim {
 namespace {

@@ -2,11 +2,11 @@
 // What degs soc found out, as JSON and as words.
 #include <nlohmann/json.hpp>
 
+#include "config/config_document.hpp"
 #include "sim/report.hpp"
 #include "sim/soc/soc_study.hpp"
-#include "sim/text_table.hpp"
-#include "sim/words.hpp"
-#include "tlm/config_document.hpp"
+#include "sim/text/text_table.hpp"
+#include "sim/text/words.hpp"
 
 namespace degs::sim {
 

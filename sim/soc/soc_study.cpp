@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "sim/progress.hpp"
 #include "sim/soc/soc_platform.hpp"
 #include "sim/stopwatch.hpp"
-#include "splat/image_metrics.hpp"
+#include "sim/text/progress.hpp"
+#include "splat/images/image_metrics.hpp"
 #include "splat/reference_renderer.hpp"
 
 namespace degs::sim {

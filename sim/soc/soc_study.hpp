@@ -7,7 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/memory_report.hpp"
+#include "sim/memory/memory_report.hpp"
 #include "sim/run_config.hpp"
 #include "sim/soc/cpu_traffic.hpp"
 #include "sim/soc/display.hpp"

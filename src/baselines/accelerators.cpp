@@ -2,7 +2,7 @@
 #include "baselines/accelerators.hpp"
 
 #include "baselines/gbu_config.hpp"
-#include "baselines/gcc_config.hpp"
+#include "baselines/gcc/config.hpp"
 #include "baselines/gscore_config.hpp"
 #include "modules/degs_config.hpp"
 

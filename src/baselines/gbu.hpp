@@ -8,12 +8,12 @@
 
 #include "baselines/gbu_config.hpp"
 #include "modules/collect.hpp"
-#include "modules/frame_ends.hpp"
-#include "modules/list_collector.hpp"
+#include "modules/front_end/frame_ends.hpp"
+#include "modules/front_end/list_collector.hpp"
+#include "modules/front_end/reuse_cache.hpp"
+#include "modules/front_end/tile_dispatcher.hpp"
+#include "modules/front_end/tile_front_end.hpp"
 #include "modules/memory_streams.hpp"
-#include "modules/reuse_cache.hpp"
-#include "modules/tile_dispatcher.hpp"
-#include "modules/tile_front_end.hpp"
 
 namespace degs {
 

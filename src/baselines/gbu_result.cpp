@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The counters of GBU in the terms that all accelerators share.
 #include "baselines/gbu.hpp"
-#include "tlm/grouped_number.hpp"
+#include "config/grouped_number.hpp"
 
 namespace degs {
 

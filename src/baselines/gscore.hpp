@@ -6,7 +6,7 @@
 #include <systemc>
 
 #include "baselines/gscore_config.hpp"
-#include "modules/tile_array_engine.hpp"
+#include "modules/array/tile_array_engine.hpp"
 
 namespace degs {
 

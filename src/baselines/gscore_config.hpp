@@ -4,15 +4,15 @@
 #include <string>
 
 #include "baselines/lockstep_array.hpp"
-#include "modules/hierarchical_sorter.hpp"
+#include "modules/array/pixel_buffer.hpp"
+#include "modules/front_end/hierarchical_sorter.hpp"
+#include "modules/front_end/projection_unit.hpp"
+#include "modules/front_end/splat_fetcher.hpp"
+#include "modules/front_end/tile_binner.hpp"
 #include "modules/main_memory.hpp"
 #include "modules/pipeline_config.hpp"
-#include "modules/pixel_buffer.hpp"
-#include "modules/projection_unit.hpp"
 #include "modules/render_engine.hpp"
-#include "modules/splat_fetcher.hpp"
-#include "modules/tile_binner.hpp"
-#include "modules/tile_monitor.hpp"
+#include "modules/span_engine/tile_monitor.hpp"
 #include "modules/traffic.hpp"
 
 namespace degs {

@@ -6,10 +6,10 @@
 #include <systemc>
 
 #include "baselines/chunk_inputs.hpp"
+#include "config/config.hpp"
+#include "modules/array/slot_account.hpp"
 #include "modules/render_job.hpp"
-#include "modules/slot_account.hpp"
 #include "splat/subtile_cover.hpp"
-#include "tlm/config.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {

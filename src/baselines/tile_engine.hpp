@@ -5,9 +5,9 @@
 
 #include <systemc>
 
+#include "config/config.hpp"
+#include "modules/array/slot_account.hpp"
 #include "modules/render_job.hpp"
-#include "modules/slot_account.hpp"
-#include "tlm/config.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "modules/slot_account.hpp"
-#include "splat/image.hpp"
+#include "dram/energy.hpp"
+#include "modules/array/slot_account.hpp"
+#include "splat/images/image.hpp"
 #include "tlm/latency_histogram.hpp"
-#include "tlm/lpddr5_energy.hpp"
 
 namespace degs {
 

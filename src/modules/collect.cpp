@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/collect.hpp"
 
-#include "tlm/grouped_number.hpp"
+#include "config/grouped_number.hpp"
 
 namespace degs {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "modules/accelerator_result.hpp"
-#include "modules/background_writer.hpp"
-#include "modules/pixel_buffer.hpp"
+#include "modules/array/pixel_buffer.hpp"
+#include "modules/front_end/background_writer.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {

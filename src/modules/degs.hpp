@@ -8,9 +8,9 @@
 
 #include "modules/collect.hpp"
 #include "modules/degs_config.hpp"
-#include "modules/frame_ends.hpp"
+#include "modules/front_end/frame_ends.hpp"
+#include "modules/front_end/tile_front_end.hpp"
 #include "modules/memory_streams.hpp"
-#include "modules/tile_front_end.hpp"
 
 namespace degs {
 

@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <string>
 
-#include "modules/blending_array.hpp"
-#include "modules/gaussian_slicing_unit.hpp"
-#include "modules/issue_bank.hpp"
+#include "modules/array/blending_array.hpp"
+#include "modules/array/pixel_buffer.hpp"
+#include "modules/front_end/projection_unit.hpp"
+#include "modules/front_end/sorting_unit.hpp"
+#include "modules/front_end/splat_fetcher.hpp"
+#include "modules/front_end/tile_binner.hpp"
 #include "modules/main_memory.hpp"
-#include "modules/pixel_buffer.hpp"
-#include "modules/projection_unit.hpp"
 #include "modules/render_engine.hpp"
-#include "modules/sorting_unit.hpp"
-#include "modules/span_unit.hpp"
-#include "modules/splat_fetcher.hpp"
-#include "modules/tile_binner.hpp"
-#include "modules/tile_monitor.hpp"
+#include "modules/scheduler/issue_bank.hpp"
+#include "modules/span_engine/gaussian_slicing_unit.hpp"
+#include "modules/span_engine/span_unit.hpp"
+#include "modules/span_engine/tile_monitor.hpp"
 #include "modules/traffic.hpp"
 
 namespace degs {

@@ -2,8 +2,8 @@
 // The counters of DeGS in the terms that all accelerators share.
 #include <algorithm>
 
+#include "config/grouped_number.hpp"
 #include "modules/degs.hpp"
-#include "tlm/grouped_number.hpp"
 
 namespace degs {
 

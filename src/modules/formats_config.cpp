@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/formats_config.hpp"
 
-#include "splat/number_override.hpp"
+#include "splat/numbers/number_override.hpp"
 
 namespace degs {
 namespace {

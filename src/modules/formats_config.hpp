@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tlm/config.hpp"
+#include "config/config.hpp"
 
 namespace degs {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "tlm/lpddr5.hpp"
+#include "dram/lpddr5.hpp"
 #include "tlm/memory.hpp"
 
 namespace degs {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/pipeline_config.hpp"
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 
 namespace degs {
 

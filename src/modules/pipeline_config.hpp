@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "config/config.hpp"
 #include "modules/formats_config.hpp"
 #include "splat/data_path.hpp"
 #include "splat/frame_workload.hpp"
-#include "tlm/config.hpp"
 
 namespace degs {
 

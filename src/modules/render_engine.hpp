@@ -7,7 +7,7 @@
 #include <systemc>
 
 #include "modules/accelerator_result.hpp"
-#include "modules/frame_end_config.hpp"
+#include "modules/front_end/frame_end_config.hpp"
 #include "modules/pipeline_config.hpp"
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"

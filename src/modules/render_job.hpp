@@ -10,7 +10,7 @@
 #include "modules/messages.hpp"
 #include "modules/traffic.hpp"
 #include "splat/frame_workload.hpp"
-#include "splat/image.hpp"
+#include "splat/images/image.hpp"
 #include "tlm/process.hpp"
 
 namespace degs {

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "config/config.hpp"
 #include "splat/frame_workload.hpp"
-#include "tlm/config.hpp"
 
 namespace degs {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/error.hpp"
 #include "splat/angles.hpp"
-#include "splat/error.hpp"
 #include "splat/projection.hpp"
 
 namespace degs {

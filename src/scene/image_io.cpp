@@ -13,9 +13,9 @@
 #include <ImfStringAttribute.h>
 #include <png.h>
 
+#include "config/error.hpp"
 #include "scene/input_file.hpp"
 #include "scene/output_file.hpp"
-#include "splat/error.hpp"
 
 namespace degs {
 namespace {

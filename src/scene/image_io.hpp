@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "splat/image.hpp"
+#include "splat/images/image.hpp"
 
 namespace degs {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 
 namespace degs {
 namespace {

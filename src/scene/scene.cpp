@@ -6,11 +6,11 @@
 #include <cctype>
 #include <filesystem>
 
+#include "config/error.hpp"
 #include "scene/cameras.hpp"
 #include "scene/input_file.hpp"
-#include "scene/ply.hpp"
-#include "scene/synthetic.hpp"
-#include "splat/error.hpp"
+#include "scene/ply/ply.hpp"
+#include "scene/synthetic/synthetic.hpp"
 
 namespace degs {
 namespace {

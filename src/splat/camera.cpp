@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 
 namespace degs {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "splat/blend_lanes.hpp"
-#include "splat/quantized_data_path.hpp"
+#include "splat/numbers/quantized_data_path.hpp"
 
 namespace degs {
 namespace {

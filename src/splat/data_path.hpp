@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "splat/frame_workload.hpp"
-#include "splat/number_set.hpp"
+#include "splat/numbers/number_set.hpp"
 
 namespace degs {
 

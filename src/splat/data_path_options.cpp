@@ -2,9 +2,9 @@
 // Numbers of a data path by name.
 #include <algorithm>
 
+#include "config/error.hpp"
 #include "splat/data_path.hpp"
-#include "splat/error.hpp"
-#include "splat/number_override.hpp"
+#include "splat/numbers/number_override.hpp"
 
 namespace degs {
 

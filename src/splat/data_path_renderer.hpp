@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "splat/data_path.hpp"
-#include "splat/image.hpp"
+#include "splat/images/image.hpp"
 #include "splat/tile_window.hpp"
 
 namespace degs {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 #include "splat/tile_cover.hpp"
 
 namespace degs {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "splat/data_path.hpp"
-#include "splat/quantized_row.hpp"
+#include "splat/numbers/quantized_row.hpp"
 
 namespace degs {
 

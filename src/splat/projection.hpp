@@ -7,7 +7,7 @@
 
 #include "splat/camera.hpp"
 #include "splat/gaussian.hpp"
-#include "splat/number_format.hpp"
+#include "splat/numbers/number_format.hpp"
 
 namespace degs {
 

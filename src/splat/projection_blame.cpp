@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "splat/numbers/quantized_row.hpp"
 #include "splat/pixel_replay.hpp"
-#include "splat/quantized_row.hpp"
 
 namespace degs {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "splat/frame_workload.hpp"
-#include "splat/image.hpp"
+#include "splat/images/image.hpp"
 #include "splat/tile_window.hpp"
 
 namespace degs {

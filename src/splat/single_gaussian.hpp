@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "splat/quantized_row.hpp"
+#include "splat/numbers/quantized_row.hpp"
 
 namespace degs {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "splat/rounded.hpp"
+#include "splat/numbers/rounded.hpp"
 #include "splat/vector3.hpp"
 
 namespace degs {

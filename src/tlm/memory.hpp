@@ -10,7 +10,7 @@
 #include <tlm>
 #include <tlm_utils/simple_target_socket.h>
 
-#include "tlm/config.hpp"
+#include "config/config.hpp"
 #include "tlm/process.hpp"
 
 namespace degs {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "baselines/gcc_window_array.hpp"
+#include "baselines/gcc/window_array.hpp"
 #include "splat/reference_renderer.hpp"
 #include "tests/modules/unit_bench.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stages I to III of GCC, one at a time: dates against closed formulas. Memory is ideal (no
 // latency, no transfer time) unless a test says otherwise.
-#include "baselines/gcc_colour_stage.hpp"
-#include "baselines/gcc_grouping.hpp"
-#include "baselines/gcc_projection_stage.hpp"
+#include "baselines/gcc/colour_stage.hpp"
+#include "baselines/gcc/grouping.hpp"
+#include "baselines/gcc/projection_stage.hpp"
 #include "tests/modules/unit_bench.hpp"
 
 namespace degs {

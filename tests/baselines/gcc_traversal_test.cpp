@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The traversal of GCC against a flood fill that is written down as the rule reads: pixel by pixel.
-#include "baselines/gcc_traversal.hpp"
+#include "baselines/gcc/traversal.hpp"
 
 #include <deque>
 #include <set>

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "baselines/gscore.hpp"
-#include "splat/image_metrics.hpp"
+#include "splat/images/image_metrics.hpp"
 #include "tests/baselines/engine_run.hpp"
 #include "tests/baselines/gbu_fixture.hpp"
 #include "tests/baselines/gcc_run.hpp"

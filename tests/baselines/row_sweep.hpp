@@ -3,7 +3,7 @@
 // docs/adding-an-accelerator.md, built and run by row_sweep_test.cpp.
 #pragma once
 
-#include "modules/tile_array_engine.hpp"
+#include "modules/array/tile_array_engine.hpp"
 
 namespace degs::example {
 

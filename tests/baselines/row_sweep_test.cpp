@@ -3,9 +3,9 @@
 // this project has to keep.
 #include "tests/baselines/row_sweep.hpp"
 
-#include "splat/image_metrics.hpp"
+#include "config/config_source.hpp"
+#include "splat/images/image_metrics.hpp"
 #include "tests/baselines/engine_run.hpp"
-#include "tlm/config_source.hpp"
 
 namespace degs {
 namespace {

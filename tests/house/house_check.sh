@@ -32,7 +32,7 @@ forbid() {
 # may_include ROOM ALLOWED...: of our rooms, files of src/ROOM may include only itself and ALLOWED.
 may_include() {
     local room=$1 other forbidden=()
-    for other in splat scene tlm modules baselines cost sim tests; do
+    for other in config splat scene tlm dram modules baselines platform sim tests; do
         [[ " $* " == *" $other "* ]] || forbidden+=("$other")
     done
     local pattern files
@@ -44,17 +44,19 @@ may_include() {
 }
 
 check_arrows() {
-    may_include splat
-    may_include scene splat
-    may_include tlm
-    may_include cost tlm
-    may_include modules splat tlm
-    may_include baselines modules splat tlm
+    may_include config
+    may_include splat config
+    may_include scene splat config
+    may_include tlm config
+    may_include dram tlm config
+    may_include modules splat dram tlm config
+    may_include baselines modules splat dram tlm config
+    may_include platform modules splat dram tlm config
 }
 
 check_systemc() {
-    mapfile -t files < <(sources src/splat src/scene)
-    forbid "no SystemC in the mathematics and the loaders" \
+    mapfile -t files < <(sources src/config src/splat src/scene)
+    forbid "no SystemC in configuration, mathematics and loaders" \
         '#[[:space:]]*include[[:space:]]*[<"](systemc|tlm|sysc|tlm_utils)([./>"]|$)|\b(sc_core|tlm)::' "${files[@]}"
 }
 

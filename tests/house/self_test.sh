@@ -12,8 +12,8 @@ failures=0
 
 clean_tree() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/src/{splat,scene,tlm,modules,baselines/gscore,cost} "$tree/sim" "$tree/tests"
-    printf '%s\n' "$licence" '#include <vector>' '#include "splat/error.hpp"' >"$tree/src/splat/a.hpp"
+    mkdir -p "$tree"/src/{config,splat,scene,tlm,dram,modules,baselines/gscore,platform} "$tree/sim" "$tree/tests"
+    printf '%s\n' "$licence" '#include <vector>' '#include "config/error.hpp"' >"$tree/src/splat/a.hpp"
     printf '%s\n' "$licence" '#include "splat/a.hpp"' 'int s = snprintf(b, 2, "x");' >"$tree/src/scene/a.cpp"
     printf '%s\n' "$licence" '#include <systemc>' '#include <tlm>' '#include "tlm/b.hpp"' >"$tree/src/tlm/a.hpp"
     printf '%s\n' "$licence" '#include "splat/a.hpp"' '#include "tlm/a.hpp"' >"$tree/src/modules/a.cpp"
@@ -39,14 +39,18 @@ clean_tree
 finds arrows src/splat/a.hpp 4 '#include "tlm/clock_domain.hpp"'
 finds arrows src/splat/a.hpp 4 '#include "scene/ply.hpp"'
 finds arrows src/scene/a.cpp 4 '#include "modules/degs.hpp"'
-finds arrows src/tlm/a.hpp 5 '#include "splat/error.hpp"'
-finds arrows src/tlm/a.hpp 5 '  #  include <src/splat/error.hpp>'
-finds arrows src/tlm/a.hpp 5 '#include "../splat/error.hpp"'
+finds arrows src/tlm/a.hpp 5 '#include "splat/camera.hpp"'
+finds arrows src/tlm/a.hpp 5 '  #  include <src/splat/camera.hpp>'
+finds arrows src/tlm/a.hpp 5 '#include "../config/error.hpp"'
+finds arrows src/config/a.hpp 2 '#include "tlm/process.hpp"'
+finds arrows src/dram/a.hpp 2 '#include "splat/camera.hpp"'
 finds arrows src/modules/a.cpp 4 '#include "scene/ply.hpp"'
 finds arrows src/modules/a.cpp 4 '#include "baselines/gscore.hpp"'
-finds arrows src/baselines/gscore/a.cpp 3 '#include "cost/cost_model.hpp"'
+finds arrows src/modules/a.cpp 4 '#include "platform/accelerator.hpp"'
+finds arrows src/baselines/gscore/a.cpp 3 '#include "platform/accelerator.hpp"'
 finds arrows src/baselines/gscore/a.cpp 3 '#include "sim/report.hpp"'
-finds arrows src/cost/a.hpp 2 '#include "modules/degs.hpp"'
+finds arrows src/platform/a.hpp 2 '#include "baselines/gscore.hpp"'
+finds systemc src/config/a.hpp 2 '#include <systemc>'
 finds systemc src/splat/a.hpp 4 '#include <systemc>'
 finds systemc src/scene/a.cpp 4 '#include <tlm.h>'
 finds systemc src/scene/a.cpp 4 'sc_core::sc_time t;'

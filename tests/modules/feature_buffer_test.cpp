@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/feature_buffer.hpp"
+#include "modules/array/feature_buffer.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Dates of the hierarchical sorter against closed formulas; memory is ideal.
-#include "modules/hierarchical_sorter.hpp"
+#include "modules/front_end/hierarchical_sorter.hpp"
 
 #include "tests/modules/unit_bench.hpp"
 #include "tlm/memory.hpp"

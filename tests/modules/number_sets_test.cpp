@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "splat/image_metrics.hpp"
+#include "splat/images/image_metrics.hpp"
 #include "tests/modules/run_fixture.hpp"
 #include "tests/modules/soft_frame.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/packing_unit.hpp"
+#include "modules/scheduler/packing_unit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Projection Unit, Tile Binner and Sorting Unit, one at a time: dates against closed formulas.
 // Memory is ideal (no latency, no transfer time) unless a test says otherwise.
-#include "modules/projection_unit.hpp"
-#include "modules/sorting_unit.hpp"
-#include "modules/splat_fetcher.hpp"
-#include "modules/tile_binner.hpp"
+#include "modules/front_end/projection_unit.hpp"
+#include "modules/front_end/sorting_unit.hpp"
+#include "modules/front_end/splat_fetcher.hpp"
+#include "modules/front_end/tile_binner.hpp"
 #include "tests/modules/unit_bench.hpp"
 #include "tlm/memory.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/reuse_cache.hpp"
+#include "modules/front_end/reuse_cache.hpp"
 
 #include <algorithm>
 #include <vector>

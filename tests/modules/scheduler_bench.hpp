@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "modules/blending_array.hpp"
-#include "modules/issue_bank.hpp"
+#include "modules/array/blending_array.hpp"
+#include "modules/scheduler/issue_bank.hpp"
 #include "tests/modules/workload_fixture.hpp"
 #include "tests/tlm/script.hpp"
 

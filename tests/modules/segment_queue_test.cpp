@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/segment_queue.hpp"
+#include "modules/scheduler/segment_queue.hpp"
 
 #include <algorithm>
 #include <deque>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slicing Units, Span Units, Tile Monitor and Pixel Buffer, one at a time: dates against closed
 // formulas.
-#include "modules/gaussian_slicing_unit.hpp"
-#include "modules/pixel_buffer.hpp"
-#include "modules/span_unit.hpp"
-#include "modules/tile_monitor.hpp"
+#include "modules/array/pixel_buffer.hpp"
+#include "modules/span_engine/gaussian_slicing_unit.hpp"
+#include "modules/span_engine/span_unit.hpp"
+#include "modules/span_engine/tile_monitor.hpp"
 #include "tests/modules/unit_bench.hpp"
 #include "tlm/memory.hpp"
 

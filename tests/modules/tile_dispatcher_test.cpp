@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grants at exact dates. Rings take a cycle: what is put in cycle t is seen in t + 1.
-#include "modules/tile_dispatcher.hpp"
+#include "modules/front_end/tile_dispatcher.hpp"
 
-#include "modules/list_collector.hpp"
+#include "modules/front_end/list_collector.hpp"
 
 #include "tests/modules/unit_bench.hpp"
 

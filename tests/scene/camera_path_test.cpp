@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "config/error.hpp"
 #include "scene/cameras.hpp"
-#include "splat/error.hpp"
 
 namespace degs {
 namespace {

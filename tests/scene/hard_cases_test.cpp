@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/hard_builder.hpp"
+#include "scene/hard/hard_builder.hpp"
 
 namespace degs {
 namespace {

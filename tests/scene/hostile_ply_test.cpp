@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Broken and malicious PLY files: one sentence each, under the sanitizers too, and no memory for
 // what a header merely claims.
-#include "scene/ply.hpp"
+#include "scene/ply/ply.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/ply.hpp"
+#include "scene/ply/ply.hpp"
 
 #include <cmath>
 

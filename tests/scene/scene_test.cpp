@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene.hpp"
 
-#include "scene/ply.hpp"
-#include "scene/synthetic.hpp"
+#include "scene/ply/ply.hpp"
+#include "scene/synthetic/synthetic.hpp"
 #include "tests/scene/scene_fixture.hpp"
 
 namespace degs {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/synthetic.hpp"
+#include "scene/synthetic/synthetic.hpp"
 
 #include <cmath>
 #include <cstring>
 
-#include "scene/synthetic_random.hpp"
+#include "scene/synthetic/synthetic_random.hpp"
 #include "splat/projection.hpp"
 #include "tests/scene/scene_fixture.hpp"
 #include "tests/scene/trained_bands.hpp"

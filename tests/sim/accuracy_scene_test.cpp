@@ -4,7 +4,7 @@
 
 #include "scene/image_io.hpp"
 #include "sim/scene_list.hpp"
-#include "splat/flip.hpp"
+#include "splat/images/flip.hpp"
 #include "tests/sim/child.hpp"
 
 namespace degs::sim_test {

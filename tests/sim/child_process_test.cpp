@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "config/error.hpp"
 #include "sim/stopwatch.hpp"
-#include "splat/error.hpp"
 #include "tests/sim/child.hpp"
 
 namespace degs::sim {

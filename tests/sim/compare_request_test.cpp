@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/compare_request.hpp"
+#include "sim/compare/compare_request.hpp"
 
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "splat/error.hpp"
+#include "config/config.hpp"
+#include "config/error.hpp"
 #include "tests/sim/child.hpp"
-#include "tlm/config.hpp"
 
 namespace degs::sim {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/comparison.hpp"
+#include "sim/compare/comparison.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/comparison_output.hpp"
+#include "sim/compare/comparison_output.hpp"
 
 namespace degs::sim {
 namespace {

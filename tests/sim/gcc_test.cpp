@@ -2,10 +2,10 @@
 // GCC from its configuration files to its reports, on trained scenes.
 #include <cmath>
 
-#include "baselines/gcc_config.hpp"
+#include "baselines/gcc/config.hpp"
+#include "config/config_document.hpp"
 #include "sim/run_config.hpp"
 #include "tests/sim/child.hpp"
-#include "tlm/config_document.hpp"
 
 namespace degs::sim_test {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "baselines/gscore_config.hpp"
+#include "config/config_document.hpp"
 #include "sim/run_config.hpp"
 #include "tests/sim/child.hpp"
-#include "tlm/config_document.hpp"
 
 namespace degs::sim_test {
 namespace {

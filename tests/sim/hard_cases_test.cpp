@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "sim/hard_case_run.hpp"
-#include "splat/number_set.hpp"
+#include "sim/accuracy/hard_case_run.hpp"
+#include "splat/numbers/number_set.hpp"
 #include "tests/sim/child.hpp"
 
 namespace degs::sim_test {

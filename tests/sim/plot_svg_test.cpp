@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/plot_svg.hpp"
+#include "sim/plot/plot_svg.hpp"
 
 #include <cmath>
 #include <regex>
@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/svg.hpp"
-#include "sim/words.hpp"
+#include "sim/plot/svg.hpp"
+#include "sim/text/words.hpp"
 
 namespace degs::sim {
 namespace {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "baselines/gbu_config.hpp"
+#include "config/config_document.hpp"
 #include "modules/degs_config.hpp"
 #include "sim/run_config.hpp"
-#include "tlm/config_document.hpp"
 
 namespace degs::sim {
 namespace {

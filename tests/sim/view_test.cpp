@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "config/error.hpp"
 #include "sim/view.hpp"
-#include "splat/error.hpp"
 
 namespace degs::sim {
 namespace {

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "sim/accelerator_run.hpp"
-#include "sim/terminal.hpp"
-#include "sim/words.hpp"
+#include "sim/text/terminal.hpp"
+#include "sim/text/words.hpp"
 
 namespace degs::sim {
 namespace {

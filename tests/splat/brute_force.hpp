@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "splat/frame_workload.hpp"
-#include "splat/image.hpp"
+#include "splat/images/image.hpp"
 #include "splat/spherical_harmonics.hpp"
 
 /// Small scenes and a second, slow opinion on how they look: long double, textbook formulas, every

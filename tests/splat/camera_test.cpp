@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "splat/camera.hpp"
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 #include "tests/splat/brute_force.hpp"
 
 namespace degs {

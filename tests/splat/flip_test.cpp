@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "splat/flip.hpp"
+#include "splat/images/flip.hpp"
 
 #include <array>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "config/error.hpp"
 #include "splat/angles.hpp"
-#include "splat/error.hpp"
 
 namespace degs {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 #include "tests/splat/brute_force.hpp"
 
 namespace degs {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "splat/image_difference.hpp"
-#include "splat/image_metrics.hpp"
+#include "splat/images/image_difference.hpp"
+#include "splat/images/image_metrics.hpp"
 
 namespace degs {
 namespace {

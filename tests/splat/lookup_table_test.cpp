@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "splat/lookup_table.hpp"
+#include "splat/numbers/lookup_table.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 
 namespace degs {
 namespace {

@@ -2,7 +2,7 @@
 // Numbers by name, and splats that no format holds.
 #include <cmath>
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 #include "tests/splat/quantized_fixture.hpp"
 
 namespace degs {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rounding is tested on arrays of neighbours: compilers have dropped it in vectorised code only.
-#include "splat/number_format.hpp"
+#include "splat/numbers/number_format.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 
 namespace degs {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "splat/number_set.hpp"
+#include "splat/numbers/number_set.hpp"
 
 #include <cmath>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 
 namespace degs {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "splat/data_path_renderer.hpp"
-#include "splat/pixel_tolerance.hpp"
+#include "splat/images/pixel_tolerance.hpp"
 #include "splat/reference_renderer.hpp"
 #include "splat/span_difference.hpp"
 #include "tests/splat/brute_force.hpp"

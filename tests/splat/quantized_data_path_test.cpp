@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The data path of a number set is QuantizedRow, span by span and pixel by pixel.
-#include "splat/quantized_data_path.hpp"
+#include "splat/numbers/quantized_data_path.hpp"
 
 #include <cstring>
 
-#include "splat/quantized_lanes.hpp"
+#include "splat/numbers/quantized_lanes.hpp"
 #include "tests/splat/quantized_fixture.hpp"
 
 namespace degs {

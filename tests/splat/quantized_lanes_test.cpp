@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lanes against the definition, pixel by pixel.
-#include "splat/quantized_lanes.hpp"
+#include "splat/numbers/quantized_lanes.hpp"
 
 #include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 #include "splat/single_gaussian.hpp"
 
 namespace degs {

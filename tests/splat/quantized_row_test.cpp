@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "splat/quantized_row.hpp"
+#include "splat/numbers/quantized_row.hpp"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "splat/error.hpp"
+#include "config/error.hpp"
 #include "tests/splat/data_path_fixture.hpp"
 
 namespace degs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "splat/rounded.hpp"
+#include "splat/numbers/rounded.hpp"
 
 #include <cstring>
 #include <limits>

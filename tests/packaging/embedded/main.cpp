@@ -5,7 +5,7 @@
 #include <systemc>
 #include <tlm_utils/simple_initiator_socket.h>
 
-#include <tlm/lpddr5.hpp>
+#include <dram/lpddr5.hpp>
 
 namespace {
 

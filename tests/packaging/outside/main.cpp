@@ -10,8 +10,8 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 
-#include <modules/accelerator.hpp>
 #include <modules/degs_config.hpp>
+#include <platform/accelerator.hpp>
 
 namespace {
 

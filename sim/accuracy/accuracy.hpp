@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far the numbers of a data path are from the truth: rows of results, as table and as JSON.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sim/output_folder.hpp"
+#include "sim/view.hpp"
+#include "splat/numbers/number_set.hpp"
+
+namespace degs::sim {
+
+/// The pixel with the largest error of a channel, and what blame_pixel says of it.
+struct WorstPixel {
+    int x = 0, y = 0;
+    double error = 0;           ///< of the pixel's replay
+    std::uint32_t gaussian = 0; ///< index in the scene
+    std::string operation;      ///< empty if the replay has no error
+    double explained = 0;       ///< error that the operation makes
+    std::string flip;           ///< "stop rule", "span ends" or empty
+};
+
+/// One number set on one scene, or on one kind of single Gaussians. What a kind of measurement does
+/// not have is empty, and null in the file.
+struct AccuracyRow {
+    std::string scene;           ///< or "isotropic-3", "random"
+    std::optional<int> camera;   ///< position in the scene's list
+    std::string resolution;      ///< "1920x1080", of single Gaussians "32x32"
+    std::string numbers;         ///< number set, or "fp16-direct"
+    double alpha_error_mean = 0; ///< absolute, against fp64, over all pixels
+    double alpha_error_max = 0;  ///< over pixels that both draw
+    std::optional<double> psnr_db, ssim, flip, max_abs_error; ///< of images
+    std::uint64_t nonfinite = 0;                              ///< values that are no number
+
+    // Images only.
+    bool identical = false;      ///< to the reference; psnr_db is empty then
+    std::string span_ends;       ///< that the image was made with
+    std::uint64_t recounted = 0; ///< pixels with another number of updates than the reference's
+    std::optional<WorstPixel> worst;
+    std::string error_image; ///< file name, empty if none was asked for
+
+    // Single Gaussians only.
+    std::optional<double> spread;       ///< standard deviation of the Gaussians' means
+    std::optional<double> mean_to_fp16; ///< alpha_error_mean against fp16-direct
+    std::uint64_t gaussians = 0;
+    std::uint64_t support = 0; ///< pixels with alpha >= 1/255
+    std::uint64_t flips = 0;   ///< pixels that only one of the two draws
+};
+
+/// A table for terminals.
+std::string accuracy_table(const std::vector<AccuracyRow>& rows);
+/// accuracy.json: a list of objects, one per row, in this order.
+nlohmann::ordered_json accuracy_json(const std::vector<AccuracyRow>& rows);
+
+/// The paper's test of single Gaussians (Sec. V-B).
+struct SingleGaussianRequest {
+    std::vector<NumberSet> sets;
+    std::uint64_t seed = 1;
+    int gaussians = 2000;           ///< per kind
+    std::vector<ViewRequest> views; ///< whose projected Gaussians are a kind each
+};
+/// Kinds: isotropic-3 and random (single_gaussian.hpp), then those of the views, drawn from the
+/// visible splats. The first row of a kind is fp16-direct. Throws InputError.
+std::vector<AccuracyRow> measure_single_gaussians(const SingleGaussianRequest& request);
+
+/// Whole images of the modelled data path against the reference renderer in double precision, both
+/// with exact tile lists and the reference's stop rule.
+struct SceneAccuracyRequest {
+    std::vector<std::string> sets;        ///< as numbers_of() reads them
+    std::vector<ViewRequest> scenes;      ///< their resolution does not count
+    std::vector<std::string> resolutions; ///< of resolution_names(); empty: the cameras' own
+    std::string span_ends;                ///< for every set; empty: each set's own
+    int tile_size = 32;                   ///< px; outward ends and bases of spans depend on it
+    bool error_images = true;             ///< write test - reference as EXR
+};
+/// One row per scene, resolution and set. Throws InputError.
+std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
+                                        const OutputFolder& out);
+
+/// PSNR over the height of images, a panel per scene and camera, a line per set; rows of single
+/// Gaussians are left out. Empty if nothing is left.
+std::string accuracy_svg(const std::vector<AccuracyRow>& rows);
+
+} // namespace degs::sim

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/accuracy/accuracy_numbers.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include "config/error.hpp"
+#include "splat/numbers/number_override.hpp"
+
+namespace degs::sim {
+
+std::vector<std::string> span_end_names() {
+    return {"exact", "outward", "slope"};
+}
+
+std::string words_of(SpanEnds ends) {
+    return span_end_names().at(static_cast<std::size_t>(ends));
+}
+
+AccuracyNumbers numbers_of(const std::string& text, const std::string& span_ends) {
+    std::istringstream words(text);
+    std::string name;
+    std::getline(words, name, ':');
+    std::vector<std::string> changes;
+    for (std::string change; std::getline(words, change, ':');) {
+        changes.push_back(change);
+    }
+    AccuracyNumbers numbers{number_set(name, changes), named_numbers(name, changes)};
+    if (!span_ends.empty()) {
+        const std::vector<std::string> names = span_end_names();
+        const auto at = std::find(names.begin(), names.end(), span_ends);
+        if (at == names.end()) {
+            throw InputError("There are no span ends '" + span_ends +
+                             "'; there are exact, outward, slope.");
+        }
+        numbers.set.ends = static_cast<SpanEnds>(at - names.begin());
+    }
+    numbers.path.ends = numbers.set.ends;
+    return numbers;
+}
+
+ProjectionOptions projected_in(const NumberSet& set, ProjectionOptions options) {
+    options.format = set.projection;
+    return options;
+}
+
+} // namespace degs::sim

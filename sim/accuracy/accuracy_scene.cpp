@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole images of number sets against the double-precision reference.
+#include <cmath>
+
+#include "scene/image_io.hpp"
+#include "sim/accuracy/accuracy.hpp"
+#include "sim/accuracy/accuracy_numbers.hpp"
+#include "sim/simulation.hpp"
+#include "sim/text/progress.hpp"
+#include "splat/data_path_renderer.hpp"
+#include "splat/images/flip.hpp"
+#include "splat/images/image_difference.hpp"
+#include "splat/pixel_replay.hpp"
+
+namespace degs::sim {
+namespace {
+
+/// One image of the reference, and what all rows about it share.
+struct Frame {
+    AccuracyRow row; ///< scene, camera, resolution
+    const GaussianCloud* cloud = nullptr;
+    FrameWorkload workload; ///< in double
+    Image reference;
+    FrameWorkload projected; ///< in the format of the last set that has one of its own
+
+    /// The frame as a set's hardware has it.
+    const FrameWorkload& in(const NumberSet& set) {
+        if (set.projection.is_fp64()) {
+            return workload;
+        }
+        if (projected.projection.format != set.projection) {
+            projected = make_frame_workload(*cloud, workload.camera, workload.tile_size,
+                                            TileMode::Exact, projected_in(set));
+        }
+        return projected;
+    }
+};
+
+/// Letters, digits and '-' of a name, for files.
+std::string plain(std::string name) {
+    for (char& c : name) {
+        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+        c = letter || (c >= '0' && c <= '9') ? c : '-';
+    }
+    return name;
+}
+
+WorstPixel explain(Frame& frame, const ImageDifference& difference, const NumberSet& set) {
+    WorstPixel worst;
+    worst.x = difference.worst_x();
+    worst.y = difference.worst_y();
+    const FrameWorkload& own = frame.in(set);
+    const PixelBlame blame =
+        &own == &frame.workload
+            ? blame_pixel(own, worst.x, worst.y, set, StopRule::Refuse)
+            : blame_pixel(frame.workload, own, worst.x, worst.y, set, StopRule::Refuse);
+    worst.error = blame.error;
+    worst.gaussian = blame.id;
+    worst.operation = blame.operation;
+    worst.explained = blame.explained;
+    worst.flip = blame.flip;
+    return worst;
+}
+
+AccuracyRow compare(Frame& frame, const Image& image, const NumberSet& set) {
+    ImageDifference difference;
+    difference.add(frame.reference, image);
+    AccuracyRow row = frame.row;
+    row.numbers = set.name;
+    row.span_ends = words_of(set.ends);
+    row.alpha_error_mean = difference.alpha_error_mean();
+    row.alpha_error_max = difference.alpha_error_max();
+    row.max_abs_error = difference.max_abs_error();
+    row.nonfinite = difference.nonfinite();
+    row.recounted = difference.recounted();
+    row.identical = difference.identical();
+    row.ssim = compare_images(frame.reference, image).ssim;
+    row.flip = flip_difference(frame.reference, image);
+    if (std::isfinite(difference.psnr_db()) && row.nonfinite == 0) {
+        row.psnr_db = difference.psnr_db();
+    }
+    if (!row.identical) {
+        row.worst = explain(frame, difference, set);
+    }
+    return row;
+}
+
+Image render(Frame& frame, const AccuracyNumbers& numbers, const std::string& name) {
+    Progress progress(name + " at " + frame.row.resolution + " in " + numbers.set.name);
+    DataPathRender options;
+    options.numbers = numbers.path;
+    options.progress = [&progress](double share) { progress.done(share); };
+    const FrameWorkload& own = frame.in(numbers.set);
+    return DataPathRenderer(own, options).render(all_tiles(own));
+}
+
+void measure_frame(const SceneAccuracyRequest& request, Frame& frame, const OutputFolder& out,
+                   std::vector<AccuracyRow>& rows) {
+    for (const std::string& name : request.sets) {
+        const AccuracyNumbers numbers = numbers_of(name, request.span_ends);
+        Image image = render(frame, numbers, frame.row.scene);
+        AccuracyRow row = compare(frame, image, numbers.set);
+        if (request.error_images) {
+            row.error_image = "error-" + std::to_string(rows.size()) + "-" + plain(row.scene) +
+                              "-" + row.resolution + "-" + plain(row.numbers) + ".exr";
+            subtract(frame.reference, image);
+            write_exr(image, out.path(row.error_image));
+        }
+        rows.push_back(std::move(row));
+    }
+}
+
+} // namespace
+
+std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
+                                        const OutputFolder& out) {
+    std::vector<AccuracyRow> rows;
+    for (const ViewRequest& view : request.scenes) {
+        const View loaded = load_view(view);
+        std::vector<Camera> cameras;
+        for (const std::string& name : request.resolutions) {
+            cameras.push_back(resize(loaded.camera, std::nullopt, resolution_height(name)));
+        }
+        if (cameras.empty()) {
+            cameras.push_back(loaded.camera);
+        }
+        for (const Camera& camera : cameras) {
+            Frame frame;
+            frame.row.scene = loaded.scene.name;
+            frame.row.camera = view.camera;
+            frame.row.resolution =
+                std::to_string(camera.width) + "x" + std::to_string(camera.height);
+            frame.cloud = &loaded.scene.cloud;
+            frame.workload =
+                make_frame_workload(loaded.scene.cloud, camera, request.tile_size, TileMode::Exact);
+            frame.reference = make_reference(frame.workload).image;
+            measure_frame(request, frame, out, rows);
+        }
+    }
+    return rows;
+}
+
+} // namespace degs::sim

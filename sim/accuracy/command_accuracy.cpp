@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs accuracy: number sets against double precision.
+#include <iostream>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "config/error.hpp"
+#include "scene/input_file.hpp"
+#include "sim/accuracy/accuracy.hpp"
+#include "sim/accuracy/accuracy_numbers.hpp"
+#include "sim/accuracy/hard_case_run.hpp"
+#include "sim/commands.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/scene_list.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct AccuracyOptions {
+    std::vector<std::string> numbers{"fp16", "paper", "tuned"};
+    std::vector<std::string> scenes; ///< as written
+    std::string cameras;
+    int camera = 0;
+    std::vector<std::string> resolutions;
+    std::string span_ends;
+    int tile_size = 32;
+    bool no_error_images = false;
+    bool single_gaussian = false;
+    bool hard_cases = false;
+    std::vector<std::string> only; ///< hard cases
+    std::uint64_t seed = 1;
+    int splats = 2000;
+    std::string out = "out";
+};
+
+/// One request per scene, without a resolution.
+std::vector<ViewRequest> views_of(const AccuracyOptions& options) {
+    std::vector<ViewRequest> views;
+    for (const std::string& scene : split_scenes(options.scenes)) {
+        ViewRequest view;
+        view.scene = scene;
+        view.cameras = options.cameras;
+        view.camera = options.camera;
+        views.push_back(view);
+    }
+    return views;
+}
+
+SingleGaussianRequest single_request(const AccuracyOptions& options) {
+    SingleGaussianRequest request;
+    for (const std::string& name : options.numbers) {
+        request.sets.push_back(numbers_of(name, options.span_ends).set);
+    }
+    request.seed = options.seed;
+    request.gaussians = options.splats;
+    const std::vector<std::string> own{""}; // the camera's size
+    for (const ViewRequest& view : views_of(options)) {
+        for (const std::string& resolution :
+             options.resolutions.empty() ? own : options.resolutions) {
+            request.views.push_back(view);
+            request.views.back().resolution = resolution;
+        }
+    }
+    return request;
+}
+
+/// Tells of names that are none before the scenes in front of them have been measured.
+void check_scene(const std::string& scene) {
+    if (scene.empty()) {
+        throw InputError("A scene has an empty name; a file or synthetic:NAME is needed.");
+    }
+    if (scene.rfind("synthetic:", 0) != 0) {
+        const InputFile exists(scene);
+    }
+}
+
+SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
+    SceneAccuracyRequest request;
+    for (const std::string& name : options.numbers) {
+        numbers_of(name, options.span_ends); // a mistake is told before a scene loads
+    }
+    for (const std::string& name : options.resolutions) {
+        resolution_height(name);
+    }
+    request.sets = options.numbers;
+    request.scenes = views_of(options);
+    for (const ViewRequest& view : request.scenes) {
+        check_scene(view.scene);
+    }
+    request.resolutions = options.resolutions;
+    request.span_ends = options.span_ends;
+    request.tile_size = options.tile_size;
+    request.error_images = !options.no_error_images;
+    return request;
+}
+
+void write(const std::vector<AccuracyRow>& rows, const OutputFolder& out) {
+    out.write_json("accuracy.json", accuracy_json(rows));
+    std::cout << accuracy_table(rows) << "all numbers: " << out.path("accuracy.json") << std::endl;
+    const std::string plot = accuracy_svg(rows);
+    if (!plot.empty()) {
+        out.write_text("accuracy.svg", plot);
+        std::cout << "plot: " << out.path("accuracy.svg") << std::endl;
+    }
+}
+
+void run_hard(const AccuracyOptions& options) {
+    HardCaseRequest request;
+    request.only = options.only;
+    request.sets = options.numbers;
+    request.resolutions = options.resolutions;
+    if (request.resolutions.empty()) {
+        request.resolutions = {"720p"};
+    }
+    for (const std::string& name : request.sets) {
+        numbers_of(name, options.span_ends);
+    }
+    for (const std::string& name : request.resolutions) {
+        resolution_height(name);
+    }
+    request.span_ends = options.span_ends;
+    request.tile_size = options.tile_size;
+    const OutputFolder out(options.out, {"hard_cases.json", "hard_cases.md"});
+    const std::vector<HardResult> results = run_hard_cases(request, out.path(""));
+    out.write_json("hard_cases.json", hard_case_json(results));
+    out.write_text("hard_cases.md", hard_case_markdown(results));
+    std::cout << hard_case_table(results) << "all numbers: " << out.path("hard_cases.json")
+              << std::endl;
+}
+
+void run(const AccuracyOptions& options) {
+    if (options.hard_cases) {
+        run_hard(options);
+        return;
+    }
+    if (options.single_gaussian) {
+        const SingleGaussianRequest request = single_request(options);
+        const OutputFolder out(options.out, {"accuracy.json"});
+        write(measure_single_gaussians(request), out);
+        return;
+    }
+    if (options.scenes.empty()) {
+        throw InputError(
+            "There is nothing to measure; --scene, --single-gaussian or --hard-cases is "
+            "needed.");
+    }
+    const SceneAccuracyRequest request = scene_request(options);
+    const OutputFolder out(options.out, {"accuracy.json", "accuracy.svg"});
+    write(measure_scenes(request, out), out);
+}
+
+std::string set_words() {
+    std::string words;
+    for (const std::string& name : number_set_names()) {
+        words += (words.empty() ? "" : "; ") + name + ": " + number_set(name).meaning;
+    }
+    return words +
+           "; several separated by commas; tuned:projection=fp64:alpha=uq1.15 changes parts "
+           "(pipeline.formats)";
+}
+
+void add_scene_options(CLI::App& command, AccuracyOptions& options) {
+    command
+        .add_option("--scene", options.scenes,
+                    "scenes: files or synthetic:NAME[,...]; several separated by commas, or "
+                    "repeated; with --single-gaussian, their projected Gaussians are measured")
+        ->take_all()
+        ->expected(1);
+    command.add_option("--cameras", options.cameras,
+                       "cameras.json to use instead of the ones beside the scenes");
+    command.add_option("--camera", options.camera, "position in the list of cameras, from 0");
+    command
+        .add_option("--resolution", options.resolutions,
+                    "720p, 1080p, 2k, 4k or 8k: images 720, 1080, 1440, 2160 or 4320 pixels high; "
+                    "several separated by commas")
+        ->delimiter(',')
+        ->take_all();
+    command
+        .add_option("--span-ends", options.span_ends,
+                    "of all number sets; without it each has its own")
+        ->check(CLI::IsMember(span_end_names()));
+    command
+        .add_option("--tile-size", options.tile_size,
+                    "px; outward span ends and the places where q_n starts depend on it")
+        ->check(CLI::Range(1, 128))
+        ->capture_default_str();
+    command.add_flag("--no-error-images", options.no_error_images,
+                     "write no EXR of the differences, which take up to 20 B per pixel each");
+}
+
+} // namespace
+
+void add_accuracy_command(CLI::App& program) {
+    auto options = std::make_shared<AccuracyOptions>();
+    CLI::App* command = program.add_subcommand(
+        "accuracy", "measure the error of number formats against double precision");
+    command->add_flag("--single-gaussian", options->single_gaussian,
+                      "the paper's test: alpha of single Gaussians in a window of 32 x 32 pixels");
+    CLI::Option* hard = command->add_flag(
+        "--hard-cases", options->hard_cases,
+        "generated scenes that break renderers, in images of 16:9 (docs/numerical-stability.md)");
+    command->add_option("--only", options->only, "hard cases, e.g. H7,H19; all without it")
+        ->delimiter(',')
+        ->take_all()
+        ->needs(hard);
+    command->add_option("--numbers", options->numbers, set_words())
+        ->delimiter(',')
+        ->take_all()
+        ->capture_default_str();
+    add_scene_options(*command, *options);
+    command->add_option("--seed", options->seed, "of the random numbers of single Gaussians")
+        ->capture_default_str();
+    command->add_option("--splats", options->splats, "single Gaussians of each kind")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+    command->add_option("--out", options->out, "folder for accuracy.json, the plot and the images")
+        ->capture_default_str();
+    command->callback([options] { run(*options); });
+}
+
+} // namespace degs::sim

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs compare: several accelerators on the same views.
+#include <iostream>
+#include <memory>
+
+#include "sim/commands.hpp"
+#include "sim/compare/compare_session.hpp"
+#include "sim/compare/comparison_output.hpp"
+#include "sim/view_options.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct CompareOptions {
+    std::vector<std::string> configs, overrides, scenes;
+    std::string cameras = "0";
+    std::string resolutions;
+    std::optional<int> width;
+    PathRequest path;
+    bool array_only = false;
+    bool no_reference = false;
+    int jobs = 1;
+    std::string out = "out";
+};
+
+CompareRequest request_of(const CompareOptions& options) {
+    CompareRequest request;
+    request.configs = load_configs(options.configs, options.overrides);
+    check_scenes(options.scenes);
+    request.scenes = options.scenes;
+    request.cameras = parse_cameras(options.cameras);
+    if (!options.resolutions.empty()) {
+        request.sizes = parse_resolutions(options.resolutions);
+    } else {
+        request.sizes = {ImageSize{options.width, {}}};
+    }
+    request.path = options.path;
+    request.array_only = options.array_only;
+    request.reference = !options.no_reference;
+    request.jobs = options.jobs;
+    return request;
+}
+
+void run(const CompareOptions& options) {
+    const CompareRequest request = request_of(options);
+    const OutputFolder out(options.out, comparison_files());
+    CompareSession session(request, out);
+    const Comparison comparison = session.run();
+    std::cout << comparison_text(comparison);
+    if (!comparison.rows.empty()) {
+        std::cout << "all numbers and pictures: " << out.path("") << "\n";
+    }
+    std::cout << std::flush;
+    if (const std::optional<Failure> failure = session.failure()) {
+        throw FailureError(*failure);
+    }
+}
+
+void add_what_options(CLI::App& command, CompareOptions& options) {
+    command
+        .add_option("config", options.configs,
+                    "configuration files (YAML), each as FILE or NAME=FILE; the others are "
+                    "compared with the first")
+        ->required();
+    command
+        .add_option("--scene", options.scenes,
+                    "scene file (.ply), or synthetic:NAME[,gaussians=N][,seed=N]; may be repeated")
+        ->required()
+        ->take_all()
+        ->expected(1);
+    command
+        .add_option("--cameras,--camera", options.cameras,
+                    "positions in the scene's list of cameras, from 0: 0,2 or all")
+        ->capture_default_str();
+    CLI::Option* resolution =
+        command.add_option("--resolution", options.resolutions,
+                           "720p, 1080p, 2k, 4k, 8k, or several separated by commas; else the "
+                           "cameras' own");
+    command.add_option("--width", options.width, "image width in pixels; the views are scaled")
+        ->excludes(resolution);
+    add_path_options(command, options.path);
+    command
+        .add_option("--set", options.overrides,
+                    "path.to.key=value for all, NAME:path.to.key=value for one; may be repeated")
+        ->take_all()
+        ->expected(1);
+    command.add_flag("--array-only", options.array_only,
+                     "the rasterisation arrays alone: sorted lists are there at once, and memory "
+                     "is unlimited");
+}
+
+} // namespace
+
+void add_compare_command(CLI::App& program) {
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App* command =
+        program.add_subcommand("compare", "compare accelerators on the same frames");
+    add_what_options(*command, *options);
+    command->add_flag("--no-reference", options->no_reference,
+                      "do not render the double-precision images to compare with");
+    command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    command->add_option("--out", options->out, "folder for tables, pictures and reports")
+        ->capture_default_str();
+    command->callback([options] { run(*options); });
+}
+
+} // namespace degs::sim

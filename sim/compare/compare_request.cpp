@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/compare/compare_request.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+#include "config/error.hpp"
+
+namespace degs::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Named {
+    std::string name, file;
+};
+
+/// A configuration before overrides.
+struct Draft {
+    std::string name, where;
+    ConfigNode tree;
+};
+
+/// A '=' may belong to the name of a file that is there.
+Named named(const std::string& word) {
+    const std::size_t at = word.find('=');
+    std::error_code ignored;
+    if (at == std::string::npos || fs::exists(word, ignored)) {
+        return {fs::path(word).stem().string(), word};
+    }
+    return {word.substr(0, at), word.substr(at + 1)};
+}
+
+/// A file with the list `points` is a study: each of them is a configuration of its own.
+void add_drafts(std::vector<Draft>& drafts, const std::string& word) {
+    const Named file = named(word);
+    const ConfigNode tree = ConfigSource::from_file(file.file).tree();
+    const ConfigNode* points = tree.find("points");
+    if (points == nullptr) {
+        drafts.push_back({file.name, file.file, tree});
+        return;
+    }
+    for (const ConfigNode& key : tree.children) {
+        if (key.key != "points" && key.key != "study") {
+            throw ConfigError(key.place + ": unknown key '" + key.key +
+                              "'; a study has the keys 'study' and 'points'.");
+        }
+    }
+    for (const ConfigNode& point : points->children) {
+        const ConfigNode* name = point.find("name");
+        if (name == nullptr) {
+            throw ConfigError(point.place + ": a point of a study needs a key 'name'.");
+        }
+        drafts.push_back({name->text, name->place, point});
+    }
+}
+
+/// Empty if the override is for all.
+std::string addressee(const std::string& text) {
+    const std::string key = text.substr(0, text.find('='));
+    const std::size_t colon = key.find(':');
+    return colon == std::string::npos ? "" : key.substr(0, colon);
+}
+
+std::vector<std::string> overrides_of(const std::string& name,
+                                      const std::vector<std::string>& overrides) {
+    std::vector<std::string> own;
+    for (const std::string& text : overrides) {
+        const std::string to = addressee(text);
+        if (to.empty()) {
+            own.push_back(text);
+        } else if (to == name) {
+            own.push_back(text.substr(to.size() + 1));
+        }
+    }
+    return own;
+}
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    for (std::size_t end = 0; end != std::string::npos; begin = end + 1) {
+        end = text.find(',', begin);
+        parts.push_back(text.substr(begin, end - begin));
+    }
+    return parts;
+}
+
+int position(const std::string& text, const std::string& whole) {
+    int value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || rest != end || value < 0) {
+        throw InputError("--cameras is '" + whole +
+                         "', but must be 'all' or positions in the scene's list of cameras, from 0 "
+                         "and separated by commas.");
+    }
+    return value;
+}
+
+} // namespace
+
+void check_scenes(const std::vector<std::string>& scenes) {
+    for (auto scene = scenes.begin(); scene != scenes.end(); ++scene) {
+        if (scene->empty()) {
+            throw InputError("The scene has an empty name; a file or synthetic:NAME is needed.");
+        }
+        if (std::find(scenes.begin(), scene, *scene) != scene) {
+            throw InputError("The scene '" + *scene + "' is given twice.");
+        }
+    }
+}
+
+std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
+                                      const std::vector<std::string>& overrides) {
+    std::vector<Draft> drafts;
+    for (const std::string& word : words) {
+        if (named(word).name.empty()) {
+            throw InputError("The configuration '" + word +
+                             "' has an empty name; FILE or NAME=FILE is needed.");
+        }
+        add_drafts(drafts, word);
+    }
+    const auto count = [&drafts](const std::string& name) {
+        return std::count_if(drafts.begin(), drafts.end(),
+                             [&name](const Draft& draft) { return draft.name == name; });
+    };
+    for (const Draft& draft : drafts) {
+        if (count(draft.name) > 1) {
+            throw InputError("Two configurations are called '" + draft.name +
+                             "'; NAME=FILE tells them apart.");
+        }
+    }
+    for (const std::string& text : overrides) {
+        const std::string to = addressee(text);
+        if (!to.empty() && count(to) == 0) {
+            std::string sentence = "--set ";
+            sentence.append(text).append(" is for '").append(to);
+            throw InputError(sentence.append("', but no configuration is called so."));
+        }
+    }
+    std::vector<NamedConfig> configs;
+    configs.reserve(drafts.size());
+    for (const Draft& draft : drafts) {
+        configs.push_back(
+            {draft.name, load_run_config(ConfigSource::from_tree(
+                                             draft.tree, overrides_of(draft.name, overrides)),
+                                         draft.where)});
+    }
+    return configs;
+}
+
+std::optional<std::vector<int>> parse_cameras(const std::string& text) {
+    if (text == "all") {
+        return {};
+    }
+    std::vector<int> cameras;
+    for (const std::string& part : split(text)) {
+        cameras.push_back(position(part, text));
+        if (std::count(cameras.begin(), cameras.end(), cameras.back()) > 1) {
+            throw InputError("Camera " + part + " is given twice.");
+        }
+    }
+    return cameras;
+}
+
+std::vector<ImageSize> parse_resolutions(const std::string& text) {
+    std::vector<ImageSize> sizes;
+    for (const std::string& part : split(text)) {
+        const int height = resolution_height(part);
+        for (const ImageSize& size : sizes) {
+            if (size.height == height) {
+                throw InputError("The resolution '" + part + "' is given twice.");
+            }
+        }
+        sizes.push_back({{}, height});
+    }
+    return sizes;
+}
+
+} // namespace degs::sim

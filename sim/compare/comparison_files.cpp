@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// compare.json and compare.csv, both from the table of measures.
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/compare/comparison_output.hpp"
+#include "sim/report.hpp"
+
+namespace degs::sim {
+namespace {
+
+using nlohmann::ordered_json;
+
+template <class Value>
+ordered_json value_or_null(const std::optional<Value>& value) {
+    return value ? ordered_json(*value) : ordered_json();
+}
+
+/// JSON has no infinity. Counts are written as such.
+ordered_json number_json(const std::optional<double>& value) {
+    if (value && std::isinf(*value)) {
+        return "inf";
+    }
+    if (value && *value == std::floor(*value) && std::abs(*value) < 9e15) {
+        return static_cast<std::int64_t>(*value);
+    }
+    return value_or_null(value);
+}
+
+template <class Act>
+void for_each_measure(const Act& act) {
+    for (std::size_t m = 0; m < static_cast<std::size_t>(Measure::Count); ++m) {
+        act(static_cast<Measure>(m));
+    }
+}
+
+ordered_json row_json(const Comparison& comparison, const ComparisonRow& row) {
+    ordered_json json = {{"config", comparison.configs[row.config].name}};
+    if (row.view < comparison.views.size()) {
+        json["view"] = row.view;
+    }
+    for_each_measure([&](Measure m) {
+        json[ordered_json::json_pointer(place_of(m))] = number_json(row.measures[m]);
+    });
+    return json;
+}
+
+ordered_json view_json(const ComparedView& view) {
+    return {{"scene", view.scene},
+            {"source", view.source},
+            {"camera", view.camera},
+            {"img_name", view.camera_name},
+            {"width", view.width},
+            {"height", view.height},
+            {"gaussians", view.gaussians},
+            {"visible", view.visible},
+            {"fragments", value_or_null(view.fragments)}};
+}
+
+ordered_json config_json(const ComparedConfig& config) {
+    return {{"name", config.name},
+            {"accelerator",
+             config.accelerator.empty() ? ordered_json() : ordered_json(config.accelerator)},
+            {"pes", value_or_null(config.pes)},
+            {"tile_size", value_or_null(config.tile_size)},
+            {"area_mm2", value_or_null(config.area_mm2)}};
+}
+
+/// Quoted if it must be, with quotes doubled (RFC 4180).
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) {
+        return text;
+    }
+    std::string cell = "\"";
+    for (char c : text) {
+        cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+    }
+    return cell + "\"";
+}
+
+std::string csv_number(const std::optional<double>& value) {
+    const ordered_json json = number_json(value);
+    return json.is_null() ? "" : json.is_string() ? json.get<std::string>() : json.dump();
+}
+
+std::string csv_column(Measure measure) {
+    std::string column = place_of(measure) + 1;
+    std::replace(column.begin(), column.end(), '/', '.');
+    return column;
+}
+
+} // namespace
+
+ordered_json comparison_json(const Comparison& comparison) {
+    ordered_json json;
+    json["schema"] = {{"name", "degs-compare"}, {"version", kComparisonVersion}};
+    json["tool"] = tool_json();
+    json["frames"] = comparison.frames;
+    json["path_step_degrees"] =
+        comparison.frames > 1 ? ordered_json(comparison.path_step_degrees) : ordered_json();
+    json["array_only"] = comparison.array_only;
+    for (const char* list : {"configs", "views", "runs", "means", "failed"}) {
+        json[list] = ordered_json::array();
+    }
+    for (const ComparedConfig& config : comparison.configs) {
+        json["configs"].push_back(config_json(config));
+    }
+    for (const ComparedView& view : comparison.views) {
+        json["views"].push_back(view_json(view));
+    }
+    for (const ComparisonRow& row : comparison.rows) {
+        json["runs"].push_back(row_json(comparison, row));
+    }
+    for (const ComparisonRow& mean : comparison.means) {
+        json["means"].push_back(row_json(comparison, mean));
+    }
+    for (const FailedRun& failed : comparison.failed) {
+        json["failed"].push_back(
+            {{"config", failed.config}, {"view", failed.view}, {"why", failed.sentence}});
+    }
+    return json;
+}
+
+std::string comparison_csv(const Comparison& comparison) {
+    std::string text = "config,accelerator,pes,tile_size,scene,camera,width,height";
+    for_each_measure([&](Measure m) { text += "," + csv_column(m); });
+    text += "\n";
+    for (const ComparisonRow& row : comparison.rows) {
+        const ComparedConfig& config = comparison.configs[row.config];
+        const ComparedView& view = comparison.views[row.view];
+        text += csv_cell(config.name) + "," + csv_cell(config.accelerator) + "," +
+                std::to_string(config.pes.value_or(0)) + "," +
+                std::to_string(config.tile_size.value_or(0)) + "," + csv_cell(view.scene) + "," +
+                std::to_string(view.camera) + "," + std::to_string(view.width) + "," +
+                std::to_string(view.height);
+        for_each_measure([&](Measure m) { text += "," + csv_number(row.measures[m]); });
+        text += "\n";
+    }
+    return text;
+}
+
+} // namespace degs::sim

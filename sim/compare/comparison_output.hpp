@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// A comparison for people, programs and spreadsheets.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "sim/compare/comparison.hpp"
+
+namespace degs::sim {
+
+/// Raised whenever a key of compare.json changes its meaning, name or unit.
+constexpr int kComparisonVersion = 1;
+
+/// Tables for the terminal: per view, then the geometric means.
+std::string comparison_text(const Comparison& comparison);
+/// compare.json
+nlohmann::ordered_json comparison_json(const Comparison& comparison);
+/// compare.csv: a row per run, numbers in full, nothing where there is no number.
+std::string comparison_csv(const Comparison& comparison);
+
+/// slots.svg; empty if no run has blended anything.
+std::string slots_picture(const Comparison& comparison);
+/// utilization.svg; empty unless configurations of several PE counts were run.
+std::string utilization_picture(const Comparison& comparison);
+
+} // namespace degs::sim

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <set>
+
+#include "sim/compare/comparison_output.hpp"
+#include "sim/plot/plot_svg.hpp"
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+SlotBar bar_of(const Comparison& comparison, const ComparisonRow& row) {
+    const ComparedConfig& config = comparison.configs[row.config];
+    SlotBar bar;
+    bar.label = config.name;
+    bar.note = std::to_string(config.pes.value_or(0)) + " PEs";
+    if (row.measures[Measure::Fps]) {
+        bar.note += " · " + three_digits(*row.measures[Measure::Fps]) + " fps";
+    }
+    for (std::size_t c = 0; c < bar.shares.size(); ++c) {
+        const auto m = static_cast<Measure>(static_cast<std::size_t>(Measure::Useful) + c);
+        bar.shares[c] = row.measures[m].value_or(0);
+    }
+    return bar;
+}
+
+/// In the order of the configurations.
+std::vector<std::string> families_of(const Comparison& comparison) {
+    std::vector<std::string> families;
+    for (const ComparedConfig& config : comparison.configs) {
+        const std::string family = family_of(config);
+        if (config.pes && std::find(families.begin(), families.end(), family) == families.end()) {
+            families.push_back(family);
+        }
+    }
+    return families;
+}
+
+UtilizationLine line_of(const Comparison& comparison, std::size_t view, const std::string& family) {
+    UtilizationLine line;
+    line.label = family;
+    for (const ComparisonRow& row : comparison.rows) {
+        const ComparedConfig& config = comparison.configs[row.config];
+        if (row.view == view && family_of(config) == family && row.measures[Measure::Utilization]) {
+            line.points.emplace_back(*config.pes, *row.measures[Measure::Utilization]);
+        }
+    }
+    return line;
+}
+
+bool has_several_pe_counts(const Comparison& comparison) {
+    std::set<int> counts;
+    for (const ComparisonRow& row : comparison.rows) {
+        if (row.measures[Measure::Utilization]) {
+            counts.insert(*comparison.configs[row.config].pes);
+        }
+    }
+    return counts.size() > 1;
+}
+
+std::string with_array_note(const Comparison& comparison, const std::string& title) {
+    return title + (comparison.array_only ? " (arrays alone)" : "");
+}
+
+} // namespace
+
+std::string slots_picture(const Comparison& comparison) {
+    std::vector<SlotGroup> groups;
+    for (std::size_t v = 0; v < comparison.views.size(); ++v) {
+        SlotGroup group;
+        group.heading = view_words(comparison.views[v]);
+        for (const ComparisonRow& row : comparison.rows) {
+            if (row.view == v && row.measures[Measure::Utilization]) {
+                group.bars.push_back(bar_of(comparison, row));
+            }
+        }
+        if (!group.bars.empty()) {
+            groups.push_back(std::move(group));
+        }
+    }
+    return groups.empty()
+               ? ""
+               : slots_svg(with_array_note(comparison, "Where the PE-cycles went"), groups);
+}
+
+std::string utilization_picture(const Comparison& comparison) {
+    if (!has_several_pe_counts(comparison)) {
+        return "";
+    }
+    std::vector<UtilizationPanel> panels;
+    for (std::size_t v = 0; v < comparison.views.size(); ++v) {
+        UtilizationPanel panel;
+        panel.heading = view_words(comparison.views[v]);
+        for (const std::string& family : families_of(comparison)) {
+            panel.lines.push_back(line_of(comparison, v, family));
+        }
+        panels.push_back(std::move(panel));
+    }
+    return utilization_svg(with_array_note(comparison, "PE utilization as the array grows"),
+                           panels);
+}
+
+} // namespace degs::sim

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "config/config_words.hpp"
+#include "sim/compare/comparison_output.hpp"
+#include "sim/plot/plot_svg.hpp"
+#include "sim/text/text_table.hpp"
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+std::string digits(const std::optional<double>& value) {
+    return value ? three_digits(*value) : "";
+}
+
+std::string fixed_ratio(const std::optional<double>& value) {
+    return value ? percent(*value / 100, 2) : "";
+}
+
+std::string share(const std::optional<double>& value) {
+    return value ? percent(*value) : "";
+}
+
+std::string whole(const std::optional<int>& value) {
+    return value ? std::to_string(*value) : "";
+}
+
+std::string decibels(const std::optional<double>& value) {
+    return value ? (*value > 1e9 ? "identical" : percent(*value / 100)) : "";
+}
+
+std::string megabytes(const Measures& m) {
+    const auto& read = m[Measure::DramRead];
+    const auto& written = m[Measure::DramWritten];
+    return read && written ? three_digits((*read + *written) * 1e-6) : "";
+}
+
+/// Shares of the slots, then of the whole frame.
+std::vector<std::string> slot_cells(const Measures& m) {
+    std::vector<std::string> cells;
+    for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
+        cells.push_back(
+            share(m[static_cast<Measure>(static_cast<std::size_t>(Measure::Useful) + c)]));
+    }
+    cells.push_back(share(m[Measure::FrameUtilization]));
+    return cells;
+}
+
+std::vector<std::string> ratio_cells(const Measures& m) {
+    return {fixed_ratio(m[Measure::LatencyRatio]), fixed_ratio(m[Measure::LatencyRatioPerArea]),
+            fixed_ratio(m[Measure::ThroughputRatio]),
+            fixed_ratio(m[Measure::ThroughputRatioPerArea])};
+}
+
+std::vector<std::string> joined(std::vector<std::string> head,
+                                const std::vector<std::string>& middle,
+                                const std::vector<std::string>& tail = {}) {
+    head.insert(head.end(), middle.begin(), middle.end());
+    head.insert(head.end(), tail.begin(), tail.end());
+    return head;
+}
+
+const std::vector<std::string> kRatioHeadings{"speed ×", "per mm²", "path ×", "per mm²"};
+
+std::string time_table(const Comparison& comparison, std::size_t view) {
+    TextTable table(joined({"", "PEs", "tile", "cycles", "ms", "fps", "path fps", "DRAM MB", "mm²"},
+                           kRatioHeadings, {"PSNR dB"}));
+    for (const ComparisonRow& row : comparison.rows) {
+        const ComparedConfig& config = comparison.configs[row.config];
+        const Measures& m = row.measures;
+        if (row.view == view) {
+            table.add(joined({config.name, whole(config.pes), whole(config.tile_size),
+                              m[Measure::Cycles] ? scaled(*m[Measure::Cycles]) : "",
+                              digits(m[Measure::LatencyMs]), digits(m[Measure::Fps]),
+                              digits(m[Measure::ThroughputFps]), megabytes(m),
+                              fixed_ratio(m[Measure::AreaMm2])},
+                             ratio_cells(m), {decibels(m[Measure::PsnrDb])}));
+        }
+    }
+    return table.text();
+}
+
+std::string slots_table(const Comparison& comparison, std::size_t view) {
+    std::vector<std::string> headings{"PE-cycles, %"};
+    for (const SlotClass& slot : kSlotClasses) {
+        headings.emplace_back(slot.key);
+    }
+    headings.emplace_back("useful of the frame");
+    TextTable table(headings);
+    for (const ComparisonRow& row : comparison.rows) {
+        if (row.view == view) {
+            table.add(joined({comparison.configs[row.config].name}, slot_cells(row.measures)));
+        }
+    }
+    return table.text();
+}
+
+std::string means_table(const Comparison& comparison) {
+    TextTable table(
+        joined({"", "ms", "fps", "path fps"}, kRatioHeadings, {"useful %", "of the frame %"}));
+    for (const ComparisonRow& row : comparison.means) {
+        const Measures& m = row.measures;
+        table.add(joined({comparison.configs[row.config].name, digits(m[Measure::LatencyMs]),
+                          digits(m[Measure::Fps]), digits(m[Measure::ThroughputFps])},
+                         ratio_cells(m),
+                         {share(m[Measure::Utilization]), share(m[Measure::FrameUtilization])}));
+    }
+    return table.text();
+}
+
+std::string heading(const ComparedView& view) {
+    std::string words = view_words(view) + " · " + grouped(view.visible) + " of " +
+                        grouped(view.gaussians) + " Gaussians visible";
+    if (view.fragments) {
+        words += " · " + scaled(static_cast<double>(*view.fragments)) + " fragments";
+    }
+    return words + "\n";
+}
+
+std::string legend(const Comparison& comparison) {
+    const std::string& first = comparison.configs.front().name;
+    std::string words = "speed: 1 / latency of one frame alone; " + first + " = 1";
+    if (comparison.frames > 1) {
+        words += "; path: throughput over " + std::to_string(comparison.frames) + " frames of " +
+                 config_words::number(comparison.path_step_degrees) + "° each, " + first + " = 1";
+    }
+    return words +
+           (comparison.array_only ? "; arrays alone, without front ends and memory\n" : "\n");
+}
+
+} // namespace
+
+std::string comparison_text(const Comparison& comparison) {
+    std::string text;
+    for (std::size_t v = 0; v < comparison.views.size(); ++v) {
+        text += heading(comparison.views[v]) + time_table(comparison, v) + "\n" +
+                slots_table(comparison, v) + "\n";
+    }
+    if (!comparison.means.empty()) {
+        text += "geometric means over " + std::to_string(comparison.views.size()) + " views\n" +
+                means_table(comparison) + "\n";
+    }
+    if (comparison.rows.empty()) {
+        return "";
+    }
+    for (const FailedRun& failed : comparison.failed) {
+        text += "failed: " + failed.sentence + "\n";
+    }
+    return text + legend(comparison);
+}
+
+} // namespace degs::sim

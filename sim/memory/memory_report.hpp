@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What degs memory found out, as JSON and as words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sim/memory/memory_traffic.hpp"
+#include "sim/plot/plot_svg.hpp"
+
+namespace degs::sim {
+
+struct MemoryFacts {
+    Lpddr5Config memory;
+    TrafficShape shape;
+    TrafficResult saturated;
+    std::vector<TrafficResult> curve; ///< by offered load
+    double wall_s = 0;
+};
+
+/// Latency is that of reads where there are any: a posted write is answered by the queue.
+const LatencyHistogram& latency_of(const TrafficResult& result);
+LoadPoint point_of(const TrafficResult& result, const Lpddr5Config& memory);
+nlohmann::ordered_json memory_json(const MemoryFacts& facts);
+std::string memory_words(const MemoryFacts& facts);
+
+} // namespace degs::sim

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/memory/memory_traffic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/stopwatch.hpp"
+#include "tlm/memory.hpp"
+
+namespace degs::sim {
+
+int traffic_window(const Lpddr5Config& config, int request_bytes) {
+    const Lpddr5Timing& timing = config.timing;
+    const int extra = static_cast<int>(std::ceil(config.controller_latency_ns / timing.ck_ns()));
+    const int bytes_per_ck = kLpddr5BytesPerBeat * kLpddr5BeatsPerCk;
+    constexpr int kAccess = kLpddr5AccessBytes;
+    const int access_ck = std::min(request_bytes + bytes_per_ck - 1, kAccess) / bytes_per_ck;
+    const int latency = static_cast<int>(timing.read_latency()) + extra;
+    const int accesses = config.controller.read_queue + (latency + access_ck - 1) / access_ck;
+    const int per_request = (request_bytes + kAccess - 1) / kAccess;
+    return (accesses + per_request - 1) / per_request + 1;
+}
+
+MemoryTraffic::MemoryTraffic(const sc_core::sc_module_name& name, Lpddr5& memory,
+                             const Lpddr5Config& config, const TrafficShape& shape)
+    : sc_core::sc_module(name), out("out", static_cast<std::size_t>(config.channels)),
+      memory_(&memory), shape_(shape), peak_gb_per_s_(config.peak_gb_per_s()),
+      window_(traffic_window(config, shape.request_bytes)),
+      dealer_(shape, memory.channels().mapping(), static_cast<std::size_t>(config.channels)),
+      lines_(static_cast<std::size_t>(config.channels)),
+      no_data_(static_cast<std::size_t>(shape.request_bytes)) {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i].register_nb_transport_bw(this, &MemoryTraffic::backward, static_cast<int>(i));
+        out[i].bind(memory.in[i]);
+    }
+    SC_HAS_PROCESS(MemoryTraffic);
+    SC_METHOD(begin);
+    sensitive << begin_event_;
+    dont_initialize();
+    SC_METHOD(arrive);
+    sensitive << arrive_event_;
+    dont_initialize();
+    SC_METHOD(watch);
+    sensitive << watch_event_;
+    dont_initialize();
+}
+
+TrafficResult MemoryTraffic::measure(std::uint64_t requests, double offered) {
+    const Stopwatch host;
+    const std::uint64_t before = answered_;
+    const std::uint64_t warm_up = std::max<std::uint64_t>(requests / 5, 64 * lines_.size());
+    first_ = before + warm_up;
+    last_ = first_ + requests;
+    offered_ = offered;
+    reads_ = writes_ = LatencyHistogram();
+    start_.reset();
+    end_.reset();
+    sending_ = true;
+    begin_event_.notify(sc_core::SC_ZERO_TIME);
+    sc_core::sc_start();
+
+    TrafficResult result;
+    result.offered = offered;
+    result.host_s = host.seconds();
+    result.host_requests = answered_ - before;
+    result.seconds = (end_->time - start_->time).to_seconds();
+    result.requests = end_->requests - start_->requests;
+    result.bytes = result.requests * static_cast<std::uint64_t>(shape_.request_bytes);
+    result.reads = reads_;
+    result.writes = writes_;
+    result.commands = end_->commands;
+    result.commands.subtract(start_->commands);
+    result.energy = end_->energy - start_->energy;
+    return result;
+}
+
+void MemoryTraffic::begin() {
+    if (offered_ > 0) {
+        next_arrival_ = sc_core::sc_time_stamp();
+        arrive();
+        return;
+    }
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+        send_all(i);
+    }
+}
+
+void MemoryTraffic::arrive() {
+    if (!sending_) {
+        return;
+    }
+    const TrafficItem item = dealer_.draw();
+    const unsigned line = dealer_.channel_of(item);
+    lines_[line].arrived.emplace_back(item, sc_core::sc_time_stamp());
+    send_all(line);
+    const double mean_ns = shape_.request_bytes / (offered_ * peak_gb_per_s_);
+    const double u = (static_cast<double>(random_() >> 11U) + 1) * 0x1p-53; // 0 < u <= 1
+    next_arrival_ += sc_core::sc_time(-std::log(u) * mean_ns, sc_core::SC_NS);
+    arrive_event_.notify(next_arrival_ - sc_core::sc_time_stamp());
+}
+
+void MemoryTraffic::send_all(std::size_t line) {
+    while (!lines_[line].requesting && send(line)) {
+    }
+}
+
+/// False if there is nothing to send.
+bool MemoryTraffic::send(std::size_t line) {
+    TrafficItem item;
+    sc_core::sc_time date = sc_core::sc_time_stamp();
+    auto& arrived = lines_[line].arrived;
+    if (offered_ > 0) {
+        if (arrived.empty()) {
+            return false;
+        }
+        std::tie(item, date) = arrived.front();
+        arrived.pop_front();
+    } else if (!sending_ || lines_[line].under_way >= window_ || !dealer_.next_of(line, item)) {
+        return false;
+    }
+    tlm::tlm_generic_payload* payload = new_payload();
+    payload->acquire();
+    payload->get_extension<Birth>()->date = date;
+    payload->set_command(item.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
+    payload->set_address(item.address);
+    payload->set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+    tlm::tlm_phase phase = tlm::BEGIN_REQ;
+    sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
+    const auto answer = out[line]->nb_transport_fw(*payload, phase, delay);
+    lines_[line].requesting = answer == tlm::TLM_ACCEPTED;
+    ++lines_[line].under_way;
+    return true;
+}
+
+tlm::tlm_sync_enum MemoryTraffic::backward(int line, tlm::tlm_generic_payload& payload,
+                                           tlm::tlm_phase& phase, sc_core::sc_time& /*delay*/) {
+    const auto own = static_cast<std::size_t>(line);
+    const bool response = phase == tlm::BEGIN_RESP;
+    if (response) {
+        --lines_[own].under_way;
+        answered(payload);
+        payload.release();
+    } else {
+        lines_[own].requesting = false;
+    }
+    send_all(own);
+    return response ? tlm::TLM_COMPLETED : tlm::TLM_ACCEPTED;
+}
+
+void MemoryTraffic::answered(const tlm::tlm_generic_payload& payload) {
+    ++answered_;
+    const sc_core::sc_time made = payload.get_extension<Birth>()->date;
+    if (start_ && !end_ && made >= start_->time) {
+        const double ns = (sc_core::sc_time_stamp() - made).to_seconds() * 1e9;
+        (payload.is_read() ? reads_ : writes_).add(ns);
+    }
+    if (answered_ == first_ || answered_ == last_) {
+        watch_event_.notify(sc_core::SC_ZERO_TIME);
+    }
+}
+
+// The memory's statistics are asked outside of its own calls.
+void MemoryTraffic::watch() {
+    (start_ ? end_ : start_) = snapshot();
+    sending_ = !end_;
+}
+
+MemoryTraffic::Snapshot MemoryTraffic::snapshot() {
+    return {sc_core::sc_time_stamp(), answered_, memory_->commands(), memory_->energy()};
+}
+
+tlm::tlm_generic_payload* MemoryTraffic::new_payload() {
+    if (!manager_.free_list.empty()) {
+        tlm::tlm_generic_payload* payload = manager_.free_list.back();
+        manager_.free_list.pop_back();
+        return payload;
+    }
+    payloads_.push_back(std::make_unique<tlm::tlm_generic_payload>(&manager_));
+    tlm::tlm_generic_payload* payload = payloads_.back().get();
+    payload->set_data_ptr(no_data_.data());
+    payload->set_data_length(static_cast<unsigned>(no_data_.size()));
+    payload->set_streaming_width(static_cast<unsigned>(no_data_.size()));
+    payload->set_extension(new Birth);
+    payload->set_extension(new TimingOnly);
+    return payload;
+}
+
+} // namespace degs::sim

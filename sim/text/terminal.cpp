@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/text/terminal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "config/config_words.hpp"
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+constexpr const char* kDot = " · ";
+
+std::string count_words(std::uint64_t count, const char* one, const char* many) {
+    return grouped(count) + " " + (count == 1 ? one : many);
+}
+
+/// Enough digits to tell how far it is from 1: 0.99999873 -> "0.9999987".
+std::string similarity(double ssim) {
+    const double gap = std::abs(1.0 - ssim);
+    const int decimals = gap > 0 ? static_cast<int>(2 - std::floor(std::log10(gap))) : 3;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f", std::clamp(decimals, 3, 6), ssim);
+    return text;
+}
+
+std::string scene_line(const RunResult& result) {
+    const auto& reference = result.workload.reference;
+    const std::uint64_t fragments =
+        reference ? reference->fragments : result.accelerator.slots.useful;
+    const double pixels = static_cast<double>(result.camera.width) * result.camera.height;
+    return scene_words(result.scene) + kDot + grouped(result.workload.visible) + " visible" + kDot +
+           scaled(fragments) + " fragments (" +
+           three_digits(static_cast<double>(fragments) / pixels) + " per pixel)";
+}
+
+std::string design_line(const RunResult& result) {
+    const AcceleratorResult& run = result.accelerator;
+    int bytes = 0;
+    for (const BufferUse& buffer : run.buffers) {
+        bytes += buffer.bytes;
+    }
+    return run.name + kDot + std::to_string(run.pes) + " PEs" + kDot +
+           three_digits(bytes / 1024.0) + " KB of SRAM";
+}
+
+std::string frame_line(const RunResult& result) {
+    const AcceleratorResult& run = result.accelerator;
+    const Cycle latency = run.frames.empty() ? 0 : run.frames.front().finished;
+    const double ms = static_cast<double>(latency) / run.clock_ghz * 1e-6;
+    const std::optional<double> steady = steady_fps(run);
+    return size_words(result.camera) + kDot + three_digits(ms) + " ms" + kDot +
+           (ms > 0 ? three_digits(1e3 / ms) : "-") + " fps" + kDot +
+           (steady ? three_digits(*steady) + " fps over " + std::to_string(run.frames.size()) +
+                         " frames" + kDot
+                   : "") +
+           "blending " + scaled(run.window.cycles()) + " of " + scaled(run.cycles) + " cycles at " +
+           config_words::number(run.clock_ghz) + " GHz";
+}
+
+std::string slots_line(const AcceleratorResult& run) {
+    const SlotAccount& s = run.slots;
+    const auto total = static_cast<double>(s.total());
+    if (total == 0) {
+        return "none, there was nothing to blend";
+    }
+    const auto share = [total](std::uint64_t part) {
+        return percent(static_cast<double>(part) / total);
+    };
+    return "useful " + share(s.useful) + " %  boundary " + share(s.boundary) + "  terminated " +
+           share(s.terminated) + "  conflict " + share(s.conflict) + "  starved " +
+           share(s.starved) + "  blocked " + share(s.blocked) + "  drain " + share(s.drain) +
+           (run.hazards == 0 ? "" : "  HAZARDS " + grouped(run.hazards));
+}
+
+std::string stages_line(const AcceleratorResult& run) {
+    std::string line;
+    for (const StageUse& stage : run.stages) {
+        line += (line.empty() ? "" : kDot) + stage.name + " " + percent(stage.busy, 0) + " %";
+    }
+    return line + "   limited by: " + limiting_stage(run);
+}
+
+std::string memory_line(const AcceleratorResult& run) {
+    std::uint64_t read = 0;
+    std::uint64_t written = 0;
+    for (const StreamUse& stream : run.streams) {
+        read += stream.bytes_read;
+        written += stream.bytes_written;
+    }
+    if (run.memory_gb_per_s <= 0) {
+        return "unlimited: the array alone";
+    }
+    return scaled(read) + "B read, " + scaled(written) + "B written" + kDot +
+           percent(run.memory_utilization, 0) + " % of " +
+           config_words::number(run.memory_gb_per_s) + " GB/s" +
+           (run.row_hit_rate ? kDot + ("row hits " + percent(*run.row_hit_rate, 0) + " %") : "");
+}
+
+std::string image_line(const RunResult& result, const std::string& image_path) {
+    if (!result.error) {
+        return "not compared (--no-reference)" + std::string(kDot) + image_path;
+    }
+    const ImageError& error = *result.error;
+    const std::string psnr = std::isinf(error.psnr_db) && error.psnr_db > 0
+                                 ? "identical to"
+                                 : three_digits(error.psnr_db) + " dB, SSIM " +
+                                       similarity(error.ssim) + ", largest error " +
+                                       three_digits(error.max_abs_error) + " against";
+    return psnr + " double precision" + kDot + image_path;
+}
+
+std::string host_line(const RunResult& result) {
+    const HostFacts& host = result.host;
+    std::string line = "simulation " + three_digits(host.sim_s) + " s";
+    if (host.render_s && *host.render_s > 0) {
+        line += ", " + three_digits(host.sim_s / *host.render_s) + "× of rendering it";
+    }
+    if (host.sim_s > 0) {
+        line += kDot + scaled(static_cast<double>(result.accelerator.slots.useful) / host.sim_s) +
+                " fragments/s";
+    }
+    return line + kDot + scaled(host.peak_rss_bytes) + "B" + kDot + three_digits(host.wall_s) +
+           " s in all";
+}
+
+} // namespace
+
+std::string layout(const Block& block) {
+    std::size_t width = 0;
+    for (const auto& [name, text] : block) {
+        width = std::max(width, name.size());
+    }
+    std::string lines;
+    for (const auto& [name, text] : block) {
+        lines.append(name).append(width + 2 - name.size(), ' ').append(text).append("\n");
+    }
+    return lines;
+}
+
+std::string scene_words(const SceneFacts& scene) {
+    std::string words = scene.name + kDot + count_words(scene.gaussians, "Gaussian", "Gaussians") +
+                        ", SH " + std::to_string(scene.sh_degree);
+    if (scene.dropped.total() != 0) {
+        words += " (" + grouped(scene.dropped.total()) + " dropped)";
+    }
+    return words;
+}
+
+std::string size_words(const Camera& camera) {
+    return std::to_string(camera.width) + "×" + std::to_string(camera.height);
+}
+
+std::string summary(const RunResult& result, const std::string& image_path) {
+    const AcceleratorResult& run = result.accelerator;
+    return layout({{"scene", scene_line(result)},
+                   {"design", design_line(result)},
+                   {"frame", frame_line(result)},
+                   {"slots", slots_line(run)},
+                   {"stages", stages_line(run)},
+                   {"memory", memory_line(run)},
+                   {"image", image_line(result, image_path)},
+                   {"host", host_line(result)}});
+}
+
+} // namespace degs::sim

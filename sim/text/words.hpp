@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers as people read them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "config/grouped_number.hpp"
+
+namespace degs::sim {
+
+using degs::grouped;
+/// Three significant digits without exponent: 2.108 -> "2.11", 473.9 -> "474", 51234 -> "51200".
+std::string three_digits(double value);
+/// 54512345 -> "54.5 M"; k, M, G and T are decimal.
+std::string scaled(double value);
+inline std::string scaled(std::uint64_t value) {
+    return scaled(static_cast<double>(value));
+}
+/// 0.834 -> "83.4"; the percent sign is the caller's.
+std::string percent(double share, int decimals = 1);
+/// Characters of a UTF-8 text: bytes that do not continue one.
+std::size_t characters(const std::string& text);
+inline bool starts_character(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baselines/gcc/colour_stage.hpp"
+
+#include <algorithm>
+
+#include "baselines/gcc/projection_stage.hpp"
+
+namespace degs {
+
+void GccColourStage::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("units", units, 1, 64, "SH units; as many as projection units [assumed]");
+    visitor.integer("cycles_per_colour", cycles_per_colour, 1, 1024,
+                    "cycles per Gaussian and unit for its SH colour [assumed]");
+    visitor.integer("keys_per_cycle", keys_per_cycle, 1, 1024,
+                    "keys per cycle and pass of the sorter; 128 cycles for a group of 256 "
+                    "[assumed]");
+    visitor.integer("merge_ways", merge_ways, 2, 1024, "fan-in of a merge pass [assumed]");
+    visitor.boolean("skip_ended", skip_ended,
+                    "drop Gaussians that reach ended blocks only (cross-stage conditional "
+                    "processing)");
+    visitor.integer("block", block, 1, 1024, "px; granularity of the mask [unverified]");
+    visitor.integer("feedback_cycles", feedback_cycles, 1, 4096,
+                    "cycles from the slot that ends a block to the mask [assumed]");
+    visitor.integer("chunk", chunk, 1, 1024, "splats per hand-over to Stage IV [assumed]");
+}
+
+GccColourStage::GccColourStage(const sc_core::sc_module_name& name, const Config& config,
+                               const GccTraffic& traffic, const Timebase& time,
+                               const RenderJob& job, int groups_ahead)
+    : sc_core::sc_module(name), in("in"), cancel("cancel"),
+      block_ended("block_ended", config.skip_ended ? 1 : 0), out("out"), sh("sh", time),
+      config_(config), traffic_(traffic), job_(job), fetcher_(time), shader_(time),
+      fetched_("fetched", time, static_cast<std::size_t>(groups_ahead)),
+      mask_(job.tile_size, config.block) {
+    SC_HAS_PROCESS(GccColourStage);
+    SC_THREAD(fetch);
+    SC_THREAD(shade);
+}
+
+void GccColourStage::end_of_elaboration() {
+    in->connect_reader(fetcher_);
+    cancel->connect_reader(fetcher_);
+    for (auto& port : block_ended) {
+        port->connect_reader(fetcher_);
+    }
+    fetched_.connect_writer(fetcher_);
+    fetched_.connect_reader(shader_);
+    out->connect_writer(shader_);
+}
+
+// A group enters when the one before has asked for its SH and a place behind it is free.
+void GccColourStage::fetch() {
+    for (TileNumber views = 0; !job_.over(views);) {
+        SplatChunk group = in->get(fetcher_);
+        views += group.last ? 1 : 0;
+        fetched_.reserve(fetcher_);
+        see_ended_blocks(group.tile);
+        if (gcc_cancelled(fetcher_, cancel, from_, group.tile)) {
+            stats_.cancelled += group.count;
+            group.count = 0;
+        }
+        const Survivors survivors = filter(group);
+        if (survivors.count != 0 || group.last) {
+            const GccMemoryMap map(traffic_, job_, job_.tiles[group.tile].frame);
+            const Cycle ready = sh.read(fetcher_, map.sh, sh_bytes(survivors));
+            fetched_.put_at(fetcher_, survivors, ready);
+        }
+    }
+    fetcher_.finish();
+}
+
+void GccColourStage::see_ended_blocks(TileNumber view) {
+    if (masked_view_ != view) {
+        masked_view_ = view;
+        mask_.begin();
+    }
+    for (auto& port : block_ended) {
+        while (fetcher_.arrived(*port.operator->())) {
+            const GccBlockEnded block = port->take(fetcher_);
+            if (block.view == view) {
+                mask_.end_block(block.row, block.column);
+            }
+        }
+    }
+}
+
+GccColourStage::Survivors GccColourStage::filter(const SplatChunk& group) {
+    const JobTile& view = job_.tiles[group.tile];
+    const FrameWorkload& frame = job_.frame_of(view);
+    Survivors left;
+    left.group = group;
+    for (std::uint64_t i = group.first; i < group.first + group.count; ++i) {
+        const std::uint32_t splat = job_.first_splat[view.frame] + frame.tile_splats[i];
+        if (config_.skip_ended && !mask_.reaches(*job_.path, splat, view)) {
+            stats_.masked++;
+            continue;
+        }
+        ++left.count;
+        const bool joins = !left.runs.empty() &&
+                           left.runs.back().first + left.runs.back().count == i &&
+                           left.runs.back().count < static_cast<std::uint32_t>(config_.chunk);
+        if (joins) {
+            left.runs.back().count++;
+        } else {
+            left.runs.push_back({group.tile, i, 1, false});
+        }
+    }
+    stats_.coloured += left.count;
+    return left;
+}
+
+std::uint64_t GccColourStage::sh_bytes(const Survivors& survivors) const {
+    const FrameWorkload& frame = job_.frame_of(job_.tiles[survivors.group.tile]);
+    const std::uint64_t record = traffic_.common().sh_bytes(frame.sh_degree);
+    std::uint64_t bytes = 0;
+    for (const SplatChunk& run : survivors.runs) {
+        for (std::uint32_t i = 0; i < run.count; ++i) {
+            const std::uint32_t splat = frame.tile_splats[run.first + i];
+            bytes += traffic_.scattered(record, frame.splats[splat].id);
+        }
+    }
+    return bytes;
+}
+
+void GccColourStage::shade() {
+    const auto units = static_cast<std::uint64_t>(config_.units);
+    for (TileNumber views = 0; !job_.over(views);) {
+        const Survivors survivors = fetched_.get(shader_);
+        views += survivors.group.last ? 1 : 0;
+        const Cycle colour =
+            (survivors.count + units - 1) / units * static_cast<Cycle>(config_.cycles_per_colour);
+        const Cycle sort = sort_cycles(survivors.count);
+        stats_.colour_busy += colour;
+        stats_.sort_busy += sort;
+        shader_.advance(std::max(colour, sort));
+        hand_over(survivors);
+    }
+    shader_.finish();
+}
+
+Cycle GccColourStage::sort_cycles(std::uint64_t keys) const {
+    const auto ways = static_cast<std::uint64_t>(config_.merge_ways);
+    const auto rate = static_cast<std::uint64_t>(config_.keys_per_cycle);
+    std::uint64_t passes = 0;
+    for (std::uint64_t runs = keys; runs > 1; ++passes) {
+        runs = (runs + ways - 1) / ways;
+    }
+    return (keys * std::max<std::uint64_t>(passes, 1) + rate - 1) / rate;
+}
+
+void GccColourStage::hand_over(const Survivors& survivors) {
+    SplatChunk none = survivors.group;
+    none.count = 0;
+    if (survivors.runs.empty() && none.last) {
+        out->put(shader_, none);
+    }
+    for (std::size_t i = 0; i < survivors.runs.size(); ++i) {
+        SplatChunk run = survivors.runs[i];
+        run.last = none.last && i + 1 == survivors.runs.size();
+        out->put(shader_, run);
+    }
+}
+
+} // namespace degs

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <systemc>
+
+#include "baselines/gcc/block_mask.hpp"
+#include "baselines/gcc/messages.hpp"
+#include "baselines/gcc/traffic.hpp"
+#include "tlm/dated_fifo.hpp"
+#include "tlm/memory_port.hpp"
+
+namespace degs {
+
+/// Stage III of GCC: of the Gaussians of a projected group, reads SH for those that can still
+/// contribute, computes their colours, and sorts them exactly. A Gaussian cannot contribute if all
+/// blocks of the view that its bounding box meets have ended; the mask is looked at once per group,
+/// when the group enters. Colours and sorting overlap; a group is handed to Stage IV when both are
+/// done. Groups of a view whose pixels have all ended are dropped.
+class GccColourStage : public sc_core::sc_module {
+public:
+    struct Config {
+        int units = 4;             ///< SH units
+        int cycles_per_colour = 1; ///< initiation interval of a unit
+        int keys_per_cycle = 4;    ///< sorter, per pass
+        int merge_ways = 16;       ///< fan-in of a pass: n keys take ceil(log_ways n) passes
+        bool skip_ended = true;    ///< the mask; false: all projected Gaussians are coloured
+        int block = 8;             ///< px, granularity of the mask
+        int feedback_cycles = 8;   ///< from the array to the mask
+        int chunk = 16;            ///< splats per hand-over to Stage IV
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Stats {
+        Cycle colour_busy = 0, sort_busy = 0;
+        std::uint64_t coloured = 0;  ///< SH read, colour computed, sorted
+        std::uint64_t masked = 0;    ///< dropped, because all they can reach has ended
+        std::uint64_t cancelled = 0; ///< dropped, because their view has ended
+    };
+
+    FifoPort<SplatChunk> in;                                 ///< groups
+    FifoPort<TileNumber> cancel;                             ///< from the Tile Monitor
+    sc_core::sc_vector<FifoPort<GccBlockEnded>> block_ended; ///< if the mask is used
+    FifoPort<SplatChunk> out;                                ///< to Stage IV
+    MemoryPort sh;
+
+    /// `groups_ahead`: groups whose SH is on its way while another is coloured.
+    GccColourStage(const sc_core::sc_module_name& name, const Config& config,
+                   const GccTraffic& traffic, const Timebase& time, const RenderJob& job,
+                   int groups_ahead);
+
+    const Stats& stats() const { return stats_; }
+
+private:
+    /// Gaussians of a group that are left, as runs of neighbours in the view's list.
+    struct Survivors {
+        SplatChunk group;
+        std::uint64_t count = 0;
+        std::vector<SplatChunk> runs;
+    };
+    void end_of_elaboration() override;
+    void fetch();
+    void see_ended_blocks(TileNumber view);
+    Survivors filter(const SplatChunk& group);
+    std::uint64_t sh_bytes(const Survivors& survivors) const;
+    void shade();
+    Cycle sort_cycles(std::uint64_t keys) const;
+    void hand_over(const Survivors& survivors);
+
+    Config config_;
+    GccTraffic traffic_;
+    const RenderJob& job_;
+    Process fetcher_, shader_;
+    DatedFifo<Survivors> fetched_;
+    GccBlockMask mask_;
+    TileNumber masked_view_ = kNoTile; // whose blocks the mask shows
+    TileNumber from_ = 0;              // earlier views are cancelled or over
+    Stats stats_;
+};
+
+} // namespace degs

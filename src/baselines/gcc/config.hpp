@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "baselines/gcc/colour_stage.hpp"
+#include "baselines/gcc/grouping.hpp"
+#include "baselines/gcc/projection_stage.hpp"
+#include "baselines/gcc/window_array.hpp"
+#include "modules/array/pixel_buffer.hpp"
+#include "modules/front_end/splat_fetcher.hpp"
+#include "modules/main_memory.hpp"
+#include "modules/render_engine.hpp"
+#include "modules/span_engine/tile_monitor.hpp"
+
+namespace degs {
+
+/// A complete GCC accelerator; defaults are the 64-PE design that DeGS compares with (its Table I).
+/// What is not published is a key.
+struct GccConfig : AcceleratorConfig {
+    int view_size = 128;                ///< px, side of a view
+    int group_buffer_bytes = 62 * 1024; ///< groups between the stages
+    int splat_bytes = 32;               ///< per Gaussian of a group in flight
+    PipelineConfig pipeline;
+    GccTraffic traffic;
+    GccGrouping::Config grouping;          ///< Stage I
+    GccProjectionStage::Config projection; ///< Stage II
+    GccColourStage::Config colour;         ///< Stage III
+    GccWindowArray::Config array;          ///< Stage IV
+    PixelBuffer::Config image_buffer;
+    TileMonitor::Config monitor;
+    MainMemoryConfig memory;
+
+    GccConfig();
+    std::unique_ptr<AcceleratorConfig> clone() const override {
+        return std::make_unique<GccConfig>(*this);
+    }
+    void describe(ConfigVisitor& visitor) override;
+    std::string problem() const override;
+    int pes() const override { return array.pes(); }
+    int tile_size_px() const override { return view_size; }
+    TileMode tile_mode() const override { return pipeline.tiles; }
+    DataPathOptions data_path() const override { return pipeline.data_path(); }
+    int tile_contexts() const override { return image_buffer.contexts(view_size); }
+    TrafficConfig records() const override { return traffic.common(); }
+    void read_floats() override {
+        traffic.mean_bytes = 3 * kFloatBytes;
+        traffic.bound_bytes = kFloatBytes;
+        traffic.shape_bytes = 8 * kFloatBytes;
+        traffic.sh_value_bytes = kFloatBytes;
+    }
+    std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
+                                        const BuildOptions& options) const override;
+
+    /// Gaussians that wait before Stage II: list entries only.
+    int listed_gaussians() const { return projection.groups_ahead * projection.group; }
+    /// Hand-overs that wait before Stage IV: as many groups as elsewhere.
+    int chunks_ahead() const { return (listed_gaussians() + colour.chunk - 1) / colour.chunk; }
+    /// Behind the shapes, behind projection, behind SH, behind colour: four rings.
+    int group_bytes() const {
+        return listed_gaussians() * (traffic.list_entry_bytes + 4 * splat_bytes);
+    }
+};
+
+} // namespace degs

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baselines/gcc/footprint.hpp"
+
+#include <algorithm>
+
+namespace degs {
+
+GccFootprint::GccFootprint(int view_size, int side) : side_(side) {
+    for (int pixel = 0; pixel < view_size; ++pixel) {
+        window_of_.push_back(static_cast<std::uint8_t>(pixel / side));
+    }
+    const std::size_t windows = window_of_.back() + std::size_t{1};
+    valid_.resize(windows, 0);
+    for (auto& mask : border_) {
+        mask.resize(windows, 0);
+    }
+}
+
+void GccFootprint::solve(const DataPath& path, std::uint32_t splat, const JobTile& view) {
+    for (int row = first_row_; row <= last_row_; ++row) {
+        const auto i = static_cast<std::size_t>(row);
+        valid_[i] = 0;
+        for (auto& mask : border_) {
+            mask[i] = 0;
+        }
+    }
+    rows_.clear();
+    int first = 0;
+    int last = 0;
+    path.rows_in_columns(splat, view.x, view.x + view.width, first, last);
+    // Solved ends are rounded in their own way: the alpha test may accept one row more.
+    first = std::max(first - 1, view.y);
+    last = std::min(last + 1, view.y + view.height - 1);
+    for (int y = first; y <= last; ++y) {
+        int left = 0;
+        int right = 0;
+        if (path.tested_columns(splat, y, view.x, view.x + view.width, left, right)) {
+            add({y - view.y, left - view.x, right - view.x});
+        }
+    }
+    first_row_ = rows_.empty() ? 0 : window_of(rows_.front().y);
+    last_row_ = rows_.empty() ? -1 : window_of(rows_.back().y);
+}
+
+void GccFootprint::add(const Row& row) {
+    rows_.push_back(row);
+    const int window_row = window_of(row.y);
+    const auto i = static_cast<std::size_t>(window_row);
+    const int first = window_of(row.first);
+    const int last = window_of(row.last);
+    const GccWindowMask windows = windows_between(first, last);
+    valid_[i] |= windows;
+    if (row.y == window_row * side_) {
+        border_[kTop][i] |= windows;
+    }
+    if (row.y == window_row * side_ + side_ - 1) {
+        border_[kBottom][i] |= windows;
+    }
+    GccWindowMask left = windows;
+    if (row.first != first * side_) {
+        left &= ~(GccWindowMask{1} << first);
+    }
+    GccWindowMask right = windows;
+    if (row.last != last * side_ + side_ - 1) {
+        right &= ~(GccWindowMask{1} << last);
+    }
+    border_[kLeft][i] |= left;
+    border_[kRight][i] |= right;
+}
+
+} // namespace degs

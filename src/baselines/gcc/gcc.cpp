@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baselines/gcc/gcc.hpp"
+
+#include <algorithm>
+
+namespace degs {
+
+std::unique_ptr<RenderEngine> GccConfig::build(const char* module, const Timebase& time,
+                                               RenderJob& job, const BuildOptions& options) const {
+    return std::make_unique<Gcc>(module, *this, time, job, options);
+}
+
+Gcc::Gcc(const sc_core::sc_module_name& name, const GccConfig& config, const Timebase& time,
+         RenderJob& job, const BuildOptions& options)
+    : RenderEngine(name), config_(config), time_(time), job_(job), options_(options),
+      gated_(!options.array_only &&
+             job.frames.size() > static_cast<std::size_t>(config.frames_in_flight)) {
+    build_array();
+    if (options_.array_only) {
+        build_source();
+    } else {
+        build_stages();
+    }
+    sc_core::sc_vector<FifoPort<std::uint32_t>> nobody;
+    frame_ends_.build(config_.frame_end, time_, config_.traffic.common(), job_, image_buffers_,
+                      grouping_ ? grouping_->frame_free : nobody, 1, options_);
+    build_memory();
+}
+
+void Gcc::build_array() {
+    const int contexts = config_.tile_contexts();
+    const int tokens = kTokenDepth + contexts;
+    const int writeback = config_.array.writeback_cycles;
+    const bool mask = !options_.array_only && config_.colour.skip_ended;
+    array_ = std::make_unique<GccWindowArray>("array", config_.array, time_, job_, 1, contexts,
+                                              mask ? 1 : 0, config_.colour.block);
+    image_buffers_.push_back(std::make_unique<PixelBuffer>(
+        "image_buffer", config_.image_buffer, config_.traffic.common(), time_, job_, 1, contexts,
+        PixelBuffer::Share{}, gated_ || options_.finished != nullptr, options_.array_only));
+    monitor_ = std::make_unique<TileMonitor>("monitor", config_.monitor, time_, job_, 1,
+                                             options_.array_only ? 1 : 3);
+    auto& done = add_ring(done_rings_, "tile_done", time_, tokens, writeback);
+    array_->tile_done.bind(done);
+    image_buffers_[0]->in[0].bind(done);
+    auto& state = add_ring(state_rings_, "tile_state", time_, tokens, writeback);
+    array_->tile_state.bind(state);
+    monitor_->in[0].bind(state);
+    auto& free = add_ring(context_rings_, "context_free", time_, tokens, 1);
+    image_buffers_[0]->context_free[0].bind(free);
+    array_->context_free.bind(free);
+    auto& splats = add_ring(splat_rings_, "splats", time_, config_.chunks_ahead(), 1);
+    array_->in[0].bind(splats);
+}
+
+void Gcc::bind_cancel(FifoPort<TileNumber>& listener) {
+    auto& cancel =
+        add_ring(cancel_rings_, "cancel", time_, kTokenDepth, config_.monitor.latency_cycles);
+    monitor_->out[listeners_++].bind(cancel);
+    listener.bind(cancel);
+}
+
+void Gcc::build_stages() {
+    grouping_ = std::make_unique<GccGrouping>("grouping", config_.grouping, config_.traffic, time_,
+                                              job_, gated_ ? config_.frames_in_flight : 0);
+    projection_ = std::make_unique<GccProjectionStage>("projection", config_.projection,
+                                                       config_.traffic, time_, job_);
+    colour_ = std::make_unique<GccColourStage>("colour", config_.colour, config_.traffic, time_,
+                                               job_, config_.projection.groups_ahead);
+    auto& grouped = add_ring(grouped_rings_, "grouped", time_, kTokenDepth, 1);
+    grouping_->out.bind(grouped);
+    projection_->start.bind(grouped);
+    auto& groups = add_ring(projected_rings_, "projected", time_, config_.projection.groups_ahead,
+                            config_.projection.latency_cycles);
+    projection_->out.bind(groups);
+    colour_->in.bind(groups);
+    colour_->out.bind(*splat_rings_[0]);
+    bind_cancel(projection_->cancel[0]);
+    bind_cancel(projection_->cancel[1]);
+    bind_cancel(colour_->cancel);
+    if (config_.colour.skip_ended) {
+        // The mask is read once per group. Until then the array may end every block of each view
+        // that is on the way to it; a full ring could stop both for ever.
+        const int per_row = (config_.view_size + config_.colour.block - 1) / config_.colour.block;
+        const int ahead = config_.chunks_ahead() + config_.projection.groups_ahead + 3;
+        const int views =
+            job_.joined ? ahead : std::clamp(static_cast<int>(job_.tiles.size()), 1, ahead);
+        auto& blocks = add_ring(block_rings_, "block_ended", time_, per_row * per_row * views,
+                                config_.array.writeback_cycles + config_.colour.feedback_cycles);
+        array_->block_ended[0].bind(blocks);
+        colour_->block_ended[0].bind(blocks);
+    }
+}
+
+void Gcc::build_source() {
+    source_ = std::make_unique<ListSource>("lists", time_, job_, 0, 1);
+    SplatFetcher::Config fetching;
+    fetching.chunk = config_.colour.chunk;
+    fetcher_ = std::make_unique<SplatFetcher>("fetcher", fetching, config_.traffic.common(), time_,
+                                              job_, 1, true);
+    auto& lists = add_ring(sorted_rings_, "sorted", time_, 1, 1);
+    source_->sorted.bind(lists);
+    fetcher_->sorted.bind(lists);
+    fetcher_->out[0].bind(*splat_rings_[0]);
+    bind_cancel(fetcher_->cancel);
+}
+
+void Gcc::build_memory() {
+    if (grouping_) {
+        streams_.connect(grouping_->means, "means");
+        streams_.connect(grouping_->lists, "group_lists_written");
+        streams_.connect(projection_->lists, "group_lists_read");
+        streams_.connect(projection_->shapes, "shapes");
+        streams_.connect(colour_->sh, "sh");
+    } else {
+        streams_.connect(fetcher_->records, "splats_read");
+    }
+    streams_.connect(image_buffers_[0]->frame_buffer, "frame_buffer");
+    frame_ends_.connect_memory(streams_);
+    streams_.build("memory", config_.memory, time_, options_);
+}
+
+} // namespace degs

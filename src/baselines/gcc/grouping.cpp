@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baselines/gcc/grouping.hpp"
+
+#include <algorithm>
+
+#include "tlm/ceil_div.hpp"
+
+namespace degs {
+
+void GccGrouping::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("means_per_cycle", means_per_cycle, 1, 1024,
+                    "means per cycle; 4, as the units that project elsewhere [assumed]");
+    visitor.integer("chunk", chunk, 1, 65536,
+                    "means per request; long bursts, the array of means is read as it lies "
+                    "[assumed]");
+    visitor.integer("chunks_in_flight", chunks_in_flight, 1, 256,
+                    "requests outstanding; 4 of 2 KB cover a 100 ns memory [assumed]");
+    visitor.integer("entries_per_cycle", entries_per_cycle, 1, 1024,
+                    "list entries per cycle; 8 x 8 B keep one 64 B burst per cycle [assumed]");
+    visitor.integer("writes_in_flight", writes_in_flight, 1, 1024,
+                    "chunk writes not yet acknowledged by memory [assumed]");
+    visitor.choice("lists", lists, {"direct", "regrouped"},
+                   "image of several views: entries go to the lists of the views at once, or "
+                   "groups of the image are written first and dealt out in a second pass "
+                   "[assumed]");
+}
+
+GccGrouping::GccGrouping(const sc_core::sc_module_name& name, const Config& config,
+                         const GccTraffic& traffic, const Timebase& time, const RenderJob& job,
+                         int frames_in_flight)
+    : sc_core::sc_module(name), out("out"), frame_free("frame_free", frames_in_flight == 0 ? 0 : 1),
+      means("means", time), lists("lists", time), config_(config), traffic_(traffic), job_(job),
+      frames_in_flight_(static_cast<std::uint32_t>(frames_in_flight)), fetcher_(time),
+      grouper_(time), fetched_("fetched", time, static_cast<std::size_t>(config.chunks_in_flight)),
+      acknowledged_(static_cast<std::size_t>(config.writes_in_flight), 0) {
+    SC_HAS_PROCESS(GccGrouping);
+    SC_THREAD(fetch);
+    SC_THREAD(group);
+}
+
+void GccGrouping::end_of_elaboration() {
+    fetched_.connect_writer(fetcher_);
+    fetched_.connect_reader(grouper_);
+    out->connect_writer(grouper_);
+    for (auto& port : frame_free) {
+        port->connect_reader(fetcher_);
+    }
+}
+
+void GccGrouping::fetch() {
+    const auto chunk = static_cast<std::uint64_t>(config_.chunk);
+    const std::uint64_t record = traffic_.stage_one_bytes();
+    for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); ++f) {
+        if (frames_in_flight_ != 0 && f >= frames_in_flight_) {
+            frame_free[0]->get(fetcher_);
+        }
+        const FrameWorkload& frame = *job_.frames[f];
+        const GccMemoryMap map(traffic_, job_, f);
+        for (std::uint64_t first = 0; first < frame.gaussians; first += chunk) {
+            const std::uint64_t count = std::min(chunk, frame.gaussians - first);
+            fetched_.reserve(fetcher_);
+            const Cycle ready = means.read(fetcher_, map.means + first * record, count * record);
+            fetched_.put_at(fetcher_, {first, count}, ready);
+            fetcher_.advance();
+        }
+    }
+    fetcher_.finish();
+}
+
+void GccGrouping::group() {
+    for (std::uint32_t f = 0; job_.has_frame(grouper_, f); ++f) {
+        const FrameWorkload& frame = *job_.frames[f];
+        region_written_ = 0;
+        const std::uint64_t chunks =
+            ceil_div(frame.gaussians, static_cast<std::uint64_t>(config_.chunk));
+        for (std::uint64_t c = 0; c < chunks; ++c) {
+            group_chunk(f, fetched_.get(grouper_));
+        }
+        grouper_.advance_to(last_write_); // lists are read back from memory: they must be there
+        if (config_.lists == GccLists::Regrouped && frame.tiles() > 1) {
+            regroup(f);
+        }
+        stats_.view_entries += frame.tile_pairs();
+        frames_grouped_.push_back(grouper_.local());
+        out->put(grouper_, f);
+    }
+    grouper_.finish();
+}
+
+void GccGrouping::group_chunk(std::uint32_t f, const Chunk& chunk) {
+    const FrameWorkload& frame = *job_.frames[f];
+    const GccMemoryMap map(traffic_, job_, f);
+    const auto& ids = frame.visible_of;
+    const auto rank = [&](std::uint64_t id) {
+        return static_cast<std::uint32_t>(std::lower_bound(ids.begin(), ids.end(), id) -
+                                          ids.begin());
+    };
+    const std::uint32_t begin = rank(chunk.first);
+    const std::uint32_t end = rank(chunk.first + chunk.count);
+    const bool by_view = config_.lists == GccLists::Direct || frame.tiles() == 1;
+    const std::uint64_t entries =
+        by_view ? job_.pairs_before(f, end) - job_.pairs_before(f, begin) : end - begin;
+    stats_.gaussians += chunk.count;
+    write(by_view ? map.views : map.groups, entries,
+          ceil_div(chunk.count, static_cast<std::uint64_t>(config_.means_per_cycle)));
+}
+
+// Entries of the image's groups come back near to far, as many requests ahead as for the means.
+void GccGrouping::regroup(std::uint32_t f) {
+    const FrameWorkload& frame = *job_.frames[f];
+    const GccMemoryMap map(traffic_, job_, f);
+    const auto chunk = static_cast<std::size_t>(config_.chunk);
+    const std::size_t visible = frame.splats.size();
+    const std::size_t pieces = (visible + chunk - 1) / chunk;
+    std::vector<Cycle> ready(static_cast<std::size_t>(config_.chunks_in_flight), 0);
+    region_written_ = 0;
+    std::size_t asked = 0;
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        for (; asked < std::min(pieces, piece + ready.size()); ++asked) {
+            const std::size_t count = std::min(chunk, visible - asked * chunk);
+            ready[asked % ready.size()] =
+                lists.read(grouper_, map.groups + asked * chunk * traffic_.entry_bytes(),
+                           count * traffic_.entry_bytes());
+            grouper_.advance();
+        }
+        grouper_.advance_to(ready[piece % ready.size()]);
+        std::uint64_t entries = 0;
+        for (std::size_t s = piece * chunk; s < std::min(visible, (piece + 1) * chunk); ++s) {
+            entries += frame.tiles_touched[s];
+        }
+        write(map.views, entries, 1);
+    }
+    grouper_.advance_to(last_write_);
+}
+
+void GccGrouping::write(std::uint64_t region, std::uint64_t entries, Cycle least_cycles) {
+    const Cycle busy = std::max<Cycle>(
+        least_cycles, ceil_div(entries, static_cast<std::uint64_t>(config_.entries_per_cycle)));
+    grouper_.advance(busy);
+    stats_.busy += busy;
+    stats_.entries_written += entries;
+    Cycle& oldest = acknowledged_[writes_++ % acknowledged_.size()];
+    grouper_.advance_to(oldest);
+    oldest = lists.write(grouper_, region + region_written_ * traffic_.entry_bytes(),
+                         entries * traffic_.entry_bytes());
+    region_written_ += entries;
+    last_write_ = std::max(last_write_, oldest);
+}
+
+} // namespace degs

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <systemc>
+
+#include "baselines/gcc/traffic.hpp"
+#include "modules/render_job.hpp"
+#include "tlm/dated_fifo.hpp"
+#include "tlm/memory_port.hpp"
+
+namespace degs {
+
+/// How a Gaussian gets into the lists of the views. `Direct`: Stage I appends it to the list of
+/// every view that it overlaps. `Regrouped`: groups of the whole image are written first and dealt
+/// out to the views in a second pass. With a single view both write its groups once.
+enum class GccLists { Direct, Regrouped };
+
+/// Stage I of GCC, once per frame: reads nothing but the means of all Gaussians, computes their
+/// depth, drops those before the near plane or outside the image, and writes the others' (depth,
+/// index) entries into depth-ordered groups, per view if the image has several. Not modelled: how a
+/// group's depth range is chosen, and that groups come out more or less full.
+class GccGrouping : public sc_core::sc_module {
+public:
+    struct Config {
+        int means_per_cycle = 4;   ///< depth and cull
+        int chunk = 256;           ///< means per request
+        int chunks_in_flight = 4;  ///< requests outstanding
+        int entries_per_cycle = 8; ///< list entries written per cycle
+        int writes_in_flight = 8;  ///< requests not yet acknowledged
+        GccLists lists = GccLists::Direct;
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Stats {
+        Cycle busy = 0;
+        std::uint64_t gaussians = 0;       ///< means read
+        std::uint64_t entries_written = 0; ///< of all lists
+        std::uint64_t view_entries = 0;    ///< of these, Stage II may read
+    };
+
+    FifoPort<std::uint32_t> out; ///< frames whose lists are complete
+    /// Frames that have been written; empty unless frames have to wait for each other.
+    sc_core::sc_vector<FifoPort<std::uint32_t>> frame_free;
+    MemoryPort means;
+    MemoryPort lists;
+
+    /// `frames_in_flight`: frame f + this waits for a message of frame_free; 0: none does.
+    GccGrouping(const sc_core::sc_module_name& name, const Config& config,
+                const GccTraffic& traffic, const Timebase& time, const RenderJob& job,
+                int frames_in_flight);
+
+    const Stats& stats() const { return stats_; }
+    /// Dates at which each frame's lists were complete.
+    const std::vector<Cycle>& frames_grouped() const { return frames_grouped_; }
+
+private:
+    struct Chunk {
+        std::uint64_t first = 0, count = 0;
+    };
+    void end_of_elaboration() override;
+    void fetch();
+    void group();
+    void group_chunk(std::uint32_t frame, const Chunk& chunk);
+    void regroup(std::uint32_t f);
+    void write(std::uint64_t region, std::uint64_t entries, Cycle least_cycles);
+
+    Config config_;
+    GccTraffic traffic_;
+    const RenderJob& job_;
+    std::uint32_t frames_in_flight_;
+    Process fetcher_, grouper_;
+    DatedFifo<Chunk> fetched_;
+    std::vector<Cycle> acknowledged_; // ring of completion dates of the latest writes
+    std::uint64_t writes_ = 0;
+    std::uint64_t region_written_ = 0; // entries of the frame's current lists
+    Cycle last_write_ = 0;
+    std::vector<Cycle> frames_grouped_;
+    Stats stats_;
+};
+
+} // namespace degs

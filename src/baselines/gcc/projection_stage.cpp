@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baselines/gcc/projection_stage.hpp"
+
+#include <algorithm>
+
+namespace degs {
+
+void GccProjectionStage::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("units", units, 1, 64, "projection units; as many as elsewhere [assumed]");
+    visitor.integer("group", group, 1, 4096, "Gaussians per depth group; about 256 [unverified]");
+    visitor.integer("groups_ahead", groups_ahead, 1, 64,
+                    "groups between two steps of Stages II and III; 1 lets four groups be on "
+                    "their way while one is rendered [assumed]");
+    visitor.integer("cycles_per_gaussian", cycles_per_gaussian, 1, 1024,
+                    "cycles per Gaussian and unit, so that bandwidth limits [assumed]");
+    visitor.integer("latency_cycles", latency_cycles, 1, 4096,
+                    "cycles; depth of the projection pipeline [assumed]");
+}
+
+bool gcc_cancelled(Process& self, FifoPort<TileNumber>& cancel, TileNumber& first,
+                   TileNumber view) {
+    while (self.arrived(*cancel.operator->())) {
+        first = std::max(first, cancel->take(self) + 1);
+    }
+    self.advance(); // what has arrived by a date is certain half a cycle after it
+    return view < first;
+}
+
+GccProjectionStage::GccProjectionStage(const sc_core::sc_module_name& name, const Config& config,
+                                       const GccTraffic& traffic, const Timebase& time,
+                                       const RenderJob& job)
+    : sc_core::sc_module(name), start("start"), cancel("cancel", 2), out("out"),
+      lists("lists", time), shapes("shapes", time), config_(config), traffic_(traffic), job_(job),
+      loader_(time), fetcher_(time), projector_(time),
+      loaded_("loaded", time, static_cast<std::size_t>(config.groups_ahead)),
+      fetched_("fetched", time, static_cast<std::size_t>(config.groups_ahead)) {
+    SC_HAS_PROCESS(GccProjectionStage);
+    SC_THREAD(load);
+    SC_THREAD(fetch);
+    SC_THREAD(project);
+}
+
+void GccProjectionStage::end_of_elaboration() {
+    start->connect_reader(loader_);
+    cancel[0]->connect_reader(loader_);
+    cancel[1]->connect_reader(fetcher_);
+    loaded_.connect_writer(loader_);
+    loaded_.connect_reader(fetcher_);
+    fetched_.connect_writer(fetcher_);
+    fetched_.connect_reader(projector_);
+    out->connect_writer(projector_);
+}
+
+void GccProjectionStage::load() {
+    std::uint32_t frames_started = 0;
+    for (TileNumber number = 0; job_.has_tile(loader_, number); ++number) {
+        for (; frames_started <= job_.tiles[number].frame; ++frames_started) {
+            start->get(loader_);
+        }
+        load_view(number);
+    }
+    loader_.finish();
+}
+
+void GccProjectionStage::load_view(TileNumber number) {
+    const JobTile& view = job_.tiles[number];
+    const GccMemoryMap map(traffic_, job_, view.frame);
+    SplatChunk group;
+    group.tile = number;
+    for (std::uint64_t done = 0; done < view.count;) {
+        loaded_.reserve(loader_);
+        group.first = view.first + done;
+        group.count = 0;
+        Cycle ready = 0;
+        if (gcc_cancelled(loader_, cancel[0], load_from_, number)) {
+            stats_.entries_cancelled += view.count - done;
+            done = view.count;
+        } else {
+            group.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+                static_cast<std::uint64_t>(config_.group), view.count - done));
+            ready = lists.read(loader_, map.views + group.first * traffic_.entry_bytes(),
+                               group.count * traffic_.entry_bytes());
+            done += group.count;
+            stats_.groups++;
+            stats_.entries += group.count;
+        }
+        group.last = done == view.count;
+        loaded_.put_at(loader_, group, ready);
+    }
+}
+
+void GccProjectionStage::fetch() {
+    const auto record = static_cast<std::uint64_t>(traffic_.shape_bytes);
+    for (TileNumber views = 0; !job_.over(views);) {
+        SplatChunk group = loaded_.get(fetcher_);
+        views += group.last ? 1 : 0;
+        fetched_.reserve(fetcher_);
+        Cycle ready = 0;
+        if (gcc_cancelled(fetcher_, cancel[1], fetch_from_, group.tile)) {
+            stats_.shapes_cancelled += group.count;
+            group.count = 0;
+        }
+        if (group.count != 0) {
+            const FrameWorkload& frame = job_.frame_of(job_.tiles[group.tile]);
+            std::uint64_t bytes = 0;
+            for (std::uint32_t i = 0; i < group.count; ++i) {
+                const std::uint32_t splat = frame.tile_splats[group.first + i];
+                bytes += traffic_.scattered(record, frame.splats[splat].id);
+            }
+            ready = shapes.read(
+                fetcher_, GccMemoryMap(traffic_, job_, job_.tiles[group.tile].frame).shapes, bytes);
+        }
+        if (group.count != 0 || group.last) {
+            fetched_.put_at(fetcher_, group, ready);
+        }
+    }
+    fetcher_.finish();
+}
+
+void GccProjectionStage::project() {
+    const auto units = static_cast<Cycle>(config_.units);
+    for (TileNumber views = 0; !job_.over(views);) {
+        const SplatChunk group = fetched_.get(projector_);
+        views += group.last ? 1 : 0;
+        const Cycle busy =
+            (group.count + units - 1) / units * static_cast<Cycle>(config_.cycles_per_gaussian);
+        projector_.advance(busy);
+        stats_.busy += busy;
+        stats_.shapes += group.count;
+        out->put(projector_, group);
+    }
+    projector_.finish();
+}
+
+} // namespace degs

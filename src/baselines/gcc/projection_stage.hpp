@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+
+#include "baselines/gcc/traffic.hpp"
+#include "modules/render_job.hpp"
+#include "tlm/dated_fifo.hpp"
+#include "tlm/memory_port.hpp"
+
+namespace degs {
+
+/// Stage II of GCC: takes the views in order and the groups of a view near to far; reads the list
+/// of a group, then scale, rotation and opacity of its Gaussians, and projects them. A group is a
+/// fixed number of neighbours in the view's list; the last one may be smaller. Three overlapping
+/// steps, each some groups ahead of the next. Once all pixels of a view have ended, its further
+/// groups are not read. A Gaussian is read again for every view that it overlaps.
+class GccProjectionStage : public sc_core::sc_module {
+public:
+    struct Config {
+        int units = 4;               ///< projection units
+        int group = 256;             ///< Gaussians per group
+        int groups_ahead = 1;        ///< between two steps
+        int cycles_per_gaussian = 1; ///< initiation interval of a unit
+        int latency_cycles = 32;     ///< projection pipeline
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Stats {
+        Cycle busy = 0;
+        std::uint64_t groups = 0;            ///< lists read
+        std::uint64_t entries = 0;           ///< of these lists
+        std::uint64_t entries_cancelled = 0; ///< never read
+        std::uint64_t shapes = 0;            ///< Gaussians read and projected
+        std::uint64_t shapes_cancelled = 0;  ///< entries whose Gaussian was not read
+    };
+
+    FifoPort<std::uint32_t> start;                   ///< frames whose lists are complete
+    sc_core::sc_vector<FifoPort<TileNumber>> cancel; ///< from the Tile Monitor, one per reader
+    FifoPort<SplatChunk> out;                        ///< groups; the last one may be empty
+    MemoryPort lists;
+    MemoryPort shapes;
+
+    GccProjectionStage(const sc_core::sc_module_name& name, const Config& config,
+                       const GccTraffic& traffic, const Timebase& time, const RenderJob& job);
+
+    const Stats& stats() const { return stats_; }
+
+private:
+    void end_of_elaboration() override;
+    void load();
+    void load_view(TileNumber number);
+    void fetch();
+    void project();
+
+    Config config_;
+    GccTraffic traffic_;
+    const RenderJob& job_;
+    Process loader_, fetcher_, projector_;
+    DatedFifo<SplatChunk> loaded_, fetched_;
+    TileNumber load_from_ = 0, fetch_from_ = 0; // earlier views are cancelled or over
+    Stats stats_;
+};
+
+/// Takes what has arrived of `cancel` and answers whether `view` is cancelled; `first` is the first
+/// view that is not known to be cancelled or over. The question takes a cycle.
+bool gcc_cancelled(Process& self, FifoPort<TileNumber>& cancel, TileNumber& first, TileNumber view);
+
+} // namespace degs

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The counters of GCC in the terms that all accelerators share.
+#include <algorithm>
+
+#include "baselines/gcc/gcc.hpp"
+#include "config/grouped_number.hpp"
+
+namespace degs {
+
+void Gcc::collect(AcceleratorResult& result) const {
+    collect_frames(result, image_buffers_, frame_ends_.background());
+    result.tiles = finished_tiles();
+    result.tiles_cancelled = monitor_->stats().tiles_cancelled;
+    result.slots = array_->stats().slots;
+    result.window = array_->stats().window;
+    if (grouping_) {
+        for (std::size_t f = 0; f < result.frames.size(); ++f) {
+            result.frames[f].preprocessed = grouping_->frames_grouped()[f];
+        }
+    }
+    collect_stages(result);
+    // Of the groups on their way the ring in front of the array is looked at.
+    add_buffer(result, "group_buffer", config_.group_buffer_bytes, config_.chunks_ahead(),
+               use_of(splat_rings_));
+    add_pixel_buffer(result, config_.image_buffer.bytes, config_.tile_contexts(), image_buffers_);
+    streams_.collect(result);
+    collect_laws(result);
+    explain(result);
+}
+
+void Gcc::collect_stages(AcceleratorResult& result) const {
+    if (grouping_) {
+        const GccGrouping::Stats& g = grouping_->stats();
+        add_stage(result, "grouping", 1, g.busy,
+                  {{"gaussians", g.gaussians}, {"entries_written", g.entries_written}});
+        const GccProjectionStage::Stats& p = projection_->stats();
+        add_stage(result, "projection", 1, p.busy,
+                  {{"groups", p.groups},
+                   {"entries", p.entries},
+                   {"entries_cancelled", p.entries_cancelled},
+                   {"gaussians", p.shapes},
+                   {"gaussians_cancelled", p.shapes_cancelled}});
+        // Colours and sorting overlap: the stage is as busy as the busier of the two.
+        const GccColourStage::Stats& c = colour_->stats();
+        add_stage(result, "colour", 1, std::max(c.colour_busy, c.sort_busy),
+                  {{"coloured", c.coloured}, {"masked", c.masked}, {"cancelled", c.cancelled}});
+    }
+    const GccWindowArray::Stats& a = array_->stats();
+    add_stage(result, "blending", 1, a.windows,
+              {{"windows", a.windows},
+               {"windows_empty", a.windows_empty},
+               {"windows_ended", a.windows_ended},
+               {"splats", a.splats},
+               {"splats_dropped", a.splats_dropped},
+               {"extra_seeds", a.extra_seeds},
+               {"pixels_ended", a.pixels_ended}});
+}
+
+void Gcc::collect_laws(AcceleratorResult& result) const {
+    const GccWindowArray::Stats& a = array_->stats();
+    const SlotAccount& s = a.slots;
+    const auto pes = static_cast<std::uint64_t>(config_.pes());
+    auto& laws = result.conservation;
+    laws.push_back({"slots of windows and skips = useful + boundary + terminated",
+                    (a.windows + a.skip_cycles) * pes, s.useful + s.boundary + s.terminated});
+    laws.push_back({"valid pixels of live windows = useful + terminated",
+                    a.valid_pixels + a.skip_cycles * pes, s.useful + s.terminated});
+    if (!grouping_) {
+        laws.push_back({"splats fetched = rendered + dropped", fetcher_->stats().records,
+                        a.splats + a.splats_dropped});
+        return;
+    }
+    const GccProjectionStage::Stats& p = projection_->stats();
+    const GccColourStage::Stats& c = colour_->stats();
+    laws.push_back({"entries of the views = read + cancelled", grouping_->stats().view_entries,
+                    p.entries + p.entries_cancelled});
+    laws.push_back(
+        {"entries read = projected + cancelled", p.entries, p.shapes + p.shapes_cancelled});
+    laws.push_back({"projected = coloured + masked + cancelled", p.shapes,
+                    c.coloured + c.masked + c.cancelled});
+    laws.push_back({"coloured = rendered + dropped", c.coloured, a.splats + a.splats_dropped});
+}
+
+void Gcc::explain(AcceleratorResult& result) const {
+    auto& out = result.left_out;
+    explain_tiles(result, grouping_ ? projection_->stats().entries_cancelled
+                                    : fetcher_->stats().records_cancelled);
+    if (grouping_) {
+        out.push_back(grouped(colour_->stats().masked) +
+                      " projected Gaussians could only reach ended blocks: their SH was not read.");
+    }
+    out.push_back(grouped(array_->stats().windows_ended) +
+                  " windows were passed without evaluation because all their pixels had ended.");
+    out.push_back(grouped(array_->stats().splats_dropped) +
+                  " splats reached the array after all pixels of their view had ended and cost no "
+                  "slot.");
+}
+
+} // namespace degs

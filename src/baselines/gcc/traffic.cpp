@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baselines/gcc/traffic.hpp"
+
+namespace degs {
+
+void GccTraffic::describe(ConfigVisitor& visitor) {
+    visitor.integer("mean_bytes", mean_bytes, 1, 1024,
+                    "bytes per Gaussian read by Stage I: 3 values of FP16 (12 for FP32)");
+    visitor.integer("bound_bytes", bound_bytes, 0, 1024,
+                    "bytes per Gaussian that tell Stage I its extent, without which it could not "
+                    "know the views; a radius in FP16, computed offline [assumed]");
+    visitor.integer("shape_bytes", shape_bytes, 1, 1024,
+                    "bytes per Gaussian read by Stage II: scale, rotation, opacity, 8 values of "
+                    "FP16; the mean comes along in the same burst [assumed]");
+    visitor.integer("sh_value_bytes", sh_value_bytes, 1, 8, "bytes per SH value read by Stage III");
+    visitor.integer("list_entry_bytes", list_entry_bytes, 1, 64,
+                    "bytes per entry of a group or view list; depth key 4 + index 4 [assumed]");
+    visitor.integer("pixel_bytes", pixel_bytes, 4, 8,
+                    "bytes per frame-buffer pixel; 4 is RGBA8, 8 is RGBA16F");
+    visitor.integer("burst_bytes", burst_bytes, 1, 4096,
+                    "bytes; scattered records are read in whole bursts of this size");
+}
+
+TrafficConfig GccTraffic::common() const {
+    TrafficConfig common;
+    common.geometry_bytes = mean_bytes + bound_bytes + shape_bytes;
+    common.sh_value_bytes = sh_value_bytes;
+    common.list_entry_bytes = list_entry_bytes;
+    common.pixel_bytes = pixel_bytes;
+    common.burst_bytes = burst_bytes;
+    return common;
+}
+
+GccMemoryMap::GccMemoryMap(const GccTraffic& traffic, const RenderJob& job, std::uint32_t frame) {
+    const MemoryMap common = job.map(frame, traffic.common());
+    means = common.geometry;
+    shapes = means + (job.frames[frame]->gaussians * traffic.stage_one_bytes() + 63) / 64 * 64;
+    sh = common.sh;
+    views = common.lists;
+    groups = views + (job.frames[frame]->tile_pairs() * traffic.entry_bytes() + 63) / 64 * 64;
+}
+
+} // namespace degs

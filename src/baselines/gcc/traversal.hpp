@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "baselines/gcc/footprint.hpp"
+#include "tlm/clock_domain.hpp"
+
+namespace degs {
+
+/// The way of GCC from window to window of one splat (rule: docs/gcc-window-array.md): a frontier
+/// of windows, first found first visited; a visited window adds the neighbours across those of its
+/// sides on which it has a valid border pixel. Says which window comes next and from when on it is
+/// known; the dates are the caller's.
+class GccTraversal {
+public:
+    struct Window {
+        int row = 0, column = 0;
+        Cycle known = 0; ///< date from which it may be visited
+    };
+
+    /// Views of at most `windows` x `windows` windows.
+    explicit GccTraversal(int windows);
+
+    /// Starts on a view of `columns` x `rows` windows. `splat` is to stay as it is until the end.
+    void begin(const GccFootprint& splat, int columns, int rows);
+    /// Adds a window that no border has led to.
+    void seed(const Window& window) { push(window); }
+    /// The oldest window of the frontier; false if there is none.
+    bool next(Window& window);
+    /// Adds the neighbours to which the borders of `window` lead and that are new.
+    void expand(const Window& window, Cycle known);
+    /// First window, row by row, that holds a valid pixel and was never in the frontier.
+    bool find_missed(Window& window) const;
+
+private:
+    void push(const Window& window);
+    void push_new(int row, int column, Cycle known);
+
+    const GccFootprint* splat_ = nullptr;
+    int columns_ = 0, rows_ = 0;
+    std::vector<GccWindowMask> seen_; // per row of windows: visited or in the frontier
+    std::vector<Window> frontier_;    // from head_ on
+    std::size_t head_ = 0;
+};
+
+} // namespace degs

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "baselines/gcc/window_array.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tlm/ceil_div.hpp"
+
+namespace degs {
+namespace {
+
+constexpr int kLanes = 32; // pixels per call of the data path
+
+} // namespace
+
+void GccWindowArray::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("window", window, 1, 64,
+                    "px; side of the traversal window, one PE per pixel. 8: the published 8 x 8 "
+                    "arrays; it grows with the array (paper, Sec. II-B)");
+    visitor.integer("skip_cycles", skip_cycles, 0, 64,
+                    "cycles for a window whose pixels have all ended; 0: found from the mask while "
+                    "another window is evaluated [assumed]");
+    visitor.integer(
+        "discovery_cycles", discovery_cycles, 1, 256,
+        "cycles from a slot to the windows it leads to; 1: splats are interleaved so that nobody "
+        "waits, 4..8: depth of the alpha pipeline with one splat in flight [assumed]");
+    visitor.integer("writeback_cycles", writeback_cycles, 1, 4096,
+                    "cycles from a slot to pixel state and reports written [assumed]");
+}
+
+GccWindowArray::GccWindowArray(const sc_core::sc_module_name& name, const Config& config,
+                               const Timebase& time, RenderJob& job, std::size_t inputs,
+                               int contexts, std::size_t listeners, int block)
+    : sc_core::sc_module(name), in("in", inputs), context_free("context_free"),
+      tile_done("tile_done"), tile_state("tile_state"), block_ended("block_ended", listeners),
+      config_(config), job_(job), contexts_(contexts), block_(block),
+      blocks_(ceil_div(job.tile_size, block)), grid_(ceil_div(job.tile_size, config.window)),
+      self_(time), footprint_(job.tile_size, config.window), traversal_(grid_),
+      startable_(static_cast<TileNumber>(contexts)),
+      live_in_window_(static_cast<std::size_t>(grid_ * grid_), 0),
+      live_in_block_(static_cast<std::size_t>(blocks_ * blocks_), 0),
+      live_windows_(static_cast<std::size_t>(grid_), 0), ended_head_(live_in_window_.size(), -1) {
+    SC_HAS_PROCESS(GccWindowArray);
+    SC_THREAD(run);
+}
+
+void GccWindowArray::end_of_elaboration() {
+    for (auto& port : in) {
+        port->connect_reader(self_);
+    }
+    context_free->connect_reader(self_);
+    tile_done->connect_writer(self_);
+    tile_state->connect_writer(self_);
+    for (auto& port : block_ended) {
+        port->connect_writer(self_);
+    }
+}
+
+void GccWindowArray::run() {
+    for (TileNumber number = 0; !job_.over(number); ++number) {
+        SplatChunk chunk = next_chunk(number);
+        await_context(number);
+        start_view(number);
+        for (;; chunk = next_chunk(number)) {
+            const FrameWorkload& frame = job_.frame_of(*view_);
+            for (std::uint32_t i = 0; i < chunk.count; ++i) {
+                const std::uint32_t splat = frame.tile_splats[chunk.first + i];
+                render(job_.first_splat[view_->frame] + splat, frame.splats[splat]);
+            }
+            if (chunk.last) {
+                break;
+            }
+        }
+        end_view(number);
+    }
+    self_.finish();
+}
+
+SplatChunk GccWindowArray::next_chunk(TileNumber number) {
+    const Cycle asked = self_.local();
+    const SplatChunk chunk = in[number % in.size()]->get(self_);
+    idle(Idle::Starved, self_.local() - asked);
+    return chunk;
+}
+
+void GccWindowArray::await_context(TileNumber number) {
+    const Cycle asked = self_.local();
+    while (startable_ <= number) {
+        startable_ = std::max(startable_, context_free->get(self_) + 1);
+    }
+    idle(Idle::Blocked, self_.local() - asked);
+}
+
+void GccWindowArray::start_view(TileNumber number) {
+    const JobTile& view = job_.tiles[number];
+    view_ = &view;
+    number_ = number;
+    context_ = static_cast<int>(number) % contexts_;
+    columns_ = ceil_div(view.width, config_.window);
+    rows_ = ceil_div(view.height, config_.window);
+    live_pixels_ = view.width * view.height;
+    reported_ = false;
+    const auto inside = [&](int index, int per_row, int side) {
+        const int width = std::clamp(view.width - index % per_row * side, 0, side);
+        const int height = std::clamp(view.height - index / per_row * side, 0, side);
+        return width * height;
+    };
+    for (std::size_t w = 0; w < live_in_window_.size(); ++w) {
+        live_in_window_[w] = inside(static_cast<int>(w), grid_, config_.window);
+    }
+    for (std::size_t b = 0; b < live_in_block_.size(); ++b) {
+        live_in_block_[b] = inside(static_cast<int>(b), blocks_, block_);
+    }
+    std::fill_n(live_windows_.begin(), rows_, windows_between(0, columns_ - 1));
+}
+
+void GccWindowArray::end_view(TileNumber number) {
+    const SliceReport report{number, live_pixels_ == 0};
+    if (!reported_) {
+        tile_state->put(self_, report);
+    }
+    tile_done->put(self_, report);
+}
+
+void GccWindowArray::render(std::uint32_t splat, const ProjectedSplat& projected) {
+    if (live_pixels_ == 0) {
+        stats_.splats_dropped++;
+        return;
+    }
+    stats_.splats++;
+    const std::uint64_t windows = stats_.windows;
+    const std::uint64_t valid = stats_.valid_pixels;
+    footprint_.solve(*job_.path, splat, *view_);
+    evaluate(splat);
+    traverse(projected);
+    stats_.slots.boundary +=
+        (stats_.windows - windows) * static_cast<std::uint64_t>(config_.pes()) -
+        (stats_.valid_pixels - valid);
+}
+
+// Every window is visited at most once per splat, so that the order of the windows does not matter
+// to the pixels: they are blended row by row, in long runs, before the windows are given dates.
+void GccWindowArray::evaluate(std::uint32_t splat) {
+    ended_.clear();
+    const int side = config_.window;
+    for (const GccFootprint::Row& row : footprint_.rows()) {
+        GccWindowMask live =
+            live_windows_[static_cast<std::size_t>(footprint_.window_of(row.y))] &
+            windows_between(footprint_.window_of(row.first), footprint_.window_of(row.last));
+        while (live != 0) {
+            const int first = __builtin_ctzll(live);
+            const GccWindowMask behind = ~(live >> first);
+            const int last = behind == 0 ? 63 : first + __builtin_ctzll(behind) - 1;
+            evaluate_run(splat, row.y, std::max(row.first, first * side),
+                         std::min(row.last, last * side + side - 1));
+            live &= ~windows_between(first, last);
+        }
+    }
+}
+
+void GccWindowArray::evaluate_run(std::uint32_t splat, int y, int first, int last) {
+    PixelTest test;
+    test.splat = splat;
+    test.y = view_->y + y;
+    test.row = static_cast<std::int16_t>(y);
+    test.context = static_cast<std::int16_t>(context_);
+    stats_.valid_pixels += static_cast<std::uint64_t>(last - first + 1);
+    for (int column = first; column <= last; column += kLanes) {
+        test.x = view_->x + column;
+        test.column = static_cast<std::int16_t>(column);
+        test.mask = ~0U >> (kLanes - std::min(kLanes, last - column + 1));
+        const BlendOutcome outcome = job_.path->test(test);
+        stats_.slots.useful += static_cast<std::uint64_t>(__builtin_popcount(outcome.useful));
+        stats_.slots.terminated +=
+            static_cast<std::uint64_t>(__builtin_popcount(outcome.terminated));
+        if (outcome.ended != 0) {
+            note_ended(y, column, outcome.ended);
+        }
+    }
+}
+
+void GccWindowArray::note_ended(int y, int column, std::uint32_t ended) {
+    for (; ended != 0; ended &= ended - 1) {
+        const int x = column + __builtin_ctz(ended);
+        int& head = ended_head_[window_at(footprint_.window_of(y), footprint_.window_of(x))];
+        ended_.push_back({y / block_ * blocks_ + x / block_, head});
+        head = static_cast<int>(ended_.size()) - 1;
+    }
+}
+
+GccTraversal::Window GccWindowArray::centre_window(const ProjectedSplat& splat) const {
+    const auto clamped = [&](double centre, int begin, int size) {
+        const double pixel = std::floor(centre + 0.5) - begin;
+        return footprint_.window_of(static_cast<int>(std::clamp(pixel, 0.0, size - 1.0)));
+    };
+    GccTraversal::Window window;
+    window.row = clamped(splat.mu_y, view_->y, view_->height);
+    window.column = clamped(splat.mu_x, view_->x, view_->width);
+    return window;
+}
+
+void GccWindowArray::traverse(const ProjectedSplat& splat) {
+    const auto latency = static_cast<Cycle>(config_.discovery_cycles - 1);
+    traversal_.begin(footprint_, columns_, rows_);
+    GccTraversal::Window window = centre_window(splat);
+    do {
+        window.known = self_.local();
+        traversal_.seed(window);
+        while (traversal_.next(window)) {
+            wait_until(window.known);
+            visit(window);
+            traversal_.expand(window, self_.local() + latency);
+        }
+        wait_until(self_.local() + latency); // only then is it known that nothing follows
+    } while (missed(window));
+}
+
+bool GccWindowArray::missed(GccTraversal::Window& window) {
+    const bool found = traversal_.find_missed(window);
+    stats_.extra_seeds += found ? 1 : 0;
+    return found;
+}
+
+void GccWindowArray::visit(const GccTraversal::Window& window) {
+    const std::size_t index = window_at(window.row, window.column);
+    if (live_in_window_[index] == 0) {
+        const auto cycles = static_cast<Cycle>(config_.skip_cycles);
+        stats_.windows_ended++;
+        pending_skips_ += cycles;
+        idle_pending_ = idle_pending_ || cycles != 0;
+        self_.advance(cycles);
+        return;
+    }
+    if (idle_pending_) {
+        settle_idle();
+    }
+    stats_.window.include(self_.local());
+    stats_.windows++;
+    stats_.windows_empty += ~footprint_.valid(window.row) >> window.column & 1U;
+    if (ended_head_[index] >= 0) {
+        end_pixels(index);
+    }
+    self_.advance();
+}
+
+void GccWindowArray::end_pixels(std::size_t window) {
+    for (int& i = ended_head_[window]; i >= 0;) {
+        const EndedPixel pixel = ended_[static_cast<std::size_t>(i)];
+        i = pixel.next;
+        stats_.pixels_ended++;
+        --live_in_window_[window];
+        --live_pixels_;
+        const auto block = static_cast<std::size_t>(pixel.block);
+        if (--live_in_block_[block] == 0) {
+            report_block(pixel.block);
+        }
+    }
+    if (live_in_window_[window] == 0) {
+        live_windows_[window / static_cast<std::size_t>(grid_)] &=
+            ~(GccWindowMask{1} << window % static_cast<std::size_t>(grid_));
+    }
+    if (live_pixels_ == 0) {
+        reported_ = true;
+        tile_state->put(self_, {number_, true});
+    }
+}
+
+void GccWindowArray::report_block(int block) {
+    for (auto& port : block_ended) {
+        port->put(self_, {number_, static_cast<std::int16_t>(block / blocks_),
+                          static_cast<std::int16_t>(block % blocks_)});
+    }
+}
+
+void GccWindowArray::wait_until(Cycle date) {
+    if (date > self_.local()) {
+        idle(Idle::Conflict, date - self_.local());
+        self_.advance_to(date);
+    }
+}
+
+void GccWindowArray::idle(Idle cause, Cycle cycles) {
+    pending_idle_.idle(cause, cycles * static_cast<std::uint64_t>(config_.pes()));
+    idle_pending_ = true;
+}
+
+// Idle time lies inside the window of activity only if a slot follows it, and one has gone before.
+void GccWindowArray::settle_idle() {
+    pending_idle_.terminated += pending_skips_ * static_cast<std::uint64_t>(config_.pes());
+    if (!stats_.window.empty()) {
+        stats_.slots += pending_idle_;
+        stats_.skip_cycles += pending_skips_;
+    }
+    pending_idle_ = {};
+    pending_skips_ = 0;
+    idle_pending_ = false;
+}
+
+} // namespace degs

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <systemc>
+
+#include "baselines/gcc/messages.hpp"
+#include "baselines/gcc/traversal.hpp"
+#include "config/config.hpp"
+#include "modules/array/slot_account.hpp"
+#include "tlm/dated_fifo.hpp"
+
+namespace degs {
+
+/// Stage IV of GCC: alpha and blending arrays in lock step (paper, Sec. II-B; Pei et al., MICRO
+/// 2025). A square window of PEs wanders over the pixels of a view. For each splat in exact depth
+/// order it starts where the centre is (clamped to the view) and goes on to every neighbouring
+/// window across whose side the splat is valid; each visited window takes one slot in which all PEs
+/// evaluate the splat at their pixel. Windows whose pixels have all ended are passed without
+/// evaluation. A view (here: the tile of a job) is one after the other.
+///
+/// What a slot finds out is known `discovery_cycles` later. 1: splats are interleaved so well that
+/// nobody waits. More: one splat is in flight, the array waits for its next window, or for the
+/// certainty that there is none, in class `conflict`.
+///
+/// A splat's valid pixels may lie apart, because its centre is outside the view or because it is
+/// thinner than the pixel grid. When the frontier is empty and valid windows are left, the
+/// traversal is seeded again at the first of them, so that the image is right; how the hardware
+/// would know is open.
+class GccWindowArray : public sc_core::sc_module {
+public:
+    struct Config {
+        int window = 8;           ///< side of the window, px; its square is the number of PEs
+        int skip_cycles = 0;      ///< for a window whose pixels have all ended
+        int discovery_cycles = 1; ///< from a slot to the slots that it leads to
+        int writeback_cycles = 4; ///< from a slot to pixel state and reports
+        void describe(ConfigVisitor& visitor);
+        int pes() const { return window * window; }
+    };
+    struct Stats {
+        SlotAccount slots;
+        ActiveWindow window;
+        std::uint64_t windows = 0;        ///< evaluated, a slot each
+        std::uint64_t windows_empty = 0;  ///< of these, without a valid pixel
+        std::uint64_t windows_ended = 0;  ///< passed: all their pixels had ended
+        std::uint64_t skip_cycles = 0;    ///< spent on those, inside the window of activity
+        std::uint64_t splats = 0;         ///< traversed
+        std::uint64_t splats_dropped = 0; ///< came when all pixels of their view had ended
+        std::uint64_t extra_seeds = 0;
+        std::uint64_t valid_pixels = 0; ///< of evaluated windows
+        std::uint64_t pixels_ended = 0;
+    };
+
+    sc_core::sc_vector<FifoPort<SplatChunk>> in; ///< tile t arrives on port t mod their number
+    FifoPort<TileNumber> context_free;           ///< from the Pixel Buffer
+    FifoPort<SliceReport> tile_done;             ///< to the Pixel Buffer, once per tile
+    FifoPort<SliceReport> tile_state;            ///< to the Tile Monitor, once per tile
+    sc_core::sc_vector<FifoPort<GccBlockEnded>> block_ended; ///< to Stage III; may be empty
+
+    /// The job's tile size is at most 64 windows. `block`: side of the blocks that are reported,
+    /// px.
+    GccWindowArray(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+                   RenderJob& job, std::size_t inputs, int contexts, std::size_t listeners = 0,
+                   int block = 8);
+
+    const Config& config() const { return config_; }
+    const Stats& stats() const { return stats_; }
+
+private:
+    /// A pixel that the splat has ended; they are chained by window.
+    struct EndedPixel {
+        int block = 0;
+        int next = -1;
+    };
+    void end_of_elaboration() override;
+    void run();
+    SplatChunk next_chunk(TileNumber number);
+    void start_view(TileNumber number);
+    void await_context(TileNumber number);
+    void end_view(TileNumber number);
+    void render(std::uint32_t splat, const ProjectedSplat& projected);
+    void evaluate(std::uint32_t splat);
+    void evaluate_run(std::uint32_t splat, int y, int first, int last);
+    void note_ended(int y, int column, std::uint32_t ended);
+    GccTraversal::Window centre_window(const ProjectedSplat& splat) const;
+    void traverse(const ProjectedSplat& splat);
+    bool missed(GccTraversal::Window& window);
+    void visit(const GccTraversal::Window& window);
+    void end_pixels(std::size_t window);
+    void report_block(int block);
+    void wait_until(Cycle date);
+    void idle(Idle cause, Cycle cycles);
+    void settle_idle();
+    std::size_t window_at(int row, int column) const {
+        return static_cast<std::size_t>(row * grid_ + column);
+    }
+
+    Config config_;
+    RenderJob& job_;
+    int contexts_;
+    int block_, blocks_; // side in px; per row of the largest view
+    int grid_;           // windows per row of the largest view
+    Process self_;
+    GccFootprint footprint_;
+    GccTraversal traversal_;
+    const JobTile* view_ = nullptr;
+    TileNumber number_ = 0;
+    int context_ = 0;
+    int columns_ = 0, rows_ = 0; // windows of the view
+    TileNumber startable_ = 0;   // tiles below this number have a context
+    int live_pixels_ = 0;
+    bool reported_ = false;
+    std::vector<int> live_in_window_, live_in_block_;
+    std::vector<GccWindowMask> live_windows_; // per row of windows
+    std::vector<int> ended_head_;             // per window: the splat's first EndedPixel, or -1
+    std::vector<EndedPixel> ended_;
+    SlotAccount pending_idle_; // counts once another slot follows
+    Cycle pending_skips_ = 0;
+    bool idle_pending_ = false;
+    Stats stats_;
+};
+
+} // namespace degs

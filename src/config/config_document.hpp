@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// A configuration on its way out: into results, into a file that reproduces it, into the manual.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "config/config.hpp"
+
+namespace degs {
+
+/// One row of the manual; sections have rows too (type "section", no default).
+struct KeyDoc {
+    std::string path;          ///< hierarchical name, e.g. "memory.latency_ns"
+    std::string type;          ///< section, integer, real, boolean, text or choice
+    std::string default_value; ///< as it is written in YAML
+    std::string allowed;       ///< range or list of choices
+    std::string doc;
+};
+
+using Describe = std::function<void(ConfigVisitor&)>;
+nlohmann::ordered_json resolved_json(const Describe& describe);
+std::string resolved_yaml_text(const Describe& describe);
+std::vector<KeyDoc> document_keys(const Describe& describe);
+
+/// Every value, nested as in YAML; choices by name. Part of every report.
+template <class Config>
+nlohmann::ordered_json resolved(Config config) {
+    return resolved_json([&](ConfigVisitor& visitor) { config.describe(visitor); });
+}
+
+/// The same as a YAML file with each key's meaning behind it; loading it gives the same struct.
+template <class Config>
+std::string resolved_yaml(Config config) {
+    return resolved_yaml_text([&](ConfigVisitor& visitor) { config.describe(visitor); });
+}
+
+/// What a user may write, in the order of `describe`; the defaults are the values of `config`.
+template <class Config>
+std::vector<KeyDoc> document(Config config) {
+    return document_keys([&](ConfigVisitor& visitor) { config.describe(visitor); });
+}
+
+/// A Markdown table of key, type, default, allowed, meaning.
+std::string markdown_table(const std::vector<KeyDoc>& keys);
+
+} // namespace degs

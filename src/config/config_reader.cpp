@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "config/config_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/config_scalar.hpp"
+#include "config/config_words.hpp"
+
+namespace degs {
+namespace {
+
+using config_words::join_path;
+using config_words::quote;
+using Kind = ConfigNode::Kind;
+
+} // namespace
+
+ConfigReader::ConfigReader(const ConfigSource& source) : source_(source) {
+    open_.push_back({"", &source.root_});
+    known_[""];
+}
+
+std::string ConfigReader::declare(const char* key) {
+    const std::string& section = open_.back().path;
+    std::vector<std::string>& keys = known_[section];
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) {
+        throw std::logic_error("describe() names the key " + quote(join_path(section, key)) +
+                               " twice");
+    }
+    keys.emplace_back(key);
+    return join_path(section, key);
+}
+
+template <class Parse>
+bool ConfigReader::each_value(const char* key, const Parse& parse) {
+    const std::string path = declare(key);
+    const ConfigNode* section = open_.back().node;
+    const ConfigNode* in_file = section == nullptr ? nullptr : section->find(key);
+    const auto* set = source_.override_of(path);
+    if (in_file != nullptr) {
+        parse(*in_file, path);
+    }
+    if (set != nullptr) {
+        parse(set->value, path);
+    }
+    return in_file != nullptr || set != nullptr;
+}
+
+/// A struct that a program filled is held to the same ranges as a file. Written so that NaN fails.
+template <class Number>
+void ConfigReader::check_standing(const std::string& path, Number value, Number low,
+                                  Number high) const {
+    if (!(value >= low && value <= high)) {
+        throw ConfigError("default: key " + quote(path) + " is " +
+                          config_words::number(static_cast<double>(value)) + ", but must be " +
+                          config_words::range(low, high) + ".");
+    }
+}
+
+void ConfigReader::begin_section(const char* key, const char*) {
+    const std::string path = declare(key);
+    const ConfigNode* outer = open_.back().node;
+    const ConfigNode* node = outer == nullptr ? nullptr : outer->find(key);
+    if (node != nullptr && node->kind != Kind::kSection && node->kind != Kind::kNull) {
+        config_scalar::reject(*node, path, "a section of keys");
+    }
+    known_[path];
+    open_.push_back({path, node});
+}
+
+void ConfigReader::end_section() {
+    open_.pop_back();
+}
+
+void ConfigReader::integer(const char* key, std::int64_t& value, std::int64_t low,
+                           std::int64_t high, const char*) {
+    const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
+        value = config_scalar::integer(node, path, low, high);
+    });
+    if (!given) {
+        check_standing(join_path(open_.back().path, key), value, low, high);
+    }
+}
+
+void ConfigReader::real(const char* key, double& value, double low, double high, const char*) {
+    const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
+        value = config_scalar::real(node, path, low, high);
+    });
+    if (!given) {
+        check_standing(join_path(open_.back().path, key), value, low, high);
+    }
+}
+
+void ConfigReader::boolean(const char* key, bool& value, const char*) {
+    each_value(key, [&](const ConfigNode& node, const std::string& path) {
+        value = config_scalar::boolean(node, path);
+    });
+}
+
+void ConfigReader::text(const char* key, std::string& value, const char*) {
+    each_value(key, [&](const ConfigNode& node, const std::string& path) {
+        value = config_scalar::text(node, path);
+    });
+}
+
+void ConfigReader::choice(const char* key, int& value, const std::vector<const char*>& names,
+                          const char*) {
+    const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
+        value = config_scalar::choice(node, path, names);
+    });
+    if (!given) {
+        const auto last = static_cast<std::int64_t>(names.size()) - 1;
+        check_standing(join_path(open_.back().path, key), std::int64_t{value}, std::int64_t{0},
+                       last);
+    }
+}
+
+void ConfigReader::require(bool holds, const char* key, const char* rule) {
+    if (!holds) {
+        const std::string path = join_path(open_.back().path, key);
+        throw ConfigError(source_.place(path) + ": key " + quote(path) + " " + rule + ".");
+    }
+}
+
+void ConfigReader::finish() const {
+    reject_unknown(source_.root_, "");
+    for (const auto& override : source_.overrides_) {
+        reject_unknown(override.path, override.value.place);
+    }
+}
+
+void ConfigReader::reject_unknown(const ConfigNode& section, const std::string& path) const {
+    const auto known = known_.find(path);
+    if (known == known_.end()) {
+        return; // a value; its parser has looked at it
+    }
+    for (const ConfigNode& child : section.children) {
+        const auto& keys = known->second;
+        if (std::find(keys.begin(), keys.end(), child.key) == keys.end()) {
+            fail_unknown(child.place, path, child.key);
+        }
+        reject_unknown(child, join_path(path, child.key));
+    }
+}
+
+void ConfigReader::reject_unknown(const std::string& override_path,
+                                  const std::string& place) const {
+    std::string section;
+    std::string rest = override_path;
+    while (known_.count(section) != 0) {
+        const std::string key = rest.substr(0, rest.find('.'));
+        const auto& keys = known_.at(section);
+        if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+            fail_unknown(place, section, rest);
+        }
+        section = join_path(section, key);
+        if (key.size() == rest.size()) {
+            break;
+        }
+        rest.erase(0, key.size() + 1);
+    }
+    if (known_.count(section) != 0) {
+        throw ConfigError(
+            place + ": key " + quote(section) +
+            " is a section; set one of its keys: " + config_words::list(known_.at(section)) + ".");
+    }
+    if (section != override_path) {
+        throw ConfigError(place + ": key " + quote(override_path) + " is unknown, because " +
+                          quote(section) + " is a single value.");
+    }
+}
+
+void ConfigReader::fail_unknown(const std::string& place, const std::string& section,
+                                const std::string& key) const {
+    const std::string meant = guess(section, key);
+    const std::string keys = config_words::list(known_.at(section));
+    throw ConfigError(place + ": key " + quote(join_path(section, key)) + " is unknown" +
+                      (meant.empty() ? "" : ", did you mean " + quote(meant) + "?") + " (allowed " +
+                      (section.empty() ? "at the top" : "in " + quote(section)) + ": " +
+                      (keys.empty() ? "nothing" : keys) + ").");
+}
+
+/// A misspelt sibling first, then the same word in another section, then a misspelt section.
+std::string ConfigReader::guess(const std::string& section, const std::string& key) const {
+    const std::string near = config_words::nearest(key, known_.at(section));
+    if (!near.empty()) {
+        return join_path(section, near);
+    }
+    const std::string leaf = key.substr(key.rfind('.') + 1);
+    for (const auto& [other, keys] : known_) {
+        if (std::find(keys.begin(), keys.end(), leaf) != keys.end()) {
+            return join_path(other, leaf);
+        }
+    }
+    const std::string first = key.substr(0, key.find('.'));
+    const std::string near_section = config_words::nearest(first, known_.at(section));
+    return near_section.empty() ? "" : join_path(section, near_section);
+}
+
+} // namespace degs

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "config/config_source.hpp"
+
+namespace degs {
+
+/// Fills a struct from a source, and remembers every key it was asked for, so that finish() can
+/// reject the others with the names they may have been meant for.
+class ConfigReader : public ConfigVisitor {
+public:
+    using ConfigVisitor::choice;
+    using ConfigVisitor::integer;
+
+    explicit ConfigReader(const ConfigSource& source);
+
+    void begin_section(const char* key, const char* doc) override;
+    void end_section() override;
+    void integer(const char* key, std::int64_t& value, std::int64_t low, std::int64_t high,
+                 const char* doc) override;
+    void real(const char* key, double& value, double low, double high, const char* doc) override;
+    void boolean(const char* key, bool& value, const char* doc) override;
+    void text(const char* key, std::string& value, const char* doc) override;
+    void choice(const char* key, int& value, const std::vector<const char*>& names,
+                const char* doc) override;
+    void require(bool holds, const char* key, const char* rule) override;
+
+    void finish() const;
+
+private:
+    struct Section {
+        std::string path;
+        const ConfigNode* node = nullptr; // null when the file does not name it
+    };
+
+    std::string declare(const char* key);
+    /// Calls `parse(node)` for the file's value, then for the override's; both must be right.
+    template <class Parse>
+    bool each_value(const char* key, const Parse& parse);
+    template <class Number>
+    void check_standing(const std::string& path, Number value, Number low, Number high) const;
+    void reject_unknown(const ConfigNode& section, const std::string& path) const;
+    void reject_unknown(const std::string& override_path, const std::string& place) const;
+    [[noreturn]] void fail_unknown(const std::string& place, const std::string& section,
+                                   const std::string& key) const;
+    std::string guess(const std::string& section, const std::string& key) const;
+
+    const ConfigSource& source_;
+    std::vector<Section> open_;
+    std::map<std::string, std::vector<std::string>> known_; // keys by path of their section
+};
+
+} // namespace degs

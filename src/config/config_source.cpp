@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "config/config_source.hpp"
+
+#include <algorithm>
+
+#include "config/config_reader.hpp"
+#include "config/config_words.hpp"
+
+namespace degs {
+namespace {
+
+using config_words::quote;
+
+ConfigNode empty_root() {
+    ConfigNode root;
+    root.kind = ConfigNode::Kind::kSection;
+    return root;
+}
+
+/// The path of `path.to.key=value`, or a ConfigError.
+std::string path_of(const std::string& setting) {
+    const std::size_t equals = setting.find('=');
+    std::string path = setting.substr(0, equals);
+    const bool hollow = path.empty() || path.front() == '.' || path.back() == '.' ||
+                        path.find("..") != std::string::npos;
+    if (equals == std::string::npos || hollow) {
+        throw ConfigError("--set " + quote(setting) +
+                          ": this is not an override; path.to.key=value is expected.");
+    }
+    return path;
+}
+
+} // namespace
+
+ConfigSource::ConfigSource(ConfigNode root, const std::vector<std::string>& overrides)
+    : root_(std::move(root)) {
+    for (const std::string& setting : overrides) {
+        Override override;
+        override.path = path_of(setting);
+        override.value.kind = ConfigNode::Kind::kScalar;
+        override.value.text = setting.substr(override.path.size() + 1);
+        override.value.place = "--set " + setting;
+        overrides_.push_back(std::move(override));
+    }
+}
+
+ConfigSource ConfigSource::from_file(const std::filesystem::path& path,
+                                     const std::vector<std::string>& overrides) {
+    return {read_config_file(path), overrides};
+}
+
+ConfigSource ConfigSource::from_text(const std::string& name, const std::string& yaml,
+                                     const std::vector<std::string>& overrides) {
+    return {read_config_text(name, yaml), overrides};
+}
+
+ConfigSource ConfigSource::from_overrides(const std::vector<std::string>& overrides) {
+    return {empty_root(), overrides};
+}
+
+void ConfigSource::read(const std::function<void(ConfigVisitor&)>& describe) const {
+    ConfigReader reader(*this);
+    describe(reader);
+    reader.finish();
+}
+
+const ConfigSource::Override* ConfigSource::override_of(const std::string& path) const {
+    const auto last = std::find_if(overrides_.rbegin(), overrides_.rend(),
+                                   [&](const Override& each) { return each.path == path; });
+    return last == overrides_.rend() ? nullptr : &*last;
+}
+
+std::string ConfigSource::place(const std::string& path) const {
+    if (const Override* set = override_of(path)) {
+        return set->value.place;
+    }
+    const ConfigNode* node = &root_;
+    std::size_t begin = 0;
+    while (node != nullptr && begin <= path.size()) {
+        const std::size_t end = std::min(path.find('.', begin), path.size());
+        node = node->find(path.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return node == nullptr ? "default" : node->place;
+}
+
+} // namespace degs

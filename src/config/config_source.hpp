@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a configuration comes from: a YAML file, overridden by `--set path.to.key=value`.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/config.hpp"
+#include "config/config_tree.hpp"
+
+namespace degs {
+
+/// Strict: load() throws ConfigError for anything in the source that the struct does not ask for
+/// and for anything that it asks for and cannot have. What the source does not name keeps its
+/// default.
+///
+/// Values: integers are decimal digits (no 1e3, no 0x10, no leading zero); reals are finite decimal
+/// numbers; booleans are true or false; choices go by name; a scalar in quotes is always text.
+class ConfigSource {
+public:
+    /// Each override reads `path.to.key=value`; a later one of the same key wins over an earlier
+    /// one.
+    static ConfigSource from_file(const std::filesystem::path& path,
+                                  const std::vector<std::string>& overrides = {});
+    /// `name` stands for the file in messages; includes are relative to its folder.
+    static ConfigSource from_text(const std::string& name, const std::string& yaml,
+                                  const std::vector<std::string>& overrides = {});
+    /// Part of another source's tree, e.g. an item of a list.
+    static ConfigSource from_tree(ConfigNode tree, const std::vector<std::string>& overrides = {}) {
+        return {std::move(tree), overrides};
+    }
+    /// Defaults and overrides only. load() then also checks a struct that a program has filled
+    /// itself.
+    static ConfigSource from_overrides(const std::vector<std::string>& overrides = {});
+
+    /// Fills any struct with `void describe(ConfigVisitor&)`; leaves it untouched when it throws.
+    template <class Config>
+    void load(Config& config) const {
+        Config loaded = config;
+        read([&](ConfigVisitor& visitor) { loaded.describe(visitor); });
+        config = loaded;
+    }
+
+    /// "file:line" or "--set path=value" of what decides a key, "default" if nothing names it.
+    std::string place(const std::string& path) const;
+    /// The files as one tree, before overrides: for callers with lists, which structs do not have.
+    const ConfigNode& tree() const { return root_; }
+
+private:
+    friend class ConfigReader;
+    struct Override {
+        std::string path;
+        ConfigNode value;
+    };
+
+    ConfigSource(ConfigNode root, const std::vector<std::string>& overrides);
+    void read(const std::function<void(ConfigVisitor&)>& describe) const;
+    const Override* override_of(const std::string& path) const;
+
+    ConfigNode root_;
+    std::vector<Override> overrides_;
+};
+
+} // namespace degs

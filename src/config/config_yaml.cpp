@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "config/config_yaml.hpp"
+
+#include <sstream>
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include "config/config.hpp"
+#include "config/config_words.hpp"
+
+namespace degs {
+namespace {
+
+using config_words::quote;
+using Kind = ConfigNode::Kind;
+
+/// Builds the tree from parser events. Events rather than YAML::Node, because a node graph can hold
+/// loops and shared branches, and forgets duplicate keys.
+class TreeBuilder : public YAML::EventHandler {
+public:
+    explicit TreeBuilder(std::string file) : file_(std::move(file)) { root_.place = file_; }
+
+    ConfigNode take() { return std::move(root_); }
+
+    void OnDocumentStart(const YAML::Mark&) override {}
+    void OnDocumentEnd() override {}
+    void OnAnchor(const YAML::Mark& mark, const std::string& name) override {
+        fail(mark,
+             "anchor " + quote("&" + name) + " is not accepted; repeat the value or use include");
+    }
+    void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+        fail(mark, "an alias (*name) is not accepted; repeat the value or use include");
+    }
+    void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { place(mark, Kind::kNull, "?"); }
+    void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                  const std::string& value) override {
+        if (expects_key()) {
+            return take_key(mark, value);
+        }
+        ConfigNode& node = place(mark, Kind::kScalar, tag);
+        node.text = value;
+        node.quoted = tag == "!"; // how the parser marks a scalar in quotes
+    }
+    void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                         YAML::EmitterStyle::value) override {
+        open_.push_back(&place(mark, Kind::kList, tag));
+    }
+    void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                    YAML::EmitterStyle::value) override {
+        open_.push_back(&place(mark, Kind::kSection, tag));
+    }
+    void OnSequenceEnd() override { close(); }
+    void OnMapEnd() override { close(); }
+
+private:
+    [[noreturn]] void fail(const YAML::Mark& mark, const std::string& reason) const {
+        const std::string path = config_words::join_path(path_, has_key_ ? key_ : "");
+        throw ConfigError(at(mark) + (path.empty() ? "" : "key " + quote(path) + ": ") + reason +
+                          ".");
+    }
+    std::string at(const YAML::Mark& mark) const { return line_of(mark) + ": "; }
+    std::string line_of(const YAML::Mark& mark) const {
+        return file_ + ":" + std::to_string(mark.line + 1);
+    }
+    bool expects_key() const {
+        return !open_.empty() && open_.back()->kind == Kind::kSection && !has_key_;
+    }
+    void take_key(const YAML::Mark& mark, const std::string& name);
+    ConfigNode& place(const YAML::Mark& mark, Kind kind, const std::string& tag);
+    void close();
+
+    std::string file_;
+    ConfigNode root_;
+    std::vector<ConfigNode*> open_; // a node's siblings grow only after it is closed
+    std::string path_;              // of the innermost open section
+    std::string key_, key_place_;
+    bool has_key_ = false;
+};
+
+void TreeBuilder::take_key(const YAML::Mark& mark, const std::string& name) {
+    key_ = name;
+    has_key_ = true;
+    key_place_ = line_of(mark);
+    if (name.empty()) {
+        fail(mark, "a key must have a name");
+    }
+    if (open_.back()->children.size() >= kMostConfigKeys) {
+        fail(mark, "more than " + std::to_string(kMostConfigKeys) + " keys in one section");
+    }
+    if (const ConfigNode* first = open_.back()->find(name)) {
+        fail(mark, "is given twice, first at " + first->place);
+    }
+}
+
+ConfigNode& TreeBuilder::place(const YAML::Mark& mark, Kind kind, const std::string& tag) {
+    if (expects_key()) {
+        fail(mark, "a key must be a word, not a section, a list or nothing");
+    }
+    if (!tag.empty() && tag != "?" && tag != "!") {
+        fail(mark, "tag " + quote(tag) + " is not accepted; write the plain value");
+    }
+    ConfigNode* node = &root_;
+    if (!open_.empty()) {
+        node = &open_.back()->children.emplace_back();
+        node->key = key_;
+        node->place = has_key_ ? key_place_ : line_of(mark);
+    }
+    if (open_.size() > kDeepestConfig) {
+        fail(mark, "is nested more than " + std::to_string(kDeepestConfig) + " levels deep");
+    }
+    if (kind == Kind::kSection || kind == Kind::kList) {
+        path_ = config_words::join_path(path_, key_);
+    }
+    node->kind = kind;
+    key_.clear();
+    has_key_ = false;
+    return *node;
+}
+
+void TreeBuilder::close() {
+    const std::string& key = open_.back()->key;
+    path_.resize(path_.size() - std::min(path_.size(), key.size() + (key.empty() ? 0 : 1)));
+    open_.pop_back();
+}
+
+} // namespace
+
+ConfigNode parse_config_yaml(const std::string& name, const std::string& yaml) {
+    try {
+        std::istringstream stream(yaml);
+        YAML::Parser parser(stream);
+        TreeBuilder builder(name);
+        if (!parser.HandleNextDocument(builder)) {
+            throw ConfigError(name + ": the file is empty; a section of keys is expected.");
+        }
+        TreeBuilder second(name);
+        if (parser.HandleNextDocument(second)) {
+            throw ConfigError(name +
+                              ": the file holds more than one YAML document; one is allowed.");
+        }
+        return builder.take();
+    } catch (const YAML::Exception& error) {
+        throw ConfigError(name + ":" + std::to_string(error.mark.line + 1) +
+                          ": this is not valid YAML: " + config_words::one_line(error.msg) + ".");
+    }
+}
+
+} // namespace degs

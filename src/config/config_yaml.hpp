@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "config/config_tree.hpp"
+
+namespace degs {
+
+/// One YAML document without following its includes. Throws ConfigError.
+ConfigNode parse_config_yaml(const std::string& name, const std::string& yaml);
+
+} // namespace degs

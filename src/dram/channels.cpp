@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dram/channels.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace degs {
+
+void Lpddr5Config::describe(ConfigVisitor& visitor) {
+    visitor.text("name", name, "of the memory in reports");
+    visitor.integer("channels", channels, 1, 64,
+                    "x16 channels, a power of two; 16 are 256 bit, the paper's main memory");
+    visitor.require((channels & (channels - 1)) == 0, "channels", "must be a power of two");
+    visitor.real("controller_latency_ns", controller_latency_ns, 0.0, 1000.0,
+                 "ns; added to every answer, rounded up to CK; 0: the DRAM and its queues alone");
+    visitor.integer("waiting_requests", waiting_requests, 1, 65536,
+                    "per initiator; so many may wait for room in the queues before the next one is "
+                    "held back (AT) [assumed]");
+    visitor.boolean("dmi", dmi, "grant direct memory access, which takes no time in the model");
+    visitor.section("timing", timing, "one x16 channel: organisation, and durations in CK");
+    visitor.section("mapping", mapping, "address to channel, bank group, bank, row and column");
+    visitor.section("controller", controller, "queues and policies of a channel");
+    visitor.section("energy", energy, "what an event costs in the DRAM");
+}
+
+Lpddr5Channels::Lpddr5Channels(const Lpddr5Config& config)
+    : timing_(config.timing), rules_(config.timing),
+      mapping_(config.mapping, config.timing, static_cast<unsigned>(config.channels)),
+      posted_writes_(config.controller.posted_writes) {
+    const auto count = static_cast<std::size_t>(config.channels);
+    channels_.reserve(count);
+    for (std::size_t c = 0; c < count; ++c) {
+        const Ck phase =
+            config.controller.refresh_stagger ? static_cast<Ck>(config.timing.refi) * c / count : 0;
+        channels_.emplace_back(timing_, rules_, config.controller, phase);
+    }
+    due_.assign(count, kNoDate);
+    live_.assign(count, 0);
+    asked_.assign(count, 0);
+}
+
+void Lpddr5Channels::split(const Lpddr5Request& request, std::uint32_t id) {
+    constexpr std::uint64_t kBlock = kLpddr5AccessBytes;
+    const std::uint64_t end = request.address + request.bytes;
+    const unsigned burst = timing_.burst_bytes();
+    for (std::uint64_t block = request.address / kBlock * kBlock; block < end; block += kBlock) {
+        const std::uint64_t from = std::max(request.address, block) - block;
+        const std::uint64_t to = std::min(end - block, kBlock) - 1;
+        const Lpddr5Place place = mapping_.place(block);
+        Lpddr5Access access;
+        access.date = request.date;
+        access.id = id;
+        access.row = place.row;
+        access.bank = static_cast<std::uint8_t>(place.bank);
+        access.block = static_cast<std::uint8_t>(place.block);
+        access.bursts = static_cast<std::uint8_t>((2U << to / burst) - (1U << from / burst));
+        access.write = request.write;
+        push_access(place.channel, access);
+    }
+}
+
+void Lpddr5Channels::push_access(unsigned channel, const Lpddr5Access& access) {
+    const bool early = channels_[channel].push(access);
+    writes_somewhere_ = writes_somewhere_ || access.write;
+    if ((access.id & kPredicted) != 0) {
+        ++asked_[channel];
+        return;
+    }
+    ++live_[channel];
+    ++progress_[access.id].unanswered;
+    ++progress_[access.id].waiting;
+    const Ck due = exactly_ || early ? access.date : access.date + data_latency() - 1;
+    due_[channel] = std::min(due_[channel], due);
+}
+
+void Lpddr5Channels::push(const Lpddr5Request& request) {
+    if (request.id >= progress_.size()) {
+        progress_.resize(request.id + 1);
+    }
+    progress_[request.id] = {};
+    split(request, request.id);
+}
+
+Ck Lpddr5Channels::due() const {
+    return *std::min_element(due_.begin(), due_.end());
+}
+
+// Where a write may wait, a read may be answered from it at once, so nothing can stay behind.
+Ck Lpddr5Channels::due_of(bool write, Ck date) const {
+    const bool at_once = exactly_ || write || writes_somewhere_;
+    return at_once ? date : date + data_latency() - 1;
+}
+
+void Lpddr5Channels::watch_admissions(bool exactly) {
+    if (exactly && !exactly_) {
+        for (std::size_t c = 0; c < size(); ++c) {
+            due_[c] = live_[c] == 0 ? kNoDate : std::min(due_[c], channel_due(channels_[c]));
+        }
+    }
+    exactly_ = exactly;
+}
+
+void Lpddr5Channels::run(Ck until) {
+    for (std::size_t c = 0; c < size(); ++c) {
+        if (due_[c] <= until) {
+            run_channel(c, until);
+        }
+    }
+    writes_somewhere_ = std::any_of(channels_.begin(), channels_.end(),
+                                    [](const Lpddr5Channel& c) { return c.has_writes(); });
+}
+
+void Lpddr5Channels::run_channel(std::size_t channel, Ck until) {
+    Lpddr5Channel& runner = channels_[channel];
+    outcome_.answers.clear();
+    outcome_.admitted.clear();
+    runner.run(until, outcome_);
+    for (const std::uint32_t id : outcome_.admitted) {
+        if ((id & kPredicted) == 0 && --progress_[id].waiting == 0) {
+            admitted_.push_back(id);
+        }
+    }
+    for (const Lpddr5Answer& answer : outcome_.answers) {
+        if ((answer.id & kPredicted) != 0) {
+            take_prediction(channel, answer);
+            continue;
+        }
+        --live_[channel];
+        Progress& progress = progress_[answer.id];
+        progress.last = std::max(progress.last, answer.date);
+        if (--progress.unanswered == 0) {
+            completed_.push_back({answer.id, progress.last});
+        }
+    }
+    due_[channel] = live_[channel] == 0 ? kNoDate : channel_due(runner);
+}
+
+// From a command to the earliest end of its data.
+Ck Lpddr5Channels::data_latency() const {
+    return posted_writes_ ? timing_.read_latency()
+                          : std::min(timing_.read_latency(), timing_.write_latency());
+}
+
+// Who waits for a queue may be answered, or noticed by its initiator, when it gets in; who is in
+// it, when the data come.
+Ck Lpddr5Channels::channel_due(Lpddr5Channel& channel) const {
+    const Ck due = channel.next_date() + data_latency() - 1;
+    return exactly_ || channel.answers_at_admission() ? std::min(due, channel.admission_bound())
+                                                      : due;
+}
+
+void Lpddr5Channels::push_for_prediction(const Lpddr5Request& request) {
+    const auto ticket = first_ticket_ + static_cast<std::uint32_t>(predictions_.size());
+    predictions_.push_back(0);
+    split(request, ticket | kPredicted);
+}
+
+std::vector<Ck> Lpddr5Channels::predict(Ck known) {
+    for (std::size_t c = 0; c < size(); ++c) {
+        if (asked_[c] != 0) {
+            run_channel(c, known); // may answer some already
+            predict_channel(c);
+        }
+    }
+    first_ticket_ = (first_ticket_ + static_cast<std::uint32_t>(predictions_.size())) & ~kPredicted;
+    return std::exchange(predictions_, {});
+}
+
+void Lpddr5Channels::predict_channel(std::size_t channel) {
+    if (copy_ == nullptr) {
+        copy_ = std::make_unique<Lpddr5Channel>(channels_[channel]);
+    } else {
+        *copy_ = channels_[channel];
+    }
+    copy_->observe({});
+    while (asked_[channel] != 0) {
+        outcome_.answers.clear();
+        outcome_.admitted.clear();
+        copy_->run(copy_->next_date(), outcome_);
+        for (const Lpddr5Answer& answer : outcome_.answers) {
+            take_prediction(channel, answer);
+        }
+    }
+}
+
+/// Unless it is an answer to an earlier prediction, which has long been given.
+void Lpddr5Channels::take_prediction(std::size_t channel, const Lpddr5Answer& answer) {
+    const std::uint32_t index = (answer.id - first_ticket_) & ~kPredicted;
+    if ((answer.id & kPredicted) != 0 && index < predictions_.size()) {
+        predictions_[index] = std::max(predictions_[index], answer.date);
+        --asked_[channel];
+    }
+}
+
+void Lpddr5Channels::settle(Ck until) {
+    for (std::size_t c = 0; c < size(); ++c) {
+        run_channel(c, until);
+    }
+}
+
+} // namespace degs

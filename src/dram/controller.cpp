@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dram/controller.hpp"
+
+#include "dram/queue.hpp"
+
+namespace degs {
+namespace {
+
+template <class Policy>
+std::vector<const char*> names_of(const std::vector<Policy>& policies) {
+    std::vector<const char*> names;
+    names.reserve(policies.size());
+    for (const Policy& policy : policies) {
+        names.push_back(policy.name);
+    }
+    return names;
+}
+
+} // namespace
+
+const std::vector<Lpddr5Scheduler>& lpddr5_schedulers() {
+    static const std::vector<Lpddr5Scheduler> schedulers{
+        {"frfcfs", true, false}, {"bank_fcfs", false, false}, {"fcfs", false, true}};
+    return schedulers;
+}
+
+const std::vector<Lpddr5PagePolicy>& lpddr5_page_policies() {
+    static const std::vector<Lpddr5PagePolicy> policies{{"open", false}, {"closed", true}};
+    return policies;
+}
+
+void Lpddr5ControllerConfig::describe(ConfigVisitor& visitor) {
+    constexpr int kMost = static_cast<int>(Lpddr5Queue::kSlots);
+    visitor.integer("read_queue", read_queue, 1, kMost,
+                    "accesses of 64 B per channel; 32 get most of the bandwidth of random traffic");
+    visitor.integer("write_queue", write_queue, 1, kMost, "accesses of 64 B per channel");
+    visitor.real("write_high", write_high, 0.0, 1.0,
+                 "share of the write queue; from here on writes go first, about 80 % is usual");
+    visitor.real("write_low", write_low, 0.0, 1.0,
+                 "share of the write queue; down to here if a read waits, about 20 % is usual");
+    visitor.require(write_low <= write_high, "write_low", "must not be above write_high");
+    visitor.choice("scheduler", scheduler, names_of(lpddr5_schedulers()),
+                   "frfcfs: row hits first, then the oldest; bank_fcfs: in order within a bank; "
+                   "fcfs: in order");
+    visitor.choice(
+        "page_policy", page_policy, names_of(lpddr5_page_policies()),
+        "open: rows stay open until another is wanted; closed: the last queued access to "
+        "a row precharges it");
+    visitor.choice("refresh", refresh, {"none", "all_bank", "per_bank"},
+                   "all_bank every refi; per_bank: a pair of banks every refi / 8; none for tests");
+    visitor.boolean("refresh_stagger", refresh_stagger,
+                    "spread the channels' refreshes over refi; off: all at once, which stalls a "
+                    "stream over all channels less often");
+    visitor.boolean("posted_writes", posted_writes,
+                    "answer a write when its queue has it, and merge writes to one place; off: "
+                    "answer with the last beat");
+}
+
+} // namespace degs

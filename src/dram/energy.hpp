@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "config/config.hpp"
+#include "dram/channel.hpp"
+
+namespace degs {
+
+/// Energy of the DRAM by class of event, nJ; the SoC's controller and PHY are not in it.
+struct Lpddr5Energy {
+    double activate_nj = 0, read_nj = 0, write_nj = 0, refresh_nj = 0, background_nj = 0;
+    double total_nj() const {
+        return activate_nj + read_nj + write_nj + refresh_nj + background_nj;
+    }
+
+    Lpddr5Energy operator-(const Lpddr5Energy& earlier) const {
+        return {activate_nj - earlier.activate_nj, read_nj - earlier.read_nj,
+                write_nj - earlier.write_nj, refresh_nj - earlier.refresh_nj,
+                background_nj - earlier.background_nj};
+    }
+
+    /// What an event costs. Vendors publish no currents beside timings: derived from the maxima of
+    /// a 16 Gb LPDDR5X sheet, less what typical parts draw; see docs/lpddr5.md.
+    struct Config {
+        double activate_nj = 1.0;
+        double read_pj_per_bit = 2.75, write_pj_per_bit = 1.75;
+        double refresh_all_bank_nj = 30.0;
+        double standby_open_mw = 30.0, standby_closed_mw = 22.0;
+        void describe(ConfigVisitor& visitor);
+    };
+
+    /// Adds what one channel has used in its first `elapsed` CK.
+    void add(const Config& config, const Lpddr5Timing& timing, const Lpddr5Channel& channel,
+             Ck elapsed);
+};
+
+} // namespace degs

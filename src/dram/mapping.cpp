@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dram/mapping.hpp"
+
+#include <sstream>
+
+#include "config/config_words.hpp"
+
+namespace degs {
+namespace {
+
+constexpr const char* kFieldNames[] = {"column", "group", "bank", "row"};
+
+unsigned log2_of(std::uint64_t power) {
+    unsigned bits = 0;
+    while ((std::uint64_t{1} << bits) < power) {
+        ++bits;
+    }
+    return bits;
+}
+
+/// XOR of the chunks of `width` bits of `value`.
+unsigned folded(std::uint64_t value, unsigned width) {
+    if (width == 0) {
+        return 0;
+    }
+    unsigned result = 0;
+    for (; value != 0; value >>= width) {
+        result ^= static_cast<unsigned>(value) & ((1U << width) - 1);
+    }
+    return result;
+}
+
+[[noreturn]] void reject(const std::string& order, const std::string& why) {
+    throw ConfigError("The key 'order' of the address mapping is " + config_words::quote(order) +
+                      ", but " + why + ".");
+}
+
+} // namespace
+
+void Lpddr5Mapping::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("interleave_bytes", interleave_bytes, 64, 2048,
+                    "bytes, a power of two; neighbours of this size are in different channels. 256 "
+                    "keeps a record of 256 B in one row: one activation instead of four");
+    visitor.require((interleave_bytes & (interleave_bytes - 1)) == 0, "interleave_bytes",
+                    "must be a power of two");
+    visitor.text("order", order,
+                 "fields from low to high: column, group, bank, row; column:2 takes two bits, a "
+                 "field without a number all that are left. Groups low: a stream alternates them");
+    visitor.boolean("fold_channel", fold_channel,
+                    "XOR all higher bits into the channel, against strides that miss channels");
+    visitor.boolean("fold_bank", fold_bank,
+                    "XOR all bits of the row into group and bank, against streams at equal offsets "
+                    "that meet in one bank");
+}
+
+Lpddr5Mapping::Lpddr5Mapping(const Config& config, const Lpddr5Timing& timing, unsigned channels)
+    : fold_channel_(config.fold_channel), fold_bank_(config.fold_bank),
+      capacity_(std::uint64_t{channels} * kLpddr5Banks * kLpddr5PageBytes *
+                static_cast<std::uint64_t>(timing.rows)) {
+    const unsigned group_bits = log2_of(timing.groups());
+    bits_ = {static_cast<std::uint8_t>(log2_of(kLpddr5PageBytes / kLpddr5AccessBytes)),
+             static_cast<std::uint8_t>(group_bits),
+             static_cast<std::uint8_t>(log2_of(kLpddr5Banks) - group_bits),
+             static_cast<std::uint8_t>(log2_of(static_cast<std::uint64_t>(timing.rows))),
+             static_cast<std::uint8_t>(log2_of(channels))};
+    read_order(config.order, log2_of(static_cast<std::uint64_t>(config.interleave_bytes)));
+}
+
+void Lpddr5Mapping::read_order(const std::string& order, unsigned grain_bits) {
+    std::istringstream words(order);
+    for (std::string word; words >> word;) {
+        const std::size_t colon = word.find(':');
+        unsigned field = 0;
+        while (field < kChannel && word.substr(0, colon) != kFieldNames[field]) {
+            ++field;
+        }
+        if (field == kChannel) {
+            reject(order, "must consist of column, group, bank and row");
+        }
+        unsigned bits = bits_[field] - taken_[field];
+        if (colon != std::string::npos) {
+            bits = std::min(bits, read_count(order, word.substr(colon + 1), field));
+        }
+        place_field(field, bits, grain_bits);
+    }
+    for (unsigned field = 0; field < kChannel; ++field) {
+        if (taken_[field] != bits_[field]) {
+            reject(order, std::string("must name every bit of the ") + kFieldNames[field]);
+        }
+    }
+}
+
+unsigned Lpddr5Mapping::read_count(const std::string& order, const std::string& count,
+                                   unsigned field) const {
+    if (count.size() != 1 || count[0] < '1' || count[0] > '9') {
+        reject(order, "a number of bits must be 1 to 9");
+    }
+    const auto wanted = static_cast<unsigned>(count[0] - '0');
+    if (bits_[field] != 0 && wanted + taken_[field] > bits_[field]) {
+        reject(order, std::string("there are not that many bits of ") + kFieldNames[field]);
+    }
+    return wanted;
+}
+
+// The channel comes where the grain ends.
+void Lpddr5Mapping::place_field(unsigned field, unsigned bits, unsigned grain_bits) {
+    while (bits != 0) {
+        if (address_bits_ == grain_bits && taken_[kChannel] == 0) {
+            append(kChannel, bits_[kChannel]);
+            taken_[kChannel] = 1 + bits_[kChannel];
+        }
+        const unsigned room =
+            address_bits_ < grain_bits ? std::min(bits, grain_bits - address_bits_) : bits;
+        append(field, room);
+        bits -= room;
+    }
+}
+
+void Lpddr5Mapping::append(unsigned field, unsigned bits) {
+    if (bits != 0) {
+        pieces_.push_back({static_cast<std::uint8_t>(field),
+                           static_cast<std::uint8_t>(address_bits_),
+                           static_cast<std::uint8_t>(bits), taken_[field]});
+        taken_[field] = static_cast<std::uint8_t>(taken_[field] + bits);
+        address_bits_ += bits;
+    }
+}
+
+// The bank takes the chunks of the row, the group every other one: 16 rows that follow each other
+// then meet 16 banks, and streams whose distance is a power of two differ in the bank itself,
+// which matters because the group alternates within each stream anyway.
+void Lpddr5Mapping::fold(Values& values) const {
+    if (fold_bank_) {
+        const unsigned row = values[kRow];
+        values[kBank] ^= folded(row, bits_[kBank]);
+        const unsigned width = bits_[kGroup];
+        for (unsigned shift = width; width != 0 && shift < bits_[kRow]; shift += 2 * width) {
+            values[kGroup] ^= (row >> shift) & ((1U << width) - 1);
+        }
+    }
+}
+
+Lpddr5Place Lpddr5Mapping::place(std::uint64_t address) const {
+    Values values{};
+    for (const Piece& piece : pieces_) {
+        const auto bits = static_cast<unsigned>(address >> piece.shift) & ((1U << piece.bits) - 1U);
+        values[piece.field] |= bits << piece.field_shift;
+        if (piece.field == kChannel && fold_channel_) {
+            values[kChannel] ^= folded(address >> (piece.shift + piece.bits), piece.bits);
+        }
+    }
+    fold(values);
+    return {values[kChannel], values[kGroup] << bits_[kBank] | values[kBank], values[kRow],
+            values[kColumn]};
+}
+
+std::uint64_t Lpddr5Mapping::address(const Lpddr5Place& place) const {
+    Values values{};
+    values[kColumn] = place.block;
+    values[kGroup] = place.bank >> bits_[kBank];
+    values[kBank] = place.bank & ((1U << bits_[kBank]) - 1);
+    values[kRow] = place.row;
+    values[kChannel] = place.channel;
+    fold(values);
+    std::uint64_t address = 0;
+    for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece) {
+        if (piece->field == kChannel && fold_channel_) {
+            values[kChannel] ^= folded(address >> (piece->shift + piece->bits), piece->bits);
+        }
+        const std::uint64_t bits =
+            (values[piece->field] >> piece->field_shift) & ((1U << piece->bits) - 1U);
+        address |= bits << piece->shift;
+    }
+    return address;
+}
+
+} // namespace degs

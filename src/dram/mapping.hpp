@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dram/timing.hpp"
+
+namespace degs {
+
+/// Where 64 bytes lie; they never cross a row.
+struct Lpddr5Place {
+    unsigned channel = 0;
+    unsigned bank = 0; ///< group * (banks per group) + bank in the group
+    unsigned row = 0;
+    unsigned block = 0; ///< of 64 bytes in the row
+};
+
+/// Address to channel, bank group, bank, row and column. From low to high: 6 bits inside an access
+/// of 64 bytes; the bits of `order` that fit under the interleave grain; the channel; the rest of
+/// `order`. XOR folding then adds bits above a field to it, which spreads strides that are powers
+/// of two; it keeps the mapping one to one, since the bits above stay as they are.
+class Lpddr5Mapping {
+public:
+    struct Config {
+        int interleave_bytes = 256;
+        std::string order = "column:2 group column bank row";
+        bool fold_channel = true;
+        bool fold_bank = true;
+        void describe(ConfigVisitor& visitor);
+    };
+
+    /// `channels` is a power of two. Throws ConfigError if `order` does not name every bit once.
+    Lpddr5Mapping(const Config& config, const Lpddr5Timing& timing, unsigned channels);
+
+    /// Of the access that holds `address`, which is below capacity().
+    Lpddr5Place place(std::uint64_t address) const;
+    /// The first byte of the access at a place; the inverse of place().
+    std::uint64_t address(const Lpddr5Place& place) const;
+    std::uint64_t capacity() const { return capacity_; } ///< bytes
+
+private:
+    enum Field : std::uint8_t { kColumn, kGroup, kBank, kRow, kChannel };
+    static constexpr std::size_t kFields = 5;
+    struct Piece { // some bits of a field at one place of the address
+        std::uint8_t field, shift, bits, field_shift;
+    };
+    using Values = std::array<unsigned, kFields>;
+    void read_order(const std::string& order, unsigned grain_bits);
+    unsigned read_count(const std::string& order, const std::string& count, unsigned field) const;
+    void place_field(unsigned field, unsigned bits, unsigned grain_bits);
+    void append(unsigned field, unsigned bits);
+    /// Its own inverse, because it depends on nothing that it changes.
+    void fold(Values& values) const;
+
+    bool fold_channel_, fold_bank_;
+    std::array<std::uint8_t, kFields> bits_{}; // of each field
+    std::array<std::uint8_t, kFields> taken_{};
+    unsigned address_bits_ = 6;
+    std::vector<Piece> pieces_; // from low to high
+    std::uint64_t capacity_;
+};
+
+} // namespace degs

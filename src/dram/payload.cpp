@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What requests carry and how they are counted; the other half of lpddr5.cpp.
+#include <limits>
+
+#include "dram/lpddr5.hpp"
+
+namespace degs {
+
+tlm::tlm_response_status Lpddr5::check(const Payload& payload) const {
+    if (!payload.is_read() && !payload.is_write()) {
+        return tlm::TLM_COMMAND_ERROR_RESPONSE;
+    }
+    if (payload.get_byte_enable_ptr() != nullptr) {
+        return tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE;
+    }
+    if (payload.get_data_length() == 0 ||
+        payload.get_streaming_width() < payload.get_data_length()) {
+        return tlm::TLM_BURST_ERROR_RESPONSE;
+    }
+    const std::uint64_t capacity = channels_.mapping().capacity();
+    if (payload.get_address() >= capacity ||
+        payload.get_data_length() > capacity - payload.get_address()) {
+        return tlm::TLM_ADDRESS_ERROR_RESPONSE;
+    }
+    return tlm::TLM_OK_RESPONSE;
+}
+
+void Lpddr5::copy(Payload& payload) {
+    if (payload.is_write()) {
+        storage_.write(payload.get_address(), payload.get_data_ptr(), payload.get_data_length());
+    } else {
+        storage_.read(payload.get_address(), payload.get_data_ptr(), payload.get_data_length());
+    }
+}
+
+void Lpddr5::count(std::uint32_t socket, const Payload& payload, const sc_core::sc_time& date,
+                   const sc_core::sc_time& done) {
+    Stats& stats = stats_[socket];
+    const std::uint64_t burst = config_.timing.burst_bytes();
+    const std::uint64_t end = payload.get_address() + payload.get_data_length();
+    const std::uint64_t bytes = ((end + burst - 1) / burst - payload.get_address() / burst) * burst;
+    const double ns = (done - date).to_seconds() * 1e9;
+    if (payload.is_read()) {
+        ++stats.reads;
+        stats.bytes_read += bytes;
+        stats.read_latency.add(ns);
+    } else {
+        ++stats.writes;
+        stats.bytes_written += bytes;
+        stats.write_latency.add(ns);
+    }
+    stats.last_answer = std::max(stats.last_answer, done);
+}
+
+// Accesses through the pointer bypass banks and buses; the latencies told are those of a row hit.
+bool Lpddr5::direct_memory(int /*socket*/, Payload& payload, tlm::tlm_dmi& dmi) {
+    const std::uint64_t address = payload.get_address();
+    if (!config_.dmi || address >= channels_.mapping().capacity()) {
+        dmi.set_start_address(0);
+        dmi.set_end_address(std::numeric_limits<sc_dt::uint64>::max());
+        return false;
+    }
+    const std::uint64_t start = address / SparseStorage::kPageBytes * SparseStorage::kPageBytes;
+    dmi.set_dmi_ptr(storage_.page(address));
+    dmi.set_start_address(start);
+    dmi.set_end_address(start + SparseStorage::kPageBytes - 1);
+    dmi.set_read_latency(
+        sc_core::sc_time::from_value((config_.timing.read_latency() + extra_) * ck_));
+    dmi.set_write_latency(sc_core::sc_time::from_value((1 + extra_) * ck_));
+    dmi.allow_read_write();
+    return true;
+}
+
+unsigned int Lpddr5::debug(int /*socket*/, Payload& payload) {
+    const std::uint64_t capacity = channels_.mapping().capacity();
+    if ((!payload.is_read() && !payload.is_write()) || payload.get_address() >= capacity) {
+        return 0;
+    }
+    const auto bytes = static_cast<unsigned int>(
+        std::min<std::uint64_t>(payload.get_data_length(), capacity - payload.get_address()));
+    if (payload.is_write()) {
+        storage_.write(payload.get_address(), payload.get_data_ptr(), bytes);
+    } else {
+        storage_.read(payload.get_address(), payload.get_data_ptr(), bytes);
+    }
+    payload.set_response_status(tlm::TLM_OK_RESPONSE);
+    return bytes;
+}
+
+Lpddr5::Stats Lpddr5::total() const {
+    Stats sum;
+    for (const Stats& each : stats_) {
+        sum.reads += each.reads;
+        sum.writes += each.writes;
+        sum.bytes_read += each.bytes_read;
+        sum.bytes_written += each.bytes_written;
+        sum.read_latency.add(each.read_latency);
+        sum.write_latency.add(each.write_latency);
+        sum.last_answer = std::max(sum.last_answer, each.last_answer);
+    }
+    return sum;
+}
+
+Ck Lpddr5::settle() {
+    if (now() == 0) {
+        return 0;
+    }
+    advance(now() - 1);
+    const Ck known = (now() - 1) / ck_;
+    channels_.settle(known);
+    plan_answers();
+    schedule();
+    return known + 1;
+}
+
+Lpddr5Channel::Stats Lpddr5::commands() {
+    settle();
+    Lpddr5Channel::Stats sum;
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        sum.add(channels_[c].stats());
+    }
+    return sum;
+}
+
+Lpddr5Energy Lpddr5::energy() {
+    const Ck elapsed = settle();
+    Lpddr5Energy sum;
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        sum.add(config_.energy, config_.timing, channels_[c], elapsed);
+    }
+    return sum;
+}
+
+void Lpddr5::observe(const std::function<void(unsigned, const Lpddr5Issued&)>& observer) {
+    for (unsigned c = 0; c < channels_.size(); ++c) {
+        channels_[c].observe([observer, c](const Lpddr5Issued& issued) { observer(c, issued); });
+    }
+}
+
+} // namespace degs

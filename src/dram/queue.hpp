@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "dram/timing.hpp"
+
+namespace degs {
+
+/// Up to 64 bytes of one row, read or written; what a controller queue holds.
+struct Lpddr5Access {
+    Ck date = 0;          ///< first CK in which it may send a command
+    std::uint32_t id = 0; ///< of whoever wants the answer
+    std::uint32_t row = 0;
+    std::uint8_t bank = 0;
+    std::uint8_t block = 0;  ///< of 64 bytes in the row
+    std::uint8_t bursts = 1; ///< mask: which bursts of the block
+    bool write = false;
+    bool after_write = false; ///< a read: an older write to the block may be waiting
+};
+
+/// What the row buffer held when an access was first served.
+enum class Lpddr5RowState : std::uint8_t { Hit, Closed, Conflict };
+
+/// A controller queue of one direction: fixed slots, and a list per bank in the order of arrival.
+class Lpddr5Queue {
+public:
+    static constexpr unsigned kSlots = 64;
+    static constexpr std::uint8_t kNone = 0xFF;
+    struct Entry {
+        Lpddr5Access access;
+        std::uint64_t age = 0; ///< counts arrivals
+        std::uint8_t left = 0; ///< mask of bursts that have not been issued
+        Lpddr5RowState outcome = Lpddr5RowState::Hit;
+        std::uint8_t next = kNone, previous = kNone; ///< of the same bank
+    };
+
+    explicit Lpddr5Queue(unsigned depth)
+        : free_(depth >= kSlots ? ~std::uint64_t{0} : (std::uint64_t{1} << depth) - 1) {
+        head_.fill(kNone);
+        tail_.fill(kNone);
+    }
+    unsigned size() const { return size_; }
+    std::uint64_t arrivals() const { return arrivals_; } ///< so far; the next one's age
+    bool full() const { return free_ == 0; }
+    /// Banks for which something waits, as a mask.
+    std::uint32_t banks() const { return banks_; }
+    Entry& operator[](unsigned slot) { return entries_[slot]; }
+    const Entry& operator[](unsigned slot) const { return entries_[slot]; }
+
+    /// Only if not full.
+    void push(const Lpddr5Access& access) {
+        const auto slot = static_cast<std::uint8_t>(__builtin_ctzll(free_));
+        free_ &= free_ - 1;
+        const unsigned bank = access.bank;
+        entries_[slot] = {access, arrivals_++, access.bursts, Lpddr5RowState::Hit,
+                          kNone,  tail_[bank]};
+        (tail_[bank] == kNone ? head_[bank] : entries_[tail_[bank]].next) = slot;
+        tail_[bank] = slot;
+        banks_ |= 1U << bank;
+        ++size_;
+    }
+    void remove(unsigned slot) {
+        const Entry& entry = entries_[slot];
+        const unsigned bank = entry.access.bank;
+        (entry.previous == kNone ? head_[bank] : entries_[entry.previous].next) = entry.next;
+        (entry.next == kNone ? tail_[bank] : entries_[entry.next].previous) = entry.previous;
+        if (head_[bank] == kNone) {
+            banks_ &= ~(1U << bank);
+        }
+        free_ |= std::uint64_t{1} << slot;
+        --size_;
+    }
+
+    /// Slots; kNone if there is none.
+    std::uint8_t oldest(unsigned bank) const { return head_[bank]; }
+    std::uint8_t oldest_of_row(unsigned bank, std::uint32_t row) const {
+        std::uint8_t slot = head_[bank];
+        while (slot != kNone && entries_[slot].access.row != row) {
+            slot = entries_[slot].next;
+        }
+        return slot;
+    }
+    std::uint8_t find(unsigned bank, std::uint32_t row, unsigned block) const {
+        std::uint8_t slot = head_[bank];
+        while (slot != kNone &&
+               (entries_[slot].access.row != row || entries_[slot].access.block != block)) {
+            slot = entries_[slot].next;
+        }
+        return slot;
+    }
+    /// The bank that holds the oldest entry of all; only if not empty.
+    unsigned oldest_bank() const {
+        unsigned best = static_cast<unsigned>(__builtin_ctz(banks_));
+        for (std::uint32_t rest = banks_ & (banks_ - 1); rest != 0; rest &= rest - 1) {
+            const auto bank = static_cast<unsigned>(__builtin_ctz(rest));
+            if (entries_[head_[bank]].age < entries_[head_[best]].age) {
+                best = bank;
+            }
+        }
+        return best;
+    }
+
+private:
+    std::array<Entry, kSlots> entries_;
+    std::array<std::uint8_t, kLpddr5Banks> head_, tail_;
+    std::uint64_t free_;
+    std::uint64_t arrivals_ = 0;
+    std::uint32_t banks_ = 0;
+    unsigned size_ = 0;
+};
+
+} // namespace degs

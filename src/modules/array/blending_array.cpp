@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/array/blending_array.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "modules/row_map.hpp"
+
+namespace degs {
+
+ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config,
+                       const Timebase& time, RenderJob& job, int index, int slices,
+                       int segment_length, int contexts)
+    : sc_core::sc_module(name), in("in"), terminated("terminated"),
+      region_ended("region_ended", reachable(index, slices, config.region_listeners)),
+      tile_done("tile_done"), tile_state("tile_state"), config_(config), job_(job), index_(index),
+      slices_(slices), segment_length_(segment_length),
+      segments_per_row_((job.tile_size + segment_length - 1) / segment_length), self_(time),
+      contexts_(static_cast<std::size_t>(contexts)),
+      segments_(
+          static_cast<std::size_t>((job.tile_size + slices - 1) / slices * segments_per_row_)) {
+    for (Context& context : contexts_) {
+        context.live_in_segment.resize(segments_);
+        context.ended_in_segment.resize(segments_);
+    }
+    recent_.resize(segments_ * contexts_.size());
+    port_of_listener_.resize(static_cast<std::size_t>(config.region_listeners), 0);
+    std::size_t port = 0;
+    for (int g = 0; g < config.region_listeners; ++g) {
+        if (shares_row(index, slices, g, config.region_listeners)) {
+            port_of_listener_[static_cast<std::size_t>(g)] = port++;
+        }
+    }
+    SC_HAS_PROCESS(ArraySlice);
+    if (self_.strict()) {
+        SC_THREAD(run);
+    }
+}
+
+void ArraySlice::end_of_elaboration() {
+    packets_ = in.operator->();
+    packets_->connect_reader(self_);
+    if (!self_.strict()) {
+        self_.pump_with(*this, *packets_);
+    }
+    terminated->connect_writer(self_);
+    for (auto& listener : region_ended) {
+        listener->connect_writer(self_);
+    }
+    tile_done->connect_writer(self_);
+    tile_state->connect_writer(self_);
+}
+
+// Inlined: a call more per packet is 1 % of a run.
+inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket& packet) {
+    const Cycle now = self_.local();
+    if (now != packet.slot) {
+        throw std::logic_error(std::string(name()) + ": a packet planned for cycle " +
+                               std::to_string(packet.slot) + " executes in cycle " +
+                               std::to_string(now));
+    }
+    stats_.packets++;
+    stats_.window.include(now);
+    for (int i = 0; i < packet.run_count; ++i) {
+        const TaskRun& run = packet.runs[static_cast<std::size_t>(i)];
+        for (; next_tile_ <= run.tile; ++next_tile_) {
+            start_tile(next_tile_);
+        }
+        check_reuse(run, now);
+        // A segment is blended when its first task executes: nobody else touches its pixels before
+        // its last one, so each packet only has to take its part of the outcome.
+        const std::uint32_t first_task = run.task.mask & (0U - run.task.mask);
+        if ((run.part & first_task) != 0) {
+            outcome_ = job_.path->blend(run.task);
+            const auto count = [](std::uint32_t mask) {
+                return static_cast<std::uint64_t>(__builtin_popcount(mask));
+            };
+            stats_.slots.useful += count(outcome_.useful);
+            stats_.slots.boundary += count(outcome_.boundary);
+            stats_.slots.terminated += count(outcome_.terminated);
+        }
+        if ((outcome_.ended & run.part) != 0) {
+            pixels_ended(run, outcome_.ended & run.part);
+        }
+    }
+}
+
+void ArraySlice::run() {
+    while (!job_.over(tiles_done_)) {
+        packets_->wait_for_item(self_);
+        pump();
+    }
+}
+
+void ArraySlice::pump() {
+    while (!packets_->empty()) {
+        const TaskPacket& packet = packets_->arrive(self_);
+        const bool executed = packet.tasks != 0;
+        if (executed) {
+            execute(packet);
+        }
+        const bool ends = packet.ends_tile;
+        const TileNumber tile = packet.ended_tile;
+        packets_->drop(self_);
+        if (ends) {
+            end_tile(tile);
+        }
+        if (executed) {
+            self_.advance();
+        }
+        if (ends && job_.over(++tiles_done_)) {
+            self_.finish();
+        }
+    }
+}
+
+void ArraySlice::start_tile(TileNumber number) {
+    const JobTile& tile = job_.tiles[number];
+    Context& context = context_of(number);
+    context.tile = number;
+    context.live_pixels = 0;
+    context.reported = false;
+    std::fill(context.ended_in_segment.begin(), context.ended_in_segment.end(), 0U);
+    for (std::size_t s = 0; s < context.live_in_segment.size(); ++s) {
+        const int row = static_cast<int>(s) / segments_per_row_ * slices_ + index_;
+        const int column = static_cast<int>(s) % segments_per_row_ * segment_length_;
+        const int width = std::clamp(tile.width - column, 0, segment_length_);
+        context.live_in_segment[s] = row < tile.height ? width : 0;
+        context.live_pixels += context.live_in_segment[s];
+    }
+}
+
+// The invariant the scoreboard exists for; see the tests that switch it off.
+void ArraySlice::check_reuse(const TaskRun& run, Cycle date) {
+    Recent& recent = recent_[static_cast<std::size_t>(run.task.context) * segments_ + run.domain];
+    const bool late = date - recent.date >= static_cast<Cycle>(config_.writeback_cycles);
+    const std::uint32_t busy = late ? 0 : recent.mask;
+    stats_.hazards += static_cast<std::uint64_t>(__builtin_popcount(busy & run.part));
+    recent.mask = busy | run.part;
+    recent.date = date;
+}
+
+void ArraySlice::pixels_ended(const TaskRun& run, std::uint32_t ended) {
+    Context& context = contexts_[static_cast<std::size_t>(run.task.context)];
+    const std::size_t segment = run.domain;
+    const int count = __builtin_popcount(ended);
+    context.ended_in_segment[segment] |= ended;
+    context.live_in_segment[segment] -= count;
+    context.live_pixels -= count;
+    stats_.pixels_ended += static_cast<std::uint64_t>(count);
+    const bool all = context.live_in_segment[segment] == 0;
+    if (all && config_.region_listeners != 0) {
+        report_region(context, run);
+    }
+    if (all || config_.termination == TerminationGrain::Pixel) {
+        Termination message;
+        message.tile = context.tile;
+        message.row = run.task.row;
+        message.column = run.task.column;
+        message.mask = context.ended_in_segment[segment];
+        terminated->put(self_, message);
+    }
+    if (context.live_pixels == 0 && !context.reported) {
+        context.reported = true;
+        tile_state->put(self_, {context.tile, true});
+    }
+}
+
+void ArraySlice::report_region(const Context& context, const TaskRun& run) {
+    const auto listener = static_cast<std::size_t>(run.task.row % config_.region_listeners);
+    const auto segment = static_cast<std::int16_t>(run.task.column / segment_length_);
+    region_ended[port_of_listener_[listener]]->put(self_, {context.tile, run.task.row, segment});
+}
+
+void ArraySlice::end_tile(TileNumber number) {
+    for (; next_tile_ <= number; ++next_tile_) {
+        start_tile(next_tile_); // no task of the tile came here
+    }
+    Context& context = context_of(number);
+    if (!context.reported) {
+        context.reported = true;
+        tile_state->put(self_, {number, context.live_pixels == 0});
+    }
+    tile_done->put(self_, {number, context.live_pixels == 0});
+}
+
+} // namespace degs

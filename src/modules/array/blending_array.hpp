@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+
+#include "modules/array/slot_account.hpp"
+#include "modules/render_job.hpp"
+#include "modules/scheduler/issue_bank.hpp"
+#include "tlm/dated_fifo.hpp"
+
+namespace degs {
+
+/// One slice of the Blending Array: the PEs that serve one bank (paper, Sec. IV-C). Executes one
+/// packet per cycle, in order; q_n, alpha and the recurrence come from the data path; pixel state
+/// is written back after `writeback_cycles`, and so are the reports that a pixel or a whole segment
+/// has ended. The slice never stalls: whatever could stop it is checked before a packet is issued.
+class ArraySlice : public sc_core::sc_module, private Pumped {
+public:
+    struct Config {
+        int width = 8;            ///< PEs
+        int writeback_cycles = 4; ///< execution to pixel state written back (paper: 4)
+        TerminationGrain termination = TerminationGrain::Segment;
+        int region_listeners = 0; ///< Slicing Units in all if they skip dead rows, else 0
+    };
+    struct Stats {
+        SlotAccount slots; ///< executed tasks by class; idle slots are the Packing Unit's
+        ActiveWindow window;
+        std::uint64_t packets = 0;
+        std::uint64_t hazards = 0; ///< pixels updated again before their write-back: must be 0
+        std::uint64_t pixels_ended = 0;
+    };
+
+    FifoPort<TaskPacket> in;
+    FifoPort<Termination> terminated; ///< to the bank
+    /// To the Slicing Units that share a row with this slice; empty unless they skip dead rows.
+    sc_core::sc_vector<FifoPort<RegionEnded>> region_ended;
+    FifoPort<SliceReport> tile_done;  ///< to the Pixel Buffer, once per tile
+    FifoPort<SliceReport> tile_state; ///< to the Tile Monitor, once per tile
+
+    ArraySlice(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+               RenderJob& job, int index, int slices, int segment_length, int contexts);
+
+    const Stats& stats() const { return stats_; }
+
+private:
+    /// Tile state kept per context: what is still alive in this slice's rows.
+    struct Context {
+        TileNumber tile = 0;
+        int live_pixels = 0;
+        bool reported = false;
+        std::vector<int> live_in_segment;
+        std::vector<std::uint32_t> ended_in_segment;
+    };
+    struct Recent {
+        Cycle date = 0;
+        std::uint32_t mask = 0;
+    };
+    void end_of_elaboration() override;
+    void run();
+    void pump() override;
+    void start_tile(TileNumber number);
+    void execute(const TaskPacket& packet);
+    void check_reuse(const TaskRun& run, Cycle date);
+    void pixels_ended(const TaskRun& run, std::uint32_t ended);
+    void report_region(const Context& context, const TaskRun& run);
+    void end_tile(TileNumber number);
+    Context& context_of(TileNumber tile) { return contexts_[tile % contexts_.size()]; }
+
+    Config config_;
+    RenderJob& job_;
+    int index_, slices_, segment_length_, segments_per_row_;
+    Process self_;
+    DatedFifo<TaskPacket>* packets_ = nullptr; // what `in` is bound to
+    std::vector<Context> contexts_;
+    std::size_t segments_; // of a context
+    std::vector<std::size_t> port_of_listener_;
+    std::vector<Recent> recent_; // per context and segment: pixels updated lately
+    BlendOutcome outcome_;       // of the segment whose tasks execute
+    TileNumber tiles_done_ = 0;
+    TileNumber next_tile_ = 0; // first tile that has not started here
+    Stats stats_;
+};
+
+} // namespace degs

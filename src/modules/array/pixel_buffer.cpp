@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/array/pixel_buffer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include <glm/gtc/packing.hpp>
+
+namespace degs {
+namespace {
+
+void encode(const PixelValue& pixel, int pixel_bytes, unsigned char* bytes) {
+    const std::array<double, 4> values{pixel.rgb[0], pixel.rgb[1], pixel.rgb[2],
+                                       1.0 - pixel.transmittance};
+    for (std::size_t c = 0; c < values.size(); ++c) {
+        if (pixel_bytes == 8) {
+            const std::uint16_t half = glm::packHalf1x16(static_cast<float>(values[c]));
+            std::memcpy(bytes + 2 * c, &half, sizeof half);
+        } else {
+            bytes[c] = static_cast<unsigned char>(std::clamp(values[c], 0.0, 1.0) * 255.0 + 0.5);
+        }
+    }
+}
+
+} // namespace
+
+void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("bytes", bytes, 1, 1 << 30, "bytes of tile contexts (paper Table I: 16 KB)");
+    visitor.integer(
+        "state_bytes", state_bytes, 1, 64,
+        "bytes per pixel; 16 = T and RGB in single precision fills 16 KB with one 32 x 32 "
+        "tile [assumed]");
+    visitor.choice("release", release, {"tile", "bank"},
+                   "when a context may hold the next tile: once all slices have finished, or each "
+                   "bank's rows on their own [assumed]");
+    visitor.integer("writes_in_flight", writes_in_flight, 1, 1024,
+                    "tile writes not yet acknowledged by memory; 4 hide its latency behind short "
+                    "tiles [assumed]");
+    visitor.integer("readout_pixels", readout_pixels, 1, 4096,
+                    "pixels per cycle when a finished tile is read out; one per PE [assumed]");
+}
+
+PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& config,
+                         const TrafficConfig& traffic, const Timebase& time, RenderJob& job,
+                         std::size_t slices, int contexts, const Share& share, bool gated,
+                         bool instant)
+    : sc_core::sc_module(name), in("in", slices), context_free("context_free", slices),
+      frame_done("frame_done", gated ? 1 : 0), frame_buffer("frame_buffer", time), config_(config),
+      traffic_(traffic), job_(job), contexts_(contexts), share_(share), instant_(instant),
+      self_(time), in_flight_(static_cast<std::size_t>(config.writes_in_flight), 0) {
+    for (int c = 0; c < contexts; ++c) {
+        clear(share.first_context + c);
+    }
+    SC_HAS_PROCESS(PixelBuffer);
+    SC_THREAD(run);
+}
+
+void PixelBuffer::clear(int context) {
+    for (int row = share_.first_row; row < job_.tile_size; row += share_.row_stride) {
+        job_.path->begin_row(context, row);
+    }
+}
+
+void PixelBuffer::end_of_elaboration() {
+    for (auto& port : in) {
+        port->connect_reader(self_);
+    }
+    for (auto& port : context_free) {
+        port->connect_writer(self_);
+    }
+    for (auto& port : frame_done) {
+        port->connect_writer(self_);
+    }
+}
+
+void PixelBuffer::run() {
+    TileNumber number = 0;
+    while ((share_.granted || !job_.over(stats_.tiles)) && take_tile(number)) {
+        finish_tile(number);
+    }
+    frames_written_.resize(std::max(frames_written_.size(), job_.frames.size()), 0);
+    self_.finish();
+}
+
+// False: there are no more tiles.
+bool PixelBuffer::take_tile(TileNumber& number) {
+    for (auto& port : in) {
+        number = port->get(self_).tile;
+    }
+    return number != kNoTile;
+}
+
+// Of a granted tile: before it is counted.
+int PixelBuffer::context_of(TileNumber number) const {
+    const std::uint64_t turn = share_.granted ? stats_.tiles : number;
+    return share_.first_context + static_cast<int>(turn % static_cast<std::uint64_t>(contexts_));
+}
+
+void PixelBuffer::finish_tile(TileNumber number) {
+    const Cycle ready = self_.local();
+    Cycle& oldest = in_flight_[stats_.tiles % in_flight_.size()];
+    self_.advance_to(oldest);
+    stats_.write_wait += self_.local() - ready;
+    const Cycle start = self_.local();
+    oldest = write_rows(number);
+    written_ = std::max(written_, oldest);
+    read_out_ = self_.local();
+    stats_.readout_busy += read_out_ - start;
+    clear(context_of(number));
+    const std::uint32_t frame = job_.tiles[number].frame;
+    if (frame >= frames_written_.size()) {
+        frames_written_.resize(frame + 1, 0);
+    }
+    frames_written_[frame] = std::max(written_, read_out_);
+    for (auto& port : frame_done) {
+        port->put_at(self_, frame, oldest);
+    }
+    stats_.finished = std::max(written_, read_out_);
+    stats_.tiles++;
+    const TileNumber next = number + static_cast<TileNumber>(contexts_);
+    if (share_.granted || !job_.over(next)) {
+        for (auto& port : context_free) {
+            port->put(self_, next);
+        }
+    }
+}
+
+// One posted write per row, as the rows are read out, at most kRowsPerCycle in a cycle: an access
+// takes the kernel half a cycle on, see Memory. Returns the completion of the last one.
+Cycle PixelBuffer::write_rows(TileNumber number) {
+    constexpr int kRowsPerCycle = 2;
+    const JobTile& tile = job_.tiles[number];
+    const MemoryMap map = job_.map(tile.frame, traffic_);
+    const auto pixel_bytes = static_cast<std::uint64_t>(job_.pixel_bytes(tile.frame, traffic_));
+    const auto frame_width = static_cast<std::uint64_t>(job_.frame_of(tile).camera.width);
+    const int per_cycle = std::max(1, config_.readout_pixels / share_.row_stride);
+    const Cycle start = self_.local();
+    Cycle done = start;
+    int read = 0; // pixels
+    int row = 0;
+    for (int y = share_.first_row; y < tile.height; y += share_.row_stride, ++row) {
+        if (!instant_) {
+            self_.advance_to(start +
+                             static_cast<Cycle>(std::max(read / per_cycle, row / kRowsPerCycle)));
+        }
+        const auto image_row = static_cast<std::uint64_t>(tile.y + y);
+        const std::uint64_t address =
+            map.frame_buffer +
+            (image_row * frame_width + static_cast<std::uint64_t>(tile.x)) * pixel_bytes;
+        const std::vector<unsigned char>& pixels = read_out(number, y);
+        if (instant_) {
+            frame_buffer.poke(address, pixels);
+        } else {
+            done = std::max(done, frame_buffer.write(self_, address, pixels));
+        }
+        read += tile.width;
+    }
+    if (instant_) {
+        return done;
+    }
+    self_.advance_to(start +
+                     static_cast<Cycle>(std::max((read + per_cycle - 1) / per_cycle,
+                                                 (row + kRowsPerCycle - 1) / kRowsPerCycle)));
+    return done;
+}
+
+const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y) {
+    const JobTile& tile = job_.tiles[number];
+    Image& image = job_.images[tile.frame];
+    const int pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
+    pixels_.resize(static_cast<std::size_t>(tile.width));
+    bytes_.resize(pixels_.size() * static_cast<std::size_t>(pixel_bytes));
+    job_.path->read_row(context_of(number), y, tile.width, pixels_.data());
+    unsigned char* out = bytes_.data();
+    std::size_t i = image.at(tile.x, tile.y + y);
+    for (const PixelValue& pixel : pixels_) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            image.rgb[i * 3 + c] = static_cast<float>(pixel.rgb[c]);
+        }
+        image.transmittance[i] = static_cast<float>(pixel.transmittance);
+        image.fragments[i] = pixel.updates;
+        encode(pixel, pixel_bytes, out);
+        out += pixel_bytes;
+        ++i;
+    }
+    return bytes_;
+}
+
+} // namespace degs

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+
+#include "config/config.hpp"
+#include "modules/render_job.hpp"
+#include "modules/traffic.hpp"
+#include "tlm/dated_fifo.hpp"
+#include "tlm/memory_port.hpp"
+
+namespace degs {
+
+/// When a tile context may hold the next tile. `Tile`: once all slices have finished. `Bank`: the
+/// Pixel Buffer is banked by row like the Issue Banks, and each bank hands its rows back on its
+/// own.
+enum class ContextRelease { Tile, Bank };
+
+/// Holds the pixels of the tiles in flight (paper Table I, "Pixel Buffer") and writes finished
+/// tiles to the frame buffer in memory as RGBA8 or RGBA16F. A context is free again once every
+/// slice has finished its tile and the pixels have been read out; the write itself is
+/// posted.
+/// One instance serves a share of the pixels: all of them, one bank's rows, or the tiles that are
+/// granted to one engine.
+class PixelBuffer : public sc_core::sc_module {
+public:
+    struct Config {
+        int bytes = 16384;        ///< capacity
+        int state_bytes = 16;     ///< per pixel: T and three colours
+        int readout_pixels = 64;  ///< read out per cycle
+        int writes_in_flight = 4; ///< tile writes not yet acknowledged
+        ContextRelease release = ContextRelease::Tile;
+        void describe(ConfigVisitor& visitor);
+        /// Tile contexts that fit; 0 if not even one does.
+        int contexts(int tile_size) const { return bytes / (state_bytes * tile_size * tile_size); }
+    };
+    struct Stats {
+        Cycle readout_busy = 0;
+        Cycle write_wait = 0; ///< ready to read out, but too many writes were in flight
+        Cycle finished = 0;   ///< date at which the last pixel was in memory
+        std::uint64_t tiles = 0;
+    };
+    /// Which pixels are this instance's, and where it keeps them.
+    struct Share {
+        int first_row = 0, row_stride = 1; ///< rows y = first, first + stride, ... of every tile
+        int first_context = 0;             ///< in the data path
+        /// Tiles come one by one, ascending, until kNoTile, and use this instance's contexts in
+        /// turn; else all tiles of the job come, and tile t uses context t modulo the contexts.
+        bool granted = false;
+    };
+
+    sc_core::sc_vector<FifoPort<SliceReport>> in; ///< one per array slice
+    /// The tile that may now use its context, one per bank; of granted tiles only the number of
+    /// messages counts.
+    sc_core::sc_vector<FifoPort<TileNumber>> context_free;
+    /// The frame of every tile written, to the Frame Gate; empty without one.
+    sc_core::sc_vector<FifoPort<std::uint32_t>> frame_done;
+    MemoryPort frame_buffer;
+
+    /// `instant`: a context is free again at once, see BuildOptions.
+    PixelBuffer(const sc_core::sc_module_name& name, const Config& config,
+                const TrafficConfig& traffic, const Timebase& time, RenderJob& job,
+                std::size_t slices, int contexts, const Share& share, bool gated = false,
+                bool instant = false);
+
+    const Stats& stats() const { return stats_; }
+    /// Dates at which each frame's last pixel of this share was in memory.
+    const std::vector<Cycle>& frames_written() const { return frames_written_; }
+
+private:
+    void end_of_elaboration() override;
+    void run();
+    void clear(int context);
+    bool take_tile(TileNumber& number);
+    void finish_tile(TileNumber number);
+    int context_of(TileNumber number) const;
+    Cycle write_rows(TileNumber number);
+    const std::vector<unsigned char>& read_out(TileNumber number, int y);
+
+    Config config_;
+    TrafficConfig traffic_;
+    RenderJob& job_;
+    int contexts_;
+    Share share_;
+    bool instant_;
+    Process self_;
+    Cycle written_ = 0;                // completion of the latest write
+    Cycle read_out_ = 0;               // date at which the latest pixel had been read out
+    std::vector<Cycle> in_flight_;     // ring of completion dates of the latest tile writes
+    std::vector<PixelValue> pixels_;   // of the row being read out
+    std::vector<unsigned char> bytes_; // the same as frame-buffer pixels
+    std::vector<Cycle> frames_written_;
+    Stats stats_;
+};
+
+} // namespace degs

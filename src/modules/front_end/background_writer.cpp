@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/front_end/background_writer.hpp"
+
+#include <algorithm>
+
+namespace degs {
+
+BackgroundWriter::BackgroundWriter(const sc_core::sc_module_name& name,
+                                   const TrafficConfig& traffic, const Timebase& time,
+                                   const RenderJob& job, int cycles_per_write, bool reports,
+                                   bool instant)
+    : sc_core::sc_module(name), frame_done("frame_done", reports ? 1 : 0),
+      frame_buffer("frame_buffer", time), traffic_(traffic), job_(job),
+      cycles_per_write_(static_cast<Cycle>(cycles_per_write)), instant_(instant), self_(time) {
+    SC_HAS_PROCESS(BackgroundWriter);
+    SC_THREAD(run);
+}
+
+void BackgroundWriter::end_of_elaboration() {
+    for (auto& port : frame_done) {
+        port->connect_writer(self_);
+    }
+}
+
+void BackgroundWriter::run() {
+    for (std::uint32_t f = 0; job_.has_frame(self_, f); ++f) {
+        const Cycle done = write_frame(f);
+        stats_.finished = std::max(stats_.finished, done);
+        frames_written_.push_back(done);
+        for (auto& port : frame_done) {
+            port->put_at(self_, f, done);
+        }
+    }
+    self_.finish();
+}
+
+// A tile lists no splat if its part of the frame's list is empty.
+Cycle BackgroundWriter::write_frame(std::uint32_t frame) {
+    const FrameWorkload& work = *job_.frames[frame];
+    Cycle done = self_.local();
+    const auto empty = [&work](int tile) {
+        const auto t = static_cast<std::size_t>(tile);
+        return work.tile_begin[t] == work.tile_begin[t + 1];
+    };
+    for (int row = 0; row < work.tiles_y; ++row) {
+        for (int begin = 0; begin < work.tiles_x;) {
+            int end = begin;
+            while (end < work.tiles_x && empty(row * work.tiles_x + end)) {
+                ++end;
+            }
+            if (end != begin) {
+                done = std::max(done, write_run(frame, row, begin, end));
+            }
+            begin = end + 1;
+        }
+    }
+    return done;
+}
+
+// Tiles [begin, end) of a row of tiles. Background is transparent black: zeros in any format.
+Cycle BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, int end) {
+    stats_.tiles += static_cast<std::uint64_t>(end - begin);
+    Cycle done = self_.local();
+    if (instant_) {
+        return done;
+    }
+    const FrameWorkload& work = *job_.frames[frame];
+    const int left = begin * work.tile_size;
+    const int width = std::min(end * work.tile_size, work.camera.width) - left;
+    const int top = tile_row * work.tile_size;
+    const int bottom = std::min(top + work.tile_size, work.camera.height);
+    // Rows as wide as the image follow each other.
+    const int rows = width == work.camera.width ? bottom - top : 1;
+    const auto pixel_bytes = static_cast<std::uint64_t>(job_.pixel_bytes(frame, traffic_));
+    const std::vector<unsigned char> zeros(static_cast<std::size_t>(rows * width) * pixel_bytes, 0);
+    const std::uint64_t base = job_.map(frame, traffic_).frame_buffer;
+    for (int y = top; y < bottom; y += rows) {
+        const std::uint64_t pixel =
+            static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(work.camera.width) +
+            static_cast<std::uint64_t>(left);
+        self_.advance_to(next_write_);
+        next_write_ = self_.local() + cycles_per_write_;
+        done = std::max(done, frame_buffer.write(self_, base + pixel * pixel_bytes, zeros));
+    }
+    return done;
+}
+
+} // namespace degs

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/front_end/frame_ends.hpp"
+
+namespace degs {
+
+void FrameEnds::build(const FrameEndConfig& config, const Timebase& time,
+                      const TrafficConfig& traffic, const RenderJob& job,
+                      const PixelBuffers& buffers,
+                      sc_core::sc_vector<FifoPort<std::uint32_t>>& listeners, std::uint64_t reports,
+                      const BuildOptions& options) {
+    const bool gated = awaited(listeners, options);
+    background_ = std::make_unique<BackgroundWriter>("background", traffic, time, job,
+                                                     config.background_cycles_per_write, gated,
+                                                     options.array_only);
+    if (!gated) {
+        return;
+    }
+    constexpr int kDepth = 64; // one message per tile: more than can wait for the gate
+    const std::size_t waiting = listeners.size() + (options.finished != nullptr ? 1 : 0);
+    gate_ =
+        std::make_unique<FrameGate>("frame_gate", time, job, buffers.size() + 1, waiting, reports);
+    for (std::size_t i = 0; i <= buffers.size(); ++i) {
+        auto& done = add_ring(rings_, "frame_done", time, kDepth, 1);
+        auto& reporter =
+            i < buffers.size() ? buffers[i]->frame_done[0] : background_->frame_done[0];
+        reporter.bind(done);
+        gate_->in[i].bind(done);
+    }
+    for (std::size_t i = 0; i < listeners.size(); ++i) {
+        auto& free = add_ring(rings_, "frame_free", time, kDepth, config.gate_latency_cycles);
+        gate_->out[i].bind(free);
+        listeners[i].bind(free);
+    }
+    if (options.finished != nullptr) {
+        gate_->out[listeners.size()].bind(*options.finished);
+    }
+}
+
+} // namespace degs

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "modules/collect.hpp"
+#include "modules/front_end/background_writer.hpp"
+#include "modules/front_end/frame_end_config.hpp"
+#include "modules/front_end/frame_gate.hpp"
+#include "modules/memory_streams.hpp"
+
+namespace degs {
+
+/// What every accelerator needs at the end of a frame besides its Pixel Buffers: the Background
+/// Writer, and, where somebody waits for finished frames, the Frame Gate with its rings.
+class FrameEnds {
+public:
+    /// Does anybody wait? The Pixel Buffers must then have their port `frame_done`.
+    static bool awaited(const sc_core::sc_vector<FifoPort<std::uint32_t>>& listeners,
+                        const BuildOptions& options) {
+        return listeners.size() != 0 || options.finished != nullptr;
+    }
+
+    /// `listeners`: ports of the front end that wait for finished frames. `reports`: see FrameGate.
+    void build(const FrameEndConfig& config, const Timebase& time, const TrafficConfig& traffic,
+               const RenderJob& job, const PixelBuffers& buffers,
+               sc_core::sc_vector<FifoPort<std::uint32_t>>& listeners, std::uint64_t reports,
+               const BuildOptions& options);
+    void connect_memory(MemoryStreams& streams) {
+        streams.connect(background_->frame_buffer, "frame_buffer");
+    }
+    const BackgroundWriter& background() const { return *background_; }
+
+private:
+    std::unique_ptr<BackgroundWriter> background_;
+    std::unique_ptr<FrameGate> gate_;
+    std::vector<std::unique_ptr<DatedFifo<std::uint32_t>>> rings_;
+};
+
+} // namespace degs

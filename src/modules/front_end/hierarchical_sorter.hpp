@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+
+#include "config/config.hpp"
+#include "modules/front_end/list_loader.hpp"
+
+namespace degs {
+
+/// Sorts the list of a tile in two steps, as GSCore does: a coarse partition by pivots into chunks
+/// that are in depth order among themselves, then each chunk exactly, just before it is rendered.
+/// Chunks of a tile that has been cancelled are never sorted. Tiles go round the units; loading,
+/// the coarse step and the fine step overlap.
+///
+/// A coarse level halves the partitions and moves every key once. While partitions are longer than
+/// the unit's buffer, levels go through memory, and each chunk is read once more before its fine
+/// step.
+class HierarchicalSorter : public sc_core::sc_module {
+public:
+    struct Config {
+        int count = 4;               ///< units
+        int chunk = 256;             ///< keys that are sorted exactly at a time
+        int keys_per_cycle = 2;      ///< moved per cycle and coarse level
+        int fine_cycles_per_key = 2; ///< of the exact step
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Stats {
+        Cycle coarse_busy = 0, fine_busy = 0;
+        std::uint64_t keys = 0; ///< partitioned
+        std::uint64_t keys_sorted = 0, keys_cancelled = 0;
+        std::uint64_t memory_levels = 0;
+    };
+
+    FifoPort<std::uint32_t> start; ///< frame tokens from the binner
+    FifoPort<TileNumber> cancel;   ///< from the Tile Monitor
+    FifoPort<SortedRun> sorted;    ///< to a Splat Fetcher, a run per chunk; kNoTile at the end
+    ListLoader loader;
+    MemoryPort lists;  ///< of coarse levels through memory
+    MemoryPort chunks; ///< of long lists, before the exact step
+
+    /// `capacity`: keys that fit the unit's share of the buffer.
+    HierarchicalSorter(const sc_core::sc_module_name& name, const Config& config,
+                       const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
+                       int index, std::uint64_t capacity);
+
+    const Stats& stats() const { return stats_; }
+
+private:
+    void end_of_elaboration() override;
+    void coarse();
+    void fine();
+    void sort_chunks(TileNumber number);
+    bool cancelled(TileNumber number);
+    bool through_memory(const JobTile& tile) const { return tile.count > capacity_; }
+
+    Config config_;
+    TrafficConfig traffic_;
+    const RenderJob& job_;
+    std::size_t index_;
+    std::uint64_t capacity_;
+    Process partitioner_, sorter_;
+    DatedFifo<TileNumber> loaded_, partitioned_;
+    TileNumber cancelled_before_ = 0; // tiles below this number are cancelled or over
+    Stats stats_;
+};
+
+} // namespace degs

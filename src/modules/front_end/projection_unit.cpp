@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/front_end/projection_unit.hpp"
+
+#include <algorithm>
+
+namespace degs {
+
+void ProjectionUnit::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("count", count, 1, 64, "units (paper Table I: 4)");
+    visitor.integer("chunk", chunk, 1, 4096,
+                    "Gaussians per geometry request; 64 x 22 B keeps bursts long [assumed]");
+    visitor.integer("chunks_in_flight", chunks_in_flight, 1, 256,
+                    "geometry requests outstanding per unit; 4 cover a 100 ns memory [assumed]");
+    visitor.integer("cycles_per_gaussian", cycles_per_gaussian, 1, 1024,
+                    "cycles; one Gaussian per cycle and unit, so that bandwidth limits [assumed]");
+    visitor.integer("cycles_per_colour", cycles_per_colour, 1, 1024,
+                    "cycles per visible Gaussian for its SH colour [assumed]");
+    visitor.integer("latency_cycles", latency_cycles, 1, 4096,
+                    "cycles; depth of the projection pipeline [assumed]");
+}
+
+ProjectionUnit::ProjectionUnit(const sc_core::sc_module_name& name, const Config& config,
+                               const TrafficConfig& traffic, const Timebase& time,
+                               const RenderJob& job, int index, int frames_in_flight)
+    : sc_core::sc_module(name), geometry("geometry", time), sh("sh", time), out("out"),
+      frame_free("frame_free", frames_in_flight == 0 ? 0 : 1), config_(config), traffic_(traffic),
+      job_(job), index_(index), frames_in_flight_(static_cast<std::uint32_t>(frames_in_flight)),
+      fetcher_(time), projector_(time), shader_(time),
+      fetched_("fetched", time, static_cast<std::size_t>(config.chunks_in_flight)),
+      projected_("projected", time, static_cast<std::size_t>(config.chunks_in_flight),
+                 static_cast<Cycle>(config.latency_cycles)) {
+    SC_HAS_PROCESS(ProjectionUnit);
+    SC_THREAD(fetch);
+    SC_THREAD(project);
+    SC_THREAD(shade);
+}
+
+void ProjectionUnit::end_of_elaboration() {
+    fetched_.connect_writer(fetcher_);
+    fetched_.connect_reader(projector_);
+    projected_.connect_writer(projector_);
+    projected_.connect_reader(shader_);
+    out->connect_writer(shader_);
+    for (auto& port : frame_free) {
+        port->connect_reader(fetcher_);
+    }
+}
+
+void ProjectionUnit::fetch() {
+    const auto chunk = static_cast<std::uint64_t>(config_.chunk);
+    const std::uint64_t stride = chunk * static_cast<std::uint64_t>(config_.count);
+    for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); ++f) {
+        if (frames_in_flight_ != 0 && f >= frames_in_flight_) {
+            frame_free[0]->get(fetcher_);
+        }
+        const MemoryMap map = job_.map(f, traffic_);
+        const std::uint64_t total = job_.frames[f]->gaussians;
+        for (std::uint64_t first = chunk * static_cast<std::uint64_t>(index_); first < total;
+             first += stride) {
+            const std::uint64_t count = std::min(chunk, total - first);
+            const auto bytes = static_cast<std::uint64_t>(traffic_.geometry_bytes);
+            fetched_.reserve(fetcher_);
+            const Cycle ready =
+                geometry.read(fetcher_, map.geometry + first * bytes, count * bytes);
+            fetched_.put_at(fetcher_, {f, first, count}, ready);
+            fetcher_.advance();
+        }
+    }
+    fetcher_.finish();
+}
+
+void ProjectionUnit::project() {
+    for (std::uint32_t f = 0; job_.has_frame(projector_, f); ++f) {
+        const FrameWorkload& frame = *job_.frames[f];
+        const auto chunk = static_cast<std::uint64_t>(config_.chunk);
+        for (std::uint64_t first = chunk * static_cast<std::uint64_t>(index_);
+             first < frame.gaussians; first += chunk * static_cast<std::uint64_t>(config_.count)) {
+            const Chunk in = fetched_.get(projector_);
+            const auto& ids = frame.visible_of;
+            const auto begin = std::lower_bound(ids.begin(), ids.end(), in.first);
+            const auto end = std::lower_bound(begin, ids.end(), in.first + in.count);
+            ProjectedChunk result;
+            result.frame = f;
+            result.first_visible = static_cast<std::uint32_t>(begin - ids.begin());
+            result.visible = static_cast<std::uint32_t>(end - begin);
+            result.tile_pairs = job_.pairs_before(f, result.first_visible + result.visible) -
+                                job_.pairs_before(f, result.first_visible);
+            const Cycle busy = in.count * static_cast<Cycle>(config_.cycles_per_gaussian);
+            projector_.advance(busy);
+            stats_.project_busy += busy;
+            stats_.gaussians += in.count;
+            projected_.reserve(projector_);
+            projected_.put_at(projector_, result, read_sh(f, in, result));
+        }
+    }
+    projector_.finish();
+}
+
+Cycle ProjectionUnit::read_sh(std::uint32_t f, const Chunk& chunk, const ProjectedChunk& visible) {
+    const FrameWorkload& frame = *job_.frames[f];
+    const MemoryMap map = job_.map(f, traffic_);
+    if (traffic_.sh == ShReads::All) {
+        const std::uint64_t record = traffic_.sh_bytes(frame.sh_degree);
+        return sh.read(projector_, map.sh + chunk.first * record, chunk.count * record);
+    }
+    return sh.read(projector_, map.sh,
+                   sh_bursts(frame, visible) * static_cast<std::uint64_t>(traffic_.burst_bytes));
+}
+
+// Distinct bursts that the visible records of a chunk touch; neighbours share one.
+std::uint64_t ProjectionUnit::sh_bursts(const FrameWorkload& frame,
+                                        const ProjectedChunk& chunk) const {
+    const std::uint64_t record = traffic_.sh_bytes(frame.sh_degree);
+    const auto burst = static_cast<std::uint64_t>(traffic_.burst_bytes);
+    std::uint64_t count = 0;
+    std::uint64_t next_free = 0; // bursts below this are counted already
+    for (std::uint32_t v = 0; v < chunk.visible; ++v) {
+        const std::uint64_t id = frame.visible_of[chunk.first_visible + v];
+        const std::uint64_t first = std::max(id * record / burst, next_free);
+        const std::uint64_t end = ((id + 1) * record - 1) / burst + 1;
+        count += end > first ? end - first : 0;
+        next_free = std::max(next_free, end);
+    }
+    return count;
+}
+
+void ProjectionUnit::shade() {
+    for (std::uint32_t f = 0; job_.has_frame(shader_, f); ++f) {
+        const auto chunk = static_cast<std::uint64_t>(config_.chunk);
+        for (std::uint64_t first = chunk * static_cast<std::uint64_t>(index_);
+             first < job_.frames[f]->gaussians;
+             first += chunk * static_cast<std::uint64_t>(config_.count)) {
+            const ProjectedChunk in = projected_.get(shader_);
+            const Cycle busy =
+                static_cast<Cycle>(in.visible) * static_cast<Cycle>(config_.cycles_per_colour);
+            shader_.advance(busy);
+            stats_.shade_busy += busy;
+            stats_.visible += in.visible;
+            out->put(shader_, in);
+        }
+    }
+    shader_.finish();
+}
+
+} // namespace degs

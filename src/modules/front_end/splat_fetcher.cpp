@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/front_end/splat_fetcher.hpp"
+
+#include <algorithm>
+
+namespace degs {
+
+void SplatFetcher::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("chunk", chunk, 1, 1024, "splat records per request [assumed]");
+    visitor.integer("chunks_in_flight", chunks_in_flight, 1, 1024,
+                    "record requests outstanding per fetcher; covers a 100 ns memory [assumed]");
+}
+
+SplatFetcher::SplatFetcher(const sc_core::sc_module_name& name, const Config& config,
+                           const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
+                           std::size_t readers, bool instant, bool granted, ReuseCache* cache)
+    : sc_core::sc_module(name), sorted("sorted"), cancel("cancel"), out("out", readers),
+      request("request", granted ? 1 : 0), records("records", time), config_(config),
+      traffic_(traffic), job_(job), instant_(instant), granted_(granted), cache_(cache),
+      self_(time), answered_(static_cast<std::size_t>(config.chunks_in_flight), 0) {
+    SC_HAS_PROCESS(SplatFetcher);
+    SC_THREAD(run);
+}
+
+void SplatFetcher::end_of_elaboration() {
+    sorted->connect_reader(self_);
+    cancel->connect_reader(self_);
+    for (auto& port : out) {
+        port->connect_writer(self_);
+    }
+    for (auto& port : request) {
+        port->connect_writer(self_);
+    }
+}
+
+void SplatFetcher::run() {
+    for (SortedRun run = next_run(); run.tile != kNoTile; run = next_run()) {
+        fetch(run);
+    }
+    if (granted_) {
+        SplatChunk end;
+        end.tile = kNoTile;
+        end.last = true;
+        emit(end, 0);
+    }
+    self_.finish();
+}
+
+SortedRun SplatFetcher::next_run() {
+    if (granted_ && done_ == 0) {
+        request[0]->put(self_, {});
+    }
+    return sorted->get(self_);
+}
+
+// Asks before each request; the question takes a cycle.
+bool SplatFetcher::cancelled(TileNumber number) {
+    while (self_.arrived(*cancel.operator->())) {
+        cancelled_before_ = std::max(cancelled_before_, cancel->take(self_) + 1);
+    }
+    if (!instant_) {
+        self_.advance();
+        stats_.busy++;
+    }
+    return number < cancelled_before_;
+}
+
+Cycle SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
+    if (instant_) {
+        return self_.local();
+    }
+    const std::uint32_t missed =
+        cache_ == nullptr ? chunk.count : cache_->request(chunk.tile, chunk.first, chunk.count);
+    if (missed == 0) {
+        return self_.local();
+    }
+    const MemoryMap map = job_.map(tile.frame, traffic_);
+    const auto burst = static_cast<std::uint64_t>(
+        std::max(traffic_.burst_bytes, traffic_.splat_bytes)); // records are scattered
+    Cycle& oldest = answered_[requests_++ % answered_.size()];
+    self_.advance_to(oldest);
+    oldest = records.read(self_, map.splats, missed * burst);
+    return oldest;
+}
+
+void SplatFetcher::emit(const SplatChunk& chunk, Cycle ready) {
+    for (auto& port : out) {
+        port->put_at(self_, chunk, ready);
+    }
+    if (!instant_) {
+        self_.advance();
+        stats_.busy++;
+    }
+}
+
+void SplatFetcher::fetch(const SortedRun& run) {
+    const JobTile& tile = job_.tiles[run.tile];
+    while (run.tile != skipped_ && done_ < run.end) {
+        SplatChunk chunk;
+        chunk.tile = run.tile;
+        chunk.first = tile.first + done_;
+        for (auto& port : out) {
+            port->reserve(self_);
+        }
+        Cycle ready = self_.local();
+        if (cancelled(run.tile)) {
+            stats_.records_cancelled += tile.count - done_;
+            skipped_ = run.tile;
+            done_ = tile.count;
+        } else {
+            chunk.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+                static_cast<std::uint64_t>(config_.chunk), run.end - done_));
+            done_ += chunk.count;
+            stats_.records += chunk.count;
+            ready = read(tile, chunk);
+        }
+        chunk.last = done_ == tile.count;
+        emit(chunk, ready);
+    }
+    if (run.end == tile.count) {
+        done_ = 0;
+    }
+}
+
+} // namespace degs

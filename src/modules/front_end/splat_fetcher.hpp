@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+
+#include "modules/front_end/reuse_cache.hpp"
+#include "modules/render_job.hpp"
+#include "modules/traffic.hpp"
+#include "tlm/dated_fifo.hpp"
+#include "tlm/memory_port.hpp"
+
+namespace degs {
+
+/// Streams the splat records of sorted lists from memory to the rasterisation, in order, a chunk at
+/// a time. Fetching stops when the tile is cancelled: what has been asked for still arrives, the
+/// rest of the list is never read.
+class SplatFetcher : public sc_core::sc_module {
+public:
+    struct Config {
+        int chunk = 16;           ///< splat records per request and hand-over
+        int chunks_in_flight = 8; ///< record requests outstanding
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Stats {
+        Cycle busy = 0;
+        std::uint64_t records = 0, records_cancelled = 0;
+    };
+
+    FifoPort<SortedRun> sorted;                   ///< until kNoTile
+    FifoPort<TileNumber> cancel;                  ///< from the Tile Monitor
+    sc_core::sc_vector<FifoPort<SplatChunk>> out; ///< the same stream to each reader
+    /// To the Tile Dispatcher: the readers have been handed the last chunk of the tile before.
+    /// Empty unless tiles are granted.
+    sc_core::sc_vector<FifoPort<TileRequest>> request;
+    MemoryPort records;
+
+    /// `instant`: records are there when the readers have room for them, see BuildOptions; the
+    /// memory is not asked. `granted`: tiles come one by one on request, and a last chunk of
+    /// kNoTile tells the readers, who cannot know which tiles are theirs, that none follows.
+    /// `cache`: records that it has are not read; null without one.
+    SplatFetcher(const sc_core::sc_module_name& name, const Config& config,
+                 const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
+                 std::size_t readers, bool instant, bool granted = false,
+                 ReuseCache* cache = nullptr);
+
+    const Stats& stats() const { return stats_; }
+
+private:
+    void end_of_elaboration() override;
+    void run();
+    SortedRun next_run();
+    void fetch(const SortedRun& run);
+    void emit(const SplatChunk& chunk, Cycle ready);
+    bool cancelled(TileNumber number);
+    Cycle read(const JobTile& tile, const SplatChunk& chunk);
+
+    Config config_;
+    TrafficConfig traffic_;
+    const RenderJob& job_;
+    bool instant_, granted_;
+    ReuseCache* cache_;
+    Process self_;
+    TileNumber cancelled_before_ = 0; // tiles below this number are cancelled or over
+    TileNumber skipped_ = kNoTile;    // its readers have been told that nothing follows
+    std::uint64_t done_ = 0;          // entries of the tile being fetched
+    std::vector<Cycle> answered_;     // ring of completion dates of the latest requests
+    std::uint64_t requests_ = 0;
+    Stats stats_;
+};
+
+} // namespace degs

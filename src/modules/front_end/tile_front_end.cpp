@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/front_end/tile_front_end.hpp"
+
+#include "modules/collect.hpp"
+
+namespace degs {
+
+TileFrontEnd::TileFrontEnd(const sc_core::sc_module_name& name, const Config& config,
+                           const Timebase& time, const RenderJob& job)
+    : sc_core::sc_module(name), sorted("sorted", static_cast<std::size_t>(config.sorters())),
+      cancel("cancel", config.on_demand && !config.instant
+                           ? static_cast<std::size_t>(config.hierarchical.count)
+                           : 0),
+      frame_free("frame_free",
+                 gated(config, job) ? static_cast<std::size_t>(config.projection.count) : 0) {
+    if (config.instant) {
+        build_sources(time, job);
+    } else {
+        build_units(config, time, job);
+    }
+}
+
+void TileFrontEnd::build_sources(const Timebase& time, const RenderJob& job) {
+    const std::size_t count = sorted.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        sources_.push_back(
+            std::make_unique<ListSource>(numbered("lists", i).c_str(), time, job, i, count));
+        sources_.back()->sorted.bind(sorted[i]);
+    }
+}
+
+void TileFrontEnd::build_units(const Config& config, const Timebase& time, const RenderJob& job) {
+    const std::size_t sorters = sorted.size();
+    const int waits_for = frame_free.size() == 0 ? 0 : config.frames_in_flight;
+    binner_ = std::make_unique<TileBinner>(
+        "binner", config.binning, config.traffic, time, job, config.projection.chunk,
+        static_cast<std::size_t>(config.projection.count), sorters);
+    for (int i = 0; i < config.projection.count; ++i) {
+        const auto unit = static_cast<std::size_t>(i);
+        projection_.push_back(std::make_unique<ProjectionUnit>(numbered("projection", unit).c_str(),
+                                                               config.projection, config.traffic,
+                                                               time, job, i, waits_for));
+        auto& chunks = add_ring(projected_, "projected", time, 4, 1);
+        projection_.back()->out.bind(chunks);
+        binner_->in[unit].bind(chunks);
+        if (waits_for != 0) {
+            projection_.back()->frame_free[0].bind(frame_free[unit]);
+        }
+    }
+    for (std::size_t i = 0; i < sorters; ++i) {
+        auto& frames = add_ring(frames_, "frames", time, kTokenDepth, 1);
+        binner_->out[i].bind(frames);
+        build_sorter(i, config, time, job, frames);
+    }
+}
+
+void TileFrontEnd::build_sorter(std::size_t index, const Config& config, const Timebase& time,
+                                const RenderJob& job, DatedFifo<std::uint32_t>& frames) {
+    const std::string name = numbered("sorting", index);
+    const int i = static_cast<int>(index);
+    if (config.on_demand) {
+        hierarchical_.push_back(std::make_unique<HierarchicalSorter>(
+            name.c_str(), config.hierarchical, config.traffic, time, job, i, config.sort_capacity));
+        hierarchical_.back()->start.bind(frames);
+        hierarchical_.back()->cancel.bind(cancel[index]);
+        hierarchical_.back()->sorted.bind(sorted[index]);
+    } else {
+        sorting_.push_back(std::make_unique<SortingUnit>(
+            name.c_str(), config.sorting, config.traffic, time, job, i, config.sort_capacity));
+        sorting_.back()->start.bind(frames);
+        sorting_.back()->sorted.bind(sorted[index]);
+    }
+}
+
+void TileFrontEnd::connect_memory(MemoryStreams& streams,
+                                  const std::vector<std::unique_ptr<SplatFetcher>>& fetchers) {
+    for (auto& unit : projection_) {
+        streams.connect(unit->geometry, "geometry");
+        streams.connect(unit->sh, "sh");
+    }
+    if (binner_) {
+        streams.connect(binner_->splats, "splats_written");
+        streams.connect(binner_->lists, "tile_lists_written");
+    }
+    for (std::size_t i = 0; i < std::max(sorted.size(), fetchers.size()); ++i) {
+        if (i < sorting_.size()) {
+            streams.connect(sorting_[i]->loader.lists, "tile_lists_sorted");
+            streams.connect(sorting_[i]->lists, "tile_lists_sorted");
+        }
+        if (i < hierarchical_.size()) {
+            streams.connect(hierarchical_[i]->loader.lists, "tile_lists_sorted");
+            streams.connect(hierarchical_[i]->lists, "tile_lists_sorted");
+            streams.connect(hierarchical_[i]->chunks, "tile_lists_sorted");
+        }
+        if (i < fetchers.size()) {
+            streams.connect(fetchers[i]->records, "splats_read");
+        }
+    }
+}
+
+void TileFrontEnd::collect(AcceleratorResult& result) const {
+    if (!binner_) {
+        return;
+    }
+    for (std::size_t f = 0; f < result.frames.size(); ++f) {
+        result.frames[f].preprocessed = binner_->frames_binned()[f];
+    }
+    using P = ProjectionUnit::Stats;
+    // Projecting and shading overlap: the unit is as busy as the busier of the two.
+    add_stage(result, "projection", projection_.size(),
+              std::max(sum_of(projection_, &P::project_busy), sum_of(projection_, &P::shade_busy)),
+              {{"gaussians", sum_of(projection_, &P::gaussians)},
+               {"visible", sum_of(projection_, &P::visible)}});
+    using S = SortingUnit::Stats;
+    add_stage(result, "sorting", sorting_.size(), sum_of(sorting_, &S::sort_busy),
+              {{"keys", sum_of(sorting_, &S::keys)},
+               {"memory_passes", sum_of(sorting_, &S::memory_passes)}});
+    using H = HierarchicalSorter::Stats;
+    // The two steps overlap: the unit is as busy as the busier of them.
+    add_stage(
+        result, "sorting", hierarchical_.size(),
+        std::max(sum_of(hierarchical_, &H::coarse_busy), sum_of(hierarchical_, &H::fine_busy)),
+        {{"keys", sum_of(hierarchical_, &H::keys)},
+         {"keys_sorted", sum_of(hierarchical_, &H::keys_sorted)},
+         {"keys_cancelled", sum_of(hierarchical_, &H::keys_cancelled)},
+         {"coarse_cycles", sum_of(hierarchical_, &H::coarse_busy)},
+         {"fine_cycles", sum_of(hierarchical_, &H::fine_busy)},
+         {"memory_levels", sum_of(hierarchical_, &H::memory_levels)}});
+}
+
+} // namespace degs

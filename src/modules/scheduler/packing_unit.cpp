@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/scheduler/packing_unit.hpp"
+
+namespace degs {
+namespace {
+
+/// The lowest `count` set bits of `mask`, which has more than that.
+std::uint32_t lowest_bits(std::uint32_t mask, int count) {
+    const std::uint32_t lowest = mask & (0U - mask);
+    const std::uint32_t first = (lowest << count) - lowest;
+    if ((mask & first) == first) { // neighbours, as nearly always
+        return first;
+    }
+    std::uint32_t picked = 0;
+    for (; count > 0; --count) {
+        picked |= mask & (0U - mask);
+        mask &= mask - 1;
+    }
+    return picked;
+}
+
+} // namespace
+
+PackingUnit::PackingUnit(const sc_core::sc_module_name& name, const Config& config)
+    : sc_core::sc_module(name), out("out"), config_(config),
+      latency_(static_cast<Cycle>(config.latency_cycles)), width_(static_cast<Cycle>(config.width)),
+      capacity_(width_ * static_cast<Cycle>(config.depth)) {}
+
+Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask) {
+    std::uint32_t left = mask;
+    int count = __builtin_popcount(left);
+    Cycle execution = 0;
+    while (count != 0) {
+        if (!open()) {
+            open_packet(bank);
+        }
+        execution = next_slot_;
+        const int taken = std::min(count, config_.width - tasks_);
+        const std::uint32_t part = taken == count ? left : lowest_bits(left, taken);
+        TaskPacket& packet = ring_->staged();
+        TaskRun& packed = packet.runs[static_cast<std::size_t>(packet.run_count++)];
+        packed = run;
+        packed.task.mask = mask;
+        packed.part = part;
+        left ^= part;
+        count -= taken;
+        tasks_ += taken;
+        if (tasks_ == config_.width) {
+            send(bank, Idle::Starved);
+        }
+    }
+    return execution;
+}
+
+void PackingUnit::open_packet(Process& bank) {
+    ring_->reserve(bank); // free by its dates; the host may not have emptied it yet
+    const Cycle slot = next_execution(bank.local());
+    if (slot > next_slot_) { // else nothing was idle
+        idle_ += since_last_;
+        since_last_ = SlotAccount{};
+    }
+    next_slot_ = slot;
+    open_until_ = slot - latency_;
+    ring_->staged().run_count = 0;
+    ends_tile_ = false;
+}
+
+void PackingUnit::end_tile(Process& bank, TileNumber tile) {
+    // An open packet may hold the tile's last tasks and stays open for the next tile's; it can
+    // carry one end. Without one, the end travels alone and costs the array nothing.
+    if (open() && ends_tile_) {
+        send(bank, Idle::Starved);
+    }
+    if (!open()) {
+        ring_->reserve(bank);
+    }
+    TaskPacket& packet = ring_->staged();
+    packet.ended_tile = tile;
+    if (open()) {
+        ends_tile_ = true;
+    } else {
+        packet.run_count = 0;
+        packet.tasks = 0;
+        packet.ends_tile = true;
+        ring_->put_staged(bank);
+    }
+}
+
+void PackingUnit::send_due(Process& bank, Idle cause) {
+    if (due(bank.local())) {
+        send(bank, cause);
+    }
+}
+
+void PackingUnit::close_cycles(Process& bank, Cycle until, Idle cause) {
+    if (leaves_slots(until)) {
+        const Cycle first_idle = next_execution(bank.local());
+        since_last_.idle(cause, (until + latency_ - first_idle) * width_);
+    }
+}
+
+void PackingUnit::send(Process& bank, Idle cause) {
+    TaskPacket& packet = ring_->staged();
+    packet.slot = next_slot_++;
+    packet.tasks = tasks_;
+    packet.ends_tile = ends_tile_;
+    stats_.packets++;
+    stats_.tasks += static_cast<std::uint64_t>(tasks_);
+    idle_.idle(cause, static_cast<std::uint64_t>(config_.width - tasks_));
+    tasks_ = 0;
+    open_until_ = kNever;
+    ends_tile_ = false;
+    ring_->put_staged(bank);
+}
+
+} // namespace degs

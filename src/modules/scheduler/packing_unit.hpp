@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+
+#include <systemc>
+
+#include "config/config.hpp"
+#include "modules/array/slot_account.hpp"
+#include "modules/messages.hpp"
+#include "tlm/dated_fifo.hpp"
+
+namespace degs {
+
+/// Compacts segments of varying length into packets as wide as its array slice and queues them in
+/// the Packing Buffer (paper, Sec. IV-B: prefix sum and shift). A packet that is not full stays
+/// open until the array wants it, so packing never costs the array a cycle.
+///
+/// The array executes one packet per cycle in order and never stalls, so the cycle in which a task
+/// will execute is known when it is packed. The Issue Bank's scoreboard works with those dates,
+/// which is what keeps the reuse distance at the array also when queued packets drain back to back.
+///
+/// No process of its own: the Issue Bank calls it in its own cycle.
+class PackingUnit : public sc_core::sc_module {
+public:
+    struct Config {
+        int width = 8;          ///< tasks per packet = PEs per array slice
+        int latency_cycles = 2; ///< issue to execution, unloaded: pack, read the buffer
+        int depth = 32;         ///< packets in the Packing Buffer
+    };
+    struct Stats {
+        std::uint64_t packets = 0, tasks = 0;
+    };
+
+    FifoPort<TaskPacket> out;
+
+    PackingUnit(const sc_core::sc_module_name& name, const Config& config);
+
+    /// Execution date of the next task if it is packed at `now`.
+    Cycle next_execution(Cycle now) const { return std::max(now + latency_, next_slot_); }
+    /// Packets' worth of room for `tasks` more tasks at `now`?
+    bool room(Cycle now, int tasks) const {
+        const Cycle queued = std::max(next_slot_, now + 1) - (now + 1);
+        // ceil((open + new) / width) more packets fit, without dividing.
+        return queued * width_ + static_cast<Cycle>(tasks_ + tasks) <= capacity_;
+    }
+    /// Packs those tasks of a segment that `mask` names, at least one; returns the execution date
+    /// of the last one.
+    Cycle add(Process& bank, const TaskRun& run, std::uint32_t mask);
+    /// Tells the array that the bank has nothing more for `tile`.
+    void end_tile(Process& bank, TileNumber tile);
+    /// Must an open packet go at `now`?
+    bool due(Cycle now) const { return open_until_ <= now; }
+    /// Hands over an open packet whose time has come, its empty slots accounted for by `cause`.
+    /// Before the bank asks for its next date: others trust that it does nothing until then.
+    void send_due(Process& bank, Idle cause);
+    /// The cycles [bank.local(), until) are over for the bank; `until` may not lie beyond the date
+    /// given by open_until(). Accounts for those in which the array gets nothing, by `cause`.
+    void close_cycles(Process& bank, Cycle until, Idle cause);
+    /// Latest date up to which the bank may sleep: an open packet has to go then. kNever if none.
+    Cycle open_until() const { return open_until_; }
+    /// Would close_cycles(bank, until, ...) account for empty slots? Else its cause does not
+    /// matter.
+    bool leaves_slots(Cycle until) const {
+        return !open() && started() && until + latency_ > next_slot_;
+    }
+
+    const Stats& stats() const { return stats_; }
+    /// Slots between the first and the last packet that no task filled.
+    const SlotAccount& idle() const { return idle_; }
+
+private:
+    void end_of_elaboration() override { ring_ = out.operator->(); }
+    bool open() const { return tasks_ != 0; }
+    bool started() const { return next_slot_ != 0; } // a packet has been sent or opened
+    void open_packet(Process& bank);
+    void send(Process& bank, Idle cause);
+
+    Config config_;
+    Cycle latency_;
+    Cycle width_, capacity_; // tasks: of a packet, of the Packing Buffer
+    DatedFifo<TaskPacket>* ring_ = nullptr;
+    // The open packet is filled in its cell of the ring.
+    int tasks_ = 0;          // in the open packet; 0: none is open
+    bool ends_tile_ = false; // the open packet carries the end of a tile
+    // Execution date of the open packet; else the first that the next one may have. An open packet
+    // goes before now + latency passes its date, so next_execution() need not ask which.
+    Cycle next_slot_ = 0;
+    Cycle open_until_ = kNever;
+    SlotAccount idle_;
+    SlotAccount since_last_; // idle after the last packet; counts once another one comes
+    Stats stats_;
+};
+
+} // namespace degs

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/scheduler/segment_queue.hpp"
+
+#include <algorithm>
+
+namespace degs {
+SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan)
+    : domains_(domains_per_tile), words_((static_cast<std::size_t>(domains_per_tile) + 63) / 64),
+      tile_mask_(static_cast<std::size_t>(tiles_in_flight) - 1), scan_(scan),
+      bits_(static_cast<std::size_t>(tiles_in_flight) * words_ * (2 + kWheel)),
+      keys_(static_cast<std::size_t>(tiles_in_flight * domains_per_tile)),
+      entries_(static_cast<std::size_t>(depth)),
+      lists_(static_cast<std::size_t>(tiles_in_flight * domains_per_tile)),
+      tiles_(static_cast<std::size_t>(tiles_in_flight)) {
+    std::uint64_t* bits = bits_.data();
+    std::uint64_t* keys = keys_.data();
+    List* lists = lists_.data();
+    for (Tile& tile : tiles_) {
+        tile.lists = lists;
+        tile.keys = keys;
+        tile.occupied = bits;
+        tile.cooling = bits + words_;
+        tile.wheel = bits + 2 * words_;
+        clear_lists(tile);
+        lists += domains_per_tile;
+        keys += domains_per_tile;
+        bits += words_ * (2 + kWheel);
+    }
+    for (int i = depth - 1; i >= 0; --i) {
+        Entry& entry = entries_[static_cast<std::size_t>(i)];
+        entry.next = free_;
+        free_ = &entry;
+    }
+}
+
+Segment& SegmentQueue::push(Tile& tile, int domain, std::uint64_t sequence) {
+    Entry& entry = *free_;
+    free_ = entry.next;
+    size_++;
+    tile.waiting++;
+    entry.segment.sequence = sequence;
+    entry.next = nullptr;
+    List& list = tile.lists[domain];
+    *list.end = &entry;
+    list.end = &entry.next;
+    list.length++;
+    if (scan_ != DomainScan::RoundRobin) {
+        tile.keys[domain] = key(list.head->segment.sequence, list.length);
+    }
+    tile.occupied[word_of(domain)] |= bit_of(domain);
+    return entry.segment;
+}
+
+void SegmentQueue::set_ready_at(Tile& tile, int domain, Cycle date) const {
+    tile.cooling[word_of(domain)] |= bit_of(domain);
+    tile.wheel[date % kWheel * words_ + word_of(domain)] |= bit_of(domain);
+}
+
+void SegmentQueue::release_all(Tile& tile) const {
+    std::fill_n(tile.cooling, words_, 0);
+    std::fill_n(tile.wheel, words_ * kWheel, 0);
+}
+
+void SegmentQueue::turn_wheel(Tile& tile, Cycle date) const {
+    if (date <= tile.turned) {
+        return;
+    }
+    if (date >= tile.turned + kWheel) {
+        release_all(tile);
+        tile.turned = date;
+        return;
+    }
+    Cycle turned = tile.turned;
+    tile.turned = date;
+    if (words_ == 1) {
+        std::uint64_t cooling = *tile.cooling;
+        do {
+            std::uint64_t& released = tile.wheel[++turned % kWheel];
+            cooling &= ~released;
+            released = 0;
+        } while (turned < date);
+        *tile.cooling = cooling;
+        return;
+    }
+    do {
+        std::uint64_t* const released = tile.wheel + ++turned % kWheel * words_;
+        for (std::size_t w = 0; w < words_; ++w) {
+            tile.cooling[w] &= ~released[w];
+            released[w] = 0;
+        }
+    } while (turned < date);
+}
+
+int SegmentQueue::pick(Tile& tile, Cycle date) const {
+    turn_wheel(tile, date);
+    return scan_ == DomainScan::RoundRobin ? pick_next(tile) : pick_least(tile);
+}
+
+// The ready domain of the smallest key. Selected without branches, which would be mispredicted half
+// the time.
+int SegmentQueue::pick_least(const Tile& tile) const {
+    std::uint64_t best_key = ~std::uint64_t{0};
+    int best = -1;
+    for (std::size_t w = 0; w < words_; ++w) {
+        for (std::uint64_t bits = ready(tile, w); bits != 0; bits &= bits - 1) {
+            const int domain = static_cast<int>(w) * 64 + __builtin_ctzll(bits);
+            const std::uint64_t head_key = tile.keys[domain];
+            best = head_key < best_key ? domain : best;
+            best_key = head_key < best_key ? head_key : best_key;
+        }
+    }
+    return best;
+}
+
+// The first ready domain from the cursor on, round the end if need be.
+int SegmentQueue::pick_next(Tile& tile) const {
+    int domain = -1;
+    if (words_ == 1) { // as a rule: then without a branch that depends on the data
+        const auto cursor = static_cast<unsigned>(tile.cursor);
+        const std::uint64_t bits = ready(tile, 0);
+        if (bits == 0) {
+            return -1;
+        }
+        const std::uint64_t rotated = bits >> cursor | bits << ((64 - cursor) % 64);
+        domain = static_cast<int>((static_cast<unsigned>(__builtin_ctzll(rotated)) + cursor) % 64);
+    } else {
+        std::size_t w = word_of(tile.cursor);
+        std::uint64_t bits = ready(tile, w) & ~(bit_of(tile.cursor) - 1);
+        for (std::size_t step = 0; bits == 0 && step < words_; ++step) {
+            w = w + 1 < words_ ? w + 1 : 0;
+            bits = ready(tile, w); // last the cursor's word, where nothing is left above the cursor
+        }
+        if (bits == 0) {
+            return -1;
+        }
+        domain = static_cast<int>(w) * 64 + __builtin_ctzll(bits);
+    }
+    tile.cursor = domain + 1 < domains_ ? domain + 1 : 0;
+    return domain;
+}
+
+Cycle SegmentQueue::next_ready(const Tile& tile) const {
+    std::uint64_t waiting = 0;
+    for (std::size_t w = 0; w < words_; ++w) {
+        waiting |= tile.cooling[w] & tile.occupied[w];
+    }
+    if (waiting == 0) {
+        return kNever;
+    }
+    Cycle date = tile.turned + 1;
+    if (words_ == 1) {
+        while ((tile.wheel[date % kWheel] & waiting) == 0) {
+            ++date;
+        }
+        return date;
+    }
+    for (;; ++date) {
+        for (std::size_t w = 0; w < words_; ++w) {
+            if ((tile.wheel[date % kWheel * words_ + w] & tile.occupied[w]) != 0) {
+                return date;
+            }
+        }
+    }
+}
+
+void SegmentQueue::clear_lists(Tile& tile) const {
+    for (int d = 0; d < domains_; ++d) {
+        tile.lists[d] = List{};
+        tile.lists[d].end = &tile.lists[d].head;
+    }
+}
+
+void SegmentQueue::clear(Tile& tile) const {
+    clear_lists(tile);
+    release_all(tile);
+    tile.cursor = 0;
+}
+
+} // namespace degs

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/span_engine/span_unit.hpp"
+
+#include "modules/row_map.hpp"
+
+namespace degs {
+
+void SpanUnit::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("count", count, 1, 256, "units (paper Table II: 4, 8, 16, 32)");
+    visitor.integer("cycles_per_row", cycles_per_row, 1, 64,
+                    "cycles per scanline and unit [assumed]");
+    visitor.integer("latency_cycles", latency_cycles, 1, 256,
+                    "cycles from row item to Span Vector: dy, square, LUT, two sums [assumed]");
+    visitor.integer("crossbar_depth", crossbar_depth, 1, 1024,
+                    "Span Vectors buffered between a unit and a bank [assumed]");
+}
+
+SpanUnit::SpanUnit(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+                   const RenderJob& job, int index, int banks)
+    : sc_core::sc_module(name), in("in"), out("out", reachable(index, config.count, banks)),
+      config_(config), job_(job), self_(time) {
+    std::vector<std::size_t> port_of_bank(static_cast<std::size_t>(banks), 0);
+    std::size_t port = 0;
+    for (int bank = 0; bank < banks; ++bank) {
+        if (shares_row(index, config.count, bank, banks)) {
+            port_of_bank[static_cast<std::size_t>(bank)] = port++;
+        }
+    }
+    for (int row = 0; row < job.tile_size; ++row) {
+        port_of_row_.push_back(port_of_bank[static_cast<std::size_t>(row % banks)]);
+    }
+    SC_HAS_PROCESS(SpanUnit);
+    if (self_.strict()) {
+        SC_THREAD(run);
+    }
+}
+
+void SpanUnit::end_of_elaboration() {
+    rows_ = in.operator->();
+    rows_->connect_reader(self_);
+    if (!self_.strict()) {
+        self_.pump_with(*this, *rows_);
+    }
+    for (auto& port : out) {
+        rings_.push_back(port.operator->());
+        rings_.back()->connect_writer(self_);
+    }
+}
+
+void SpanUnit::run() {
+    while (!job_.over(tiles_done_)) {
+        rows_->wait_for_item(self_);
+        pump();
+    }
+}
+
+void SpanUnit::pump() {
+    while ((!holding_ || deliver()) && !rows_->empty()) {
+        take();
+    }
+}
+
+// Solves a row in the cell that it will be sent in, or in held_ while there is none. Items are read
+// and written in place: a copy of what was just written waits for the write.
+void SpanUnit::take() {
+    const RowItem& item = rows_->arrive(self_);
+    const TileNumber tile_number = item.tile;
+    const std::uint32_t splat = item.splat;
+    const int row = item.row;
+    const bool end = item.end;
+    rows_->drop(self_);
+    if (end) {
+        held_.tile = tile_number;
+        held_.end = true;
+        next_port_ = 0;
+        holding_ = true;
+        return;
+    }
+    next_port_ = port_of_row_[static_cast<std::size_t>(row)];
+    DatedFifo<SpanItem>& ring = *rings_[next_port_];
+    holding_ = ring.full();
+    SpanItem& result = holding_ ? held_ : ring.staged();
+    const JobTile& tile = job_.tiles[tile_number];
+    stats_.rows++;
+    stats_.busy += static_cast<Cycle>(config_.cycles_per_row);
+    if (!job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y,
+                              result.span)) {
+        stats_.empty_rows++;
+        holding_ = false;
+        self_.advance(static_cast<Cycle>(config_.cycles_per_row));
+        return;
+    }
+    result.tile = tile_number;
+    result.end = false;
+    stats_.spans++;
+    stats_.tasks += static_cast<std::uint64_t>(result.span.length);
+    if (!holding_) {
+        ring.reserve(self_);
+        ring.put_staged(self_);
+        self_.advance(static_cast<Cycle>(config_.cycles_per_row));
+    }
+}
+
+// Hands the held result over; false if a ring has no room yet (without a thread only).
+bool SpanUnit::deliver() {
+    while (holding_) {
+        DatedFifo<SpanItem>& ring = *rings_[next_port_];
+        if (ring.full() && !self_.strict()) {
+            self_.hold_for(&ring);
+            return false;
+        }
+        self_.hold_for(nullptr);
+        ring.put(self_, held_);
+        holding_ = held_.end && ++next_port_ < rings_.size();
+        if (!held_.end) {
+            self_.advance(static_cast<Cycle>(config_.cycles_per_row));
+        } else if (!holding_ && job_.over(++tiles_done_)) {
+            self_.finish();
+        }
+    }
+    return true;
+}
+
+} // namespace degs

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/accelerator.hpp"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+#include "config/error.hpp"
+
+namespace degs {
+namespace {
+
+constexpr std::size_t kFinishedDepth = 64;
+
+std::unique_ptr<AcceleratorConfig> checked(const AcceleratorConfig& config) {
+    std::unique_ptr<AcceleratorConfig> copy = config.clone();
+    copy->read_floats();
+    if (const std::string problem = copy->problem(); !problem.empty()) {
+        throw std::invalid_argument("accelerator '" + config.name + "': " + problem);
+    }
+    return copy;
+}
+
+// The answer of a bus as a positive number: 1 address, 2 command, 3 burst, 4 byte enable error,
+// 5 generic error, 6 no answer.
+std::uint32_t detail_of(tlm::tlm_response_status status) {
+    switch (status) {
+    case tlm::TLM_ADDRESS_ERROR_RESPONSE:
+        return 1;
+    case tlm::TLM_COMMAND_ERROR_RESPONSE:
+        return 2;
+    case tlm::TLM_BURST_ERROR_RESPONSE:
+        return 3;
+    case tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE:
+        return 4;
+    case tlm::TLM_INCOMPLETE_RESPONSE:
+        return 6;
+    default:
+        return 5;
+    }
+}
+
+} // namespace
+
+Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config)
+    : Accelerator(name, config, Options()) {}
+
+Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
+                         const Options& options)
+    : sc_core::sc_module(name), registers("registers"), mem("mem"), irq("irq"),
+      config_(checked(config)),
+      options_(options), time_{ClockDomain(config_->clock_ghz), options.fidelity}, self_(time_),
+      finished_("finished", time_, kFinishedDepth,
+                static_cast<Cycle>(config_->frame_end.gate_latency_cycles)),
+      gateway_("gateway", options.memory) {
+    registers.register_b_transport(this, &Accelerator::transport);
+    registers.register_transport_dbg(this, &Accelerator::debug);
+    gateway_.out.bind(mem);
+    gateway_.observe_scene(
+        [this](std::uint64_t address, const unsigned char* data, std::uint64_t bytes) {
+            scene_changed_ = scene_changed_ || !scene_.matches(address, data, bytes);
+        });
+    job_.tile_size = config_->tile_size_px();
+    job_.path = make_data_path(config_->data_path(), job_.tile_size, config_->tile_contexts());
+    job_.joined = std::make_unique<sc_core::sc_event>();
+    BuildOptions build;
+    build.finished = &finished_;
+    build.gateway = &gateway_;
+    engine_ = config_->build("engine", time_, job_, build);
+    SC_HAS_PROCESS(Accelerator);
+    SC_THREAD(run);
+    SC_METHOD(drive_irq);
+    sensitive << irq_changed_;
+}
+
+void Accelerator::end_of_elaboration() {
+    finished_.connect_reader(self_);
+}
+
+void Accelerator::drive_irq() {
+    irq.write((registers_.get(Register::IrqEnable) & registers_.get(Register::IrqStatus)) != 0);
+}
+
+void Accelerator::set_status(std::uint32_t set, std::uint32_t clear) {
+    registers_.set(Register::Status, (registers_.get(Register::Status) & ~clear) | set);
+}
+
+void Accelerator::run() {
+    for (;;) {
+        sc_core::wait(start_);
+        AcceleratorFault fault = prepare();
+        fault = fault ? fault : render();
+        end_frame(fault);
+    }
+}
+
+void Accelerator::end_frame(const AcceleratorFault& fault) {
+    registers_.set(Register::ErrorCode, static_cast<std::uint32_t>(fault.error));
+    registers_.set(Register::ErrorDetail, fault.detail);
+    set_status(fault ? kStatusError : kStatusDone, kStatusBusy);
+    registers_.set(Register::IrqStatus,
+                   registers_.get(Register::IrqStatus) | (fault ? kIrqError : kIrqDone));
+    irq_changed_.notify(sc_core::SC_ZERO_TIME);
+}
+
+AcceleratorFault Accelerator::prepare() {
+    for (const Register counter : {Register::Cycles, Register::LoadCycles, Register::BytesRead,
+                                   Register::BytesWritten, Register::Fragments}) {
+        registers_.set_pair(counter, 0);
+    }
+    if (const auto fault = AcceleratorRequest::read(registers_, options_.limits, request_)) {
+        return fault;
+    }
+    try {
+        const sc_core::sc_time start = sc_core::sc_time_stamp();
+        const auto answer = scene_.load(gateway_, request_.scene);
+        registers_.set_pair(Register::LoadCycles,
+                            time_.clock.ceil(sc_core::sc_time_stamp() - start));
+        if (answer != tlm::TLM_OK_RESPONSE) {
+            return {AcceleratorError::LoadError, detail_of(answer)};
+        }
+        return make_workload();
+    } catch (const InputError&) { // what the checks of the registers let pass
+        return {AcceleratorError::BadCamera, 0};
+    } catch (const std::bad_alloc&) {
+        return {AcceleratorError::OutOfMemory, 0};
+    }
+}
+
+// The frame joins the job only if all of it fits.
+AcceleratorFault Accelerator::make_workload() {
+    std::uint32_t dropped = 0;
+    const GaussianCloud cloud = scene_.cloud(dropped);
+    ProjectionOptions options;
+    options.format = config_->data_path().projection;
+    FrameWorkload work =
+        make_frame_workload(cloud, request_.camera, job_.tile_size, config_->tile_mode(), options);
+    registers_.set(Register::Dropped, dropped);
+    const std::uint64_t needed = MemoryMap::workspace_bytes(config_->records(), work);
+    registers_.set_pair(Register::WorkspaceNeeded, needed);
+    if (request_.workspace_bytes < needed) {
+        return {AcceleratorError::SmallWorkspace,
+                AcceleratorRegisters::offset_of(Register::WorkspaceBytes)};
+    }
+    workloads_.push_back(std::move(work));
+    return {};
+}
+
+AcceleratorFault Accelerator::render() {
+    const MemoryGateway::Stats before = gateway_.total();
+    gateway_.clear_errors();
+    gateway_.set_regions(request_.regions());
+    scene_changed_ = false;
+    self_.advance_to(time_.clock.ceil(sc_core::sc_time_stamp()));
+    const Cycle started = self_.local();
+    job_.add(workloads_.back(), request_.bases);
+    job_.joined->notify(sc_core::SC_ZERO_TIME);
+    finished_.get(self_);
+    self_.sync();
+    count_frame(started, before);
+    if (gateway_.errors() != 0) {
+        return {AcceleratorError::BusError, detail_of(gateway_.first_error())};
+    }
+    return scene_changed_ ? AcceleratorFault{AcceleratorError::SceneChanged, 0}
+                          : AcceleratorFault{};
+}
+
+void Accelerator::count_frame(Cycle started, const MemoryGateway::Stats& before) {
+    const MemoryGateway::Stats after = gateway_.total();
+    std::uint64_t fragments = 0;
+    for (const std::uint32_t updates : job_.images.back().fragments) {
+        fragments += updates;
+    }
+    job_.images.back() = Image(0, 0); // the pixels are in memory
+    registers_.set_pair(Register::Cycles, self_.local() - started);
+    registers_.set_pair(Register::BytesRead, after.bytes_read - before.bytes_read);
+    registers_.set_pair(Register::BytesWritten, after.bytes_written - before.bytes_written);
+    registers_.set_pair(Register::Fragments, fragments);
+    registers_.set(Register::Frames, registers_.get(Register::Frames) + 1);
+}
+
+} // namespace degs

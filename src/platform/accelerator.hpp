@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <memory>
+
+#include <systemc>
+#include <tlm>
+#include <tlm_utils/simple_target_socket.h>
+
+#include "modules/memory_gateway.hpp"
+#include "modules/render_engine.hpp"
+#include "platform/accelerator_request.hpp"
+#include "platform/scene_copy.hpp"
+
+namespace degs {
+
+/// Any accelerator of the project as a citizen of a platform: registers, a way to memory, an
+/// interrupt, and nothing else. docs/accelerator.md has the register map and the memory layout.
+///
+/// A frame: `Start` samples the registers. Values come from a copy of the scene that is read first,
+/// by debug transport in no time, or by transactions where the memory has no debug transport. The
+/// model then reads the same bytes again when its blocks do, and writes real pixels. Bytes that
+/// differ by then are an error, and so are refused accesses and bad registers: a frame always ends
+/// with Done or Error and, if enabled, the interrupt; nothing throws.
+///
+/// Not modelled: values of splat records and lists, which are written to the workspace as bytes
+/// without meaning; an abort of a running frame; power states. What a frame needs on the host
+/// (about 200 B per visible splat) is kept until the end of the simulation.
+class Accelerator : public sc_core::sc_module {
+public:
+    struct Options {
+        AcceleratorRequest::Limits limits;
+        Fidelity fidelity = Fidelity::Exact;
+        MemoryGateway::Options memory;
+    };
+
+    /// Words of 4 B, little-endian, LT and debug. An access takes a cycle.
+    tlm_utils::simple_target_socket<Accelerator> registers;
+    /// Any LT target, or, with Options::memory.transport = At, any AT target.
+    tlm::tlm_initiator_socket<> mem;
+    sc_core::sc_out<bool> irq; ///< high while an enabled interrupt is pending
+
+    /// Copies `config`, which then reads scenes of floats. Throws std::invalid_argument if it has a
+    /// problem().
+    Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config);
+    Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
+                const Options& options);
+
+    const AcceleratorConfig& config() const { return *config_; }
+    /// Ways of a platform's test bench to what the registers do not tell.
+    const RenderEngine& engine() const { return *engine_; }
+    const MemoryGateway& gateway() const { return gateway_; }
+
+private:
+    using Payload = tlm::tlm_generic_payload;
+
+    void end_of_elaboration() override;
+    void transport(Payload& payload, sc_core::sc_time& delay);
+    unsigned int debug(Payload& payload);
+    static tlm::tlm_response_status check_access(const Payload& payload);
+    tlm::tlm_response_status write(std::uint32_t offset, std::uint32_t value,
+                                   const sc_core::sc_time& delay);
+    void command(std::uint32_t bits, const sc_core::sc_time& delay);
+
+    void run();
+    void drive_irq();
+    AcceleratorFault prepare();
+    AcceleratorFault make_workload();
+    AcceleratorFault render();
+    void count_frame(Cycle started, const MemoryGateway::Stats& before);
+    void end_frame(const AcceleratorFault& fault);
+    void set_status(std::uint32_t set, std::uint32_t clear);
+
+    std::unique_ptr<AcceleratorConfig> config_;
+    Options options_;
+    Timebase time_;
+    AcceleratorRegisters registers_;
+    AcceleratorRequest request_; // of the present frame
+    SceneCopy scene_;
+    bool scene_changed_ = false;
+    std::deque<FrameWorkload> workloads_;
+    RenderJob job_;
+    Process self_;
+    DatedFifo<std::uint32_t> finished_;
+    MemoryGateway gateway_;
+    std::unique_ptr<RenderEngine> engine_;
+    sc_core::sc_event start_, irq_changed_;
+};
+
+} // namespace degs

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The register socket of degs::Accelerator; the other half of accelerator.cpp.
+#include "platform/accelerator.hpp"
+
+namespace degs {
+namespace {
+
+std::uint32_t word_from(const unsigned char* data) {
+    std::uint32_t value = 0;
+    for (unsigned int i = 4; i-- > 0;) {
+        value = value << 8U | data[i];
+    }
+    return value;
+}
+
+void word_to(std::uint32_t value, unsigned char* data) {
+    for (unsigned int i = 0; i < 4; ++i, value >>= 8U) {
+        data[i] = static_cast<unsigned char>(value);
+    }
+}
+
+} // namespace
+
+// One word, whole and aligned.
+tlm::tlm_response_status Accelerator::check_access(const Payload& payload) {
+    if (!payload.is_read() && !payload.is_write()) {
+        return tlm::TLM_COMMAND_ERROR_RESPONSE;
+    }
+    if (payload.get_address() % 4 != 0 || payload.get_address() >= kRegisterBytes) {
+        return tlm::TLM_ADDRESS_ERROR_RESPONSE;
+    }
+    if (payload.get_byte_enable_ptr() != nullptr) {
+        return tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE;
+    }
+    if (payload.get_data_length() != 4 || payload.get_streaming_width() < 4) {
+        return tlm::TLM_BURST_ERROR_RESPONSE;
+    }
+    return tlm::TLM_OK_RESPONSE;
+}
+
+void Accelerator::transport(Payload& payload, sc_core::sc_time& delay) {
+    tlm::tlm_response_status status = check_access(payload);
+    if (status == tlm::TLM_OK_RESPONSE) {
+        const auto offset = static_cast<std::uint32_t>(payload.get_address());
+        if (payload.is_read()) {
+            word_to(registers_.word(offset), payload.get_data_ptr());
+        } else {
+            status = write(offset, word_from(payload.get_data_ptr()), delay);
+        }
+        delay += time_.clock.period();
+    }
+    payload.set_response_status(status);
+}
+
+// What a write does is seen from its date on; the values themselves are there at once.
+tlm::tlm_response_status Accelerator::write(std::uint32_t offset, std::uint32_t value,
+                                            const sc_core::sc_time& delay) {
+    const RegisterInfo* const info = AcceleratorRegisters::find(offset);
+    if (info == nullptr || info->access == Access::Read) {
+        return tlm::TLM_COMMAND_ERROR_RESPONSE;
+    }
+    if (info->access == Access::Command) {
+        command(value, delay);
+    } else {
+        const bool clears = info->access == Access::WriteOneToClear;
+        registers_.set_word(offset, clears ? registers_.word(offset) & ~value : value);
+        irq_changed_.notify(delay);
+    }
+    return tlm::TLM_OK_RESPONSE;
+}
+
+void Accelerator::command(std::uint32_t bits, const sc_core::sc_time& delay) {
+    const bool busy = (registers_.get(Register::Status) & kStatusBusy) != 0;
+    if ((bits & kControlClearError) != 0) {
+        set_status(0, kStatusError | kStatusStartIgnored);
+        if (!busy) {
+            registers_.set(Register::ErrorCode, 0);
+            registers_.set(Register::ErrorDetail, 0);
+        }
+    }
+    if ((bits & kControlStart) == 0) {
+        return;
+    }
+    if (busy) {
+        set_status(kStatusStartIgnored, 0);
+        return;
+    }
+    set_status(kStatusBusy, kStatusDone | kStatusError);
+    registers_.set(Register::ErrorCode, 0);
+    registers_.set(Register::ErrorDetail, 0);
+    start_.notify(delay);
+}
+
+// Whole words; reads everything, writes what can be written without anything happening.
+unsigned int Accelerator::debug(Payload& payload) {
+    const std::uint64_t first = payload.get_address();
+    const unsigned int bytes = payload.get_data_length();
+    if (first % 4 != 0 || bytes % 4 != 0) {
+        return 0;
+    }
+    unsigned int done = 0;
+    for (; done < bytes && first + done < kRegisterBytes; done += 4) {
+        const auto offset = static_cast<std::uint32_t>(first + done);
+        if (payload.is_read()) {
+            word_to(registers_.word(offset), payload.get_data_ptr() + done);
+            continue;
+        }
+        const RegisterInfo* const info = AcceleratorRegisters::find(offset);
+        if (!payload.is_write() || info == nullptr || info->access != Access::ReadWrite) {
+            break;
+        }
+        registers_.set_word(offset, word_from(payload.get_data_ptr() + done));
+        irq_changed_.notify(sc_core::SC_ZERO_TIME);
+    }
+    return done;
+}
+
+} // namespace degs

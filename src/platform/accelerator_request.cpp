@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "platform/accelerator_request.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace degs {
+namespace {
+
+constexpr std::uint32_t kMaxSide = 65536; // px, as in cameras.json
+constexpr double kMaxFocal = 1e9;         // px, likewise
+constexpr double kRotationSlack = 1e-3;   // of the products of two axes
+
+AcceleratorFault fault(AcceleratorError error, Register which) {
+    return {error, AcceleratorRegisters::offset_of(which)};
+}
+
+AcceleratorFault read_size(const AcceleratorRegisters& regs, std::uint64_t max_pixels,
+                           Camera& camera) {
+    const std::uint32_t width = regs.get(Register::Width);
+    const std::uint32_t height = regs.get(Register::Height);
+    if (width == 0 || width > kMaxSide) {
+        return fault(AcceleratorError::BadSize, Register::Width);
+    }
+    if (height == 0 || height > kMaxSide || std::uint64_t{width} * height > max_pixels) {
+        return fault(AcceleratorError::BadSize, Register::Height);
+    }
+    camera.width = static_cast<int>(width);
+    camera.height = static_cast<int>(height);
+    return {};
+}
+
+bool is_rotation(const glm::dmat3& axes) {
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            // Phrased so that NaN fails.
+            if (!(std::abs(glm::dot(axes[i], axes[j]) - (i == j ? 1 : 0)) <= kRotationSlack)) {
+                return false;
+            }
+        }
+    }
+    return glm::determinant(axes) > 0;
+}
+
+AcceleratorFault read_camera(const AcceleratorRegisters& regs, Camera& camera) {
+    camera.fx = regs.get_double(Register::FocalX);
+    camera.fy = regs.get_double(Register::FocalY);
+    for (const Register which : {Register::FocalX, Register::FocalY}) {
+        const double focal = regs.get_double(which);
+        if (!(focal > 0 && focal <= kMaxFocal)) {
+            return fault(AcceleratorError::BadCamera, which);
+        }
+    }
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            camera.camera_to_world[i][j] =
+                regs.get_double(Register::Axes, static_cast<std::uint32_t>(3 * i + j));
+        }
+        camera.position[i] = regs.get_double(Register::Position, static_cast<std::uint32_t>(i));
+        if (!std::isfinite(camera.position[i])) {
+            return fault(AcceleratorError::BadCamera, Register::Position);
+        }
+    }
+    return is_rotation(camera.camera_to_world) ? AcceleratorFault{}
+                                               : fault(AcceleratorError::BadCamera, Register::Axes);
+}
+
+AcceleratorFault read_scene(const AcceleratorRegisters& regs, std::uint32_t max_gaussians,
+                            AcceleratorRequest& request) {
+    SceneCopy::Place& scene = request.scene;
+    scene.geometry = regs.get_pair(Register::Geometry);
+    scene.sh = regs.get_pair(Register::Sh);
+    scene.count = regs.get(Register::Count);
+    if (scene.count == 0 || scene.count > max_gaussians) {
+        return fault(AcceleratorError::BadCount, Register::Count);
+    }
+    if (regs.get(Register::ShDegree) > 3) {
+        return fault(AcceleratorError::BadDegree, Register::ShDegree);
+    }
+    scene.sh_degree = static_cast<int>(regs.get(Register::ShDegree));
+    return {};
+}
+
+AcceleratorFault read_bases(const AcceleratorRegisters& regs, AcceleratorRequest& request) {
+    const std::uint32_t format = regs.get(Register::Format);
+    if (format > static_cast<std::uint32_t>(FrameFormat::Rgba16F)) {
+        return fault(AcceleratorError::BadFormat, Register::Format);
+    }
+    MemoryBases& bases = request.bases;
+    bases.given = true;
+    bases.geometry = request.scene.geometry;
+    bases.sh = request.scene.sh;
+    bases.workspace = regs.get_pair(Register::Workspace);
+    bases.frame_buffer = regs.get_pair(Register::FrameBuffer);
+    bases.pixel_bytes = format == static_cast<std::uint32_t>(FrameFormat::Rgba16F) ? 8 : 4;
+    request.workspace_bytes = regs.get_pair(Register::WorkspaceBytes);
+    return {};
+}
+
+// Of all bases, and of every pair of regions; the detail is the later one of the two.
+AcceleratorFault check_regions(const AcceleratorRequest& request) {
+    const std::vector<MemoryGateway::Region> regions = request.regions();
+    constexpr std::array<Register, 4> kBases{Register::Geometry, Register::Sh, Register::Workspace,
+                                             Register::FrameBuffer};
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+        if (regions[i].begin % kBaseAlignment != 0) {
+            return fault(AcceleratorError::Misaligned, kBases[i]);
+        }
+        if (regions[i].bytes > ~regions[i].begin) {
+            return fault(AcceleratorError::Overlap, kBases[i]);
+        }
+        for (std::size_t j = 0; j < i; ++j) {
+            if (regions[i].begin < regions[j].begin + regions[j].bytes &&
+                regions[j].begin < regions[i].begin + regions[i].bytes) {
+                return fault(AcceleratorError::Overlap, kBases[i]);
+            }
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+AcceleratorFault AcceleratorRequest::read(const AcceleratorRegisters& registers,
+                                          const Limits& limits, AcceleratorRequest& request) {
+    AcceleratorFault found = read_size(registers, limits.pixels, request.camera);
+    found = found ? found : read_scene(registers, limits.gaussians, request);
+    found = found ? found : read_bases(registers, request);
+    found = found ? found : check_regions(request);
+    return found ? found : read_camera(registers, request.camera);
+}
+
+std::uint64_t AcceleratorRequest::frame_bytes() const {
+    return static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height) *
+           static_cast<std::uint64_t>(bases.pixel_bytes);
+}
+
+std::vector<MemoryGateway::Region> AcceleratorRequest::regions() const {
+    return {{scene.geometry, scene.geometry_bytes()},
+            {scene.sh, scene.sh_bytes()},
+            {bases.workspace, workspace_bytes},
+            {bases.frame_buffer, frame_bytes()}};
+}
+
+} // namespace degs

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "modules/memory_gateway.hpp"
+#include "modules/traffic.hpp"
+#include "platform/accelerator_registers.hpp"
+#include "platform/scene_copy.hpp"
+#include "splat/camera.hpp"
+
+namespace degs {
+
+/// Why a request cannot be served; `detail` goes to ErrorDetail.
+struct AcceleratorFault {
+    AcceleratorError error = AcceleratorError::None;
+    std::uint32_t detail = 0; ///< offset of the register that is wrong, or see docs/accelerator.md
+    explicit operator bool() const { return error != AcceleratorError::None; }
+};
+
+/// What the registers ask for: the values that they had when the frame was started.
+struct AcceleratorRequest {
+    struct Limits {
+        std::uint32_t gaussians = 1U << 24U; ///< of a scene
+        std::uint64_t pixels = 1U << 26U;    ///< of a frame
+    };
+
+    SceneCopy::Place scene;
+    MemoryBases bases;
+    std::uint64_t workspace_bytes = 0;
+    Camera camera;
+
+    /// Reads and checks the registers.
+    static AcceleratorFault read(const AcceleratorRegisters& registers, const Limits& limits,
+                                 AcceleratorRequest& request);
+    std::uint64_t frame_bytes() const;
+    /// Geometry, SH, workspace, frame buffer.
+    std::vector<MemoryGateway::Region> regions() const;
+};
+
+} // namespace degs

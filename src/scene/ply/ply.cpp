@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/ply/ply.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "scene/ply/ply_header.hpp"
+#include "scene/ply/ply_rows.hpp"
+#include "scene/ply/ply_splat_layout.hpp"
+#include "scene/ply/ply_values.hpp"
+
+namespace degs {
+namespace {
+
+constexpr std::size_t kReadBytes = 1 << 20;
+constexpr std::size_t kStripRows = 64; ///< converted column by column while they fit the L1 cache
+
+/// One scalar of the file and where it goes: `to` is the value of the first Gaussian.
+template <class To>
+struct Binding {
+    PlyColumn column;
+    To* to;
+    std::size_t pitch; ///< values between neighbouring Gaussians
+};
+
+class CloudReader {
+public:
+    CloudReader(InputFile& file, const PlyHeader& header, const PlySplatLayout& layout)
+        : rows_(file, header, *layout.vertex), count_(layout.vertex->count) {
+        allocate(layout);
+        bind(layout);
+    }
+
+    GaussianCloud read() {
+        const std::size_t block = std::max<std::size_t>(1, kReadBytes / rows_.row_bytes());
+        std::vector<char> bytes(std::min(block, std::max<std::size_t>(count_, 1)) *
+                                rows_.row_bytes());
+        for (std::size_t first = 0; first < count_; first += block) {
+            const std::size_t rows = std::min(block, count_ - first);
+            rows_.read(bytes.data(), rows);
+            for (std::size_t i = 0; i < rows; i += kStripRows) {
+                convert(bytes.data() + i * rows_.row_bytes(), first + i,
+                        std::min(kStripRows, rows - i));
+            }
+        }
+        return std::move(cloud_);
+    }
+
+private:
+    void allocate(const PlySplatLayout& layout) {
+        cloud_.sh_degree = layout.sh_degree;
+        cloud_.means.resize(count_);
+        cloud_.scales.resize(count_);
+        cloud_.rotations.resize(count_);
+        cloud_.opacities.resize(count_);
+        cloud_.sh.resize(count_ * static_cast<std::size_t>(cloud_.sh_coefficients()) * 3);
+        filters_.resize(layout.has_filter_3d ? count_ : 0);
+    }
+
+    void bind(const PlySplatLayout& layout) {
+        if (count_ == 0) {
+            return;
+        }
+        const std::string axes[] = {"x", "y", "z"};
+        for (int i = 0; i < 3; ++i) {
+            means_.push_back({rows_.column(axes[i]), &cloud_.means[0].x + i, 3});
+            bind_float("scale_" + std::to_string(i), &cloud_.scales[0].x + i, 3);
+        }
+        for (int i = 0; i < 4; ++i) {
+            bind_float("rot_" + std::to_string(i), &cloud_.rotations[0].x + i, 4);
+        }
+        bind_float("opacity", cloud_.opacities.data(), 1);
+        if (layout.has_filter_3d) {
+            bind_float("filter_3D", filters_.data(), 1);
+        }
+        bind_sh();
+    }
+
+    /// The file is channel-major (all of red, then green, then blue), the cloud interleaved.
+    void bind_sh() {
+        const int coefficients = cloud_.sh_coefficients();
+        const auto pitch = static_cast<std::size_t>(coefficients) * 3;
+        for (int channel = 0; channel < 3; ++channel) {
+            bind_float("f_dc_" + std::to_string(channel), cloud_.sh.data() + channel, pitch);
+            for (int k = 1; k < coefficients; ++k) {
+                const int in_file = channel * (coefficients - 1) + k - 1;
+                bind_float("f_rest_" + std::to_string(in_file), cloud_.sh.data() + k * 3 + channel,
+                           pitch);
+            }
+        }
+    }
+
+    void bind_float(const std::string& property, float* to, std::size_t pitch) {
+        floats_.push_back({rows_.column(property), to, pitch});
+    }
+
+    void convert(const char* strip, std::size_t first, std::size_t rows) {
+        for (const Binding<double>& binding : means_) {
+            copy(strip, binding, first, rows);
+        }
+        for (const Binding<float>& binding : floats_) {
+            copy(strip, binding, first, rows);
+        }
+        for (std::size_t i = first; i < first + rows; ++i) {
+            activate(i);
+        }
+    }
+
+    template <class To>
+    void copy(const char* strip, const Binding<To>& binding, std::size_t first, std::size_t rows) {
+        const char* from = strip + binding.column.offset;
+        To* to = binding.to + first * binding.pitch;
+        const bool swap = rows_.swap_bytes();
+        with_type(binding.column.type, [&](auto value) {
+            for (std::size_t i = 0; i < rows; ++i) {
+                to[i * binding.pitch] = static_cast<To>(
+                    load_value<decltype(value)>(from + i * rows_.row_bytes(), swap));
+            }
+        });
+    }
+
+    void activate(std::size_t i) {
+        glm::dvec3 scale = glm::exp(glm::dvec3(cloud_.scales[i]));
+        double opacity = 1.0 / (1.0 + std::exp(-static_cast<double>(cloud_.opacities[i])));
+        if (!filters_.empty()) {
+            fuse_filter(filters_[i], scale, opacity);
+        }
+        cloud_.scales[i] = scale;
+        cloud_.opacities[i] = static_cast<float>(opacity);
+    }
+
+    /// Mip-Splatting's 3D smoothing filter: a wider Gaussian of the same integral.
+    static void fuse_filter(double filter, glm::dvec3& scale, double& opacity) {
+        const glm::dvec3 smoothed = glm::sqrt(scale * scale + filter * filter);
+        const glm::dvec3 ratio = scale / smoothed;
+        opacity *= filter == 0.0 ? 1.0 : ratio.x * ratio.y * ratio.z;
+        scale = smoothed;
+    }
+
+    PlyRows rows_;
+    std::size_t count_;
+    GaussianCloud cloud_;
+    std::vector<float> filters_;
+    std::vector<Binding<double>> means_;
+    std::vector<Binding<float>> floats_;
+};
+
+} // namespace
+
+GaussianCloud read_ply(const std::string& path) {
+    InputFile file(path);
+    const PlyHeader header = read_ply_header(file);
+    const PlySplatLayout layout = find_splat_layout(path, header);
+    return CloudReader(file, header, layout).read();
+}
+
+} // namespace degs

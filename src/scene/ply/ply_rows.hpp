@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/ply/ply_header.hpp"
+
+namespace degs {
+
+/// Where a scalar property stands inside the rows that `PlyRows` delivers.
+struct PlyColumn {
+    PlyType type = PlyType::Float32;
+    std::size_t offset = 0; ///< bytes from the start of the row
+};
+
+/// White-space separated words of an ASCII body.
+class PlyWords {
+public:
+    explicit PlyWords(InputFile& file) : file_(&file), buffer_(kBufferBytes) {}
+    /// Valid until the next call; empty at the end of the file.
+    std::string_view next();
+    /// Bytes not delivered yet; the file itself is read ahead.
+    std::uint64_t remaining() const { return file_->remaining() + (end_ - begin_); }
+
+private:
+    static constexpr std::size_t kBufferBytes = 1 << 18;
+    static constexpr std::size_t kMaxWord = 512; ///< longer "numbers" are refused
+
+    bool peek(char& c);
+
+    InputFile* file_;
+    std::vector<char> buffer_;
+    std::size_t begin_ = 0;
+    std::size_t end_ = 0;
+    std::array<char, kMaxWord> word_{};
+};
+
+/// The body of a PLY file up to one element of interest. Delivers the scalars of its rows at a
+/// fixed pitch, whatever the file does: binary rows as they are, rows with lists packed without the
+/// lists, ASCII rows as native doubles.
+class PlyRows {
+public:
+    /// `file` stands at the first byte of data. Skips every element before `element`, then checks
+    /// that the file is long enough for it. Both references must outlive this object.
+    PlyRows(InputFile& file, const PlyHeader& header, const PlyElement& element);
+
+    std::size_t row_bytes() const { return row_bytes_; }
+    bool swap_bytes() const { return swap_; } ///< values are of the other endianness
+    /// Of a scalar property that exists.
+    PlyColumn column(const std::string& property) const;
+    /// Reads the next `count` rows to `destination` (count * row_bytes() bytes).
+    void read(char* destination, std::size_t count);
+
+private:
+    void lay_out();
+    void check_size(const PlyElement& element) const;
+    void skip_element(const PlyElement& element);
+    void skip_binary_list(const PlyProperty& list);
+    void skip_row();
+    void read_listed_row(char* destination);
+    void read_ascii_row(char* destination);
+    std::uint64_t list_length(const PlyProperty& list);
+    double next_number(const PlyProperty& property);
+    [[noreturn]] void fail_at(const PlyProperty& property, const std::string& sentence) const;
+
+    InputFile* file_;
+    const PlyElement* element_;
+    PlyFormat format_;
+    bool swap_ = false;
+    PlyWords words_;
+    const PlyElement* current_; ///< being skipped or read
+    std::uint64_t row_ = 0;     ///< of `current_`
+    std::size_t row_bytes_ = 0;
+    std::vector<PlyColumn> columns_; ///< per property; unused for lists
+};
+
+} // namespace degs

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/synthetic/synthetic.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "config/error.hpp"
+#include "scene/synthetic/synthetic_build.hpp"
+
+namespace degs {
+namespace {
+
+constexpr std::uint64_t kMostGaussians = 20000000; // 5 GB at SH degree 3
+
+struct Profile {
+    const char* name;
+    const char* meaning;
+    std::uint64_t default_gaussians;
+    std::uint64_t most;
+    void (*make)(const SyntheticSpec& spec, SyntheticScene& scene);
+};
+constexpr std::array<Profile, 6> kProfiles{{
+    {"object", "a captured object, surface covered with discs, few floaters, empty background",
+     100000, kMostGaussians, make_object},
+    {"outdoor", "ground with grass, objects in the middle, haze of big splats around", 150000,
+     kMostGaussians, make_outdoor},
+    {"dense", "a volume of faint splats: long lists, late termination", 100000, kMostGaussians,
+     make_dense},
+    {"uniform", "round blobs spread evenly in a box", 10000, kMostGaussians, make_uniform},
+    {"single", "one big splat in the centre of every view", 1, 1, make_single},
+    {"needles", "needles of aspect 100 to 100 000 at all angles", 1000, kMostGaussians,
+     make_needles},
+}};
+
+const Profile& profile_named(const std::string& name) {
+    std::string known;
+    for (const Profile& profile : kProfiles) {
+        if (name == profile.name) {
+            return profile;
+        }
+        known += (known.empty() ? "" : ", ") + std::string(profile.name);
+    }
+    throw InputError("There is no synthetic scene '" + name + "'; there are " + known + ".");
+}
+
+std::uint64_t parse_count(const std::string& key, const std::string& text, std::uint64_t low,
+                          std::uint64_t high) {
+    std::uint64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stop != end || value < low || value > high) {
+        throw InputError("Key '" + key + "' of a synthetic scene is '" + text +
+                         "'; allowed are integers from " + std::to_string(low) + " to " +
+                         std::to_string(high) + ".");
+    }
+    return value;
+}
+
+void parse_setting(const std::string& setting, const Profile& profile, SyntheticSpec& spec) {
+    const std::size_t equals = std::min(setting.find('='), setting.size());
+    const std::string key = setting.substr(0, equals);
+    const std::string value = equals < setting.size() ? setting.substr(equals + 1) : "";
+    if (key == "gaussians") {
+        spec.gaussians = parse_count(key, value, 1, profile.most);
+    } else if (key == "seed") {
+        spec.seed = parse_count(key, value, 0, UINT64_MAX);
+    } else {
+        throw InputError("'" + setting +
+                         "' is no setting of a synthetic scene; allowed are "
+                         "gaussians=N and seed=N.");
+    }
+}
+
+} // namespace
+
+std::vector<SyntheticProfile> synthetic_profiles() {
+    std::vector<SyntheticProfile> out;
+    out.reserve(kProfiles.size());
+    for (const Profile& profile : kProfiles) {
+        out.push_back({profile.name, profile.meaning, profile.default_gaussians});
+    }
+    return out;
+}
+
+SyntheticSpec parse_synthetic(const std::string& text) {
+    std::size_t end = std::min(text.find(','), text.size());
+    const Profile& profile = profile_named(text.substr(0, end));
+    SyntheticSpec spec{profile.name, profile.default_gaussians, 1};
+    while (end < text.size()) {
+        const std::size_t begin = end + 1;
+        end = std::min(text.find(',', begin), text.size());
+        parse_setting(text.substr(begin, end - begin), profile, spec);
+    }
+    return spec;
+}
+
+SyntheticScene make_synthetic(const SyntheticSpec& spec) {
+    const Profile& profile = profile_named(spec.profile);
+    parse_count("gaussians", std::to_string(spec.gaussians), 1, profile.most);
+    SyntheticScene scene;
+    profile.make(spec, scene);
+    return scene;
+}
+
+} // namespace degs

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "splat/images/image.hpp"
+
+namespace degs {
+
+/// How far images of a frame are from their reference, pixel by pixel, summed over any number of
+/// parts of the frame. alpha of a pixel is 1 - its transmittance.
+class ImageDifference {
+public:
+    /// Adds images of one size whose first pixel is (x, y) of the frame.
+    void add(const Image& reference, const Image& test, int x = 0, int y = 0);
+
+    std::uint64_t pixels() const { return pixels_; }
+    double alpha_error_mean() const; ///< absolute, over all pixels
+    double alpha_error_max() const { return alpha_max_; }
+    /// Peak 1, of the unclamped colours; infinite if they are equal.
+    double psnr_db() const;
+    double max_abs_error() const { return worst_; } ///< largest difference of a channel
+    /// Channels and transmittances of the test image that are no finite number. They enter no other
+    /// result.
+    std::uint64_t nonfinite() const { return nonfinite_; }
+    /// Pixels that another number of splats updated than in the reference.
+    std::uint64_t recounted() const { return recounted_; }
+    bool identical() const { return worst_ == 0 && alpha_max_ == 0 && nonfinite_ == 0; }
+
+    /// Where the largest error is, in the frame; the first pixel that is not finite, if there is
+    /// one.
+    int worst_x() const { return worst_x_; }
+    int worst_y() const { return worst_y_; }
+
+private:
+    std::uint64_t pixels_ = 0, nonfinite_ = 0, recounted_ = 0;
+    double alpha_sum_ = 0, alpha_max_ = 0, squares_ = 0, worst_ = 0;
+    int worst_x_ = 0, worst_y_ = 0;
+};
+
+/// Turns `test` into test - reference: colours and transmittance signed, fragments their distance.
+void subtract(const Image& reference, Image& test);
+
+} // namespace degs

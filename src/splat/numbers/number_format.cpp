@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "splat/numbers/number_format.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include "config/error.hpp"
+
+namespace degs {
+namespace {
+
+ValueFormat float_format(int exponent_bits, int mantissa_bits, int bias, bool has_sign) {
+    ValueFormat format;
+    format.has_sign = has_sign;
+    format.exponent_bits = exponent_bits;
+    format.fraction_bits = mantissa_bits;
+    format.bias = bias;
+    return format;
+}
+
+constexpr int usual_bias(int exponent_bits) {
+    return (1 << (exponent_bits - 1)) - 1;
+}
+
+/// Reads the words of a format name from left to right.
+class FormatReader {
+public:
+    explicit FormatReader(const std::string& name) : name_(name) {}
+
+    bool take(char c) {
+        const bool there = at_ < name_.size() && name_[at_] == c;
+        at_ += static_cast<std::size_t>(there);
+        return there;
+    }
+    /// A number of up to three digits in low .. high; anything else fails.
+    int number(int low, int high) {
+        int value = 0;
+        int digits = 0;
+        for (; digits < 3 && at_ < name_.size() && std::isdigit(byte()) != 0; ++digits, ++at_) {
+            value = 10 * value + (name_[at_] - '0');
+        }
+        if (digits == 0 || value < low || value > high) {
+            fail();
+        }
+        return value;
+    }
+    bool over() const { return at_ == name_.size(); }
+    [[noreturn]] void fail() const {
+        throw InputError("The number format '" + name_ +
+                         "' is not one of fp64, fp32, fp16, bf16, [u]eEmM[bB] with E 2 to 8, M 1 "
+                         "to 23 and values within fp32's range, [u]qI.F of 2 to 32 bits.");
+    }
+
+private:
+    unsigned char byte() const { return static_cast<unsigned char>(name_[at_]); }
+    const std::string& name_;
+    std::size_t at_ = 0;
+};
+
+ValueFormat read_fixed(FormatReader& reader, bool has_sign) {
+    ValueFormat format;
+    format.kind = ValueFormat::Kind::Fixed;
+    format.has_sign = has_sign;
+    format.exponent_bits = format.bias = 0;
+    format.integer_bits = reader.number(has_sign ? 1 : 0, 32);
+    if (!reader.take('.')) {
+        reader.fail();
+    }
+    format.fraction_bits = reader.number(0, 32);
+    const int bits = format.integer_bits + format.fraction_bits;
+    if (bits < 2 || bits > 32) {
+        reader.fail();
+    }
+    return format;
+}
+
+ValueFormat read_float(FormatReader& reader, bool has_sign) {
+    const int exponent_bits = reader.number(2, 8);
+    if (!reader.take('m')) {
+        reader.fail();
+    }
+    const int mantissa_bits = reader.number(1, 23);
+    const int bias = reader.take('b') ? reader.number(0, 127) : usual_bias(exponent_bits);
+    const ValueFormat format = float_format(exponent_bits, mantissa_bits, bias, has_sign);
+    if (!format.fits_float()) {
+        reader.fail();
+    }
+    return format;
+}
+
+std::uint64_t pattern_of(double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/// The exponent of the smallest normal value.
+int lowest_exponent(const ValueFormat& format) {
+    return 1 - format.bias;
+}
+int highest_exponent(const ValueFormat& format) {
+    return (1 << format.exponent_bits) - 2 - format.bias;
+}
+
+std::int32_t bits_of(double value) {
+    const auto narrow = static_cast<float>(value);
+    std::int32_t bits = 0;
+    std::memcpy(&bits, &narrow, sizeof bits);
+    return bits;
+}
+
+} // namespace
+
+int ValueFormat::storage_bits() const {
+    return kind == Kind::Fixed ? integer_bits + fraction_bits
+                               : static_cast<int>(has_sign) + exponent_bits + fraction_bits;
+}
+
+double ValueFormat::max() const {
+    if (kind == Kind::Fixed) {
+        const int whole = integer_bits - static_cast<int>(has_sign);
+        return std::ldexp(1.0, whole) - quantum();
+    }
+    return std::ldexp(2.0 - std::ldexp(1.0, -fraction_bits), highest_exponent(*this));
+}
+
+double ValueFormat::quantum() const {
+    return std::ldexp(1.0, kind == Kind::Fixed ? -fraction_bits
+                                               : lowest_exponent(*this) - fraction_bits);
+}
+
+double ValueFormat::min_normal() const {
+    return std::ldexp(1.0, lowest_exponent(*this));
+}
+
+bool ValueFormat::fits_float() const {
+    if (kind == Kind::Fixed) {
+        return storage_bits() - static_cast<int>(has_sign) <= 23;
+    }
+    return fraction_bits <= 23 && lowest_exponent(*this) >= -126 && highest_exponent(*this) <= 127;
+}
+
+std::string ValueFormat::name() const {
+    if (kind == Kind::Fixed) {
+        return std::string(has_sign ? "q" : "uq") + std::to_string(integer_bits) + "." +
+               std::to_string(fraction_bits);
+    }
+    for (const char* known : {"fp64", "fp32", "fp16", "bf16"}) {
+        if (*this == parse_format(known)) {
+            return known;
+        }
+    }
+    std::string name = std::string(has_sign ? "e" : "ue") + std::to_string(exponent_bits) + "m" +
+                       std::to_string(fraction_bits);
+    return bias == usual_bias(exponent_bits) ? name : name + "b" + std::to_string(bias);
+}
+
+bool operator==(const ValueFormat& a, const ValueFormat& b) {
+    return a.kind == b.kind && a.has_sign == b.has_sign && a.exponent_bits == b.exponent_bits &&
+           a.bias == b.bias && a.integer_bits == b.integer_bits &&
+           a.fraction_bits == b.fraction_bits;
+}
+
+ValueFormat parse_format(const std::string& name) {
+    if (name == "fp64") {
+        return {};
+    }
+    if (name == "fp32") {
+        return float_format(8, 23, 127, true);
+    }
+    if (name == "fp16") {
+        return float_format(5, 10, 15, true);
+    }
+    if (name == "bf16") {
+        return float_format(8, 7, 127, true);
+    }
+    FormatReader reader(name);
+    const bool has_sign = !reader.take('u');
+    const bool is_float = reader.take('e');
+    if (!is_float && !reader.take('q')) {
+        reader.fail();
+    }
+    const ValueFormat format =
+        is_float ? read_float(reader, has_sign) : read_fixed(reader, has_sign);
+    if (!reader.over()) {
+        reader.fail();
+    }
+    return format;
+}
+
+Rounder::Rounder(const ValueFormat& format)
+    : exact_(format.is_fp64()), fixed_(format.kind == ValueFormat::Kind::Fixed) {
+    if (exact_) {
+        return;
+    }
+    max_ = format.max();
+    min_ = format.has_sign ? -max_ : 0.0;
+    magic_ = 1.5 * std::ldexp(format.quantum(), 52);
+    if (fixed_) {
+        return;
+    }
+    shift_ = 52 - format.fraction_bits;
+    half_less_one_ = (std::uint64_t{1} << (shift_ - 1)) - 1;
+    keep_ = ~((std::uint64_t{1} << shift_) - 1);
+    magnitude_ = ~std::uint64_t{0} >> static_cast<int>(format.has_sign);
+    low_ = pattern_of(format.min_normal());
+    range_ = pattern_of(max_) + half_less_one_ - low_; // what still rounds down to the largest
+}
+
+/// A float that is subnormal, too large or no number.
+double Rounder::beside(double x) const {
+    return x >= min_ && x <= max_ ? (x + magic_) - magic_ : outside(x);
+}
+
+double Rounder::outside(double x) const {
+    if (std::isnan(x)) {
+        return fixed_ ? max_ : x;
+    }
+    const double over = fixed_ ? max_ : std::numeric_limits<double>::infinity();
+    if (x > 0) {
+        return over;
+    }
+    return min_ < 0 ? -over : 0.0;
+}
+
+LaneRounding::LaneRounding(const ValueFormat& format) {
+    if (!format.fits_float()) {
+        throw InputError("The number format '" + format.name() +
+                         "' has more bits than the lanes of the array, which carry fp32.");
+    }
+    const bool fixed = format.kind == ValueFormat::Kind::Fixed;
+    max = bits_of(format.max());
+    over = fixed ? max : over;
+    nan = fixed ? max : nan;
+    sign = format.has_sign ? sign : 0;
+    if (fixed) {
+        min_normal = INT32_MAX;
+        // Magnitudes of 23 bits would leave the binade of 1.5 * 2^23.
+        const bool both_signs = format.storage_bits() - static_cast<int>(format.has_sign) <= 22;
+        magic = static_cast<float>(std::ldexp(format.quantum(), 23) * (both_signs ? 1.5 : 1.0));
+        high = static_cast<float>(format.max());
+        low = format.has_sign ? -high : 0.0F;
+        return;
+    }
+    shift = 23 - format.fraction_bits;
+    odd = shift > 0 ? 1 : 0;
+    half_less_one = shift > 0 ? (1 << (shift - 1)) - 1 : 0;
+    keep = 0x7FFFFFFF & ~((1 << shift) - 1);
+    // Where subnormals are those of fp32, cutting their patterns rounds them, too.
+    if (lowest_exponent(format) > -126) {
+        min_normal = bits_of(format.min_normal());
+        magic = static_cast<float>(std::ldexp(format.quantum(), 23));
+    }
+}
+
+} // namespace degs

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "splat/numbers/lookup_table.hpp"
+#include "splat/numbers/number_format.hpp"
+
+namespace degs {
+
+/// How the descriptor of a projected splat is made. `Reference`: in double precision, then every
+/// field rounded once. `Literal`: A, B, C rounded first, then Eq. 10 and 11 of the paper, every
+/// operation rounded to the format of its result.
+enum class Derivation { Reference, Literal };
+/// dy^2 inv_ry^2 and C' dy^2: `Squared` forms dy^2 first (and leaves FP16 at |dy| = 256),
+/// `Stepwise` multiplies by dy twice. `FromRatio` takes C' dy^2 from x = dy^2 inv_ry^2, so that
+/// neither C' nor the opacity's fold is needed: q' = Q_limit - Q_th (1 - x) + A u^2.
+enum class Vertical { Squared, Stepwise, FromRatio };
+/// A mean is a coordinate, or its nearest pixel (an integer) and an offset in -0.5 .. 0.5.
+enum class Mean { Coordinate, PixelAndOffset };
+/// Which pixels a row span covers. `Exact`: ceil(x_c - w) .. floor(x_c + w), the pixels with
+/// q <= Q_th. `Outward`: floor(x_c - w) - delta .. ceil(x_c + w) + delta (paper, Sec. III-A).
+/// `Slope`: outward, and delta grows by |dw/dy| times half a unit of the mean, to the nearest px
+/// and at most 1 (the paper "estimates the error based on dw/dy"); fp32 and fp64 have no such unit:
+/// 0.
+enum class SpanEnds { Exact, Outward, Slope };
+/// The pixel of n = 0. `Start`: the span's first (paper). `Vertex`: the pixel of the span nearest
+/// to x_c; all terms of q_n have one sign there, so nothing cancels.
+enum class Base { Start, Vertex };
+/// Products with the integers n and n(n-1). `Whole`: one multiplier. `HalfLookup`: the integer is
+/// cut into its low 4 bits and the rest, each product is looked up and rounded, then they are
+/// added.
+enum class IntegerMultiplier { Whole, HalfLookup };
+/// q counts nats of exp(-q/2), as in the paper, or binary orders of alpha = 2^-q: A, C' and Q_th
+/// are stored times log2(e) / 2, which costs nothing and saves a multiplier in front of the table.
+enum class Exponent { Natural, Binary };
+
+/// One number format for each stage of the data path, both tables, and what is done in which order.
+/// Every operation is rounded to the format of its result.
+struct NumberSet {
+    std::string name;
+    std::string meaning; ///< a sentence for people
+
+    ValueFormat projection; ///< every value and operation that makes splats (ProjectionOptions)
+
+    // Splat record in memory.
+    ValueFormat mean;            ///< mu_x, mu_y, px
+    ValueFormat slope;           ///< m
+    ValueFormat c_prime;         ///< C'; not stored with Vertical::FromRatio
+    ValueFormat radius;          ///< r_x, px
+    ValueFormat inverse_radius2; ///< 1 / r_y^2, px^-2
+    ValueFormat conic;           ///< A (and B, C while Literal derives)
+    ValueFormat q_threshold;     ///< Q_th
+    ValueFormat colour;          ///< red, green, blue
+
+    // Span Unit.
+    ValueFormat distance; ///< dy, u = x - x_c, px
+    ValueFormat square;   ///< dy^2, dy inv_ry^2, A u, 2u + 1 and other intermediate products
+    ValueFormat ratio;    ///< x = dy^2 inv_ry^2 and 1 - x
+    ValueFormat edge;     ///< m dy, x_c, w, x_c -+ w; px
+    ValueFormat level;    ///< terms of g0
+    ValueFormat g0, d0;   ///< Span Vector
+
+    // Blending PE and Pixel Buffer.
+    ValueFormat term; ///< n d0, A n(n-1), and their sum with Base::Vertex
+    ValueFormat q;    ///< q_n
+    ValueFormat alpha;
+    ValueFormat transmittance; ///< T and 1 - alpha; fixed formats store 1 - T, so that 1 is exact
+    ValueFormat weight;        ///< alpha T, and its products with the colour
+    ValueFormat sum;           ///< accumulated colour
+
+    TableSpec sqrt, exp;
+
+    Derivation derivation = Derivation::Reference;
+    Vertical vertical = Vertical::Stepwise;
+    Mean mean_form = Mean::Coordinate;
+    SpanEnds ends = SpanEnds::Exact; ///< unless a run says otherwise, see DataPathOptions
+    int delta = 0;                   ///< px added at both ends that are not exact
+    double guard = 0; ///< px by which exact ends are moved outwards before ceil and floor
+    Base base = Base::Start;
+    IntegerMultiplier multiplier = IntegerMultiplier::Whole;
+    Exponent exponent = Exponent::Natural;
+    bool q_mask = false; ///< PEs drop pixels with q above that of alpha = 1/255
+
+    /// q' at which alpha is 1/255: 2 ln 255 or log2 255.
+    double q_limit() const;
+};
+
+/// A field of the splat record in memory.
+struct RecordField {
+    std::string name;
+    int bits = 0;
+};
+/// The record of 32 B, field by field; what is left is padding.
+std::vector<RecordField> splat_record(const NumberSet& set);
+/// Bits of the record without padding.
+int record_bits(const NumberSet& set);
+
+/// What each stage costs, for a cost model: stage name and key, e.g. {"pe.q", "add.uq3.13"}.
+std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set);
+
+/// "ideal", "fp32", "fp16", "paper", "tuned".
+std::vector<std::string> number_set_names();
+/// InputError lists the names for any other.
+NumberSet number_set(const std::string& name);
+
+} // namespace degs

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "splat/numbers/quantized_data_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "splat/numbers/quantized_extent.hpp"
+#include "splat/numbers/quantized_pixels.hpp"
+
+namespace degs {
+namespace {
+
+NumberSet with_ends(NumberSet set, const DataPathOptions& options) {
+    set.ends = options.ends;
+    set.delta = options.delta;
+    return set;
+}
+
+class QuantizedDataPath final : public DataPath {
+public:
+    QuantizedDataPath(const NumberSet& set, const DataPathOptions& options, int tile_size,
+                      int contexts)
+        : row_(with_ends(set, options)), slack_(row_.set()),
+          refuse_(options.stop == StopRule::Refuse), tile_size_(tile_size),
+          stride_((tile_size + 31) / 32 * 32),
+          pixels_(make_quantized_pixels(row_,
+                                        static_cast<std::size_t>(contexts * tile_size * stride_))) {
+    }
+
+    std::uint32_t add_frame(const FrameWorkload& workload) override {
+        const auto base = static_cast<std::uint32_t>(splats_.size());
+        for (const ProjectedSplat& splat : workload.splats) {
+            splats_.push_back(row_.record(splat));
+            extents_.emplace_back(row_, slack_, splats_.back());
+            pixels_->add(splats_.back());
+        }
+        return base;
+    }
+
+    void expect(std::uint32_t splat) const override {
+        const auto* record = reinterpret_cast<const char*>(&splats_[splat]);
+        __builtin_prefetch(record);
+        __builtin_prefetch(record + sizeof(QuantizedSplat) - 1);
+        __builtin_prefetch(&extents_[splat]);
+    }
+
+    void rows(std::uint32_t splat, int& first, int& last) const override {
+        first = extents_[splat].first_row();
+        last = extents_[splat].last_row();
+    }
+
+    void columns(std::uint32_t splat, int& first, int& last) const override {
+        first = extents_[splat].first_column();
+        last = extents_[splat].last_column();
+    }
+
+    void rows_in_columns(std::uint32_t splat, int x_begin, int x_end, int& first,
+                         int& last) const override {
+        extents_[splat].rows_in_columns(x_begin, x_end, first, last);
+    }
+
+    bool solve_row(std::uint32_t splat, int y, int x_begin, int x_end, int tile_y,
+                   RowSpan& span) const override {
+        const QuantizedSpan solved = row_.solve(splats_[splat], y, x_begin, x_end);
+        if (solved.empty()) {
+            return false;
+        }
+        span.splat = splat;
+        span.y = static_cast<std::int16_t>(y - tile_y);
+        span.x0 = static_cast<std::int16_t>(solved.x0 - x_begin);
+        span.length = static_cast<std::int16_t>(solved.x1 - solved.x0 + 1);
+        span.base = static_cast<std::int16_t>(solved.base - x_begin);
+        span.g0 = solved.g0;
+        span.d0 = solved.d0;
+        return true;
+    }
+
+    void begin_row(int context, int row) override {
+        pixels_->clear(at(context, row, 0), static_cast<std::size_t>(stride_));
+    }
+
+    BlendOutcome blend(const BlendTask& task) override {
+        return pixels_->blend(task, refuse_, at(task.context, task.row, task.column));
+    }
+
+    BlendOutcome test(const PixelTest& test) override {
+        const QuantizedSplat& splat = splats_[test.splat];
+        const QuantizedCheck row = row_.check(splat, test.y);
+        if (!row.possible) {
+            BlendOutcome outcome;
+            outcome.boundary = test.mask;
+            return outcome;
+        }
+        double q[32] = {};
+        for (std::uint32_t left = test.mask; left != 0; left &= left - 1) {
+            const int i = __builtin_ctz(left);
+            q[i] = row_.checked_q(splat, row, test.x + i);
+        }
+        return pixels_->test(test.splat, test.mask, q, refuse_,
+                             at(test.context, test.row, test.column));
+    }
+
+    // The pixel nearest to the centre decides whether there are any; away from it q' never falls.
+    bool tested_columns(std::uint32_t splat, int y, int x_begin, int x_end, int& first,
+                        int& last) const override {
+        const QuantizedSplat& s = splats_[splat];
+        const QuantizedCheck row = row_.check(s, y);
+        if (!row.possible || !std::isfinite(row.centre) || x_begin >= x_end) {
+            return false;
+        }
+        const auto inside = [&](int x) { return row_.checked_q(s, row, x) <= row_.q_inside(); };
+        const double low = x_begin - s.pixel_x;
+        const double high = x_end - 1 - s.pixel_x;
+        const int nearest =
+            x_begin + static_cast<int>(std::clamp(std::nearbyint(row.centre), low, high) - low);
+        if (!inside(nearest)) {
+            return false;
+        }
+        const auto outermost = [&](int beyond) { // inside, and its neighbour towards `beyond` not
+            int in = nearest;
+            for (int out = beyond; std::abs(out - in) > 1;) {
+                const int middle = in + (out - in) / 2;
+                (inside(middle) ? in : out) = middle;
+            }
+            return in;
+        };
+        first = outermost(x_begin - 1);
+        last = outermost(x_end);
+        return true;
+    }
+
+    void read_row(int context, int row, int count, PixelValue* pixels) const override {
+        const std::size_t first = at(context, row, 0);
+        for (int i = 0; i < count; ++i) {
+            pixels[i] = pixels_->read(first + static_cast<std::size_t>(i));
+        }
+    }
+
+private:
+    std::size_t at(int context, int row, int column) const {
+        return static_cast<std::size_t>((context * tile_size_ + row) * stride_ + column);
+    }
+
+    QuantizedRow row_;
+    QuantizedSlack slack_;
+    bool refuse_;
+    int tile_size_;
+    int stride_; // tile rows are padded to 32 px so that lanes never leave their row
+    std::unique_ptr<QuantizedPixels> pixels_;
+    std::vector<QuantizedSplat> splats_;
+    std::vector<QuantizedExtent> extents_;
+};
+
+} // namespace
+
+std::unique_ptr<DataPath> make_quantized_data_path(const NumberSet& set,
+                                                   const DataPathOptions& options, int tile_size,
+                                                   int contexts) {
+    return std::make_unique<QuantizedDataPath>(set, options, tile_size, contexts);
+}
+
+} // namespace degs

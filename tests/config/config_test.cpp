@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values into structs, and every way in which a value can be wrong.
+#include <cmath>
+#include <limits>
+
+#include "config/config_source.hpp"
+#include "config_fixture.hpp"
+
+namespace degs::config_test {
+namespace {
+
+Keys loaded(const std::string& yaml, const std::vector<std::string>& overrides = {}) {
+    Keys keys;
+    ConfigSource::from_text("a.yaml", yaml, overrides).load(keys);
+    return keys;
+}
+
+std::string error_of(const std::string& yaml, const std::vector<std::string>& overrides = {}) {
+    return sentence_of([&] { loaded(yaml, overrides); });
+}
+
+TEST(Config, ReadsEveryKindOfValueAndKeepsOtherDefaults) {
+    const Keys keys = loaded("order: hilbert\nseed: -7\ntitle: \"64\"\n"
+                             "memory:\n  latency_ns: 1.25e2\n  refresh: false\n");
+    EXPECT_EQ(keys.order, Order::hilbert);
+    EXPECT_EQ(keys.seed, -7);
+    EXPECT_EQ(keys.title, "64");
+    EXPECT_EQ(keys.memory.latency_ns, 125.0);
+    EXPECT_FALSE(keys.memory.refresh);
+    EXPECT_EQ(keys.banks, 8);
+    EXPECT_EQ(keys.memory.access_bytes, 64);
+}
+
+TEST(Config, BoundsBelongToTheRange) {
+    EXPECT_EQ(loaded("banks: 1").banks, 1);
+    EXPECT_EQ(loaded("banks: 64").banks, 64);
+    EXPECT_EQ(loaded("memory: {latency_ns: 0}").memory.latency_ns, 0.0);
+    EXPECT_EQ(loaded("seed: 9223372036854775807").seed, INT64_MAX);
+    EXPECT_EQ(loaded("seed: -9223372036854775808").seed, INT64_MIN);
+}
+
+TEST(Config, SectionWithoutKeysSetsNothing) {
+    EXPECT_EQ(loaded("memory:\nbanks: 4").memory.access_bytes, 64);
+    EXPECT_EQ(loaded("memory: {}").memory.access_bytes, 64);
+}
+
+TEST(Config, FailedLoadLeavesTheStructUntouched) {
+    Keys keys;
+    keys.banks = 3;
+    const auto source = ConfigSource::from_text("a.yaml", "banks: 5\nmemory: {refresh: maybe}");
+    EXPECT_THROW(source.load(keys), ConfigError);
+    EXPECT_EQ(keys.banks, 3);
+}
+
+TEST(ConfigUnknown, NamesTheNearestAndAllKnownKeys) {
+    EXPECT_EQ(error_of("banks: 4\nmemory:\n  latncy_ns: 3\n"),
+              "a.yaml:3: key 'memory.latncy_ns' is unknown, did you mean 'memory.latency_ns'? "
+              "(allowed in 'memory': latency_ns, access_bytes, refresh).");
+    EXPECT_EQ(error_of("bank: 4"), "a.yaml:1: key 'bank' is unknown, did you mean 'banks'? "
+                                   "(allowed at the top: banks, seed, order, title, memory).");
+}
+
+TEST(ConfigUnknown, PointsAtTheSectionAKeyBelongsTo) {
+    EXPECT_EQ(error_of("\naccess_bytes: 32"),
+              "a.yaml:2: key 'access_bytes' is unknown, did you mean 'memory.access_bytes'? "
+              "(allowed at the top: banks, seed, order, title, memory).");
+}
+
+TEST(ConfigUnknown, OffersNothingFarFetched) {
+    EXPECT_EQ(error_of("quantum_entanglement: 1"),
+              "a.yaml:1: key 'quantum_entanglement' is unknown "
+              "(allowed at the top: banks, seed, order, title, memory).");
+}
+
+TEST(ConfigUnknown, RejectsDottedKeysAndMergeKeysInAFile) {
+    EXPECT_EQ(error_of("memory.refresh: true"),
+              "a.yaml:1: key 'memory.refresh' is unknown, did you mean 'memory.refresh'? "
+              "(allowed at the top: banks, seed, order, title, memory).");
+    EXPECT_NE(error_of("<<: {banks: 3}").find("a.yaml:1: key '<<' is unknown"), std::string::npos);
+}
+
+TEST(ConfigInteger, RejectsEverythingThatIsNotPlainDigitsInRange) {
+    const std::string end = ", but must be an integer in decimal digits, 1 to 64";
+    EXPECT_EQ(error_of("seed: 2\nbanks: 65"), "a.yaml:2: key 'banks' is '65'" + end + ".");
+    EXPECT_EQ(error_of("banks: 0"), "a.yaml:1: key 'banks' is '0'" + end + ".");
+    EXPECT_EQ(error_of("banks: many"), "a.yaml:1: key 'banks' is 'many'" + end + ".");
+    EXPECT_EQ(error_of("banks: 4.0"), "a.yaml:1: key 'banks' is '4.0'" + end + ".");
+    EXPECT_EQ(error_of("banks: 010"), "a.yaml:1: key 'banks' is '010'" + end + ".");
+    EXPECT_EQ(error_of("banks: +4"), "a.yaml:1: key 'banks' is '+4'" + end + ".");
+    EXPECT_EQ(error_of("banks: true"), "a.yaml:1: key 'banks' is 'true'" + end + ".");
+    EXPECT_EQ(error_of("banks: '4'"), "a.yaml:1: key 'banks' is the quoted text '4'" + end + ".");
+    EXPECT_EQ(error_of("banks:"), "a.yaml:1: key 'banks' has no value" + end + ".");
+    EXPECT_EQ(error_of("banks: ~"), "a.yaml:1: key 'banks' has no value" + end + ".");
+    EXPECT_EQ(error_of("banks: [4]"), "a.yaml:1: key 'banks' is a list" + end + ".");
+    EXPECT_EQ(error_of("banks:\n  x: 4"), "a.yaml:1: key 'banks' is a section" + end + ".");
+}
+
+TEST(ConfigInteger, WantsDigitsInsteadOfExponents) {
+    const std::string end = ", but must be an integer in decimal digits, 64 bits.";
+    EXPECT_EQ(error_of("seed: 1e3"), "a.yaml:1: key 'seed' is '1e3'" + end);
+    EXPECT_EQ(error_of("seed: 0x10"), "a.yaml:1: key 'seed' is '0x10'" + end);
+    EXPECT_EQ(error_of("seed: 1_000"), "a.yaml:1: key 'seed' is '1_000'" + end);
+}
+
+TEST(ConfigInteger, CatchesOverflowOfEitherWidth) {
+    EXPECT_EQ(error_of("seed: 9223372036854775808"),
+              "a.yaml:1: key 'seed' is '9223372036854775808', but must be an integer in decimal "
+              "digits, 64 bits.");
+    EXPECT_EQ(error_of("banks: 4294967304"), // 2^32 + 8 would pass as 8 in 32 bits
+              "a.yaml:1: key 'banks' is '4294967304', but must be an integer in decimal digits, 1 "
+              "to 64.");
+}
+
+TEST(ConfigReal, RejectsWhatIsNotFiniteOrOutOfRange) {
+    for (const char* bad : {"-0.1", "1000000.1", ".nan", ".inf", "-.inf", "nan", "inf", "infinity",
+                            "1e999", "1e-999", "0x1p3", "1,5", "12ns", "1.2.3", "fast", "true"}) {
+        EXPECT_EQ(error_of(std::string("memory:\n  latency_ns: ") + bad),
+                  std::string("a.yaml:2: key 'memory.latency_ns' is '") + bad +
+                      "', but must be a finite number, 0 to 1e+06.");
+    }
+    EXPECT_EQ(error_of("memory: {latency_ns: \"5\"}"),
+              "a.yaml:1: key 'memory.latency_ns' is the quoted text '5', but must be a finite "
+              "number, 0 to 1e+06.");
+}
+
+TEST(ConfigBoolean, TakesTrueAndFalseOnly) {
+    for (const char* bad : {"yes", "no", "on", "off", "1", "0", "True", "TRUE", "y"}) {
+        EXPECT_EQ(error_of(std::string("memory:\n  refresh: ") + bad),
+                  std::string("a.yaml:2: key 'memory.refresh' is '") + bad +
+                      "', but must be true or false.");
+    }
+}
+
+TEST(ConfigChoice, GoesByNameAndSuggestsTheNearest) {
+    EXPECT_EQ(error_of("order: mortn"), "a.yaml:1: key 'order' is 'mortn', but must be one of "
+                                        "row-major, morton, hilbert (did you mean 'morton'?).");
+    EXPECT_EQ(error_of("order: 1"), "a.yaml:1: key 'order' is '1', but must be one of "
+                                    "row-major, morton, hilbert.");
+    EXPECT_EQ(error_of("order: [morton]"), "a.yaml:1: key 'order' is a list, but must be one of "
+                                           "row-major, morton, hilbert.");
+}
+
+TEST(ConfigText, MayBeEmptyButNotMissing) {
+    EXPECT_EQ(loaded("title: ''").title, "");
+    EXPECT_EQ(loaded("title: 64 PEs, 2 tiles").title, "64 PEs, 2 tiles");
+    EXPECT_EQ(error_of("title:"), "a.yaml:1: key 'title' has no value, but must be a text "
+                                  "(\"\" for an empty one).");
+}
+
+TEST(ConfigSection, RejectsAScalarOrAListInItsPlace) {
+    EXPECT_EQ(error_of("banks: 2\nmemory: 5"),
+              "a.yaml:2: key 'memory' is '5', but must be a section of keys.");
+    EXPECT_EQ(error_of("memory: [1, 2]"),
+              "a.yaml:1: key 'memory' is a list, but must be a section of keys.");
+}
+
+TEST(ConfigRequire, BlamesTheKeyWhereItWasSet) {
+    EXPECT_EQ(error_of("banks: 2\nseed: 13"),
+              "a.yaml:2: key 'seed' must not be 13 with this many banks.");
+    EXPECT_EQ(error_of("seed: 2", {"seed=13"}),
+              "--set seed=13: key 'seed' must not be 13 with this many banks.");
+}
+
+TEST(ConfigDefaults, AreHeldToTheSameRanges) {
+    Keys keys;
+    keys.banks = 99;
+    const auto source = ConfigSource::from_overrides();
+    EXPECT_EQ(sentence_of([&] { source.load(keys); }),
+              "default: key 'banks' is 99, but must be 1 to 64.");
+    keys = Keys();
+    keys.memory.latency_ns = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(sentence_of([&] { source.load(keys); }),
+              "default: key 'memory.latency_ns' is nan, but must be 0 to 1e+06.");
+    keys = Keys();
+    keys.order = static_cast<Order>(3);
+    EXPECT_EQ(sentence_of([&] { source.load(keys); }),
+              "default: key 'order' is 3, but must be 0 to 2.");
+}
+
+TEST(ConfigSet, OverridesTheFileAndTheLastOneWins) {
+    const Keys keys = loaded("banks: 4\nmemory: {access_bytes: 32}",
+                             {"memory.access_bytes=128", "title=a=b", "banks=5", "banks=6"});
+    EXPECT_EQ(keys.memory.access_bytes, 128);
+    EXPECT_EQ(keys.title, "a=b");
+    EXPECT_EQ(keys.banks, 6);
+}
+
+TEST(ConfigSet, NamesItselfInsteadOfALine) {
+    EXPECT_EQ(error_of("banks: 4", {"banks=400"}),
+              "--set banks=400: key 'banks' is '400', but must be an integer in decimal digits, 1 "
+              "to 64.");
+    EXPECT_EQ(
+        error_of("banks: 4", {"banks="}),
+        "--set banks=: key 'banks' is '', but must be an integer in decimal digits, 1 to 64.");
+    EXPECT_EQ(error_of("banks: 4", {"memory.latncy_ns=3"}),
+              "--set memory.latncy_ns=3: key 'memory.latncy_ns' is unknown, did you mean "
+              "'memory.latency_ns'? (allowed in 'memory': latency_ns, access_bytes, refresh).");
+    EXPECT_EQ(error_of("banks: 4", {"memry.refresh=true"}),
+              "--set memry.refresh=true: key 'memry.refresh' is unknown, did you mean "
+              "'memory.refresh'? (allowed at the top: banks, seed, order, title, memory).");
+}
+
+TEST(ConfigSet, TellsSectionsFromValues) {
+    EXPECT_EQ(error_of("banks: 4", {"memory=3"}),
+              "--set memory=3: key 'memory' is a section; set one of its keys: latency_ns, "
+              "access_bytes, refresh.");
+    EXPECT_EQ(
+        error_of("banks: 4", {"banks.size=3"}),
+        "--set banks.size=3: key 'banks.size' is unknown, because 'banks' is a single value.");
+}
+
+TEST(ConfigSet, MustBePathEqualsValue) {
+    for (const char* bad : {"banks", "", "=3", ".banks=3", "memory.=3", "memory..refresh=true"}) {
+        EXPECT_EQ(error_of("banks: 4", {bad}),
+                  std::string("--set '") + bad +
+                      "': this is not an override; path.to.key=value is expected.");
+    }
+}
+
+TEST(ConfigPlace, TellsWhatDecidesAKey) {
+    const auto source = ConfigSource::from_text("a.yaml", "banks: 2\nmemory:\n  refresh: true\n",
+                                                {"seed=4", "banks=3"});
+    EXPECT_EQ(source.place("memory.refresh"), "a.yaml:3");
+    EXPECT_EQ(source.place("memory"), "a.yaml:2");
+    EXPECT_EQ(source.place("banks"), "--set banks=3");
+    EXPECT_EQ(source.place("order"), "default");
+    EXPECT_EQ(source.place("memory.refresh.rate"), "default");
+}
+
+} // namespace
+} // namespace degs::config_test
