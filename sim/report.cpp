@@ -91,7 +91,7 @@ ordered_json slots_json(const AcceleratorResult& run) {
             {"hazards", run.hazards}};
 }
 
-ordered_json energy_json(const Lpddr5Energy& energy) {
+ordered_json energy_json(const dram::Energy& energy) {
     return {{"activate", energy.activate_nj},     {"read", energy.read_nj},
             {"write", energy.write_nj},           {"refresh", energy.refresh_nj},
             {"background", energy.background_nj}, {"total", energy.total_nj()}};

@@ -26,8 +26,8 @@ struct MemoryOptions {
     std::string out = "out";
 };
 
-Lpddr5Config load(const MemoryOptions& options) {
-    Lpddr5Config config;
+dram::Config load(const MemoryOptions& options) {
+    dram::Config config;
     ConfigSource::from_file(options.config, options.overrides).load(config);
     if (options.queue != 0) {
         config.controller.read_queue = options.queue;
@@ -58,13 +58,13 @@ void run(const MemoryOptions& options) {
     MemoryFacts facts;
     facts.memory = load(options);
     facts.shape = options.shape;
-    const Lpddr5Config& config = facts.memory;
+    const dram::Config& config = facts.memory;
     std::vector<std::string> files{"memory.json"};
     if (!options.no_curve) {
         files.emplace_back("latency.svg");
     }
     const OutputFolder out(options.out, files);
-    Lpddr5 memory("memory", config, Timebase(), static_cast<std::size_t>(config.channels));
+    dram::Lpddr5 memory("memory", config, Timebase(), static_cast<std::size_t>(config.channels));
     if (static_cast<std::uint64_t>(options.shape.request_bytes) * 4 >
         memory.channels().mapping().capacity()) {
         throw InputError("Requests of " + std::to_string(options.shape.request_bytes) +
@@ -122,7 +122,7 @@ void add_memory_command(CLI::App& program) {
     command
         ->add_option("--queue", options->queue,
                      "depth of each controller queue per channel, in 64 B; default: the file's")
-        ->check(CLI::Range(1, static_cast<int>(Lpddr5Queue::kSlots)));
+        ->check(CLI::Range(1, static_cast<int>(dram::Queue::kSlots)));
     command->add_option("--requests", options->requests, "to measure, after the warm-up")
         ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40U))
         ->capture_default_str();

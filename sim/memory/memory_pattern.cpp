@@ -18,7 +18,7 @@ const std::vector<std::string>& traffic_patterns() {
     return names;
 }
 
-TrafficDealer::TrafficDealer(const TrafficShape& shape, const Lpddr5Mapping& mapping,
+TrafficDealer::TrafficDealer(const TrafficShape& shape, const dram::Mapping& mapping,
                              std::size_t channels)
     : mapping_(&mapping), shape_(shape),
       kind_(static_cast<std::size_t>(

@@ -33,7 +33,7 @@ struct TrafficItem {
 /// so that a full channel holds up nobody else.
 class TrafficDealer {
 public:
-    TrafficDealer(const TrafficShape& shape, const Lpddr5Mapping& mapping, std::size_t channels);
+    TrafficDealer(const TrafficShape& shape, const dram::Mapping& mapping, std::size_t channels);
 
     /// The next request of the sequence.
     TrafficItem draw();
@@ -44,7 +44,7 @@ public:
     bool next_of(std::size_t channel, TrafficItem& item);
 
 private:
-    const Lpddr5Mapping* mapping_;
+    const dram::Mapping* mapping_;
     TrafficShape shape_;
     std::size_t kind_;
     std::mt19937_64 random_;

@@ -26,10 +26,10 @@ double hit_rate(const std::array<std::uint64_t, 3>& counts) {
     return all == 0 ? 0 : static_cast<double>(counts[0]) / static_cast<double>(all);
 }
 
-Json commands_json(const Lpddr5Channel::Stats& stats) {
+Json commands_json(const dram::Channel::Stats& stats) {
     Json json;
-    for (std::size_t c = 0; c < kLpddr5Commands; ++c) {
-        json[lpddr5_command_name(static_cast<Lpddr5Command>(c))] = stats.commands[c];
+    for (std::size_t c = 0; c < dram::kCommands; ++c) {
+        json[dram::command_name(static_cast<dram::Command>(c))] = stats.commands[c];
     }
     return json;
 }
@@ -39,7 +39,7 @@ Json rows_json(const std::array<std::uint64_t, 3>& counts) {
 }
 
 Json energy_json(const TrafficResult& result) {
-    const Lpddr5Energy& energy = result.energy;
+    const dram::Energy& energy = result.energy;
     return {{"activate_nj", energy.activate_nj},
             {"read_nj", energy.read_nj},
             {"write_nj", energy.write_nj},
@@ -50,7 +50,7 @@ Json energy_json(const TrafficResult& result) {
             {"mean_power_w", 1e-9 * energy.total_nj() / result.seconds}};
 }
 
-Json shape_json(const TrafficShape& shape, const Lpddr5ControllerConfig& controller,
+Json shape_json(const TrafficShape& shape, const dram::ControllerConfig& controller,
                 std::uint64_t requests) {
     Json json{{"pattern", shape.pattern},
               {"request_bytes", shape.request_bytes},
@@ -77,7 +77,7 @@ const LatencyHistogram& latency_of(const TrafficResult& result) {
     return result.reads.samples() != 0 ? result.reads : result.writes;
 }
 
-LoadPoint point_of(const TrafficResult& result, const Lpddr5Config& memory) {
+LoadPoint point_of(const TrafficResult& result, const dram::Config& memory) {
     const LatencyHistogram& latency = latency_of(result);
     return {result.offered, result.gb_per_s() / memory.peak_gb_per_s(), latency.mean_ns(),
             latency.percentile_ns(0.95)};
@@ -119,7 +119,7 @@ Json memory_json(const MemoryFacts& facts) {
 
 std::string memory_words(const MemoryFacts& facts) {
     const TrafficResult& result = facts.saturated;
-    const Lpddr5Config& memory = facts.memory;
+    const dram::Config& memory = facts.memory;
     const LatencyHistogram& latency = latency_of(result);
     std::string text = layout(
         {{"memory", facts.memory.name + " · " + std::to_string(memory.channels) + " channels · " +

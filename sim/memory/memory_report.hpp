@@ -13,7 +13,7 @@
 namespace degs::sim {
 
 struct MemoryFacts {
-    Lpddr5Config memory;
+    dram::Config memory;
     TrafficShape shape;
     TrafficResult saturated;
     std::vector<TrafficResult> curve; ///< by offered load
@@ -22,7 +22,7 @@ struct MemoryFacts {
 
 /// Latency is that of reads where there are any: a posted write is answered by the queue.
 const LatencyHistogram& latency_of(const TrafficResult& result);
-LoadPoint point_of(const TrafficResult& result, const Lpddr5Config& memory);
+LoadPoint point_of(const TrafficResult& result, const dram::Config& memory);
 nlohmann::ordered_json memory_json(const MemoryFacts& facts);
 std::string memory_words(const MemoryFacts& facts);
 

@@ -9,11 +9,11 @@
 
 namespace degs::sim {
 
-int traffic_window(const Lpddr5Config& config, int request_bytes) {
-    const Lpddr5Timing& timing = config.timing;
+int traffic_window(const dram::Config& config, int request_bytes) {
+    const dram::Timing& timing = config.timing;
     const int extra = static_cast<int>(std::ceil(config.controller_latency_ns / timing.ck_ns()));
-    const int bytes_per_ck = kLpddr5BytesPerBeat * kLpddr5BeatsPerCk;
-    constexpr int kAccess = kLpddr5AccessBytes;
+    const int bytes_per_ck = dram::kBytesPerBeat * dram::kBeatsPerCk;
+    constexpr int kAccess = dram::kAccessBytes;
     const int access_ck = std::min(request_bytes + bytes_per_ck - 1, kAccess) / bytes_per_ck;
     const int latency = static_cast<int>(timing.read_latency()) + extra;
     const int accesses = config.controller.read_queue + (latency + access_ck - 1) / access_ck;
@@ -21,8 +21,8 @@ int traffic_window(const Lpddr5Config& config, int request_bytes) {
     return (accesses + per_request - 1) / per_request + 1;
 }
 
-MemoryTraffic::MemoryTraffic(const sc_core::sc_module_name& name, Lpddr5& memory,
-                             const Lpddr5Config& config, const TrafficShape& shape)
+MemoryTraffic::MemoryTraffic(const sc_core::sc_module_name& name, dram::Lpddr5& memory,
+                             const dram::Config& config, const TrafficShape& shape)
     : sc_core::sc_module(name), out("out", static_cast<std::size_t>(config.channels)),
       memory_(&memory), shape_(shape), peak_gb_per_s_(config.peak_gb_per_s()),
       window_(traffic_window(config, shape.request_bytes)),

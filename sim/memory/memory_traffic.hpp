@@ -21,8 +21,8 @@ struct TrafficResult {
     double seconds = 0; ///< simulated
     std::uint64_t requests = 0, bytes = 0;
     LatencyHistogram reads, writes;
-    Lpddr5Channel::Stats commands;
-    Lpddr5Energy energy;
+    dram::Channel::Stats commands;
+    dram::Energy energy;
     double host_s = 0;
     std::uint64_t host_requests = 0; ///< warm-up and end included
     double gb_per_s() const { return static_cast<double>(bytes) / seconds / 1e9; }
@@ -30,7 +30,7 @@ struct TrafficResult {
 
 /// Requests under way per channel that saturate it: what fills the read queue, and those whose data
 /// are on their way back.
-int traffic_window(const Lpddr5Config& config, int request_bytes);
+int traffic_window(const dram::Config& config, int request_bytes);
 
 /// AT initiators for a memory, one per channel, so that every channel has its own line of requests
 /// and none waits for another's queue. In a closed loop each keeps traffic_window() requests under
@@ -40,8 +40,8 @@ class MemoryTraffic : public sc_core::sc_module {
 public:
     sc_core::sc_vector<tlm_utils::simple_initiator_socket_tagged<MemoryTraffic>> out;
 
-    MemoryTraffic(const sc_core::sc_module_name& name, Lpddr5& memory, const Lpddr5Config& config,
-                  const TrafficShape& shape);
+    MemoryTraffic(const sc_core::sc_module_name& name, dram::Lpddr5& memory,
+                  const dram::Config& config, const TrafficShape& shape);
 
     /// Runs the simulation until `requests` after a warm-up have been answered; then waits for the
     /// rest. `offered` is a share of the peak, 0 for a closed loop. May be called again.
@@ -67,8 +67,8 @@ private:
     struct Snapshot {
         sc_core::sc_time time;
         std::uint64_t requests = 0;
-        Lpddr5Channel::Stats commands;
-        Lpddr5Energy energy;
+        dram::Channel::Stats commands;
+        dram::Energy energy;
     };
 
     tlm::tlm_sync_enum backward(int line, tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
@@ -82,7 +82,7 @@ private:
     tlm::tlm_generic_payload* new_payload();
     Snapshot snapshot();
 
-    Lpddr5* memory_;
+    dram::Lpddr5* memory_;
     TrafficShape shape_;
     double peak_gb_per_s_;
     int window_;

@@ -7,8 +7,8 @@ namespace {
 constexpr std::uint64_t kRegisters = 0x10000000, kRegisterWindow = 0x1000, kMemory = 0x80000000;
 enum Initiator : std::size_t { kHost, kAccelerator, kDisplay, kFirstCore };
 
-std::uint64_t capacity_of(const Lpddr5Config& config) {
-    return Lpddr5Channels(config).mapping().capacity();
+std::uint64_t capacity_of(const dram::Config& config) {
+    return dram::Channels(config).mapping().capacity();
 }
 
 std::size_t initiators(const SocRequest& request) {

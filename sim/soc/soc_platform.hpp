@@ -38,7 +38,7 @@ private:
 
     std::uint64_t capacity_;
     Timebase time_;
-    Lpddr5 memory_;
+    dram::Lpddr5 memory_;
     AddressBus bus_;
     Accelerator accelerator_;
     std::unique_ptr<SocHost> host_;

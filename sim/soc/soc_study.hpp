@@ -19,7 +19,7 @@ namespace degs::sim {
 /// What the platform is made of, and what competes with the accelerator.
 struct SocRequest {
     RunConfig config;
-    Lpddr5Config memory;
+    dram::Config memory;
     std::vector<double> loads; ///< GB/s that all cores together ask for, one frame each
     int cores = 4;
     CpuTraffic::Pattern pattern = CpuTraffic::Pattern::Stream;

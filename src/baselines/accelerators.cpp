@@ -21,7 +21,7 @@ const std::vector<AcceleratorKind>& accelerator_kinds() {
         {"degs", &make<DegsConfig>},
         {"gscore", &make<GscoreConfig>},
         {"gbu", &make<GbuConfig>},
-        {"gcc", &make<GccConfig>},
+        {"gcc", &make<gcc::Config>},
     };
     return kinds;
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace degs {
+namespace degs::dram {
 namespace {
 
 unsigned entries(double share, int depth) {
@@ -13,8 +13,7 @@ unsigned entries(double share, int depth) {
 
 /// Applies `change` to every counter of `stats` and its counterpart.
 template <class Change>
-void each_counter(Lpddr5Channel::Stats& stats, const Lpddr5Channel::Stats& other,
-                  const Change& change) {
+void each_counter(Channel::Stats& stats, const Channel::Stats& other, const Change& change) {
     for (std::size_t c = 0; c < stats.commands.size(); ++c) {
         change(stats.commands[c], other.commands[c]);
     }
@@ -30,44 +29,43 @@ void each_counter(Lpddr5Channel::Stats& stats, const Lpddr5Channel::Stats& other
 
 } // namespace
 
-void Lpddr5Channel::Stats::add(const Stats& other) {
+void Channel::Stats::add(const Stats& other) {
     each_counter(*this, other, [](std::uint64_t& mine, std::uint64_t its) { mine += its; });
 }
 
-void Lpddr5Channel::Stats::subtract(const Stats& earlier) {
+void Channel::Stats::subtract(const Stats& earlier) {
     each_counter(*this, earlier, [](std::uint64_t& mine, std::uint64_t its) { mine -= its; });
 }
 
-Lpddr5Channel::Lpddr5Channel(const Lpddr5Timing& timing, const Lpddr5RuleTable& rules,
-                             const Lpddr5ControllerConfig& config, Ck phase)
+Channel::Channel(const Timing& timing, const RuleTable& rules, const ControllerConfig& config,
+                 Ck phase)
     : timing_(&timing), config_(config),
-      scheduler_(lpddr5_schedulers()[static_cast<std::size_t>(config.scheduler)]),
-      auto_precharge_(
-          lpddr5_page_policies()[static_cast<std::size_t>(config.page_policy)].auto_precharge),
+      scheduler_(schedulers()[static_cast<std::size_t>(config.scheduler)]),
+      auto_precharge_(page_policies()[static_cast<std::size_t>(config.page_policy)].auto_precharge),
       write_high_(std::max(1U, entries(config.write_high, config.write_queue))),
       write_low_(entries(config.write_low, config.write_queue)), dates_(rules),
       reads_(static_cast<unsigned>(config.read_queue)),
       writes_(static_cast<unsigned>(config.write_queue)),
-      refresh_due_(config.refresh == Lpddr5Refresh::None
+      refresh_due_(config.refresh == Refresh::None
                        ? kNoDate
                        : refresh_period() - std::min(phase, refresh_period())) {
     keys_.rest.fill(~0U);
 }
 
-Ck Lpddr5Channel::refresh_period() const {
+Ck Channel::refresh_period() const {
     const auto all_banks = static_cast<Ck>(timing_->refi);
-    return config_.refresh == Lpddr5Refresh::PerBank ? all_banks / kLpddr5RefreshSteps : all_banks;
+    return config_.refresh == Refresh::PerBank ? all_banks / kRefreshSteps : all_banks;
 }
 
-bool Lpddr5Channel::idle() const {
+bool Channel::idle() const {
     return reads_.size() == 0 && writes_.size() == 0 && reads_in_.empty() && writes_in_.empty();
 }
 
-Ck Lpddr5Channel::open_until(Ck date) const {
+Ck Channel::open_until(Ck date) const {
     return stats_.open + (open_banks_ != 0 && date > open_since_ ? date - open_since_ : 0);
 }
 
-bool Lpddr5Channel::push(Lpddr5Access access) {
+bool Channel::push(Access access) {
     if (access.write) {
         ++writes_of_hash_[hash(access)];
         writes_in_.push_back(access);
@@ -79,7 +77,7 @@ bool Lpddr5Channel::push(Lpddr5Access access) {
     return access.after_write;
 }
 
-void Lpddr5Channel::run(Ck until, Lpddr5Outcome& outcome) {
+void Channel::run(Ck until, Outcome& outcome) {
     for (;;) {
         if (!chosen_) {
             choose();
@@ -97,14 +95,14 @@ void Lpddr5Channel::run(Ck until, Lpddr5Outcome& outcome) {
     }
 }
 
-Ck Lpddr5Channel::next_date() {
+Ck Channel::next_date() {
     if (!chosen_) {
         choose();
     }
     return std::min(choice_.date, next_admission());
 }
 
-Ck Lpddr5Channel::next_admission() const {
+Ck Channel::next_admission() const {
     Ck date = kNoDate;
     if (!reads_in_.empty() && !reads_.full()) {
         date = reads_in_.front().date;
@@ -115,10 +113,10 @@ Ck Lpddr5Channel::next_admission() const {
     return std::max(date, clock_);
 }
 
-void Lpddr5Channel::admit(Ck date, Lpddr5Outcome& outcome) {
+void Channel::admit(Ck date, Outcome& outcome) {
     clock_ = date;
     while (!writes_in_.empty() && !writes_.full() && writes_in_.front().date <= date) {
-        const Lpddr5Access access = writes_in_.front();
+        const Access access = writes_in_.front();
         writes_in_.pop_front();
         outcome.admitted.push_back(access.id);
         if (config_.posted_writes) {
@@ -129,7 +127,7 @@ void Lpddr5Channel::admit(Ck date, Lpddr5Outcome& outcome) {
         }
     }
     while (!reads_in_.empty() && !reads_.full() && reads_in_.front().date <= date) {
-        const Lpddr5Access access = reads_in_.front();
+        const Access access = reads_in_.front();
         reads_in_.pop_front();
         outcome.admitted.push_back(access.id);
         after_writes_ -= access.after_write ? 1 : 0;
@@ -143,7 +141,7 @@ void Lpddr5Channel::admit(Ck date, Lpddr5Outcome& outcome) {
     choose_direction();
 }
 
-void Lpddr5Channel::enqueue(Lpddr5Queue& to, const Lpddr5Access& access) {
+void Channel::enqueue(Queue& to, const Access& access) {
     to.push(access);
     if (&to == &queue()) {
         find_candidate(access.bank);
@@ -151,14 +149,14 @@ void Lpddr5Channel::enqueue(Lpddr5Queue& to, const Lpddr5Access& access) {
     }
 }
 
-bool Lpddr5Channel::forward(const Lpddr5Access& access) const {
+bool Channel::forward(const Access& access) const {
     const std::uint8_t slot = writes_.find(access.bank, access.row, access.block);
-    return slot != Lpddr5Queue::kNone && (access.bursts & ~writes_[slot].access.bursts) == 0;
+    return slot != Queue::kNone && (access.bursts & ~writes_[slot].access.bursts) == 0;
 }
 
-bool Lpddr5Channel::merge(const Lpddr5Access& access) {
+bool Channel::merge(const Access& access) {
     const std::uint8_t slot = writes_.find(access.bank, access.row, access.block);
-    if (slot == Lpddr5Queue::kNone) {
+    if (slot == Queue::kNone) {
         return false;
     }
     writes_[slot].access.bursts |= access.bursts;
@@ -170,7 +168,7 @@ bool Lpddr5Channel::merge(const Lpddr5Access& access) {
 
 // Reads first; writes in batches, or when there is nothing else to do. Asked only when the size of
 // a queue has changed, so a direction always gets something done.
-void Lpddr5Channel::choose_direction() {
+void Channel::choose_direction() {
     const unsigned reads = reads_.size();
     const unsigned writes = writes_.size();
     const bool write = writing_ ? writes != 0 && (writes > write_low_ || reads == 0)
@@ -183,7 +181,7 @@ void Lpddr5Channel::choose_direction() {
     }
 }
 
-void Lpddr5Channel::perform(Lpddr5Outcome& outcome) {
+void Channel::perform(Outcome& outcome) {
     const Choice choice = choice_;
     chosen_ = false;
     clock_ = choice.date;
@@ -199,7 +197,7 @@ void Lpddr5Channel::perform(Lpddr5Outcome& outcome) {
     ++clock_;
 }
 
-void Lpddr5Channel::row_command(const Choice& choice) {
+void Channel::row_command(const Choice& choice) {
     const unsigned bank = choice.bank;
     change_row(choice);
     issue(choice.command, bank, banks_[bank].row);
@@ -208,15 +206,15 @@ void Lpddr5Channel::row_command(const Choice& choice) {
     } else {
         find_candidate(bank);
         if (choice.command == Command::RefPb) {
-            find_candidate(bank ^ kLpddr5RefreshPartner);
+            find_candidate(bank ^ kRefreshPartner);
         }
     }
 }
 
-void Lpddr5Channel::change_row(const Choice& choice) {
+void Channel::change_row(const Choice& choice) {
     const unsigned bank = choice.bank;
     Bank& state = banks_[bank];
-    auto* entry = choice.slot == Lpddr5Queue::kNone ? nullptr : &queue()[choice.slot];
+    auto* entry = choice.slot == Queue::kNone ? nullptr : &queue()[choice.slot];
     switch (choice.command) {
     case Command::Act1:
         state = {BankState::Activating, entry->access.row};
@@ -224,8 +222,8 @@ void Lpddr5Channel::change_row(const Choice& choice) {
         if (open_banks_++ == 0) {
             open_since_ = choice.date;
         }
-        if (entry->outcome == Lpddr5RowState::Hit) {
-            entry->outcome = Lpddr5RowState::Closed;
+        if (entry->outcome == RowState::Hit) {
+            entry->outcome = RowState::Closed;
         }
         break;
     case Command::Act2:
@@ -235,28 +233,28 @@ void Lpddr5Channel::change_row(const Choice& choice) {
     case Command::Pre:
         close(bank);
         if (entry != nullptr) {
-            entry->outcome = Lpddr5RowState::Conflict;
+            entry->outcome = RowState::Conflict;
         }
         break;
     case Command::PreAb:
-        for (unsigned each = 0; each < kLpddr5Banks; ++each) {
+        for (unsigned each = 0; each < kBanks; ++each) {
             close(each);
         }
         break;
     default:
         refresh_due_ += refresh_period();
         refreshing_ = false;
-        refresh_bank_ = (refresh_bank_ + 1) % kLpddr5RefreshSteps;
+        refresh_bank_ = (refresh_bank_ + 1) % kRefreshSteps;
     }
 }
 
-void Lpddr5Channel::column(Lpddr5Outcome& outcome) {
+void Channel::column(Outcome& outcome) {
     const unsigned bank = choice_.bank;
-    Lpddr5Queue& from = queue();
-    Lpddr5Queue::Entry& entry = from[choice_.slot];
+    Queue& from = queue();
+    Queue::Entry& entry = from[choice_.slot];
     Command command = writing_ ? Command::Wr : Command::Rd;
     const bool first = entry.left == entry.access.bursts;
-    const Lpddr5RowState found = first ? entry.outcome : Lpddr5RowState::Hit;
+    const RowState found = first ? entry.outcome : RowState::Hit;
     ++stats_.bursts[static_cast<std::size_t>(found)];
     entry.left &= static_cast<std::uint8_t>(entry.left - 1);
     const bool last = entry.left == 0;
@@ -271,7 +269,7 @@ void Lpddr5Channel::column(Lpddr5Outcome& outcome) {
             --writes_of_hash_[hash(entry.access)];
         }
         from.remove(choice_.slot);
-        if (auto_precharge_ && from.oldest_of_row(bank, banks_[bank].row) == Lpddr5Queue::kNone) {
+        if (auto_precharge_ && from.oldest_of_row(bank, banks_[bank].row) == Queue::kNone) {
             command = writing_ ? Command::WrA : Command::RdA;
             close(bank);
         }
@@ -283,7 +281,7 @@ void Lpddr5Channel::column(Lpddr5Outcome& outcome) {
     }
 }
 
-void Lpddr5Channel::close(unsigned bank) {
+void Channel::close(unsigned bank) {
     Bank& state = banks_[bank];
     if (state.state != BankState::Closed) {
         state.state = BankState::Closed;
@@ -293,7 +291,7 @@ void Lpddr5Channel::close(unsigned bank) {
     }
 }
 
-void Lpddr5Channel::issue(Command command, unsigned bank, unsigned row) {
+void Channel::issue(Command command, unsigned bank, unsigned row) {
     dates_.issue(command, bank, clock_);
     ++stats_.commands[static_cast<std::size_t>(command)];
     if (observer_) {
@@ -301,4 +299,4 @@ void Lpddr5Channel::issue(Command command, unsigned bank, unsigned row) {
     }
 }
 
-} // namespace degs
+} // namespace degs::dram

@@ -11,24 +11,24 @@
 #include "dram/queue.hpp"
 #include "dram/timing.hpp"
 
-namespace degs {
+namespace degs::dram {
 
 /// A command as it goes over the bus.
-struct Lpddr5Issued {
-    Lpddr5Command command;
+struct Issued {
+    Command command;
     Ck date;
     unsigned bank; ///< RefPb: also its partner; PreAb, RefAb: 0
     unsigned row;  ///< ACT-1 and column commands
 };
 
-struct Lpddr5Answer {
+struct Answer {
     std::uint32_t id = 0;
     Ck date = 0; ///< last beat; of a posted write the CK after it has entered the write queue
 };
 
 /// What a run has brought about.
-struct Lpddr5Outcome {
-    std::vector<Lpddr5Answer> answers;   ///< in no order of dates
+struct Outcome {
+    std::vector<Answer> answers;         ///< in no order of dates
     std::vector<std::uint32_t> admitted; ///< ids of accesses that have entered a queue
 };
 
@@ -42,11 +42,11 @@ struct Lpddr5Outcome {
 /// Not modelled: postponed refreshes, a limit on how often a row hit overtakes, WCK start, power-
 /// down; a read that a queued write covers only in part does not wait for it (contents are kept in
 /// the order of arrival all the same).
-class Lpddr5Channel {
+class Channel {
 public:
     struct Stats {
-        std::array<std::uint64_t, kLpddr5Commands> commands{};
-        std::array<std::uint64_t, 3> bursts{};   ///< by Lpddr5RowState; first burst of an access
+        std::array<std::uint64_t, kCommands> commands{};
+        std::array<std::uint64_t, 3> bursts{};   ///< by RowState; first burst of an access
                                                  ///< as it found the row, others hit
         std::array<std::uint64_t, 3> accesses{}; ///< likewise, per access of up to 64 B
         std::uint64_t forwarded = 0, merged = 0; ///< accesses that never reached the DRAM
@@ -57,13 +57,13 @@ public:
     };
 
     /// `phase`: CK by which the first refresh comes early. The table outlives the channel.
-    Lpddr5Channel(const Lpddr5Timing& timing, const Lpddr5RuleTable& rules,
-                  const Lpddr5ControllerConfig& config, Ck phase = 0);
+    Channel(const Timing& timing, const RuleTable& rules, const ControllerConfig& config,
+            Ck phase = 0);
 
     /// Dates never fall per direction, and are later than any `until` so far. True if the answer
     /// may come as soon as the queues have it, not only with the data.
-    bool push(Lpddr5Access access);
-    void run(Ck until, Lpddr5Outcome& outcome);
+    bool push(Access access);
+    void run(Ck until, Outcome& outcome);
     /// The earliest date at which something happens if nothing more comes.
     Ck next_date();
     /// No access that waits for room in a queue, or for its date, gets in before this.
@@ -79,12 +79,9 @@ public:
     const Stats& stats() const { return stats_; }
     Ck open_until(Ck date) const; ///< CK with a row open, up to `date`
     /// Called with every command; a copy of the channel has it too unless it is taken away.
-    void observe(std::function<void(const Lpddr5Issued&)> observer) {
-        observer_ = std::move(observer);
-    }
+    void observe(std::function<void(const Issued&)> observer) { observer_ = std::move(observer); }
 
 private:
-    using Command = Lpddr5Command;
     enum class BankState : std::uint8_t { Closed, Activating, Open };
     struct Bank {
         BankState state = BankState::Closed;
@@ -93,12 +90,12 @@ private:
     struct Candidate {           // what a bank would do next for the current direction
         std::uint64_t order = 0; // rank, then age
         Command command = Command::Pre;
-        std::uint8_t slot = Lpddr5Queue::kNone;
+        std::uint8_t slot = Queue::kNone;
     };
     /// The same once more, one array each and in 32 bits: all banks are compared at once. Masks say
     /// what holds a bank back beside itself.
     struct Keys {
-        using PerBank = std::array<std::uint32_t, kLpddr5Banks>;
+        using PerBank = std::array<std::uint32_t, kBanks>;
         alignas(16) PerBank date{}, age{}, column{}, act1{}, pre{};
         PerBank rest{}; // rank and bank, the same bits as in a key; all ones: no candidate
     };
@@ -106,21 +103,21 @@ private:
         Ck date = kNoDate;
         Command command = Command::Pre;
         std::uint8_t bank = 0;
-        std::uint8_t slot = Lpddr5Queue::kNone;
+        std::uint8_t slot = Queue::kNone;
         bool start_refresh = false; // no command: from here on refresh comes first
     };
 
-    Lpddr5Queue& queue() { return writing_ ? writes_ : reads_; }
+    Queue& queue() { return writing_ ? writes_ : reads_; }
     Ck refresh_period() const;
     Ck column_bound() const;
     Ck next_admission() const;
-    void enqueue(Lpddr5Queue& to, const Lpddr5Access& access);
-    void admit(Ck date, Lpddr5Outcome& outcome);
-    bool forward(const Lpddr5Access& access) const;
-    static std::size_t hash(const Lpddr5Access& access) {
+    void enqueue(Queue& to, const Access& access);
+    void admit(Ck date, Outcome& outcome);
+    bool forward(const Access& access) const;
+    static std::size_t hash(const Access& access) {
         return (access.row * 37U + access.bank * 11U + access.block) % 256;
     }
-    bool merge(const Lpddr5Access& access);
+    bool merge(const Access& access);
     void choose_direction();
 
     void find_candidates();
@@ -135,33 +132,33 @@ private:
     void offer_candidate(unsigned bank);
     std::uint32_t held_banks() const;
 
-    void perform(Lpddr5Outcome& outcome);
+    void perform(Outcome& outcome);
     void row_command(const Choice& choice);
     void change_row(const Choice& choice);
-    void column(Lpddr5Outcome& outcome);
+    void column(Outcome& outcome);
     void issue(Command command, unsigned bank, unsigned row);
     void close(unsigned bank);
 
-    const Lpddr5Timing* timing_;
-    Lpddr5ControllerConfig config_;
-    Lpddr5Scheduler scheduler_;
+    const Timing* timing_;
+    ControllerConfig config_;
+    Scheduler scheduler_;
     bool auto_precharge_;
     unsigned write_high_, write_low_; // entries
 
     Ck clock_ = 0; // the next command comes here or later
-    Lpddr5Dates dates_;
-    std::array<Bank, kLpddr5Banks> banks_{};
+    Dates dates_;
+    std::array<Bank, kBanks> banks_{};
     unsigned open_banks_ = 0;
     std::uint32_t activating_ = 0; // banks between ACT-1 and ACT-2
     Ck open_since_ = 0;
-    Lpddr5Queue reads_, writes_;
-    std::deque<Lpddr5Access> reads_in_, writes_in_; // wait for their date or for room
+    Queue reads_, writes_;
+    std::deque<Access> reads_in_, writes_in_; // wait for their date or for room
     bool writing_ = false;
     // How many waiting writes have a hash; tells at arrival that a read has nothing to wait for.
     std::array<std::uint16_t, 256> writes_of_hash_{};
     std::size_t after_writes_ = 0; // reads in reads_in_ with after_write
 
-    std::array<Candidate, kLpddr5Banks> candidates_{};
+    std::array<Candidate, kBanks> candidates_{};
     Keys keys_;                 // of banks without a candidate: absent
     std::uint32_t pending_ = 0; // banks with a candidate
     Choice choice_;
@@ -173,7 +170,7 @@ private:
     unsigned refresh_bank_ = 0; // first of the pair that is next
 
     Stats stats_;
-    std::function<void(const Lpddr5Issued&)> observer_;
+    std::function<void(const Issued&)> observer_;
 };
 
-} // namespace degs
+} // namespace degs::dram

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-namespace degs {
+namespace degs::dram {
 
-void Lpddr5Config::describe(ConfigVisitor& visitor) {
+void Config::describe(ConfigVisitor& visitor) {
     visitor.text("name", name, "of the memory in reports");
     visitor.integer("channels", channels, 1, 64,
                     "x16 channels, a power of two; 16 are 256 bit, the paper's main memory");
@@ -23,7 +23,7 @@ void Lpddr5Config::describe(ConfigVisitor& visitor) {
     visitor.section("energy", energy, "what an event costs in the DRAM");
 }
 
-Lpddr5Channels::Lpddr5Channels(const Lpddr5Config& config)
+Channels::Channels(const Config& config)
     : timing_(config.timing), rules_(config.timing),
       mapping_(config.mapping, config.timing, static_cast<unsigned>(config.channels)),
       posted_writes_(config.controller.posted_writes) {
@@ -39,15 +39,15 @@ Lpddr5Channels::Lpddr5Channels(const Lpddr5Config& config)
     asked_.assign(count, 0);
 }
 
-void Lpddr5Channels::split(const Lpddr5Request& request, std::uint32_t id) {
-    constexpr std::uint64_t kBlock = kLpddr5AccessBytes;
+void Channels::split(const Request& request, std::uint32_t id) {
+    constexpr std::uint64_t kBlock = kAccessBytes;
     const std::uint64_t end = request.address + request.bytes;
     const unsigned burst = timing_.burst_bytes();
     for (std::uint64_t block = request.address / kBlock * kBlock; block < end; block += kBlock) {
         const std::uint64_t from = std::max(request.address, block) - block;
         const std::uint64_t to = std::min(end - block, kBlock) - 1;
-        const Lpddr5Place place = mapping_.place(block);
-        Lpddr5Access access;
+        const Place place = mapping_.place(block);
+        Access access;
         access.date = request.date;
         access.id = id;
         access.row = place.row;
@@ -59,7 +59,7 @@ void Lpddr5Channels::split(const Lpddr5Request& request, std::uint32_t id) {
     }
 }
 
-void Lpddr5Channels::push_access(unsigned channel, const Lpddr5Access& access) {
+void Channels::push_access(unsigned channel, const Access& access) {
     const bool early = channels_[channel].push(access);
     writes_somewhere_ = writes_somewhere_ || access.write;
     if ((access.id & kPredicted) != 0) {
@@ -73,7 +73,7 @@ void Lpddr5Channels::push_access(unsigned channel, const Lpddr5Access& access) {
     due_[channel] = std::min(due_[channel], due);
 }
 
-void Lpddr5Channels::push(const Lpddr5Request& request) {
+void Channels::push(const Request& request) {
     if (request.id >= progress_.size()) {
         progress_.resize(request.id + 1);
     }
@@ -81,17 +81,17 @@ void Lpddr5Channels::push(const Lpddr5Request& request) {
     split(request, request.id);
 }
 
-Ck Lpddr5Channels::due() const {
+Ck Channels::due() const {
     return *std::min_element(due_.begin(), due_.end());
 }
 
 // Where a write may wait, a read may be answered from it at once, so nothing can stay behind.
-Ck Lpddr5Channels::due_of(bool write, Ck date) const {
+Ck Channels::due_of(bool write, Ck date) const {
     const bool at_once = exactly_ || write || writes_somewhere_;
     return at_once ? date : date + data_latency() - 1;
 }
 
-void Lpddr5Channels::watch_admissions(bool exactly) {
+void Channels::watch_admissions(bool exactly) {
     if (exactly && !exactly_) {
         for (std::size_t c = 0; c < size(); ++c) {
             due_[c] = live_[c] == 0 ? kNoDate : std::min(due_[c], channel_due(channels_[c]));
@@ -100,18 +100,18 @@ void Lpddr5Channels::watch_admissions(bool exactly) {
     exactly_ = exactly;
 }
 
-void Lpddr5Channels::run(Ck until) {
+void Channels::run(Ck until) {
     for (std::size_t c = 0; c < size(); ++c) {
         if (due_[c] <= until) {
             run_channel(c, until);
         }
     }
     writes_somewhere_ = std::any_of(channels_.begin(), channels_.end(),
-                                    [](const Lpddr5Channel& c) { return c.has_writes(); });
+                                    [](const Channel& c) { return c.has_writes(); });
 }
 
-void Lpddr5Channels::run_channel(std::size_t channel, Ck until) {
-    Lpddr5Channel& runner = channels_[channel];
+void Channels::run_channel(std::size_t channel, Ck until) {
+    Channel& runner = channels_[channel];
     outcome_.answers.clear();
     outcome_.admitted.clear();
     runner.run(until, outcome_);
@@ -120,7 +120,7 @@ void Lpddr5Channels::run_channel(std::size_t channel, Ck until) {
             admitted_.push_back(id);
         }
     }
-    for (const Lpddr5Answer& answer : outcome_.answers) {
+    for (const Answer& answer : outcome_.answers) {
         if ((answer.id & kPredicted) != 0) {
             take_prediction(channel, answer);
             continue;
@@ -136,26 +136,26 @@ void Lpddr5Channels::run_channel(std::size_t channel, Ck until) {
 }
 
 // From a command to the earliest end of its data.
-Ck Lpddr5Channels::data_latency() const {
+Ck Channels::data_latency() const {
     return posted_writes_ ? timing_.read_latency()
                           : std::min(timing_.read_latency(), timing_.write_latency());
 }
 
 // Who waits for a queue may be answered, or noticed by its initiator, when it gets in; who is in
 // it, when the data come.
-Ck Lpddr5Channels::channel_due(Lpddr5Channel& channel) const {
+Ck Channels::channel_due(Channel& channel) const {
     const Ck due = channel.next_date() + data_latency() - 1;
     return exactly_ || channel.answers_at_admission() ? std::min(due, channel.admission_bound())
                                                       : due;
 }
 
-void Lpddr5Channels::push_for_prediction(const Lpddr5Request& request) {
+void Channels::push_for_prediction(const Request& request) {
     const auto ticket = first_ticket_ + static_cast<std::uint32_t>(predictions_.size());
     predictions_.push_back(0);
     split(request, ticket | kPredicted);
 }
 
-std::vector<Ck> Lpddr5Channels::predict(Ck known) {
+std::vector<Ck> Channels::predict(Ck known) {
     for (std::size_t c = 0; c < size(); ++c) {
         if (asked_[c] != 0) {
             run_channel(c, known); // may answer some already
@@ -166,9 +166,9 @@ std::vector<Ck> Lpddr5Channels::predict(Ck known) {
     return std::exchange(predictions_, {});
 }
 
-void Lpddr5Channels::predict_channel(std::size_t channel) {
+void Channels::predict_channel(std::size_t channel) {
     if (copy_ == nullptr) {
-        copy_ = std::make_unique<Lpddr5Channel>(channels_[channel]);
+        copy_ = std::make_unique<Channel>(channels_[channel]);
     } else {
         *copy_ = channels_[channel];
     }
@@ -177,14 +177,14 @@ void Lpddr5Channels::predict_channel(std::size_t channel) {
         outcome_.answers.clear();
         outcome_.admitted.clear();
         copy_->run(copy_->next_date(), outcome_);
-        for (const Lpddr5Answer& answer : outcome_.answers) {
+        for (const Answer& answer : outcome_.answers) {
             take_prediction(channel, answer);
         }
     }
 }
 
 /// Unless it is an answer to an earlier prediction, which has long been given.
-void Lpddr5Channels::take_prediction(std::size_t channel, const Lpddr5Answer& answer) {
+void Channels::take_prediction(std::size_t channel, const Answer& answer) {
     const std::uint32_t index = (answer.id - first_ticket_) & ~kPredicted;
     if ((answer.id & kPredicted) != 0 && index < predictions_.size()) {
         predictions_[index] = std::max(predictions_[index], answer.date);
@@ -192,10 +192,10 @@ void Lpddr5Channels::take_prediction(std::size_t channel, const Lpddr5Answer& an
     }
 }
 
-void Lpddr5Channels::settle(Ck until) {
+void Channels::settle(Ck until) {
     for (std::size_t c = 0; c < size(); ++c) {
         run_channel(c, until);
     }
 }
 
-} // namespace degs
+} // namespace degs::dram

@@ -11,26 +11,26 @@
 #include "dram/energy.hpp"
 #include "dram/mapping.hpp"
 
-namespace degs {
+namespace degs::dram {
 
 /// An LPDDR5 main memory: `channels` x16 channels of one device and speed, and its controllers.
-struct Lpddr5Config {
+struct Config {
     std::string name = "lpddr5-6400x256";
     int channels = 16;
     double controller_latency_ns = 0.0;
     int waiting_requests = 16;
     bool dmi = false;
-    Lpddr5Timing timing;
-    Lpddr5Mapping::Config mapping;
-    Lpddr5ControllerConfig controller;
-    Lpddr5Energy::Config energy;
+    Timing timing;
+    Mapping::Config mapping;
+    ControllerConfig controller;
+    Energy::Config energy;
     void describe(ConfigVisitor& visitor);
 
     double peak_gb_per_s() const { return channels * timing.peak_gb_per_s(); } ///< 1e9 B/s
 };
 
 /// A request of any size as the channels see it.
-struct Lpddr5Request {
+struct Request {
     Ck date = 0;
     std::uint64_t address = 0, bytes = 0;
     std::uint32_t id = 0; ///< small; free again when the request is complete
@@ -41,16 +41,16 @@ struct Lpddr5Request {
 ///
 /// A channel is run only when somebody could notice: a read shows no earlier than RL + BL/n after
 /// its command, so a channel may stay that far behind unless an answer can come from its queues.
-class Lpddr5Channels {
+class Channels {
 public:
-    explicit Lpddr5Channels(const Lpddr5Config& config);
+    explicit Channels(const Config& config);
     // The channels point to the timing and the rules in here.
-    Lpddr5Channels(const Lpddr5Channels&) = delete;
-    Lpddr5Channels& operator=(const Lpddr5Channels&) = delete;
-    ~Lpddr5Channels() = default;
+    Channels(const Channels&) = delete;
+    Channels& operator=(const Channels&) = delete;
+    ~Channels() = default;
 
     /// Dates never fall, and are later than any `until` so far.
-    void push(const Lpddr5Request& request);
+    void push(const Request& request);
     /// Everything up to `until` that a request of push() may notice.
     void run(Ck until);
     /// Date up to which run() must be called, at the latest half a CK after it; kNoDate if nothing
@@ -63,21 +63,21 @@ public:
 
     /// Complete requests with the date of the last answer, and requests that do not wait for room
     /// any more; the caller empties both.
-    std::vector<Lpddr5Answer>& completed() { return completed_; }
+    std::vector<Answer>& completed() { return completed_; }
     std::vector<std::uint32_t>& admitted() { return admitted_; }
 
     /// Like push(), for a requester who wants the answer at once; nothing of it is told later.
-    void push_for_prediction(const Lpddr5Request& request);
+    void push_for_prediction(const Request& request);
     /// When the requests pushed so since the last call are complete if nothing more comes, by
     /// running copies of the channels. All dates up to `known` have been pushed.
     std::vector<Ck> predict(Ck known);
 
     /// Brings statistics up to `until`.
     void settle(Ck until);
-    const Lpddr5Channel& operator[](std::size_t channel) const { return channels_[channel]; }
-    Lpddr5Channel& operator[](std::size_t channel) { return channels_[channel]; }
+    const Channel& operator[](std::size_t channel) const { return channels_[channel]; }
+    Channel& operator[](std::size_t channel) { return channels_[channel]; }
     std::size_t size() const { return channels_.size(); }
-    const Lpddr5Mapping& mapping() const { return mapping_; }
+    const Mapping& mapping() const { return mapping_; }
 
 private:
     static constexpr std::uint32_t kPredicted = 0x80000000U;
@@ -85,31 +85,31 @@ private:
         std::uint32_t unanswered = 0, waiting = 0; // accesses
         Ck last = 0;
     };
-    void split(const Lpddr5Request& request, std::uint32_t id);
-    void push_access(unsigned channel, const Lpddr5Access& access);
+    void split(const Request& request, std::uint32_t id);
+    void push_access(unsigned channel, const Access& access);
     void run_channel(std::size_t channel, Ck until);
-    Ck channel_due(Lpddr5Channel& channel) const;
+    Ck channel_due(Channel& channel) const;
     Ck data_latency() const;
     void predict_channel(std::size_t channel);
-    void take_prediction(std::size_t channel, const Lpddr5Answer& answer);
+    void take_prediction(std::size_t channel, const Answer& answer);
 
-    Lpddr5Timing timing_;
-    Lpddr5RuleTable rules_;
-    Lpddr5Mapping mapping_;
+    Timing timing_;
+    RuleTable rules_;
+    Mapping mapping_;
     bool posted_writes_;
-    std::vector<Lpddr5Channel> channels_;
+    std::vector<Channel> channels_;
     std::vector<Ck> due_;              // by channel
     std::vector<std::uint32_t> live_;  // by channel: accesses of push() without answer
     std::vector<std::uint32_t> asked_; // by channel: accesses without prediction
     std::vector<Progress> progress_;   // by id
-    std::vector<Lpddr5Answer> completed_;
+    std::vector<Answer> completed_;
     std::vector<std::uint32_t> admitted_;
     bool exactly_ = false;
     bool writes_somewhere_ = false;
     std::uint32_t first_ticket_ = 0; // ids of the requests in predictions_
     std::vector<Ck> predictions_;
-    std::unique_ptr<Lpddr5Channel> copy_; // for predictions
-    Lpddr5Outcome outcome_;
+    std::unique_ptr<Channel> copy_; // for predictions
+    Outcome outcome_;
 };
 
-} // namespace degs
+} // namespace degs::dram

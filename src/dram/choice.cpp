@@ -2,33 +2,33 @@
 // Which command a channel sends next, and when. The other half of lpddr5_channel.cpp.
 #include "dram/channel.hpp"
 
-namespace degs {
+namespace degs::dram {
 namespace {
 
 // Column commands win, then ACT-2, so that it keeps its deadline tAAD: a burst leaves every other
 // CK to it. Then the oldest access.
-constexpr std::uint64_t rank_of(Lpddr5Command command) {
-    return is_column(command) ? 1 : command == Lpddr5Command::Act2 ? 2 : 3;
+constexpr std::uint64_t rank_of(Command command) {
+    return is_column(command) ? 1 : command == Command::Act2 ? 2 : 3;
 }
 constexpr unsigned kAgeBits = 60;
 constexpr std::uint64_t kNoOrder = ~std::uint64_t{0};
 
 // A key of 32 bits is wait, rank, age, bank from high to low. No gap is longer than kMostWait, see
-// Lpddr5Timing; ages are those of the latest arrivals, which all older ones share the first of.
+// Timing; ages are those of the latest arrivals, which all older ones share the first of.
 constexpr unsigned kRankShift = 18, kWaitShift = 20, kKeyAgeShift = 4;
 constexpr std::int32_t kMostWait = 4095, kMostAge = 16383;
 
 } // namespace
 
-void Lpddr5Channel::find_candidates() {
-    for (unsigned bank = 0; bank < kLpddr5Banks; ++bank) {
+void Channel::find_candidates() {
+    for (unsigned bank = 0; bank < kBanks; ++bank) {
         find_candidate(bank);
     }
 }
 
-void Lpddr5Channel::find_candidate(unsigned bank) {
-    constexpr std::uint8_t kNone = Lpddr5Queue::kNone;
-    const Lpddr5Queue& waiting = queue();
+void Channel::find_candidate(unsigned bank) {
+    constexpr std::uint8_t kNone = Queue::kNone;
+    const Queue& waiting = queue();
     const Bank& state = banks_[bank];
     Candidate& candidate = candidates_[bank];
     candidate.slot = waiting.oldest(bank);
@@ -57,13 +57,13 @@ void Lpddr5Channel::find_candidate(unsigned bank) {
 }
 
 // A younger conflict does not close a row that an older access, or any hit, still wants.
-void Lpddr5Channel::find_open(unsigned bank, Candidate& candidate) const {
-    const Lpddr5Queue& waiting = writing_ ? writes_ : reads_;
+void Channel::find_open(unsigned bank, Candidate& candidate) const {
+    const Queue& waiting = writing_ ? writes_ : reads_;
     const std::uint32_t row = banks_[bank].row;
     const std::uint8_t hit = scheduler_.hits_first ? waiting.oldest_of_row(bank, row)
                              : waiting[candidate.slot].access.row == row ? candidate.slot
-                                                                         : Lpddr5Queue::kNone;
-    if (hit == Lpddr5Queue::kNone) {
+                                                                         : Queue::kNone;
+    if (hit == Queue::kNone) {
         candidate.command = Command::Pre;
     } else {
         candidate.command = writing_ ? Command::Wr : Command::Rd;
@@ -71,7 +71,7 @@ void Lpddr5Channel::find_open(unsigned bank, Candidate& candidate) const {
     }
 }
 
-void Lpddr5Channel::choose() {
+void Channel::choose() {
     choice_ = Choice{};
     best_order_ = kNoOrder;
     if (refreshing_) {
@@ -87,7 +87,7 @@ void Lpddr5Channel::choose() {
     chosen_ = true;
 }
 
-void Lpddr5Channel::offer(Command command, unsigned bank, std::uint8_t slot, std::uint64_t order) {
+void Channel::offer(Command command, unsigned bank, std::uint8_t slot, std::uint64_t order) {
     const Ck date = std::max(dates_.earliest(command, bank), clock_);
     if (date < choice_.date || (date == choice_.date && order < best_order_)) {
         choice_.date = date;
@@ -100,7 +100,7 @@ void Lpddr5Channel::offer(Command command, unsigned bank, std::uint8_t slot, std
 }
 
 // A new access can change the candidate of its bank only, so the choice among the others stands.
-void Lpddr5Channel::offer_candidate(unsigned bank) {
+void Channel::offer_candidate(unsigned bank) {
     if (!chosen_ || scheduler_.oldest_only || choice_.bank == bank) {
         chosen_ = false;
     } else if ((held_banks() & 1U << bank) == 0) {
@@ -109,7 +109,7 @@ void Lpddr5Channel::offer_candidate(unsigned bank) {
     }
 }
 
-void Lpddr5Channel::choose_ordinary() {
+void Channel::choose_ordinary() {
     std::uint32_t banks = pending_ & ~held_banks();
     if (scheduler_.oldest_only && queue().size() != 0) {
         banks &= 1U << queue().oldest_bank() | activating_;
@@ -123,7 +123,7 @@ void Lpddr5Channel::choose_ordinary() {
 }
 
 // The hot loop of a simulation: no branches, so that the compiler takes four banks at once.
-unsigned Lpddr5Channel::first_of_all() const {
+unsigned Channel::first_of_all() const {
     const auto wait_of = [this](Command command, unsigned group) {
         const Ck date = std::max(dates_.of_others(command, group), clock_);
         return static_cast<std::uint32_t>(date - clock_);
@@ -150,11 +150,11 @@ unsigned Lpddr5Channel::first_of_all() const {
                                    static_cast<std::uint32_t>(age) << kKeyAgeShift | keys_.rest[b]);
         }
     }
-    return best % kLpddr5Banks;
+    return best % kBanks;
 }
 
 /// The same for some of the banks, at least one.
-unsigned Lpddr5Channel::first_of(std::uint32_t banks) const {
+unsigned Channel::first_of(std::uint32_t banks) const {
     Ck first = kNoDate;
     unsigned best = 0;
     for (; banks != 0; banks &= banks - 1) {
@@ -169,38 +169,38 @@ unsigned Lpddr5Channel::first_of(std::uint32_t banks) const {
     return best;
 }
 
-std::uint32_t Lpddr5Channel::held_banks() const {
+std::uint32_t Channel::held_banks() const {
     if (!refreshing_) {
         return 0;
     }
-    return config_.refresh == Lpddr5Refresh::AllBank
+    return config_.refresh == Refresh::AllBank
                ? ~0U
-               : 1U << refresh_bank_ | 1U << (refresh_bank_ + kLpddr5RefreshPartner);
+               : 1U << refresh_bank_ | 1U << (refresh_bank_ + kRefreshPartner);
 }
 
 // Once a refresh is due its banks take nothing else: they finish an activation, close, refresh.
-void Lpddr5Channel::choose_refresh() {
-    const bool all = config_.refresh == Lpddr5Refresh::AllBank;
+void Channel::choose_refresh() {
+    const bool all = config_.refresh == Refresh::AllBank;
     const std::uint32_t banks = held_banks();
     if (const std::uint32_t activating = banks & activating_; activating != 0) {
-        return offer(Command::Act2, static_cast<unsigned>(__builtin_ctz(activating)),
-                     Lpddr5Queue::kNone, 0);
+        return offer(Command::Act2, static_cast<unsigned>(__builtin_ctz(activating)), Queue::kNone,
+                     0);
     }
     if (all) {
-        return offer(open_banks_ != 0 ? Command::PreAb : Command::RefAb, 0, Lpddr5Queue::kNone, 0);
+        return offer(open_banks_ != 0 ? Command::PreAb : Command::RefAb, 0, Queue::kNone, 0);
     }
-    const unsigned partner = refresh_bank_ + kLpddr5RefreshPartner;
+    const unsigned partner = refresh_bank_ + kRefreshPartner;
     for (const unsigned bank : {refresh_bank_, partner}) {
         if (banks_[bank].state == BankState::Open) {
-            return offer(Command::Pre, bank, Lpddr5Queue::kNone, 0);
+            return offer(Command::Pre, bank, Queue::kNone, 0);
         }
     }
     const bool partner_later =
         dates_.earliest(Command::RefPb, partner) > dates_.earliest(Command::RefPb, refresh_bank_);
-    offer(Command::RefPb, partner_later ? partner : refresh_bank_, Lpddr5Queue::kNone, 0);
+    offer(Command::RefPb, partner_later ? partner : refresh_bank_, Queue::kNone, 0);
 }
 
-Ck Lpddr5Channel::admission_bound() {
+Ck Channel::admission_bound() {
     if (waiting() == 0) {
         return kNoDate;
     }
@@ -213,7 +213,7 @@ Ck Lpddr5Channel::admission_bound() {
 }
 
 // Room comes with a column command. A bank that has not begun to open its row is tRCD away from it.
-Ck Lpddr5Channel::column_bound() const {
+Ck Channel::column_bound() const {
     const Command column = writing_ ? Command::Wr : Command::Rd;
     Ck bound = choice_.date + static_cast<Ck>(timing_->rcd);
     for (std::uint32_t banks = pending_; banks != 0; banks &= banks - 1) {
@@ -226,4 +226,4 @@ Ck Lpddr5Channel::column_bound() const {
     return std::max(bound, choice_.date);
 }
 
-} // namespace degs
+} // namespace degs::dram

@@ -3,7 +3,7 @@
 
 #include "dram/queue.hpp"
 
-namespace degs {
+namespace degs::dram {
 namespace {
 
 template <class Policy>
@@ -18,19 +18,19 @@ std::vector<const char*> names_of(const std::vector<Policy>& policies) {
 
 } // namespace
 
-const std::vector<Lpddr5Scheduler>& lpddr5_schedulers() {
-    static const std::vector<Lpddr5Scheduler> schedulers{
+const std::vector<Scheduler>& schedulers() {
+    static const std::vector<Scheduler> schedulers{
         {"frfcfs", true, false}, {"bank_fcfs", false, false}, {"fcfs", false, true}};
     return schedulers;
 }
 
-const std::vector<Lpddr5PagePolicy>& lpddr5_page_policies() {
-    static const std::vector<Lpddr5PagePolicy> policies{{"open", false}, {"closed", true}};
+const std::vector<PagePolicy>& page_policies() {
+    static const std::vector<PagePolicy> policies{{"open", false}, {"closed", true}};
     return policies;
 }
 
-void Lpddr5ControllerConfig::describe(ConfigVisitor& visitor) {
-    constexpr int kMost = static_cast<int>(Lpddr5Queue::kSlots);
+void ControllerConfig::describe(ConfigVisitor& visitor) {
+    constexpr int kMost = static_cast<int>(Queue::kSlots);
     visitor.integer("read_queue", read_queue, 1, kMost,
                     "accesses of 64 B per channel; 32 get most of the bandwidth of random traffic");
     visitor.integer("write_queue", write_queue, 1, kMost, "accesses of 64 B per channel");
@@ -39,11 +39,11 @@ void Lpddr5ControllerConfig::describe(ConfigVisitor& visitor) {
     visitor.real("write_low", write_low, 0.0, 1.0,
                  "share of the write queue; down to here if a read waits, about 20 % is usual");
     visitor.require(write_low <= write_high, "write_low", "must not be above write_high");
-    visitor.choice("scheduler", scheduler, names_of(lpddr5_schedulers()),
+    visitor.choice("scheduler", scheduler, names_of(schedulers()),
                    "frfcfs: row hits first, then the oldest; bank_fcfs: in order within a bank; "
                    "fcfs: in order");
     visitor.choice(
-        "page_policy", page_policy, names_of(lpddr5_page_policies()),
+        "page_policy", page_policy, names_of(page_policies()),
         "open: rows stay open until another is wanted; closed: the last queued access to "
         "a row precharges it");
     visitor.choice("refresh", refresh, {"none", "all_bank", "per_bank"},
@@ -56,4 +56,4 @@ void Lpddr5ControllerConfig::describe(ConfigVisitor& visitor) {
                     "answer with the last beat");
 }
 
-} // namespace degs
+} // namespace degs::dram

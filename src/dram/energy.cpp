@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dram/energy.hpp"
 
-namespace degs {
+namespace degs::dram {
 
-void Lpddr5Energy::Config::describe(ConfigVisitor& visitor) {
+void Energy::Config::describe(ConfigVisitor& visitor) {
     visitor.real("activate_nj", activate_nj, 0.0, 1000.0,
                  "nJ; ACT and PRE of a page of 2 KiB, (IDD0 - standby) V tRC [derived]");
     visitor.real("read_pj_per_bit", read_pj_per_bit, 0.0, 1000.0,
@@ -18,20 +18,19 @@ void Lpddr5Energy::Config::describe(ConfigVisitor& visitor) {
                  "mW per channel while all are closed; 37 by the maximum of IDD2N [derived]");
 }
 
-void Lpddr5Energy::add(const Config& config, const Lpddr5Timing& timing,
-                       const Lpddr5Channel& channel, Ck elapsed) {
-    const auto count = [&](Lpddr5Command command) {
+void Energy::add(const Config& config, const Timing& timing, const Channel& channel, Ck elapsed) {
+    const auto count = [&](Command command) {
         return static_cast<double>(channel.stats().commands[static_cast<std::size_t>(command)]);
     };
     const double bits = 8.0 * timing.burst_bytes();
     constexpr double kNjPerPj = 1e-3;
-    activate_nj += config.activate_nj * count(Lpddr5Command::Act1);
-    read_nj += kNjPerPj * config.read_pj_per_bit * bits *
-               (count(Lpddr5Command::Rd) + count(Lpddr5Command::RdA));
-    write_nj += kNjPerPj * config.write_pj_per_bit * bits *
-                (count(Lpddr5Command::Wr) + count(Lpddr5Command::WrA));
+    activate_nj += config.activate_nj * count(Command::Act1);
+    read_nj +=
+        kNjPerPj * config.read_pj_per_bit * bits * (count(Command::Rd) + count(Command::RdA));
+    write_nj +=
+        kNjPerPj * config.write_pj_per_bit * bits * (count(Command::Wr) + count(Command::WrA));
     refresh_nj += config.refresh_all_bank_nj *
-                  (count(Lpddr5Command::RefAb) + count(Lpddr5Command::RefPb) / kLpddr5RefreshSteps);
+                  (count(Command::RefAb) + count(Command::RefPb) / kRefreshSteps);
     const auto open = static_cast<double>(channel.open_until(elapsed));
     const double closed = static_cast<double>(elapsed) - open;
     // mW x ns = pJ
@@ -39,4 +38,4 @@ void Lpddr5Energy::add(const Config& config, const Lpddr5Timing& timing,
                      (config.standby_open_mw * open + config.standby_closed_mw * closed);
 }
 
-} // namespace degs
+} // namespace degs::dram

@@ -4,16 +4,16 @@
 #include "config/config.hpp"
 #include "dram/channel.hpp"
 
-namespace degs {
+namespace degs::dram {
 
 /// Energy of the DRAM by class of event, nJ; the SoC's controller and PHY are not in it.
-struct Lpddr5Energy {
+struct Energy {
     double activate_nj = 0, read_nj = 0, write_nj = 0, refresh_nj = 0, background_nj = 0;
     double total_nj() const {
         return activate_nj + read_nj + write_nj + refresh_nj + background_nj;
     }
 
-    Lpddr5Energy operator-(const Lpddr5Energy& earlier) const {
+    Energy operator-(const Energy& earlier) const {
         return {activate_nj - earlier.activate_nj, read_nj - earlier.read_nj,
                 write_nj - earlier.write_nj, refresh_nj - earlier.refresh_nj,
                 background_nj - earlier.background_nj};
@@ -30,8 +30,7 @@ struct Lpddr5Energy {
     };
 
     /// Adds what one channel has used in its first `elapsed` CK.
-    void add(const Config& config, const Lpddr5Timing& timing, const Lpddr5Channel& channel,
-             Ck elapsed);
+    void add(const Config& config, const Timing& timing, const Channel& channel, Ck elapsed);
 };
 
-} // namespace degs
+} // namespace degs::dram

@@ -8,7 +8,7 @@
 
 #include "tlm/memory.hpp"
 
-namespace degs {
+namespace degs::dram {
 namespace {
 
 std::size_t power_above(Ck value) {
@@ -162,7 +162,7 @@ void Lpddr5::advance(std::uint64_t date) {
 }
 
 void Lpddr5::take_in(Arrival& arrival) {
-    Lpddr5Request request;
+    Request request;
     request.date = ceil_ck(arrival.date);
     request.address = arrival.payload->get_address();
     request.bytes = arrival.payload->get_data_length();
@@ -219,7 +219,7 @@ void Lpddr5::plan_answers() {
         --initiators_[transactions_[id].socket].waiting;
     }
     channels_.admitted().clear();
-    for (const Lpddr5Answer& answer : channels_.completed()) {
+    for (const Answer& answer : channels_.completed()) {
         // A channel is never run too late to tell in time; this guards the ring all the same.
         const Ck date = std::max({answer.date + extra_, answered_, ceil_ck(now())});
         answers_[date % answers_.size()].push_back(answer.id);
@@ -322,4 +322,4 @@ void Lpddr5::end_response(std::uint32_t socket, const sc_core::sc_time& delay) {
     }
 }
 
-} // namespace degs
+} // namespace degs::dram

@@ -14,7 +14,7 @@
 #include "tlm/latency_histogram.hpp"
 #include "tlm/process.hpp"
 
-namespace degs {
+namespace degs::dram {
 
 /// LPDDR5 main memory at bank level, for LT and AT initiators at once. One socket per initiator.
 ///
@@ -33,7 +33,6 @@ namespace degs {
 /// lpddr5_channel.hpp and lpddr5_timing.hpp leave out.
 class Lpddr5 : public sc_core::sc_module {
 public:
-    using Config = Lpddr5Config;
     struct Stats {
         std::uint64_t reads = 0, writes = 0;             ///< requests answered
         std::uint64_t bytes_read = 0, bytes_written = 0; ///< in whole bursts
@@ -49,11 +48,11 @@ public:
     const Stats& stats(std::size_t initiator) const { return stats_[initiator]; }
     Stats total() const;
     /// Of all channels, up to now.
-    Lpddr5Channel::Stats commands();
-    Lpddr5Energy energy();
-    const Lpddr5Channels& channels() const { return channels_; }
+    Channel::Stats commands();
+    Energy energy();
+    const Channels& channels() const { return channels_; }
     /// Called with every command; no cost when never called. Before the simulation starts.
-    void observe(const std::function<void(unsigned channel, const Lpddr5Issued&)>& observer);
+    void observe(const std::function<void(unsigned channel, const Issued&)>& observer);
 
 private:
     using Payload = tlm::tlm_generic_payload;
@@ -124,7 +123,7 @@ private:
     std::uint64_t ck_; // kernel time units
     Ck extra_;         // controller_latency_ns
     sc_core::sc_time half_cycle_;
-    Lpddr5Channels channels_;
+    Channels channels_;
     SparseStorage storage_;
     std::vector<Stats> stats_;
     std::vector<Initiator> initiators_;
@@ -138,4 +137,4 @@ private:
     sc_core::sc_event serve_event_, respond_event_, resume_event_;
 };
 
-} // namespace degs
+} // namespace degs::dram

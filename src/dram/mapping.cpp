@@ -5,7 +5,7 @@
 
 #include "config/config_words.hpp"
 
-namespace degs {
+namespace degs::dram {
 namespace {
 
 constexpr const char* kFieldNames[] = {"column", "group", "bank", "row"};
@@ -37,7 +37,7 @@ unsigned folded(std::uint64_t value, unsigned width) {
 
 } // namespace
 
-void Lpddr5Mapping::Config::describe(ConfigVisitor& visitor) {
+void Mapping::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("interleave_bytes", interleave_bytes, 64, 2048,
                     "bytes, a power of two; neighbours of this size are in different channels. 256 "
                     "keeps a record of 256 B in one row: one activation instead of four");
@@ -53,20 +53,20 @@ void Lpddr5Mapping::Config::describe(ConfigVisitor& visitor) {
                     "that meet in one bank");
 }
 
-Lpddr5Mapping::Lpddr5Mapping(const Config& config, const Lpddr5Timing& timing, unsigned channels)
+Mapping::Mapping(const Config& config, const Timing& timing, unsigned channels)
     : fold_channel_(config.fold_channel), fold_bank_(config.fold_bank),
-      capacity_(std::uint64_t{channels} * kLpddr5Banks * kLpddr5PageBytes *
+      capacity_(std::uint64_t{channels} * kBanks * kPageBytes *
                 static_cast<std::uint64_t>(timing.rows)) {
     const unsigned group_bits = log2_of(timing.groups());
-    bits_ = {static_cast<std::uint8_t>(log2_of(kLpddr5PageBytes / kLpddr5AccessBytes)),
+    bits_ = {static_cast<std::uint8_t>(log2_of(kPageBytes / kAccessBytes)),
              static_cast<std::uint8_t>(group_bits),
-             static_cast<std::uint8_t>(log2_of(kLpddr5Banks) - group_bits),
+             static_cast<std::uint8_t>(log2_of(kBanks) - group_bits),
              static_cast<std::uint8_t>(log2_of(static_cast<std::uint64_t>(timing.rows))),
              static_cast<std::uint8_t>(log2_of(channels))};
     read_order(config.order, log2_of(static_cast<std::uint64_t>(config.interleave_bytes)));
 }
 
-void Lpddr5Mapping::read_order(const std::string& order, unsigned grain_bits) {
+void Mapping::read_order(const std::string& order, unsigned grain_bits) {
     std::istringstream words(order);
     for (std::string word; words >> word;) {
         const std::size_t colon = word.find(':');
@@ -90,8 +90,8 @@ void Lpddr5Mapping::read_order(const std::string& order, unsigned grain_bits) {
     }
 }
 
-unsigned Lpddr5Mapping::read_count(const std::string& order, const std::string& count,
-                                   unsigned field) const {
+unsigned Mapping::read_count(const std::string& order, const std::string& count,
+                             unsigned field) const {
     if (count.size() != 1 || count[0] < '1' || count[0] > '9') {
         reject(order, "a number of bits must be 1 to 9");
     }
@@ -103,7 +103,7 @@ unsigned Lpddr5Mapping::read_count(const std::string& order, const std::string& 
 }
 
 // The channel comes where the grain ends.
-void Lpddr5Mapping::place_field(unsigned field, unsigned bits, unsigned grain_bits) {
+void Mapping::place_field(unsigned field, unsigned bits, unsigned grain_bits) {
     while (bits != 0) {
         if (address_bits_ == grain_bits && taken_[kChannel] == 0) {
             append(kChannel, bits_[kChannel]);
@@ -116,7 +116,7 @@ void Lpddr5Mapping::place_field(unsigned field, unsigned bits, unsigned grain_bi
     }
 }
 
-void Lpddr5Mapping::append(unsigned field, unsigned bits) {
+void Mapping::append(unsigned field, unsigned bits) {
     if (bits != 0) {
         pieces_.push_back({static_cast<std::uint8_t>(field),
                            static_cast<std::uint8_t>(address_bits_),
@@ -129,7 +129,7 @@ void Lpddr5Mapping::append(unsigned field, unsigned bits) {
 // The bank takes the chunks of the row, the group every other one: 16 rows that follow each other
 // then meet 16 banks, and streams whose distance is a power of two differ in the bank itself,
 // which matters because the group alternates within each stream anyway.
-void Lpddr5Mapping::fold(Values& values) const {
+void Mapping::fold(Values& values) const {
     if (fold_bank_) {
         const unsigned row = values[kRow];
         values[kBank] ^= folded(row, bits_[kBank]);
@@ -140,7 +140,7 @@ void Lpddr5Mapping::fold(Values& values) const {
     }
 }
 
-Lpddr5Place Lpddr5Mapping::place(std::uint64_t address) const {
+Place Mapping::place(std::uint64_t address) const {
     Values values{};
     for (const Piece& piece : pieces_) {
         const auto bits = static_cast<unsigned>(address >> piece.shift) & ((1U << piece.bits) - 1U);
@@ -154,7 +154,7 @@ Lpddr5Place Lpddr5Mapping::place(std::uint64_t address) const {
             values[kColumn]};
 }
 
-std::uint64_t Lpddr5Mapping::address(const Lpddr5Place& place) const {
+std::uint64_t Mapping::address(const Place& place) const {
     Values values{};
     values[kColumn] = place.block;
     values[kGroup] = place.bank >> bits_[kBank];
@@ -174,4 +174,4 @@ std::uint64_t Lpddr5Mapping::address(const Lpddr5Place& place) const {
     return address;
 }
 
-} // namespace degs
+} // namespace degs::dram

@@ -8,10 +8,10 @@
 
 #include "dram/timing.hpp"
 
-namespace degs {
+namespace degs::dram {
 
 /// Where 64 bytes lie; they never cross a row.
-struct Lpddr5Place {
+struct Place {
     unsigned channel = 0;
     unsigned bank = 0; ///< group * (banks per group) + bank in the group
     unsigned row = 0;
@@ -22,7 +22,7 @@ struct Lpddr5Place {
 /// of 64 bytes; the bits of `order` that fit under the interleave grain; the channel; the rest of
 /// `order`. XOR folding then adds bits above a field to it, which spreads strides that are powers
 /// of two; it keeps the mapping one to one, since the bits above stay as they are.
-class Lpddr5Mapping {
+class Mapping {
 public:
     struct Config {
         int interleave_bytes = 256;
@@ -33,12 +33,12 @@ public:
     };
 
     /// `channels` is a power of two. Throws ConfigError if `order` does not name every bit once.
-    Lpddr5Mapping(const Config& config, const Lpddr5Timing& timing, unsigned channels);
+    Mapping(const Config& config, const Timing& timing, unsigned channels);
 
     /// Of the access that holds `address`, which is below capacity().
-    Lpddr5Place place(std::uint64_t address) const;
+    Place place(std::uint64_t address) const;
     /// The first byte of the access at a place; the inverse of place().
-    std::uint64_t address(const Lpddr5Place& place) const;
+    std::uint64_t address(const Place& place) const;
     std::uint64_t capacity() const { return capacity_; } ///< bytes
 
 private:
@@ -63,4 +63,4 @@ private:
     std::uint64_t capacity_;
 };
 
-} // namespace degs
+} // namespace degs::dram

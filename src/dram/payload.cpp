@@ -4,7 +4,7 @@
 
 #include "dram/lpddr5.hpp"
 
-namespace degs {
+namespace degs::dram {
 
 tlm::tlm_response_status Lpddr5::check(const Payload& payload) const {
     if (!payload.is_read() && !payload.is_write()) {
@@ -113,28 +113,28 @@ Ck Lpddr5::settle() {
     return known + 1;
 }
 
-Lpddr5Channel::Stats Lpddr5::commands() {
+Channel::Stats Lpddr5::commands() {
     settle();
-    Lpddr5Channel::Stats sum;
+    Channel::Stats sum;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         sum.add(channels_[c].stats());
     }
     return sum;
 }
 
-Lpddr5Energy Lpddr5::energy() {
+Energy Lpddr5::energy() {
     const Ck elapsed = settle();
-    Lpddr5Energy sum;
+    Energy sum;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         sum.add(config_.energy, config_.timing, channels_[c], elapsed);
     }
     return sum;
 }
 
-void Lpddr5::observe(const std::function<void(unsigned, const Lpddr5Issued&)>& observer) {
+void Lpddr5::observe(const std::function<void(unsigned, const Issued&)>& observer) {
     for (unsigned c = 0; c < channels_.size(); ++c) {
-        channels_[c].observe([observer, c](const Lpddr5Issued& issued) { observer(c, issued); });
+        channels_[c].observe([observer, c](const Issued& issued) { observer(c, issued); });
     }
 }
 
-} // namespace degs
+} // namespace degs::dram

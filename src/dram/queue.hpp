@@ -6,10 +6,10 @@
 
 #include "dram/timing.hpp"
 
-namespace degs {
+namespace degs::dram {
 
 /// Up to 64 bytes of one row, read or written; what a controller queue holds.
-struct Lpddr5Access {
+struct Access {
     Ck date = 0;          ///< first CK in which it may send a command
     std::uint32_t id = 0; ///< of whoever wants the answer
     std::uint32_t row = 0;
@@ -21,22 +21,22 @@ struct Lpddr5Access {
 };
 
 /// What the row buffer held when an access was first served.
-enum class Lpddr5RowState : std::uint8_t { Hit, Closed, Conflict };
+enum class RowState : std::uint8_t { Hit, Closed, Conflict };
 
 /// A controller queue of one direction: fixed slots, and a list per bank in the order of arrival.
-class Lpddr5Queue {
+class Queue {
 public:
     static constexpr unsigned kSlots = 64;
     static constexpr std::uint8_t kNone = 0xFF;
     struct Entry {
-        Lpddr5Access access;
+        Access access;
         std::uint64_t age = 0; ///< counts arrivals
         std::uint8_t left = 0; ///< mask of bursts that have not been issued
-        Lpddr5RowState outcome = Lpddr5RowState::Hit;
+        RowState outcome = RowState::Hit;
         std::uint8_t next = kNone, previous = kNone; ///< of the same bank
     };
 
-    explicit Lpddr5Queue(unsigned depth)
+    explicit Queue(unsigned depth)
         : free_(depth >= kSlots ? ~std::uint64_t{0} : (std::uint64_t{1} << depth) - 1) {
         head_.fill(kNone);
         tail_.fill(kNone);
@@ -50,12 +50,11 @@ public:
     const Entry& operator[](unsigned slot) const { return entries_[slot]; }
 
     /// Only if not full.
-    void push(const Lpddr5Access& access) {
+    void push(const Access& access) {
         const auto slot = static_cast<std::uint8_t>(__builtin_ctzll(free_));
         free_ &= free_ - 1;
         const unsigned bank = access.bank;
-        entries_[slot] = {access, arrivals_++, access.bursts, Lpddr5RowState::Hit,
-                          kNone,  tail_[bank]};
+        entries_[slot] = {access, arrivals_++, access.bursts, RowState::Hit, kNone, tail_[bank]};
         (tail_[bank] == kNone ? head_[bank] : entries_[tail_[bank]].next) = slot;
         tail_[bank] = slot;
         banks_ |= 1U << bank;
@@ -104,11 +103,11 @@ public:
 
 private:
     std::array<Entry, kSlots> entries_;
-    std::array<std::uint8_t, kLpddr5Banks> head_, tail_;
+    std::array<std::uint8_t, kBanks> head_, tail_;
     std::uint64_t free_;
     std::uint64_t arrivals_ = 0;
     std::uint32_t banks_ = 0;
     unsigned size_ = 0;
 };
 
-} // namespace degs
+} // namespace degs::dram

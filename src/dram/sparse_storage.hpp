@@ -7,7 +7,7 @@
 #include <cstring>
 #include <unordered_map>
 
-namespace degs {
+namespace degs::dram {
 
 /// Contents of a memory, in pages that exist only where something was written; the rest reads as 0.
 class SparseStorage {
@@ -50,4 +50,4 @@ private:
     std::unordered_map<std::uint64_t, std::array<unsigned char, kPageBytes>> pages_;
 };
 
-} // namespace degs
+} // namespace degs::dram

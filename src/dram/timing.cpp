@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dram/timing.hpp"
 
-namespace degs {
+namespace degs::dram {
 namespace {
-
-using Command = Lpddr5Command;
-using Scope = Lpddr5Scope;
 
 /// Collects rules; commands that share one are given together.
 class RuleList {
@@ -18,13 +15,13 @@ public:
             }
         }
     }
-    std::vector<Lpddr5Rule> rules;
+    std::vector<Rule> rules;
 };
 
 const std::vector<Command> kReads{Command::Rd, Command::RdA};
 const std::vector<Command> kWrites{Command::Wr, Command::WrA};
 
-void add_bank_rules(RuleList& list, const Lpddr5Timing& t) {
+void add_bank_rules(RuleList& list, const Timing& t) {
     const int write_end = t.wl + static_cast<int>(t.burst());
     list.add("tRCD", Scope::Bank, {Command::Act1}, {Command::Rd, Command::Wr}, t.rcd);
     list.add("tRC", Scope::Bank, {Command::Act1}, {Command::Act1, Command::RefPb}, t.ras + t.rp_pb);
@@ -39,7 +36,7 @@ void add_bank_rules(RuleList& list, const Lpddr5Timing& t) {
     list.add("tRFCpb", Scope::Bank, {Command::RefPb}, {Command::Act1, Command::RefPb}, t.rfc_pb);
 }
 
-void add_column_rules(RuleList& list, const Lpddr5Timing& t) {
+void add_column_rules(RuleList& list, const Timing& t) {
     const int burst = static_cast<int>(t.burst());
     list.add("tCCD_S", Scope::Channel, kReads, {Command::Rd}, burst);
     list.add("tCCD_S", Scope::Channel, kWrites, {Command::Wr}, burst);
@@ -52,7 +49,7 @@ void add_column_rules(RuleList& list, const Lpddr5Timing& t) {
     }
 }
 
-void add_row_rules(RuleList& list, const Lpddr5Timing& t) {
+void add_row_rules(RuleList& list, const Timing& t) {
     const int write_end = t.wl + static_cast<int>(t.burst());
     list.add("tRRD", Scope::Channel, {Command::Act1}, {Command::Act1, Command::RefPb}, t.rrd);
     list.add("tPPD", Scope::Channel, {Command::Pre}, {Command::Pre, Command::PreAb}, t.ppd);
@@ -63,7 +60,7 @@ void add_row_rules(RuleList& list, const Lpddr5Timing& t) {
              {Command::Act1, Command::RefAb, Command::RefPb}, t.rp_ab);
 }
 
-void add_refresh_rules(RuleList& list, const Lpddr5Timing& t) {
+void add_refresh_rules(RuleList& list, const Timing& t) {
     const int write_end = t.wl + static_cast<int>(t.burst());
     list.add("tRC", Scope::Channel, {Command::Act1}, {Command::RefAb}, t.ras + t.rp_pb);
     list.add("tRPpb", Scope::Channel, {Command::Pre}, {Command::RefAb}, t.rp_pb);
@@ -77,7 +74,7 @@ void add_refresh_rules(RuleList& list, const Lpddr5Timing& t) {
     list.add("tpbR2pbR", Scope::Channel, {Command::RefPb}, {Command::RefPb}, t.pbr2pbr);
 }
 
-void describe_organisation(Lpddr5Timing& t, ConfigVisitor& v) {
+void describe_organisation(Timing& t, ConfigVisitor& v) {
     v.integer("data_rate_mt_per_s", t.data_rate_mt_per_s, 533, 9600,
               "MT/s per pin; CK is an eighth of it (WCK:CK = 4:1); 6400 is the paper's memory");
     v.choice("bank_mode", t.bank_mode, {"bg", "16b"},
@@ -85,14 +82,14 @@ void describe_organisation(Lpddr5Timing& t, ConfigVisitor& v) {
     v.integer("burst_length", t.burst_length, 16, 32,
               "beats of a column command: 16 = 32 B; 32 = 64 B, in 16b mode only here");
     v.require(t.burst_length == 16 || t.burst_length == 32, "burst_length", "must be 16 or 32");
-    v.require(t.burst_length == 16 || t.bank_mode == Lpddr5Timing::BankMode::Banks16,
-              "burst_length", "must be 16 in bank mode bg: a burst in two halves is not modelled");
+    v.require(t.burst_length == 16 || t.bank_mode == Timing::BankMode::Banks16, "burst_length",
+              "must be 16 in bank mode bg: a burst in two halves is not modelled");
     v.integer("rows", t.rows, 1024, 262144,
               "per bank, a power of two; 32768 = 8 Gb per x16 channel, 65536 = 16 Gb");
     v.require((t.rows & (t.rows - 1)) == 0, "rows", "must be a power of two");
 }
 
-void describe_access(Lpddr5Timing& t, ConfigVisitor& v) {
+void describe_access(Timing& t, ConfigVisitor& v) {
     v.integer("rl", t.rl, 1, 200, "CK; RD to first beat, set by a mode register");
     v.integer("wl", t.wl, 1, 200, "CK; WR to first beat, set A of the mode register");
     v.require(t.rl + t.burst_length / 8 + 2 > t.wl, "wl", "must be below rl + BL/n + 2");
@@ -114,7 +111,7 @@ void describe_access(Lpddr5Timing& t, ConfigVisitor& v) {
     v.integer("rtp", t.rtp, 1, 200, "CK; RD to PRE; the longer of two readings of 7.5 ns");
 }
 
-void describe_refresh(Lpddr5Timing& t, ConfigVisitor& v) {
+void describe_refresh(Timing& t, ConfigVisitor& v) {
     v.integer("refi", t.refi, 100, 1000000, "CK; all-bank refreshes come this often: 32 ms / 8192");
     v.integer("rfc_ab", t.rfc_ab, 1, 4000, "CK; all-bank refresh: 210 ns at 8 Gb, 280 at 16 Gb");
     v.integer("rfc_pb", t.rfc_pb, 1, 4000, "CK; per-bank refresh: 120 ns at 8 Gb, 140 at 16 Gb");
@@ -122,25 +119,25 @@ void describe_refresh(Lpddr5Timing& t, ConfigVisitor& v) {
     v.integer("pbr2act", t.pbr2act, 1, 1000, "CK; per-bank refresh to ACT-1 elsewhere, 7.5 ns");
     v.require(t.rfc_ab + t.rp_ab + t.ras + t.wl + t.wr < t.refi, "refi",
               "must leave time between two refreshes of rfc_ab");
-    v.require(t.pbr2pbr < t.refi / static_cast<int>(kLpddr5RefreshSteps), "pbr2pbr",
+    v.require(t.pbr2pbr < t.refi / static_cast<int>(kRefreshSteps), "pbr2pbr",
               "must be below refi / 8");
 }
 
 } // namespace
 
-const char* lpddr5_command_name(Lpddr5Command command) {
+const char* command_name(Command command) {
     constexpr const char* kNames[] = {"act1", "act2", "rd",     "wr",     "rda",
                                       "wra",  "pre",  "pre_ab", "ref_ab", "ref_pb"};
     return kNames[static_cast<std::size_t>(command)];
 }
 
-void Lpddr5Timing::describe(ConfigVisitor& visitor) {
+void Timing::describe(ConfigVisitor& visitor) {
     describe_organisation(*this, visitor);
     describe_access(*this, visitor);
     describe_refresh(*this, visitor);
 }
 
-std::vector<Lpddr5Rule> lpddr5_rules(const Lpddr5Timing& timing) {
+std::vector<Rule> rules(const Timing& timing) {
     RuleList list;
     add_bank_rules(list, timing);
     add_column_rules(list, timing);
@@ -149,9 +146,9 @@ std::vector<Lpddr5Rule> lpddr5_rules(const Lpddr5Timing& timing) {
     return list.rules;
 }
 
-Lpddr5RuleTable::Lpddr5RuleTable(const Lpddr5Timing& timing)
+RuleTable::RuleTable(const Timing& timing)
     : group_shift_(timing.groups() == 1 ? 4 : 2), faw_(static_cast<Ck>(timing.faw)) {
-    for (const Lpddr5Rule& rule : lpddr5_rules(timing)) {
+    for (const Rule& rule : rules(timing)) {
         Steps& steps =
             steps_[static_cast<std::size_t>(rule.previous)][static_cast<std::size_t>(rule.scope)];
         steps.step.at(steps.count++) = {static_cast<std::uint16_t>(rule.next),
@@ -159,17 +156,17 @@ Lpddr5RuleTable::Lpddr5RuleTable(const Lpddr5Timing& timing)
     }
 }
 
-void Lpddr5Dates::apply(Command command, unsigned bank, Ck date) {
+void Dates::apply(Command command, unsigned bank, Ck date) {
     for (const auto& step : table_->after(command, Scope::Bank)) {
         Ck& next = bank_[step.next][bank];
         next = std::max(next, date + step.gap);
     }
 }
 
-void Lpddr5Dates::issue(Lpddr5Command command, unsigned bank, Ck date) {
+void Dates::issue(Command command, unsigned bank, Ck date) {
     apply(command, bank, date);
     if (command == Command::RefPb) {
-        apply(command, bank ^ kLpddr5RefreshPartner, date);
+        apply(command, bank ^ kRefreshPartner, date);
     }
     const unsigned group = table_->group_of(bank);
     for (const auto& step : table_->after(command, Scope::Group)) {
@@ -186,4 +183,4 @@ void Lpddr5Dates::issue(Lpddr5Command command, unsigned bank, Ck date) {
     }
 }
 
-} // namespace degs
+} // namespace degs::dram

@@ -10,7 +10,7 @@
 
 #include "config/config.hpp"
 
-namespace degs {
+namespace degs::dram {
 
 /// A date or a duration in cycles of the command clock CK (1.25 ns at 6400 MT/s). Plain arithmetic:
 /// nothing of a channel knows SystemC.
@@ -20,25 +20,25 @@ constexpr Ck kNoDate = ~Ck{0} / 2;
 
 /// The commands of the bus. RdA and WrA close their bank by themselves (auto-precharge); PreAb and
 /// RefAb mean all banks, RefPb a pair of them.
-enum class Lpddr5Command : std::uint8_t { Act1, Act2, Rd, Wr, RdA, WrA, Pre, PreAb, RefAb, RefPb };
-constexpr std::size_t kLpddr5Commands = 10;
-const char* lpddr5_command_name(Lpddr5Command command);
-constexpr bool is_column(Lpddr5Command command) {
-    return command >= Lpddr5Command::Rd && command <= Lpddr5Command::WrA;
+enum class Command : std::uint8_t { Act1, Act2, Rd, Wr, RdA, WrA, Pre, PreAb, RefAb, RefPb };
+constexpr std::size_t kCommands = 10;
+const char* command_name(Command command);
+constexpr bool is_column(Command command) {
+    return command >= Command::Rd && command <= Command::WrA;
 }
 
-constexpr unsigned kLpddr5Banks = 16;          ///< BG and 16B mode alike
-constexpr unsigned kLpddr5PageBytes = 2048;    ///< of a bank, BG and 16B mode alike
-constexpr unsigned kLpddr5BytesPerBeat = 2;    ///< x16
-constexpr unsigned kLpddr5BeatsPerCk = 8;      ///< WCK:CK = 4:1, both edges
-constexpr unsigned kLpddr5AccessBytes = 64;    ///< what a controller queue's entry covers
-constexpr unsigned kLpddr5RefreshSteps = 8;    ///< per-bank refresh: pairs of banks
-constexpr unsigned kLpddr5RefreshPartner = 8u; ///< bank b is refreshed together with b + 8
+constexpr unsigned kBanks = 16;          ///< BG and 16B mode alike
+constexpr unsigned kPageBytes = 2048;    ///< of a bank, BG and 16B mode alike
+constexpr unsigned kBytesPerBeat = 2;    ///< x16
+constexpr unsigned kBeatsPerCk = 8;      ///< WCK:CK = 4:1, both edges
+constexpr unsigned kAccessBytes = 64;    ///< what a controller queue's entry covers
+constexpr unsigned kRefreshSteps = 8;    ///< per-bank refresh: pairs of banks
+constexpr unsigned kRefreshPartner = 8u; ///< bank b is refreshed together with b + 8
 
 /// Organisation and timing of one channel. Durations in CK, rounded up; defaults are 6400 MT/s in
 /// BG mode with 8 Gb per channel (JESD209-5B as restated by public simulators, see docs/lpddr5.md).
 /// Not modelled: 8B mode, start and stop of WCK (always running), power-down, ranks, DVFS.
-struct Lpddr5Timing {
+struct Timing {
     enum class BankMode : std::uint8_t { Bg, Banks16 };
     int data_rate_mt_per_s = 6400;
     BankMode bank_mode = BankMode::Bg;
@@ -54,38 +54,36 @@ struct Lpddr5Timing {
     void describe(ConfigVisitor& visitor);
 
     unsigned groups() const { return bank_mode == BankMode::Bg ? 4 : 1; }
-    double ck_ns() const { return 1000.0 * kLpddr5BeatsPerCk / data_rate_mt_per_s; }
-    unsigned burst_bytes() const {
-        return static_cast<unsigned>(burst_length) * kLpddr5BytesPerBeat;
-    }
+    double ck_ns() const { return 1000.0 * kBeatsPerCk / data_rate_mt_per_s; }
+    unsigned burst_bytes() const { return static_cast<unsigned>(burst_length) * kBytesPerBeat; }
     /// BL/n: CK of data bus that a burst takes.
-    Ck burst() const { return static_cast<Ck>(burst_length) / kLpddr5BeatsPerCk; }
+    Ck burst() const { return static_cast<Ck>(burst_length) / kBeatsPerCk; }
     Ck rc() const { return static_cast<Ck>(ras + rp_pb); }
     Ck read_latency() const { return static_cast<Ck>(rl) + burst(); }  ///< RD to its last beat
     Ck write_latency() const { return static_cast<Ck>(wl) + burst(); } ///< WR to its last beat
     double peak_gb_per_s() const {
-        return kLpddr5BytesPerBeat * data_rate_mt_per_s / 1000.0;
+        return kBytesPerBeat * data_rate_mt_per_s / 1000.0;
     } ///< of a channel, 1e9 B/s
 };
 
 /// Which commands a rule looks back at.
-enum class Lpddr5Scope : std::uint8_t { Bank, Group, Channel };
-constexpr std::size_t kLpddr5Scopes = 3;
+enum class Scope : std::uint8_t { Bank, Group, Channel };
+constexpr std::size_t kScopes = 3;
 
 /// `next` may come `gap` CK after `previous` of the same scope at the earliest. `next` is never RdA
 /// or WrA: these follow the rules of Rd and Wr.
-struct Lpddr5Rule {
-    Lpddr5Command previous, next;
-    Lpddr5Scope scope;
+struct Rule {
+    Command previous, next;
+    Scope scope;
     Ck gap;
     const char* name;
 };
 
 /// Every constraint between two commands. Two are no such rule: tFAW, and one command per CK.
-std::vector<Lpddr5Rule> lpddr5_rules(const Lpddr5Timing& timing);
+std::vector<Rule> rules(const Timing& timing);
 
 /// The rules sorted by what has been issued; made once, shared by all channels.
-class Lpddr5RuleTable {
+class RuleTable {
 public:
     struct Step {
         std::uint16_t next = 0;
@@ -98,40 +96,39 @@ public:
         const Step* end() const { return step.data() + count; }
     };
 
-    explicit Lpddr5RuleTable(const Lpddr5Timing& timing);
-    const Steps& after(Lpddr5Command previous, Lpddr5Scope scope) const {
+    explicit RuleTable(const Timing& timing);
+    const Steps& after(Command previous, Scope scope) const {
         return steps_[static_cast<std::size_t>(previous)][static_cast<std::size_t>(scope)];
     }
     unsigned group_of(unsigned bank) const { return bank >> group_shift_; }
     Ck faw() const { return faw_; }
 
 private:
-    std::array<std::array<Steps, kLpddr5Scopes>, kLpddr5Commands> steps_;
+    std::array<std::array<Steps, kScopes>, kCommands> steps_;
     unsigned group_shift_;
     Ck faw_;
 };
 
 /// The earliest legal date of every command of one channel, given those issued so far. Says nothing
 /// about the state of banks: who issues a Rd knows that the row is open.
-class Lpddr5Dates {
+class Dates {
 public:
-    explicit Lpddr5Dates(const Lpddr5RuleTable& table) : table_(&table) {}
+    explicit Dates(const RuleTable& table) : table_(&table) {}
 
-    Ck earliest(Lpddr5Command command, unsigned bank) const {
+    Ck earliest(Command command, unsigned bank) const {
         return std::max(of_bank(command, bank), of_others(command, table_->group_of(bank)));
     }
     /// The two parts of it: what the bank itself demands changes only with commands to the bank.
-    Ck of_bank(Lpddr5Command command, unsigned bank) const { return bank_[kind(command)][bank]; }
-    Ck of_others(Lpddr5Command command, unsigned group) const {
+    Ck of_bank(Command command, unsigned bank) const { return bank_[kind(command)][bank]; }
+    Ck of_others(Command command, unsigned group) const {
         const std::size_t c = kind(command);
         const Ck date = std::max(group_[c][group], channel_[c]);
-        return command == Lpddr5Command::Act1 ? std::max(date, window_[oldest_]) : date;
+        return command == Command::Act1 ? std::max(date, window_[oldest_]) : date;
     }
     unsigned group_of(unsigned bank) const { return table_->group_of(bank); }
-    void issue(Lpddr5Command command, unsigned bank, Ck date);
+    void issue(Command command, unsigned bank, Ck date);
 
 private:
-    using Command = Lpddr5Command;
     static std::size_t kind(Command command) {
         return static_cast<std::size_t>(command == Command::RdA   ? Command::Rd
                                         : command == Command::WrA ? Command::Wr
@@ -139,12 +136,12 @@ private:
     }
     void apply(Command command, unsigned bank, Ck date);
 
-    const Lpddr5RuleTable* table_;
-    std::array<std::array<Ck, kLpddr5Banks>, kLpddr5Commands> bank_{};
-    std::array<std::array<Ck, 4>, kLpddr5Commands> group_{};
-    std::array<Ck, kLpddr5Commands> channel_{};
+    const RuleTable* table_;
+    std::array<std::array<Ck, kBanks>, kCommands> bank_{};
+    std::array<std::array<Ck, 4>, kCommands> group_{};
+    std::array<Ck, kCommands> channel_{};
     std::array<Ck, 4> window_{}; // tFAW after each of the last four activations
     unsigned oldest_ = 0;        // of them
 };
 
-} // namespace degs
+} // namespace degs::dram

@@ -75,7 +75,7 @@ struct AcceleratorResult {
     double memory_gb_per_s = 0;    ///< peak; 0: unlimited
     // Only of a memory with banks and rows.
     std::optional<double> row_hit_rate; ///< share of accesses that found their row open
-    std::optional<Lpddr5Energy> dram_energy;
+    std::optional<dram::Energy> dram_energy;
     std::uint64_t tiles_listed = 0; ///< that the accelerator has to render
     std::uint64_t tiles = 0;        ///< that it has rendered
     std::uint64_t background_tiles = 0, tiles_cancelled = 0;

@@ -15,7 +15,7 @@ enum class MemoryModel { Bus, Lpddr5 };
 /// The off-chip memory of an accelerator: which model, and the parameters of each.
 struct MainMemoryConfig : Memory::Config {
     MemoryModel model = MemoryModel::Bus;
-    Lpddr5Config lpddr5;
+    dram::Config lpddr5;
     void describe(ConfigVisitor& visitor);
     double peak_gb_per_s() const {
         return model == MemoryModel::Bus ? bandwidth_gb_per_s : lpddr5.peak_gb_per_s();

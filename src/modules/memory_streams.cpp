@@ -19,7 +19,7 @@ void MemoryStreams::build(const char* name, const MainMemoryConfig& config, cons
     };
     if (config.model == MemoryModel::Lpddr5 && !options.array_only) {
         peak_gb_per_s_ = config.peak_gb_per_s();
-        lpddr5_ = std::make_unique<Lpddr5>(name, config.lpddr5, time, ports_.size());
+        lpddr5_ = std::make_unique<dram::Lpddr5>(name, config.lpddr5, time, ports_.size());
         bind(lpddr5_->in);
         return;
     }
@@ -90,7 +90,7 @@ void MemoryStreams::collect(AcceleratorResult& result) const {
     if (lpddr5_) {
         const auto& accesses = lpddr5_->commands().accesses;
         const std::uint64_t all = accesses[0] + accesses[1] + accesses[2];
-        const auto hits = static_cast<double>(accesses[static_cast<int>(Lpddr5RowState::Hit)]);
+        const auto hits = static_cast<double>(accesses[static_cast<int>(dram::RowState::Hit)]);
         result.row_hit_rate = all == 0 ? 0 : hits / static_cast<double>(all);
         result.dram_energy = lpddr5_->energy();
     }

@@ -47,7 +47,7 @@ private:
     double peak_gb_per_s_ = 0;
     // One of them.
     std::unique_ptr<Memory> bus_;
-    std::unique_ptr<Lpddr5> lpddr5_;
+    std::unique_ptr<dram::Lpddr5> lpddr5_;
     MemoryGateway* gateway_ = nullptr;
 };
 

@@ -17,7 +17,7 @@ namespace degs::test {
 class GccArrayBench {
 public:
     struct Options {
-        GccWindowArray::Config array;
+        gcc::WindowArray::Config array;
         int contexts = 1;
         std::uint32_t chunk = 16;  ///< splats per hand-over
         Cycle chunk_cycles = 0;    ///< between two hand-overs
@@ -62,11 +62,11 @@ public:
         });
     }
 
-    const GccWindowArray::Stats& stats() const { return array_.stats(); }
+    const gcc::WindowArray::Stats& stats() const { return array_.stats(); }
     const Image& image() const { return job_.images[0]; }
     const std::vector<Report>& done() const { return dones_; }
     const std::vector<Report>& states() const { return states_; }
-    const std::vector<std::pair<Cycle, GccBlockEnded>>& blocks() const { return ended_blocks_; }
+    const std::vector<std::pair<Cycle, gcc::BlockEnded>>& blocks() const { return ended_blocks_; }
     std::uint64_t pes() const { return static_cast<std::uint64_t>(options_.array.pes()); }
 
 private:
@@ -132,7 +132,7 @@ private:
     }
     void listen(Process& self) {
         for (;;) {
-            const GccBlockEnded block = blocks_.get(self);
+            const gcc::BlockEnded block = blocks_.get(self);
             ended_blocks_.emplace_back(self.local(), block);
         }
     }
@@ -140,20 +140,20 @@ private:
     Options options_;
     Timebase time_;
     RenderJob job_;
-    GccWindowArray array_;
+    gcc::WindowArray array_;
     DatedFifo<SplatChunk> chunks_;
     DatedFifo<TileNumber> contexts_;
     DatedFifo<SliceReport> done_, state_;
-    DatedFifo<GccBlockEnded> blocks_;
+    DatedFifo<gcc::BlockEnded> blocks_;
     std::vector<std::unique_ptr<Process>> processes_;
     std::vector<std::unique_ptr<Script>> scripts_;
     std::vector<Report> dones_, states_;
-    std::vector<std::pair<Cycle, GccBlockEnded>> ended_blocks_;
+    std::vector<std::pair<Cycle, gcc::BlockEnded>> ended_blocks_;
 };
 
 /// What must hold of every finished run of the array.
 inline void expect_sound(const GccArrayBench& bench) {
-    const GccWindowArray::Stats& s = bench.stats();
+    const gcc::WindowArray::Stats& s = bench.stats();
     EXPECT_EQ(s.slots.total(), s.window.cycles() * bench.pes());
     EXPECT_EQ(s.slots.useful + s.slots.boundary + s.slots.terminated,
               (s.windows + s.skip_cycles) * bench.pes());

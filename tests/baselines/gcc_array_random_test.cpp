@@ -42,7 +42,7 @@ void expect_image(const Image& image, const Image& reference) {
 }
 
 void expect_same(const GccArrayBench& a, const GccArrayBench& b) {
-    using Stats = GccWindowArray::Stats;
+    using Stats = gcc::WindowArray::Stats;
     static_assert(std::is_trivially_copyable_v<Stats> && sizeof(Stats) % 8 == 0);
     EXPECT_EQ(std::memcmp(&a.stats(), &b.stats(), sizeof(Stats)), 0);
     EXPECT_EQ(a.image().rgb, b.image().rgb);

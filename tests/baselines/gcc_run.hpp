@@ -8,8 +8,8 @@
 namespace degs::test {
 
 /// A GCC for views of `view` px in double precision; everything else as by default.
-inline GccConfig gcc_of(int view, int window = 8) {
-    GccConfig c;
+inline gcc::Config gcc_of(int view, int window = 8) {
+    gcc::Config c;
     c.pipeline.numbers = NumberFormat::Fp64;
     c.view_size = view;
     c.array.window = window;
@@ -17,10 +17,10 @@ inline GccConfig gcc_of(int view, int window = 8) {
     return c;
 }
 
-class GccRun : public AcceleratorRun<Gcc, GccConfig> {
+class GccRun : public AcceleratorRun<gcc::Engine, gcc::Config> {
 public:
     using AcceleratorRun::AcceleratorRun;
-    const Gcc& gcc() const { return engine(); }
+    const gcc::Engine& gcc() const { return engine(); }
     std::uint64_t stream_bytes(const std::string& name) const {
         for (const StreamUse& stream : result().streams) {
             if (stream.name == name) {

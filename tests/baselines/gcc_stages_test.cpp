@@ -26,9 +26,9 @@ FrameWorkload many_splats(int count) {
 // A chunk of 100 means takes 100 / 4 cycles; the lists are complete when the last write is.
 TEST(GccGrouping, AFrameIsGroupedWhenItsListsAreInMemory) {
     Bench bench(many_splats(500));
-    GccGrouping::Config config;
+    gcc::Grouping::Config config;
     config.chunk = 100;
-    GccGrouping unit("unit", config, {}, bench.time, bench.job, 0);
+    gcc::Grouping unit("unit", config, {}, bench.time, bench.job, 0);
     DatedFifo<std::uint32_t> out("out", bench.time, 4);
     unit.out.bind(out);
     bench.connect({&unit.means, &unit.lists}, 200);
@@ -51,7 +51,7 @@ TEST(GccGrouping, AFrameIsGroupedWhenItsListsAreInMemory) {
 TEST(GccGrouping, EntriesLimitWhereSplatsAreLarge) {
     Bench bench(make_frame(std::vector<ProjectedSplat>(100, blanket(64, 64, 80, 0.01)), 128, 128,
                            16)); // 64 views each
-    GccGrouping unit("unit", {}, {}, bench.time, bench.job, 0);
+    gcc::Grouping unit("unit", {}, {}, bench.time, bench.job, 0);
     DatedFifo<std::uint32_t> out("out", bench.time, 4);
     unit.out.bind(out);
     bench.connect({&unit.means, &unit.lists});
@@ -65,10 +65,10 @@ TEST(GccGrouping, EntriesLimitWhereSplatsAreLarge) {
 TEST(GccGrouping, RegroupingReadsAndWritesAgain) {
     Bench bench(make_frame(std::vector<ProjectedSplat>(100, blanket(64, 64, 80, 0.01)), 128, 128,
                            64)); // 4 views each
-    GccGrouping::Config config;
-    config.lists = GccLists::Regrouped;
+    gcc::Grouping::Config config;
+    config.lists = gcc::Lists::Regrouped;
     config.chunk = 10;
-    GccGrouping unit("unit", config, {}, bench.time, bench.job, 0);
+    gcc::Grouping unit("unit", config, {}, bench.time, bench.job, 0);
     DatedFifo<std::uint32_t> out("out", bench.time, 4);
     unit.out.bind(out);
     bench.connect({&unit.means, &unit.lists});
@@ -99,9 +99,9 @@ struct StageBench : Bench {
 // cycle later each step; projection takes 256 / 4 cycles per group and 32 more.
 TEST(GccProjectionStage, GroupsFollowEachOther) {
     StageBench bench(many_splats(1000));
-    GccProjectionStage::Config config;
+    gcc::ProjectionStage::Config config;
     config.group = 200;
-    GccProjectionStage unit("unit", config, {}, bench.time, bench.job);
+    gcc::ProjectionStage unit("unit", config, {}, bench.time, bench.job);
     DatedFifo<std::uint32_t> start("start", bench.time, 1);
     DatedFifo<SplatChunk> out("out", bench.time, 8, 32);
     unit.start.bind(start);
@@ -132,9 +132,9 @@ TEST(GccProjectionStage, GroupsFollowEachOther) {
 // Cancelled in the middle: one empty group says that the view is over.
 TEST(GccProjectionStage, ACancelledViewEndsWithAnEmptyGroup) {
     StageBench bench(many_splats(2000));
-    GccProjectionStage::Config config;
+    gcc::ProjectionStage::Config config;
     config.group = 100;
-    GccProjectionStage unit("unit", config, {}, bench.time, bench.job);
+    gcc::ProjectionStage unit("unit", config, {}, bench.time, bench.job);
     DatedFifo<std::uint32_t> start("start", bench.time, 1);
     DatedFifo<SplatChunk> out("out", bench.time, 8, 32);
     unit.start.bind(start);
@@ -152,7 +152,7 @@ TEST(GccProjectionStage, ACancelledViewEndsWithAnEmptyGroup) {
     ASSERT_FALSE(got.empty());
     EXPECT_TRUE(got.back().second.last);
     EXPECT_EQ(got.back().second.count, 0U);
-    const GccProjectionStage::Stats& s = unit.stats();
+    const gcc::ProjectionStage::Stats& s = unit.stats();
     EXPECT_EQ(s.entries + s.entries_cancelled, 2000U);
     EXPECT_EQ(s.entries, s.shapes + s.shapes_cancelled);
     EXPECT_GT(s.shapes, 700U); // 25 cycles per group: 8 of them until 208
@@ -171,13 +171,13 @@ class GccColour : public ::testing::TestWithParam<ColourCase> {};
 TEST_P(GccColour, ColoursAndSortingOverlap) {
     const ColourCase& c = GetParam();
     StageBench bench(many_splats(c.count));
-    GccColourStage::Config config;
+    gcc::ColourStage::Config config;
     config.units = c.units;
     config.keys_per_cycle = c.rate;
     config.merge_ways = c.ways;
-    GccColourStage unit("unit", config, {}, bench.time, bench.job, 1);
+    gcc::ColourStage unit("unit", config, {}, bench.time, bench.job, 1);
     DatedFifo<SplatChunk> in("in", bench.time, 1), out("out", bench.time, 64);
-    DatedFifo<GccBlockEnded> blocks("blocks", bench.time, 64, 8);
+    DatedFifo<gcc::BlockEnded> blocks("blocks", bench.time, 64, 8);
     unit.in.bind(in);
     unit.out.bind(out);
     unit.cancel.bind(bench.cancel_a);
@@ -215,9 +215,9 @@ INSTANTIATE_TEST_SUITE_P(Groups, GccColour,
 // of block 3 whose boxes, a pixel wider, reach block 4 stay.
 TEST(GccColourStage, TheMaskIsReadWhenAGroupEnters) {
     StageBench bench(many_splats(64)); // pixel i in column i
-    GccColourStage unit("unit", {}, {}, bench.time, bench.job, 1);
+    gcc::ColourStage unit("unit", {}, {}, bench.time, bench.job, 1);
     DatedFifo<SplatChunk> in("in", bench.time, 1), out("out", bench.time, 64);
-    DatedFifo<GccBlockEnded> blocks("blocks", bench.time, 64, 8);
+    DatedFifo<gcc::BlockEnded> blocks("blocks", bench.time, 64, 8);
     unit.in.bind(in);
     unit.out.bind(out);
     unit.cancel.bind(bench.cancel_a);
@@ -241,7 +241,7 @@ TEST(GccColourStage, TheMaskIsReadWhenAGroupEnters) {
     bench.script([&](Process& self) { bench.cancel_a.connect_writer(self); });
     const auto& got = bench.drain(out);
     sc_core::sc_start();
-    const GccColourStage::Stats& s = unit.stats();
+    const gcc::ColourStage::Stats& s = unit.stats();
     EXPECT_EQ(s.coloured + s.masked, 64U);
     EXPECT_GE(s.masked, 13U); // columns 16..28
     EXPECT_LE(s.masked, 16U); // columns 16..31

@@ -19,9 +19,9 @@ public:
     int among(std::initializer_list<int> values) {
         return values.begin()[upto(static_cast<int>(values.size()) - 1)];
     }
-    GccConfig config(unsigned index) {
+    gcc::Config config(unsigned index) {
         for (;;) {
-            const GccConfig c = candidate(index);
+            const gcc::Config c = candidate(index);
             if (c.problem().empty()) {
                 return c;
             }
@@ -29,8 +29,8 @@ public:
     }
 
 private:
-    GccConfig candidate(unsigned index) {
-        GccConfig c = gcc_of(among({32, 64, 128, 24}), among({8, 8, 4, 16, 5}));
+    gcc::Config candidate(unsigned index) {
+        gcc::Config c = gcc_of(among({32, 64, 128, 24}), among({8, 8, 4, 16, 5}));
         const NumberFormat odd[] = {NumberFormat::Fp32, NumberFormat::Paper, NumberFormat::Tuned};
         c.pipeline.numbers = index % 2 == 0 ? NumberFormat::Fp64 : odd[index / 2 % 3];
         c.pipeline.stop_rule = index % 8 == 1 ? StopRule::After : StopRule::Refuse;
@@ -45,7 +45,7 @@ private:
         c.grouping.chunks_in_flight = among({4, 1});
         c.grouping.entries_per_cycle = among({8, 1});
         c.grouping.writes_in_flight = among({8, 1});
-        c.grouping.lists = static_cast<GccLists>(upto(1));
+        c.grouping.lists = static_cast<gcc::Lists>(upto(1));
         c.projection.units = among({4, 1});
         c.projection.group = among({256, 16, 1, 50});
         c.projection.groups_ahead = among({1, 1, 2});
@@ -74,7 +74,7 @@ class SmallRunGcc : public ::testing::TestWithParam<unsigned> {};
 TEST_P(SmallRunGcc, ExactIsStrict) {
     const unsigned index = GetParam();
     RandomGcc draw(index);
-    const GccConfig config = draw.config(index);
+    const gcc::Config config = draw.config(index);
     std::vector<FrameWorkload> frames;
     for (int f = index % 4 == 3 ? 3 : 1; f > 0; --f) {
         frames.push_back(test::random_frame(index * 10 + static_cast<unsigned>(f),
@@ -117,7 +117,7 @@ FrameWorkload half_ended(int behind) {
 // not read and it takes no slot.
 TEST(SmallRunGccStages, TheMaskSavesSphericalHarmonics) {
     const FrameWorkload frame = half_ended(2000);
-    GccConfig config = gcc_of(32);
+    gcc::Config config = gcc_of(32);
     const GccRun masked("masked", config, {&frame});
     config.colour.skip_ended = false;
     const GccRun plain("plain", config, {&frame});
@@ -137,7 +137,7 @@ TEST(SmallRunGccStages, AFinishedViewStopsItsGroups) {
     std::vector<ProjectedSplat> splats(3, blanket(16, 16, 1e4, 1.0));
     splats.resize(20'000, blanket(16, 16, 100, 0.5));
     const FrameWorkload frame = make_frame(splats, 64, 32, 32);
-    GccConfig config = gcc_of(32);
+    gcc::Config config = gcc_of(32);
     const GccRun stopped("stopped", config, {&frame});
     config.monitor.cancel = false;
     const GccRun literal("literal", config, {&frame});
@@ -159,9 +159,9 @@ TEST(SmallRunGccStages, TrafficByStage) {
     }
     FrameWorkload frame = make_frame(splats, 64, 32, 32);
     frame.sh_degree = 3;
-    GccConfig config = gcc_of(32);
+    gcc::Config config = gcc_of(32);
     const GccRun direct("direct", config, {&frame});
-    config.grouping.lists = GccLists::Regrouped;
+    config.grouping.lists = gcc::Lists::Regrouped;
     const GccRun regrouped("regrouped", config, {&frame});
     sc_core::sc_start();
     EXPECT_EQ(direct.stream_bytes("means"), 64U * 8);
@@ -177,7 +177,7 @@ TEST(SmallRunGccStages, TrafficByStage) {
 // The array alone does what it does behind its stages, only never starved, and without memory.
 TEST(SmallRunGccStages, TheArrayAlone) {
     const FrameWorkload frame = test::random_frame(8, 200, 120, 64, 500);
-    const GccConfig config = gcc_of(64);
+    const gcc::Config config = gcc_of(64);
     const GccRun whole("whole", config, {&frame});
     const GccRun alone("alone", config, {&frame}, Fidelity::Exact, {true});
     sc_core::sc_start();
@@ -192,7 +192,7 @@ TEST(SmallRunGccStages, TheArrayAlone) {
 TEST(SmallRunGccStages, FramesOverlap) {
     const FrameWorkload first = test::random_frame(5, 100, 60, 64, 300);
     const FrameWorkload second = test::random_frame(6, 70, 90, 64, 250);
-    GccConfig config = gcc_of(64);
+    gcc::Config config = gcc_of(64);
     const GccRun both("both", config, {&first, &second, &first});
     config.frames_in_flight = 1;
     const GccRun single("single", config, {&first, &second, &first});
@@ -207,25 +207,25 @@ TEST(SmallRunGccStages, FramesOverlap) {
 }
 
 TEST(HostileConfigGcc, ProblemsNameTheirKeys) {
-    const auto problem = [](void (*change)(GccConfig&)) {
-        GccConfig config;
+    const auto problem = [](void (*change)(gcc::Config&)) {
+        gcc::Config config;
         change(config);
         return config.problem();
     };
-    EXPECT_EQ(GccConfig().problem(), "");
+    EXPECT_EQ(gcc::Config().problem(), "");
     const auto names = [](const std::string& text, const char* key) {
         EXPECT_NE(text.find(key), std::string::npos) << text;
     };
-    names(problem([](GccConfig& c) { c.image_buffer.bytes = 1000; }), "image_buffer.bytes");
-    names(problem([](GccConfig& c) {
+    names(problem([](gcc::Config& c) { c.image_buffer.bytes = 1000; }), "image_buffer.bytes");
+    names(problem([](gcc::Config& c) {
               c.view_size = 4;
               c.image_buffer.bytes = 1 << 30;
           }),
           "image_buffer.bytes");
-    names(problem([](GccConfig& c) { c.array.window = 1; }), "array.window");
-    names(problem([](GccConfig& c) { c.colour.block = 1; }), "colour.block");
-    names(problem([](GccConfig& c) { c.projection.group = 4096; }), "group_buffer_bytes");
-    names(problem([](GccConfig& c) {
+    names(problem([](gcc::Config& c) { c.array.window = 1; }), "array.window");
+    names(problem([](gcc::Config& c) { c.colour.block = 1; }), "colour.block");
+    names(problem([](gcc::Config& c) { c.projection.group = 4096; }), "group_buffer_bytes");
+    names(problem([](gcc::Config& c) {
               c.projection.group = 4096;
               c.projection.groups_ahead = 64;
               c.splat_bytes = 1024;
@@ -235,7 +235,7 @@ TEST(HostileConfigGcc, ProblemsNameTheirKeys) {
 
 // The least that the keys allow of everything.
 TEST(SmallRunGccStages, TheSmallestGcc) {
-    GccConfig config = gcc_of(4, 1);
+    gcc::Config config = gcc_of(4, 1);
     config.group_buffer_bytes = 256;
     config.splat_bytes = 1;
     config.projection.group = 1;

@@ -107,11 +107,11 @@ std::vector<Place> flood(const Pixels& pixels, const JobTile& view, int side, Pl
     }
 }
 
-std::vector<Place> traverse(GccTraversal& traversal, const GccFootprint& footprint,
+std::vector<Place> traverse(gcc::Traversal& traversal, const gcc::Footprint& footprint,
                             const JobTile& view, Place seed, int& seeds) {
     const int side = footprint.side();
     std::vector<Place> order;
-    GccTraversal::Window window{seed.first, seed.second, 0};
+    gcc::Traversal::Window window{seed.first, seed.second, 0};
     traversal.begin(footprint, (view.width + side - 1) / side, (view.height + side - 1) / side);
     seeds = 0;
     do {
@@ -136,8 +136,8 @@ TEST_P(GccTraversalWindows, AreThoseOfALiteralFloodFill) {
         splats.push_back(random_splat(random, 0, 0, kView));
     }
     const auto path = path_of(splats, path_options(NumberFormat::Fp32), kView);
-    GccFootprint footprint(kView, side);
-    GccTraversal traversal((kView + side - 1) / side);
+    gcc::Footprint footprint(kView, side);
+    gcc::Traversal traversal((kView + side - 1) / side);
     std::size_t visited = 0;
     int again = 0;
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
@@ -172,12 +172,12 @@ TEST(GccFootprint, RowsAndWindowsHoldTheValidPixels) {
     }
     const auto path = path_of(splats, path_options(NumberFormat::Fp64), kView);
     const JobTile view = view_of(900, 500, kView, kView - 5);
-    GccFootprint footprint(kView, 8);
+    gcc::Footprint footprint(kView, 8);
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
         const Pixels pixels(*path, i, view);
         footprint.solve(*path, i, view);
         std::vector<bool> named(kView * kView, false);
-        for (const GccFootprint::Row& row : footprint.rows()) {
+        for (const gcc::Footprint::Row& row : footprint.rows()) {
             for (int x = row.first; x <= row.last; ++x) {
                 named[static_cast<std::size_t>(row.y * kView + x)] = true;
             }
@@ -195,9 +195,9 @@ TEST(GccFootprint, RowsAndWindowsHoldTheValidPixels) {
 }
 
 TEST(GccFootprint, SixtyFourWindowsInARow) {
-    EXPECT_EQ(windows_between(0, 63), ~GccWindowMask{0});
-    EXPECT_EQ(windows_between(63, 63), GccWindowMask{1} << 63);
-    EXPECT_EQ(windows_between(2, 3), GccWindowMask{12});
+    EXPECT_EQ(gcc::windows_between(0, 63), ~gcc::WindowMask{0});
+    EXPECT_EQ(gcc::windows_between(63, 63), gcc::WindowMask{1} << 63);
+    EXPECT_EQ(gcc::windows_between(2, 3), gcc::WindowMask{12});
 }
 
 } // namespace

@@ -246,7 +246,7 @@ TEST_P(GccArraySkip, AnEndedWindowCostsItsSkipAndLeadsOn) {
     Options options = windows_of(8, GetParam().discovery);
     options.array.skip_cycles = GetParam().skip;
     const auto bench = run(frame, options);
-    const GccWindowArray::Stats& s = bench->stats();
+    const gcc::WindowArray::Stats& s = bench->stats();
     EXPECT_EQ(s.pixels_ended, 64U);
     EXPECT_EQ(s.windows_ended, kRows);
     EXPECT_EQ(s.windows, 240 + 3 * kRows);

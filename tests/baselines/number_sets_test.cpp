@@ -39,7 +39,7 @@ TEST_P(SmallRunNumberSets, RunEverywhere) {
     gbu.pipeline.numbers = GetParam();
     GscoreConfig gscore;
     gscore.pipeline.numbers = GetParam();
-    GccConfig gcc = test::gcc_of(64);
+    gcc::Config gcc = test::gcc_of(64);
     gcc.pipeline.numbers = GetParam();
     const FrameWorkload gbu_frame = frame_for(gbu);
     const FrameWorkload gscore_frame = frame_for(gscore);

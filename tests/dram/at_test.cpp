@@ -77,8 +77,8 @@ TEST_P(Lpddr5AtEndings, KeepProtocolAndBytes) {
         test::lpddr5_config("lpddr5-6400x256", {"waiting_requests=" + std::to_string(waiting)}), 3,
         0);
     std::uint64_t commands = 0;
-    bench.memory.observe([&](unsigned, const Lpddr5Issued& issued) {
-        commands += is_column(issued.command) ? 1 : 0;
+    bench.memory.observe([&](unsigned, const dram::Issued& issued) {
+        commands += dram::is_column(issued.command) ? 1 : 0;
     });
     for (unsigned i = 0; i < 3; ++i) {
         bench.at[i]->ending = ending;
@@ -99,7 +99,7 @@ TEST_P(Lpddr5AtEndings, KeepProtocolAndBytes) {
         EXPECT_EQ(bench.memory.stats(i).reads, reads);
         EXPECT_EQ(bench.memory.stats(i).writes, bench.at[i]->requests.size() - reads);
     }
-    const Lpddr5::Stats total = bench.memory.total();
+    const dram::Lpddr5::Stats total = bench.memory.total();
     EXPECT_EQ(total.bytes_read, bytes[0]);
     EXPECT_EQ(total.bytes_written, bytes[1]);
     const auto counted = bench.memory.commands();
@@ -126,9 +126,9 @@ INSTANTIATE_TEST_SUITE_P(All, Lpddr5AtEndings,
 
 // 40 requests to one bank at once: 8 fill the queue, 4 more get END_REQ, the next one has to wait.
 TEST(Lpddr5At, WithheldEndReqIsTheBackPressure) {
-    const Lpddr5Config small =
+    const dram::Config small =
         lpddr5_without_refresh({"controller.read_queue=8", "waiting_requests=4"});
-    const Lpddr5Mapping mapping(small.mapping, small.timing, 16);
+    const dram::Mapping mapping(small.mapping, small.timing, 16);
     Lpddr5Bench bench(small, 1, 0);
     for (unsigned row = 0; row < 40; ++row) {
         bench.at[0]->requests.push_back(request(100 * kCkPs, mapping.address({3, 5, row, 0})));
@@ -146,9 +146,11 @@ TEST(Lpddr5At, WithheldEndReqIsTheBackPressure) {
     EXPECT_EQ(bench.at[0]->outstanding_most, 8 + 4 + 2); // one held back, one whose data return
 }
 
-// Dates and answers must not depend on the order in which initiators are built, and so called.
+// dram::Dates and answers must not depend on the order in which initiators are built, and so
+// called.
 std::vector<std::uint64_t> answers_in_order(bool reversed) {
-    Lpddr5 memory("memory", test::lpddr5_config("lpddr5-6400x256", {"waiting_requests=3"}), {}, 4);
+    dram::Lpddr5 memory("memory", test::lpddr5_config("lpddr5-6400x256", {"waiting_requests=3"}),
+                        {}, 4);
     std::vector<std::unique_ptr<AtInitiator>> initiators(4);
     for (std::size_t n = 0; n < 4; ++n) {
         const std::size_t i = reversed ? 3 - n : n;
@@ -231,8 +233,8 @@ TEST(Lpddr5At, NeverExceedsThePeakInAnyWindow) {
             bench.at[i]->requests.push_back(request(0, (n * 4 + i) * 512, 512));
         }
     }
-    std::vector<std::vector<Ck>> reads(16);
-    bench.memory.observe([&](unsigned channel, const Lpddr5Issued& issued) {
+    std::vector<std::vector<dram::Ck>> reads(16);
+    bench.memory.observe([&](unsigned channel, const dram::Issued& issued) {
         if (issued.command == Command::Rd) {
             reads[channel].push_back(issued.date);
         }

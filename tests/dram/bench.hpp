@@ -141,10 +141,10 @@ private:
 
 /// A memory with AT initiators, then LT ones.
 struct Lpddr5Bench {
-    Lpddr5 memory;
+    dram::Lpddr5 memory;
     std::vector<std::unique_ptr<AtInitiator>> at;
     std::vector<std::unique_ptr<Initiator>> lt;
-    Lpddr5Bench(const Lpddr5Config& config, std::size_t at_count, std::size_t lt_count,
+    Lpddr5Bench(const dram::Config& config, std::size_t at_count, std::size_t lt_count,
                 const Timebase& time = {})
         : memory("memory", config, time, at_count + lt_count) {
         for (std::size_t i = 0; i < at_count; ++i) {

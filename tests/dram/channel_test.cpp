@@ -13,12 +13,12 @@ using test::Lpddr5Reference;
 
 class Lpddr5Latency : public ::testing::TestWithParam<const char*> {
 protected:
-    Lpddr5Config config(std::vector<std::string> overrides = {}) const {
+    dram::Config config(std::vector<std::string> overrides = {}) const {
         overrides.emplace_back("controller.refresh=none");
         return test::lpddr5_config(GetParam(), overrides);
     }
     const Lpddr5Reference reference = Lpddr5Reference::of(GetParam());
-    Ck hit() const { return static_cast<Ck>(reference.rl) + 2; }
+    dram::Ck hit() const { return static_cast<dram::Ck>(reference.rl) + 2; }
 };
 INSTANTIATE_TEST_SUITE_P(Both, Lpddr5Latency,
                          ::testing::Values("lpddr5-6400x256", "lpddr5-3200x128"));
@@ -44,19 +44,19 @@ TEST_P(Lpddr5Latency, SecondBurstOfABlockIsATccdLater) {
     const auto whole = bench.push(1000, 0, 0, false, 3);
     bench.run_out();
     EXPECT_EQ(bench.answers[half], 100 + hit() + reference.rcd());
-    EXPECT_EQ(bench.answers[whole], 1000 + hit() + static_cast<Ck>(reference.ccd_l));
+    EXPECT_EQ(bench.answers[whole], 1000 + hit() + static_cast<dram::Ck>(reference.ccd_l));
 }
 
 /// CK from the first to the last answer of `count` accesses that all wait from the start.
-Ck span(ChannelBench& bench, int count, const std::function<std::pair<unsigned, unsigned>(int)>& at,
-        unsigned bursts = 1) {
+dram::Ck span(ChannelBench& bench, int count,
+              const std::function<std::pair<unsigned, unsigned>(int)>& at, unsigned bursts = 1) {
     for (int i = 0; i < count; ++i) {
         const auto [bank, row] = at(i);
         bench.push(10, bank, row, false, bursts, static_cast<unsigned>(i) % 32);
     }
     bench.run_out();
-    Ck first = kNoDate;
-    Ck last = 0;
+    dram::Ck first = dram::kNoDate;
+    dram::Ck last = 0;
     for (const auto& [id, date] : bench.answers) {
         first = std::min(first, date);
         last = std::max(last, date);
@@ -66,27 +66,27 @@ Ck span(ChannelBench& bench, int count, const std::function<std::pair<unsigned, 
 
 TEST_P(Lpddr5Latency, RowPingPongInABankTakesTrcEach) {
     ChannelBench bench(config({"controller.scheduler=fcfs"}));
-    const Ck all = span(bench, 101, [](int i) { return std::pair(5U, i % 2 + 1U); });
-    EXPECT_EQ(all, 100U * static_cast<Ck>(reference.rc()));
+    const dram::Ck all = span(bench, 101, [](int i) { return std::pair(5U, i % 2 + 1U); });
+    EXPECT_EQ(all, 100U * static_cast<dram::Ck>(reference.rc()));
 }
 
 TEST_P(Lpddr5Latency, OneGroupHasHalfTheBus) {
     ChannelBench bench(config());
-    const Ck all = span(bench, 401, [](int i) { return std::pair(i % 4 + 0U, 9U); });
+    const dram::Ck all = span(bench, 401, [](int i) { return std::pair(i % 4 + 0U, 9U); });
     // The first few wait for their rows; in 16B mode there are no groups and no such limit.
     EXPECT_NEAR(static_cast<double>(all), 400.0 * reference.ccd_l, 4.0 * reference.rcd());
 }
 
 TEST_P(Lpddr5Latency, GroupsInTurnFillTheBus) {
     ChannelBench bench(config());
-    const Ck all = span(bench, 401, [](int i) { return std::pair(i % 4 * 4U, 9U); });
+    const dram::Ck all = span(bench, 401, [](int i) { return std::pair(i % 4 * 4U, 9U); });
     EXPECT_NEAR(static_cast<double>(all), 800.0, 2.0 * reference.rcd());
 }
 
 // With a window of 40 CK and a row per access, four accesses of 32 B per window.
 TEST_P(Lpddr5Latency, ActivationsAreLimitedByTheirWindow) {
     ChannelBench bench(config({"timing.faw=40"}));
-    const Ck all = span(bench, 401, [](int i) { return std::pair(i * 5 % 16 + 0U, i + 0U); });
+    const dram::Ck all = span(bench, 401, [](int i) { return std::pair(i * 5 % 16 + 0U, i + 0U); });
     EXPECT_NEAR(static_cast<double>(all), 100.0 * 40, 80);
 }
 
@@ -94,7 +94,7 @@ TEST_P(Lpddr5Latency, ActivationsAreLimitedByTheirWindow) {
 TEST_P(Lpddr5Latency, RandomRowsAreLimitedByTheCommandBus) {
     ChannelBench bench(config({"timing.faw=4", "timing.rrd=1"}));
     std::mt19937 random(4);
-    const Ck all = span(
+    const dram::Ck all = span(
         bench, 2001,
         [&](int) { return std::pair(test::below(random, 16), test::below(random, 999)); }, 3);
     EXPECT_GE(all, 5U * 2000 - 200);
@@ -102,10 +102,11 @@ TEST_P(Lpddr5Latency, RandomRowsAreLimitedByTheCommandBus) {
 }
 
 TEST_P(Lpddr5Latency, RefreshTakesItsShare) {
-    const Lpddr5Config with = test::lpddr5_config(GetParam());
+    const dram::Config with = test::lpddr5_config(GetParam());
     ChannelBench bench(with);
     const int count = 40000;
-    const Ck all = span(bench, count, [](int i) { return std::pair(i % 4 * 4U, i / 8000 + 1U); });
+    const dram::Ck all =
+        span(bench, count, [](int i) { return std::pair(i % 4 * 4U, i / 8000 + 1U); });
     const double share = 2.0 * count / static_cast<double>(all);
     const double ceiling = 1.0 - 1.0 * reference.rfc_ab() / reference.refi();
     EXPECT_LT(share, ceiling);
@@ -115,7 +116,7 @@ TEST_P(Lpddr5Latency, RefreshTakesItsShare) {
 }
 
 TEST_P(Lpddr5Latency, PerBankRefreshCostsLess) {
-    Ck all[2];
+    dram::Ck all[2];
     for (const int kind : {0, 1}) {
         ChannelBench bench(test::lpddr5_config(
             GetParam(),
@@ -129,7 +130,7 @@ TEST_P(Lpddr5Latency, PerBankRefreshCostsLess) {
     EXPECT_LT(all[1], all[0]);
 }
 
-Lpddr5Config plain(std::vector<std::string> overrides = {}) {
+dram::Config plain(std::vector<std::string> overrides = {}) {
     overrides.emplace_back("controller.refresh=none");
     return test::lpddr5_config("lpddr5-6400x256", overrides);
 }
@@ -172,7 +173,7 @@ TEST(Lpddr5Channel, WritesGoInBatches) {
     EXPECT_EQ(bench.channel.stats().drains, 0U);
     bench.run_out();
     std::string kinds; // of accesses, in order
-    for (const Lpddr5Issued& issued : bench.trace) {
+    for (const dram::Issued& issued : bench.trace) {
         kinds += issued.command == Command::Rd ? "r" : issued.command == Command::Wr ? "w" : "";
     }
     const std::size_t first = kinds.find('w');
@@ -245,16 +246,16 @@ TEST(Lpddr5Channel, CopiesPredict) {
                    3);
     }
     bench.run(60);
-    Lpddr5Channel copy = bench.channel;
+    dram::Channel copy = bench.channel;
     copy.observe({});
     const std::size_t commands = bench.trace.size();
-    Lpddr5Outcome outcome;
+    dram::Outcome outcome;
     while (!copy.idle()) {
         copy.run(copy.next_date(), outcome);
     }
     EXPECT_EQ(bench.trace.size(), commands);
     bench.run_out();
-    for (const Lpddr5Answer& answer : outcome.answers) {
+    for (const dram::Answer& answer : outcome.answers) {
         EXPECT_EQ(bench.answers[answer.id], answer.date);
     }
 }

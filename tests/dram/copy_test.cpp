@@ -9,9 +9,9 @@ namespace {
 using test::below;
 
 /// What a run has brought about, as plain numbers.
-std::vector<Ck> plain(const Lpddr5Outcome& outcome) {
-    std::vector<Ck> numbers;
-    for (const Lpddr5Answer& answer : outcome.answers) {
+std::vector<dram::Ck> plain(const dram::Outcome& outcome) {
+    std::vector<dram::Ck> numbers;
+    for (const dram::Answer& answer : outcome.answers) {
         numbers.push_back(answer.id);
         numbers.push_back(answer.date);
     }
@@ -20,18 +20,18 @@ std::vector<Ck> plain(const Lpddr5Outcome& outcome) {
 }
 
 /// Runs a channel until nothing is queued.
-std::vector<Ck> run_out(Lpddr5Channel& channel) {
-    Lpddr5Outcome outcome;
+std::vector<dram::Ck> run_out(dram::Channel& channel) {
+    dram::Outcome outcome;
     while (!channel.idle()) {
         channel.run(channel.next_date(), outcome);
     }
     return plain(outcome);
 }
 
-void push_some(Lpddr5Channel& channel, std::mt19937& random, Ck& date, unsigned count) {
+void push_some(dram::Channel& channel, std::mt19937& random, dram::Ck& date, unsigned count) {
     for (unsigned i = 0; i < count; ++i) {
         date += below(random, 3);
-        Lpddr5Access access;
+        dram::Access access;
         access.date = date;
         access.id = i;
         access.row = below(random, 5);
@@ -44,25 +44,25 @@ void push_some(Lpddr5Channel& channel, std::mt19937& random, Ck& date, unsigned 
 }
 
 TEST(SmallRunLpddr5Copy, AssignedOverAnyOtherItDoesWhatAFreshCopyDoes) {
-    const Lpddr5Config config = test::lpddr5_config("lpddr5-6400x256");
-    const Lpddr5RuleTable rules(config.timing);
-    const Lpddr5Channel empty(config.timing, rules, config.controller);
-    std::vector<Lpddr5Channel> sources(5, empty);
-    std::vector<Ck> dates(sources.size(), 0);
-    Lpddr5Channel reused = empty;
+    const dram::Config config = test::lpddr5_config("lpddr5-6400x256");
+    const dram::RuleTable rules(config.timing);
+    const dram::Channel empty(config.timing, rules, config.controller);
+    std::vector<dram::Channel> sources(5, empty);
+    std::vector<dram::Ck> dates(sources.size(), 0);
+    dram::Channel reused = empty;
     std::uint64_t seen = 0;
-    reused.observe([&seen](const Lpddr5Issued&) { ++seen; });
+    reused.observe([&seen](const dram::Issued&) { ++seen; });
     std::mt19937 random(11);
     for (int round = 0; round < 3000; ++round) {
         const unsigned i = below(random, 5);
         // From nothing to hundreds of accesses that wait for room, and now and then a new channel.
         push_some(sources[i], random, dates[i], below(random, 200) == 0 ? 300 : below(random, 6));
-        Lpddr5Outcome outcome;
+        dram::Outcome outcome;
         sources[i].run(dates[i], outcome);
         reused = sources[i];
         reused.observe({});
-        const Lpddr5Channel before = sources[i];
-        Lpddr5Channel fresh = sources[i];
+        const dram::Channel before = sources[i];
+        dram::Channel fresh = sources[i];
         ASSERT_EQ(run_out(reused), run_out(fresh)) << "round " << round;
         ASSERT_EQ(reused.stats().commands, fresh.stats().commands);
         ASSERT_EQ(sources[i].waiting(), before.waiting()) << "the source has been touched";
@@ -78,26 +78,26 @@ TEST(SmallRunLpddr5Copy, AssignedOverAnyOtherItDoesWhatAFreshCopyDoes) {
 // The same through all channels, with requests from 64 B to 64 KiB: one object predicts all the
 // time, the other for the first time; both know the same requests.
 TEST(SmallRunLpddr5Copy, TheThousandthPredictionIsThatOfOneWhoNeverPredicted) {
-    const Lpddr5Config config = test::lpddr5_config("lpddr5-6400x128");
+    const dram::Config config = test::lpddr5_config("lpddr5-6400x128");
     std::mt19937 random(12);
     for (int attempt = 0; attempt < 8; ++attempt) {
-        Lpddr5Channels often(config);
-        Lpddr5Channels once(config);
-        Ck date = 0;
+        dram::Channels often(config);
+        dram::Channels once(config);
+        dram::Ck date = 0;
         for (int round = 0; round < 300; ++round) {
-            Lpddr5Request request;
+            dram::Request request;
             request.date = date += 1 + below(random, 60);
             request.address = std::uint64_t{below(random, 1U << 20U)} * 64;
             request.bytes = below(random, 20) == 0 ? 65536 : 64 + below(random, 1000);
             request.write = below(random, 4) == 0;
             often.push_for_prediction(request);
             once.push_for_prediction(request);
-            const std::vector<Ck> answers = often.predict(date);
+            const std::vector<dram::Ck> answers = often.predict(date);
             ASSERT_EQ(answers.size(), 1U);
             ASSERT_GT(answers[0], date);
             if (round == 299) {
                 // `once` has been asked for all of them now; the last answer is the one to compare.
-                const std::vector<Ck> all = once.predict(date);
+                const std::vector<dram::Ck> all = once.predict(date);
                 ASSERT_EQ(all.size(), 300U);
                 EXPECT_EQ(all.back(), answers[0]);
             }

@@ -18,18 +18,18 @@
 
 namespace degs::test {
 
-using Command = Lpddr5Command;
+using Command = dram::Command;
 
-inline Lpddr5Config lpddr5_config(const std::string& name,
+inline dram::Config lpddr5_config(const std::string& name,
                                   const std::vector<std::string>& overrides = {}) {
-    Lpddr5Config memory;
+    dram::Config memory;
     ConfigSource::from_file(std::string(DEGS_CONFIGS) + "/memory/" + name + ".yaml", overrides)
         .load(memory);
     return memory;
 }
 
 /// The faster memory, for dates in closed form.
-inline Lpddr5Config lpddr5_without_refresh(std::vector<std::string> overrides = {}) {
+inline dram::Config lpddr5_without_refresh(std::vector<std::string> overrides = {}) {
     overrides.emplace_back("controller.refresh=none");
     return lpddr5_config("lpddr5-6400x256", overrides);
 }
@@ -149,16 +149,16 @@ inline unsigned below(std::mt19937& random, unsigned end) {
 /// A channel that is fed by hand and remembers every command and answer.
 class ChannelBench {
 public:
-    explicit ChannelBench(const Lpddr5Config& config)
+    explicit ChannelBench(const dram::Config& config)
         : timing_(config.timing), rules_(timing_), channel(timing_, rules_, config.controller) {
-        channel.observe([this](const Lpddr5Issued& issued) { trace.push_back(issued); });
+        channel.observe([this](const dram::Issued& issued) { trace.push_back(issued); });
     }
     ChannelBench(const ChannelBench&) = delete;
     ChannelBench& operator=(const ChannelBench&) = delete;
     ~ChannelBench() = default;
-    std::uint32_t push(Ck date, unsigned bank, unsigned row, bool write = false,
+    std::uint32_t push(dram::Ck date, unsigned bank, unsigned row, bool write = false,
                        unsigned bursts = 1, unsigned block = 0) {
-        Lpddr5Access access;
+        dram::Access access;
         access.date = date;
         access.id = next_id_++;
         access.bank = static_cast<std::uint8_t>(bank);
@@ -169,10 +169,10 @@ public:
         channel.push(access);
         return access.id;
     }
-    void run(Ck until) {
-        Lpddr5Outcome outcome;
+    void run(dram::Ck until) {
+        dram::Outcome outcome;
         channel.run(until, outcome);
-        for (const Lpddr5Answer& answer : outcome.answers) {
+        for (const dram::Answer& answer : outcome.answers) {
             EXPECT_EQ(answers.count(answer.id), 0U) << "answered twice";
             answers[answer.id] = answer.date;
         }
@@ -185,56 +185,56 @@ public:
     std::uint32_t pushed() const { return next_id_; }
 
 private:
-    Lpddr5Timing timing_;
-    Lpddr5RuleTable rules_;
+    dram::Timing timing_;
+    dram::RuleTable rules_;
     std::uint32_t next_id_ = 0;
 
 public:
-    Lpddr5Channel channel;
-    std::vector<Lpddr5Issued> trace;
-    std::map<std::uint32_t, Ck> answers;
+    dram::Channel channel;
+    std::vector<dram::Issued> trace;
+    std::map<std::uint32_t, dram::Ck> answers;
 };
 
 /// Every rule, checked on a trace by looking at all pairs that are near enough to matter.
-inline void check_trace(const std::vector<Lpddr5Issued>& trace, const Lpddr5Reference& reference) {
-    constexpr Ck kLongest = 200; // above the longest gap, tRFCab
+inline void check_trace(const std::vector<dram::Issued>& trace, const Lpddr5Reference& reference) {
+    constexpr dram::Ck kLongest = 200; // above the longest gap, tRFCab
     for (std::size_t i = 0; i < trace.size(); ++i) {
-        const Lpddr5Issued& b = trace[i];
+        const dram::Issued& b = trace[i];
         for (std::size_t j = i; j-- > 0 && trace[j].date + kLongest > b.date;) {
-            const Lpddr5Issued& a = trace[j];
+            const dram::Issued& a = trace[j];
             const bool pair = a.command == Command::RefPb || b.command == Command::RefPb;
             const bool same_bank = a.bank == b.bank || (pair && (a.bank ^ 8U) == b.bank);
             const Relation relation = same_bank                  ? Relation::SameBank
                                       : a.bank / 4 == b.bank / 4 ? Relation::SameGroup
                                                                  : Relation::Other;
             const int gap = reference.gap(a.command, b.command, relation);
-            ASSERT_GE(b.date, a.date + static_cast<Ck>(gap))
-                << lpddr5_command_name(a.command) << " of bank " << a.bank << " at " << a.date
-                << ", " << lpddr5_command_name(b.command) << " of bank " << b.bank << " at "
+            ASSERT_GE(b.date, a.date + static_cast<dram::Ck>(gap))
+                << dram::command_name(a.command) << " of bank " << a.bank << " at " << a.date
+                << ", " << dram::command_name(b.command) << " of bank " << b.bank << " at "
                 << b.date;
         }
     }
-    std::vector<Ck> activations;
-    for (const Lpddr5Issued& issued : trace) {
+    std::vector<dram::Ck> activations;
+    for (const dram::Issued& issued : trace) {
         if (issued.command == Command::Act1) {
             activations.push_back(issued.date);
         }
     }
     for (std::size_t i = 4; i < activations.size(); ++i) {
-        ASSERT_GE(activations[i], activations[i - 4] + static_cast<Ck>(reference.faw()));
+        ASSERT_GE(activations[i], activations[i - 4] + static_cast<dram::Ck>(reference.faw()));
     }
 }
 
 /// The state of the rows: ACT-2 follows ACT-1 within tAAD, columns find their row open, refreshes
 /// find theirs closed.
-inline void check_rows(const std::vector<Lpddr5Issued>& trace) {
+inline void check_rows(const std::vector<dram::Issued>& trace) {
     struct Bank {
         bool open = false, activating = false;
         unsigned row = 0;
-        Ck act1 = 0;
+        dram::Ck act1 = 0;
     };
     std::vector<Bank> banks(16);
-    for (const Lpddr5Issued& issued : trace) {
+    for (const dram::Issued& issued : trace) {
         Bank& bank = banks[issued.bank];
         switch (issued.command) {
         case Command::Act1:

@@ -137,7 +137,7 @@ TEST(Lpddr5Lt, WorksBehindAMemoryPort) {
         }
     };
     const Timebase time;
-    Lpddr5 memory("memory", lpddr5_without_refresh(), time, 1);
+    dram::Lpddr5 memory("memory", lpddr5_without_refresh(), time, 1);
     Block block("block", time);
     block.port.out.bind(memory.in[0]);
     sc_core::sc_start();
@@ -225,7 +225,7 @@ TEST(HostileLpddr5, AnswersMistakesWithErrors) {
 }
 
 TEST(Lpddr5Lt, DmiIsGrantedOnlyIfConfigured) {
-    Lpddr5Config with = lpddr5_without_refresh({"dmi=true"});
+    dram::Config with = lpddr5_without_refresh({"dmi=true"});
     Lpddr5Bench bench(with, 0, 1);
     const Script script("script", [&] {
         unsigned char data[4] = {1, 2, 3, 4};
@@ -261,7 +261,7 @@ TEST(Lpddr5Lt, EnergyIsEventsTimesConstants) {
         unsigned char data[64];
         bench.lt[0]->access(tlm::TLM_READ_COMMAND, 0, data, 64);
         sc_core::wait(sc_time(1000, sc_core::SC_NS) - sc_time_stamp());
-        const Lpddr5Energy energy = bench.memory.energy();
+        const dram::Energy energy = bench.memory.energy();
         EXPECT_DOUBLE_EQ(energy.activate_nj, 1.0);
         EXPECT_DOUBLE_EQ(energy.read_nj, 2.75e-3 * 512);
         EXPECT_EQ(energy.write_nj + energy.refresh_nj, 0.0);

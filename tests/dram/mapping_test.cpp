@@ -27,26 +27,26 @@ protected:
         config.mapping = {GetParam().interleave_bytes, GetParam().order, GetParam().fold,
                           GetParam().fold};
     }
-    Lpddr5Config config;
+    dram::Config config;
 };
 
 TEST_P(Lpddr5Mappings, IsOneToOne) {
-    const Lpddr5Mapping mapping(config.mapping, config.timing,
+    const dram::Mapping mapping(config.mapping, config.timing,
                                 static_cast<unsigned>(config.channels));
     std::mt19937_64 random(3);
     for (int i = 0; i < 20000; ++i) {
         const std::uint64_t address = random() % (mapping.capacity() / 64) * 64;
-        const Lpddr5Place place = mapping.place(address + random() % 64);
+        const dram::Place place = mapping.place(address + random() % 64);
         ASSERT_LT(place.channel, static_cast<unsigned>(config.channels));
-        ASSERT_LT(place.bank, kLpddr5Banks);
+        ASSERT_LT(place.bank, dram::kBanks);
         ASSERT_LT(place.row, static_cast<unsigned>(config.timing.rows));
-        ASSERT_LT(place.block, kLpddr5PageBytes / kLpddr5AccessBytes);
+        ASSERT_LT(place.block, dram::kPageBytes / dram::kAccessBytes);
         ASSERT_EQ(mapping.address(place), address);
     }
 }
 
 TEST_P(Lpddr5Mappings, KeepsAGrainInOneChannelAndSpreadsNeighbours) {
-    const Lpddr5Mapping mapping(config.mapping, config.timing,
+    const dram::Mapping mapping(config.mapping, config.timing,
                                 static_cast<unsigned>(config.channels));
     const auto grain = static_cast<std::uint64_t>(GetParam().interleave_bytes);
     std::set<unsigned> channels;
@@ -68,14 +68,14 @@ INSTANTIATE_TEST_SUITE_P(
                       Choice{"lpddr5-6400x128", 256, "group row bank column", true},
                       Choice{"lpddr5-3200x128", 2048, "column bank:1 row:3 bank row", true}));
 
-Lpddr5Mapping default_mapping(const Lpddr5Config& config) {
+dram::Mapping default_mapping(const dram::Config& config) {
     return {config.mapping, config.timing, static_cast<unsigned>(config.channels)};
 }
 
 // Without folding a power of two would leave channels out.
 TEST(Lpddr5Mapping, StridesReachAllChannels) {
-    const Lpddr5Config config = test::lpddr5_config("lpddr5-6400x256");
-    const Lpddr5Mapping mapping = default_mapping(config);
+    const dram::Config config = test::lpddr5_config("lpddr5-6400x256");
+    const dram::Mapping mapping = default_mapping(config);
     for (std::uint64_t stride = 64; stride <= std::uint64_t{1} << 20U; stride *= 2) {
         std::vector<int> hits(16, 0);
         for (std::uint64_t i = 0; i < 4096; ++i) {
@@ -87,12 +87,12 @@ TEST(Lpddr5Mapping, StridesReachAllChannels) {
 
 // Streams at equal offsets keep out of each other's banks, and each alternates its groups.
 TEST(Lpddr5Mapping, StreamsApartByPowersOfTwoShareNoBank) {
-    const Lpddr5Config config = test::lpddr5_config("lpddr5-6400x256");
-    const Lpddr5Mapping mapping = default_mapping(config);
+    const dram::Config config = test::lpddr5_config("lpddr5-6400x256");
+    const dram::Mapping mapping = default_mapping(config);
     std::map<std::tuple<unsigned, unsigned>, std::set<unsigned>> rows; // by channel and bank
     for (std::uint64_t stream = 0; stream < 4; ++stream) {
         for (std::uint64_t at = 0; at < 16384; at += 64) {
-            const Lpddr5Place place = mapping.place((stream << 28U) + at);
+            const dram::Place place = mapping.place((stream << 28U) + at);
             rows[{place.channel, place.bank}].insert(place.row);
         }
     }
@@ -155,8 +155,8 @@ Parities without_groups() {
 }
 
 void expect_parities(const char* file, const Parities& expected) {
-    const Lpddr5Config config = test::lpddr5_config(file);
-    const Lpddr5Mapping mapping = default_mapping(config);
+    const dram::Config config = test::lpddr5_config(file);
+    const dram::Mapping mapping = default_mapping(config);
     std::vector<std::uint64_t> addresses;
     for (std::uint64_t bit = 1; bit < mapping.capacity(); bit *= 2) {
         addresses.push_back(bit);
@@ -166,7 +166,7 @@ void expect_parities(const char* file, const Parities& expected) {
         addresses.push_back(random() % mapping.capacity());
     }
     for (const std::uint64_t address : addresses) {
-        const Lpddr5Place place = mapping.place(address);
+        const dram::Place place = mapping.place(address);
         ASSERT_EQ(place.channel, parity_of(expected.channel, address)) << std::hex << address;
         ASSERT_EQ(place.bank, parity_of(expected.bank, address)) << std::hex << address;
         ASSERT_EQ(place.row, parity_of(expected.row, address)) << std::hex << address;
@@ -183,7 +183,7 @@ TEST(Lpddr5Mapping, FoldsTheBitsThatItsPageNamesWithoutGroups) {
 }
 
 TEST(Lpddr5Mapping, RefusesAnOrderThatIsNone) {
-    Lpddr5Config config;
+    dram::Config config;
     for (const char* order :
          {"", "column group bank", "column group bank row column:1", "column:9 group bank row",
           "column:x group bank row", "column group bank rows", "column: group bank row"}) {

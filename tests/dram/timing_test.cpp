@@ -13,21 +13,23 @@ class Lpddr5Speeds : public ::testing::TestWithParam<const char*> {};
 
 // All pairs of commands in all relations, so a rule too many fails as well as one that is missing.
 TEST_P(Lpddr5Speeds, EveryPairOfCommandsKeepsItsGap) {
-    const Lpddr5Config config = test::lpddr5_config(GetParam());
+    const dram::Config config = test::lpddr5_config(GetParam());
     const Lpddr5Reference reference = Lpddr5Reference::of(GetParam());
-    const Lpddr5RuleTable rules(config.timing);
-    for (std::size_t a = 0; a < kLpddr5Commands; ++a) {
-        for (std::size_t b = 0; b < kLpddr5Commands; ++b) {
+    const dram::RuleTable rules(config.timing);
+    for (std::size_t a = 0; a < dram::kCommands; ++a) {
+        for (std::size_t b = 0; b < dram::kCommands; ++b) {
             for (const auto& [relation, bank] : {std::pair{Relation::SameBank, 5U},
                                                  {Relation::SameGroup, 6U},
                                                  {Relation::Other, 10U}}) {
                 const auto first = static_cast<Command>(a);
                 const auto second = static_cast<Command>(b);
-                Lpddr5Dates dates(rules);
+                dram::Dates dates(rules);
                 dates.issue(first, 5, 1000);
-                const Ck earliest = std::max<Ck>(dates.earliest(second, bank), 1001); // one per CK
-                EXPECT_EQ(earliest, 1000 + static_cast<Ck>(reference.gap(first, second, relation)))
-                    << lpddr5_command_name(first) << " to " << lpddr5_command_name(second)
+                const dram::Ck earliest =
+                    std::max<dram::Ck>(dates.earliest(second, bank), 1001); // one per CK
+                EXPECT_EQ(earliest,
+                          1000 + static_cast<dram::Ck>(reference.gap(first, second, relation)))
+                    << dram::command_name(first) << " to " << dram::command_name(second)
                     << " in relation " << static_cast<int>(relation);
             }
         }
@@ -35,23 +37,23 @@ TEST_P(Lpddr5Speeds, EveryPairOfCommandsKeepsItsGap) {
 }
 
 TEST_P(Lpddr5Speeds, EveryRuleIsNeededSomewhere) {
-    const Lpddr5Config config = test::lpddr5_config(GetParam());
+    const dram::Config config = test::lpddr5_config(GetParam());
     const Lpddr5Reference reference = Lpddr5Reference::of(GetParam());
-    for (const Lpddr5Rule& rule : lpddr5_rules(config.timing)) {
+    for (const dram::Rule& rule : dram::rules(config.timing)) {
         int longest = 0; // among the relations that the rule's scope covers
         for (const Relation relation : {Relation::SameBank, Relation::SameGroup, Relation::Other}) {
             if (static_cast<int>(relation) <= static_cast<int>(rule.scope)) {
                 longest = std::max(longest, reference.gap(rule.previous, rule.next, relation));
             }
         }
-        EXPECT_LE(rule.gap, static_cast<Ck>(longest)) << rule.name;
+        EXPECT_LE(rule.gap, static_cast<dram::Ck>(longest)) << rule.name;
     }
 }
 
 TEST_P(Lpddr5Speeds, FourActivationsPerWindow) {
-    const Lpddr5Config config = test::lpddr5_config(GetParam(), {"timing.faw=40"});
-    const Lpddr5RuleTable rules(config.timing);
-    Lpddr5Dates dates(rules);
+    const dram::Config config = test::lpddr5_config(GetParam(), {"timing.faw=40"});
+    const dram::RuleTable rules(config.timing);
+    dram::Dates dates(rules);
     for (const unsigned bank : {0U, 4U, 8U, 12U}) {
         EXPECT_LT(dates.earliest(Command::Act1, bank), 140U);
         dates.issue(Command::Act1, bank, 100 + bank);

@@ -18,7 +18,7 @@ class Lpddr5Trace : public ::testing::TestWithParam<Policies> {};
 /// Bursts of work and pauses; few rows, so that hits, conflicts, merges and forwards all occur.
 void feed(ChannelBench& bench, unsigned seed) {
     std::mt19937 random(seed);
-    Ck date = 0;
+    dram::Ck date = 0;
     for (int i = 0; i < 4000; ++i) {
         date += random() % 16 == 0 ? random() % 300 : random() % 6;
         const unsigned bursts = 1 + test::below(random, 3);
@@ -31,7 +31,7 @@ void feed(ChannelBench& bench, unsigned seed) {
 
 TEST_P(Lpddr5Trace, KeepsEveryRule) {
     const auto& [file, scheduler, page, refresh] = GetParam();
-    const Lpddr5Config config = test::lpddr5_config(
+    const dram::Config config = test::lpddr5_config(
         file, {std::string("controller.scheduler=") + scheduler,
                std::string("controller.page_policy=") + page,
                std::string("controller.refresh=") + refresh, "controller.read_queue=17"});
@@ -50,7 +50,7 @@ TEST_P(Lpddr5Trace, KeepsEveryRule) {
 // The same work in one go or in steps of any size.
 TEST_P(Lpddr5Trace, DoesNotDependOnHowOftenItIsRun) {
     const auto& [file, scheduler, page, refresh] = GetParam();
-    const Lpddr5Config config =
+    const dram::Config config =
         test::lpddr5_config(file, {std::string("controller.scheduler=") + scheduler,
                                    std::string("controller.page_policy=") + page,
                                    std::string("controller.refresh=") + refresh});
@@ -59,7 +59,7 @@ TEST_P(Lpddr5Trace, DoesNotDependOnHowOftenItIsRun) {
     feed(once, 12);
     feed(steps, 12);
     std::mt19937 random(1);
-    for (Ck until = 0; until < 200000; until += random() % 40) {
+    for (dram::Ck until = 0; until < 200000; until += random() % 40) {
         steps.run(until);
         steps.channel.next_date();
     }
@@ -80,7 +80,7 @@ TEST(Lpddr5TraceChecker, SeesAGapThatIsTooShort) {
     const auto reference = test::Lpddr5Reference::of("lpddr5-6400x256");
     EXPECT_NO_FATAL_FAILURE(
         test::check_trace({{Command::Act1, 0, 0, 1}, {Command::Rd, 15, 0, 1}}, reference));
-    static const std::vector<Lpddr5Issued> wrong{{Command::Act1, 0, 0, 1}, {Command::Rd, 14, 0, 1}};
+    static const std::vector<dram::Issued> wrong{{Command::Act1, 0, 0, 1}, {Command::Rd, 14, 0, 1}};
     EXPECT_GE(reference.gap(wrong[0].command, wrong[1].command, test::Relation::SameBank), 15);
 }
 

@@ -132,8 +132,8 @@ TEST_F(SmallRunAtPlatform, OurLpddr5GivesTheSameBytesThroughBothInterfaces) {
     Platform lt("lt", config, cloud, nullptr);
     Platform at("at", config, cloud, nullptr, four_phases());
     const Timebase time{ClockDomain(1.0), Fidelity::Exact};
-    Lpddr5 lt_memory("lt_memory", {}, time, 1);
-    Lpddr5 at_memory("at_memory", {}, time, 1);
+    dram::Lpddr5 lt_memory("lt_memory", {}, time, 1);
+    dram::Lpddr5 at_memory("at_memory", {}, time, 1);
     lt.accelerator.mem.bind(lt_memory.in[0]);
     at.accelerator.mem.bind(at_memory.in[0]);
     std::uint64_t cycles = 0;

@@ -58,7 +58,7 @@ TEST_P(SmallRunFace, RendersTheFramesOfClosedJobs) {
 TEST_P(SmallRunFace, RendersTheSameBytesOnLpddr5) {
     Platform plain("plain", *config, cloud, Timing::Immediate);
     Platform p("accelerator", *config, cloud, nullptr);
-    Lpddr5 memory("lpddr5", Lpddr5Config(), Timebase(), 1);
+    dram::Lpddr5 memory("lpddr5", dram::Config(), Timebase(), 1);
     p.accelerator.mem.bind(memory.in[0]);
     const auto debug = [&](tlm::tlm_command command, std::uint64_t address,
                            std::vector<unsigned char>& bytes) {

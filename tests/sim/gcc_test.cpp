@@ -12,11 +12,11 @@ namespace {
 
 using nlohmann::json;
 
-GccConfig load_gcc(const std::string& name) {
+gcc::Config load_gcc(const std::string& name) {
     const sim::RunConfig run =
         sim::load_run_config(std::string(DEGS_CONFIGS) + "/" + name + ".yaml", {});
     EXPECT_EQ(run.problem(), "") << name;
-    return dynamic_cast<const GccConfig&>(run.accelerator());
+    return dynamic_cast<const gcc::Config&>(run.accelerator());
 }
 
 TEST(GccConfigs, ScalingPoints) {
@@ -26,7 +26,7 @@ TEST(GccConfigs, ScalingPoints) {
     };
     for (const Row& row :
          {Row{16, 4, 1.2125}, Row{64, 8, 2.69}, Row{256, 16, 8.6}, Row{1024, 32, 32.24}}) {
-        const GccConfig config = load_gcc("gcc-" + std::to_string(row.pes));
+        const gcc::Config config = load_gcc("gcc-" + std::to_string(row.pes));
         EXPECT_EQ(config.pes(), row.pes);
         EXPECT_EQ(config.array.window, row.window);
         EXPECT_EQ(config.view_size, 16 * row.window);

@@ -7,15 +7,15 @@
 
 #include "modules/render_job.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
 /// The transmittance mask of GCC: which blocks of a view still have a pixel that takes splats.
-class GccBlockMask {
+class BlockMask {
 public:
     static constexpr int kMaxBlocks = 64; ///< in a row of blocks
 
     /// Views of up to `view_size` px, at most kMaxBlocks * block.
-    GccBlockMask(int view_size, int block)
+    BlockMask(int view_size, int block)
         : block_(block), live_(static_cast<std::size_t>((view_size + block - 1) / block), 0) {}
 
     /// A view none of whose pixels has ended.
@@ -50,4 +50,4 @@ private:
     std::vector<std::uint64_t> live_; // per row of blocks
 };
 
-} // namespace degs
+} // namespace degs::gcc

@@ -5,9 +5,9 @@
 
 #include "baselines/gcc/projection_stage.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
-void GccColourStage::Config::describe(ConfigVisitor& visitor) {
+void ColourStage::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("units", units, 1, 64, "SH units; as many as projection units [assumed]");
     visitor.integer("cycles_per_colour", cycles_per_colour, 1, 1024,
                     "cycles per Gaussian and unit for its SH colour [assumed]");
@@ -24,20 +24,20 @@ void GccColourStage::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("chunk", chunk, 1, 1024, "splats per hand-over to Stage IV [assumed]");
 }
 
-GccColourStage::GccColourStage(const sc_core::sc_module_name& name, const Config& config,
-                               const GccTraffic& traffic, const Timebase& time,
-                               const RenderJob& job, int groups_ahead)
+ColourStage::ColourStage(const sc_core::sc_module_name& name, const Config& config,
+                         const Traffic& traffic, const Timebase& time, const RenderJob& job,
+                         int groups_ahead)
     : sc_core::sc_module(name), in("in"), cancel("cancel"),
       block_ended("block_ended", config.skip_ended ? 1 : 0), out("out"), sh("sh", time),
       config_(config), traffic_(traffic), job_(job), fetcher_(time), shader_(time),
       fetched_("fetched", time, static_cast<std::size_t>(groups_ahead)),
       mask_(job.tile_size, config.block) {
-    SC_HAS_PROCESS(GccColourStage);
+    SC_HAS_PROCESS(ColourStage);
     SC_THREAD(fetch);
     SC_THREAD(shade);
 }
 
-void GccColourStage::end_of_elaboration() {
+void ColourStage::end_of_elaboration() {
     in->connect_reader(fetcher_);
     cancel->connect_reader(fetcher_);
     for (auto& port : block_ended) {
@@ -49,7 +49,7 @@ void GccColourStage::end_of_elaboration() {
 }
 
 // A group enters when the one before has asked for its SH and a place behind it is free.
-void GccColourStage::fetch() {
+void ColourStage::fetch() {
     for (TileNumber views = 0; !job_.over(views);) {
         SplatChunk group = in->get(fetcher_);
         views += group.last ? 1 : 0;
@@ -61,7 +61,7 @@ void GccColourStage::fetch() {
         }
         const Survivors survivors = filter(group);
         if (survivors.count != 0 || group.last) {
-            const GccMemoryMap map(traffic_, job_, job_.tiles[group.tile].frame);
+            const MemoryMap map(traffic_, job_, job_.tiles[group.tile].frame);
             const Cycle ready = sh.read(fetcher_, map.sh, sh_bytes(survivors));
             fetched_.put_at(fetcher_, survivors, ready);
         }
@@ -69,14 +69,14 @@ void GccColourStage::fetch() {
     fetcher_.finish();
 }
 
-void GccColourStage::see_ended_blocks(TileNumber view) {
+void ColourStage::see_ended_blocks(TileNumber view) {
     if (masked_view_ != view) {
         masked_view_ = view;
         mask_.begin();
     }
     for (auto& port : block_ended) {
         while (fetcher_.arrived(*port.operator->())) {
-            const GccBlockEnded block = port->take(fetcher_);
+            const BlockEnded block = port->take(fetcher_);
             if (block.view == view) {
                 mask_.end_block(block.row, block.column);
             }
@@ -84,7 +84,7 @@ void GccColourStage::see_ended_blocks(TileNumber view) {
     }
 }
 
-GccColourStage::Survivors GccColourStage::filter(const SplatChunk& group) {
+ColourStage::Survivors ColourStage::filter(const SplatChunk& group) {
     const JobTile& view = job_.tiles[group.tile];
     const FrameWorkload& frame = job_.frame_of(view);
     Survivors left;
@@ -109,7 +109,7 @@ GccColourStage::Survivors GccColourStage::filter(const SplatChunk& group) {
     return left;
 }
 
-std::uint64_t GccColourStage::sh_bytes(const Survivors& survivors) const {
+std::uint64_t ColourStage::sh_bytes(const Survivors& survivors) const {
     const FrameWorkload& frame = job_.frame_of(job_.tiles[survivors.group.tile]);
     const std::uint64_t record = traffic_.common().sh_bytes(frame.sh_degree);
     std::uint64_t bytes = 0;
@@ -122,7 +122,7 @@ std::uint64_t GccColourStage::sh_bytes(const Survivors& survivors) const {
     return bytes;
 }
 
-void GccColourStage::shade() {
+void ColourStage::shade() {
     const auto units = static_cast<std::uint64_t>(config_.units);
     for (TileNumber views = 0; !job_.over(views);) {
         const Survivors survivors = fetched_.get(shader_);
@@ -138,7 +138,7 @@ void GccColourStage::shade() {
     shader_.finish();
 }
 
-Cycle GccColourStage::sort_cycles(std::uint64_t keys) const {
+Cycle ColourStage::sort_cycles(std::uint64_t keys) const {
     const auto ways = static_cast<std::uint64_t>(config_.merge_ways);
     const auto rate = static_cast<std::uint64_t>(config_.keys_per_cycle);
     std::uint64_t passes = 0;
@@ -148,7 +148,7 @@ Cycle GccColourStage::sort_cycles(std::uint64_t keys) const {
     return (keys * std::max<std::uint64_t>(passes, 1) + rate - 1) / rate;
 }
 
-void GccColourStage::hand_over(const Survivors& survivors) {
+void ColourStage::hand_over(const Survivors& survivors) {
     SplatChunk none = survivors.group;
     none.count = 0;
     if (survivors.runs.empty() && none.last) {
@@ -161,4 +161,4 @@ void GccColourStage::hand_over(const Survivors& survivors) {
     }
 }
 
-} // namespace degs
+} // namespace degs::gcc

@@ -11,14 +11,14 @@
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
 /// Stage III of GCC: of the Gaussians of a projected group, reads SH for those that can still
 /// contribute, computes their colours, and sorts them exactly. A Gaussian cannot contribute if all
 /// blocks of the view that its bounding box meets have ended; the mask is looked at once per group,
 /// when the group enters. Colours and sorting overlap; a group is handed to Stage IV when both are
 /// done. Groups of a view whose pixels have all ended are dropped.
-class GccColourStage : public sc_core::sc_module {
+class ColourStage : public sc_core::sc_module {
 public:
     struct Config {
         int units = 4;             ///< SH units
@@ -38,16 +38,15 @@ public:
         std::uint64_t cancelled = 0; ///< dropped, because their view has ended
     };
 
-    FifoPort<SplatChunk> in;                                 ///< groups
-    FifoPort<TileNumber> cancel;                             ///< from the Tile Monitor
-    sc_core::sc_vector<FifoPort<GccBlockEnded>> block_ended; ///< if the mask is used
-    FifoPort<SplatChunk> out;                                ///< to Stage IV
+    FifoPort<SplatChunk> in;                              ///< groups
+    FifoPort<TileNumber> cancel;                          ///< from the Tile Monitor
+    sc_core::sc_vector<FifoPort<BlockEnded>> block_ended; ///< if the mask is used
+    FifoPort<SplatChunk> out;                             ///< to Stage IV
     MemoryPort sh;
 
     /// `groups_ahead`: groups whose SH is on its way while another is coloured.
-    GccColourStage(const sc_core::sc_module_name& name, const Config& config,
-                   const GccTraffic& traffic, const Timebase& time, const RenderJob& job,
-                   int groups_ahead);
+    ColourStage(const sc_core::sc_module_name& name, const Config& config, const Traffic& traffic,
+                const Timebase& time, const RenderJob& job, int groups_ahead);
 
     const Stats& stats() const { return stats_; }
 
@@ -68,14 +67,14 @@ private:
     void hand_over(const Survivors& survivors);
 
     Config config_;
-    GccTraffic traffic_;
+    Traffic traffic_;
     const RenderJob& job_;
     Process fetcher_, shader_;
     DatedFifo<Survivors> fetched_;
-    GccBlockMask mask_;
+    BlockMask mask_;
     TileNumber masked_view_ = kNoTile; // whose blocks the mask shows
     TileNumber from_ = 0;              // earlier views are cancelled or over
     Stats stats_;
 };
 
-} // namespace degs
+} // namespace degs::gcc

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/gcc/config.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
-GccConfig::GccConfig() {
+Config::Config() {
     name = "gcc-64";
     area = {0.72, 1.97}; // DeGS, Table I: P&S; blending and SRAM
     image_buffer.bytes = 128 * 1024;
     image_buffer.state_bytes = 8;
 }
 
-void GccConfig::describe(ConfigVisitor& visitor) {
+void Config::describe(ConfigVisitor& visitor) {
     describe_common(visitor);
     visitor.integer("view_size", view_size, 4, 1024,
                     "px; side of the part of the image that is rendered at a time, 128 fills 128 "
@@ -32,7 +32,7 @@ void GccConfig::describe(ConfigVisitor& visitor) {
     visitor.section("memory", memory, "off-chip memory");
 }
 
-std::string GccConfig::problem() const {
+std::string Config::problem() const {
     if (tile_contexts() < 1) {
         return "image_buffer.bytes / image_buffer.state_bytes holds " +
                std::to_string(image_buffer.bytes / image_buffer.state_bytes) +
@@ -45,15 +45,15 @@ std::string GccConfig::problem() const {
                " views of view_size = " + std::to_string(view_size) + "; at most " +
                std::to_string(kMostViews) + " are supported";
     }
-    if (array.window * GccFootprint::kMaxWindows < view_size) {
+    if (array.window * Footprint::kMaxWindows < view_size) {
         return "array.window = " + std::to_string(array.window) +
                " is too small for view_size = " + std::to_string(view_size) + ": at most " +
-               std::to_string(GccFootprint::kMaxWindows) + " windows may lie side by side";
+               std::to_string(Footprint::kMaxWindows) + " windows may lie side by side";
     }
-    if (colour.block * GccBlockMask::kMaxBlocks < view_size) {
+    if (colour.block * BlockMask::kMaxBlocks < view_size) {
         return "colour.block = " + std::to_string(colour.block) +
                " is too small for view_size = " + std::to_string(view_size) + ": at most " +
-               std::to_string(GccBlockMask::kMaxBlocks) + " blocks may lie side by side";
+               std::to_string(BlockMask::kMaxBlocks) + " blocks may lie side by side";
     }
     if (group_bytes() > group_buffer_bytes) {
         return "group_buffer_bytes = " + std::to_string(group_buffer_bytes) +
@@ -64,4 +64,4 @@ std::string GccConfig::problem() const {
     return "";
 }
 
-} // namespace degs
+} // namespace degs::gcc

@@ -11,27 +11,27 @@
 #include "modules/render_engine.hpp"
 #include "modules/span_engine/tile_monitor.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
 /// A complete GCC accelerator; defaults are the 64-PE design that DeGS compares with (its Table I).
 /// What is not published is a key.
-struct GccConfig : AcceleratorConfig {
+struct Config : AcceleratorConfig {
     int view_size = 128;                ///< px, side of a view
     int group_buffer_bytes = 62 * 1024; ///< groups between the stages
     int splat_bytes = 32;               ///< per Gaussian of a group in flight
     PipelineConfig pipeline;
-    GccTraffic traffic;
-    GccGrouping::Config grouping;          ///< Stage I
-    GccProjectionStage::Config projection; ///< Stage II
-    GccColourStage::Config colour;         ///< Stage III
-    GccWindowArray::Config array;          ///< Stage IV
+    Traffic traffic;
+    Grouping::Config grouping;          ///< Stage I
+    ProjectionStage::Config projection; ///< Stage II
+    ColourStage::Config colour;         ///< Stage III
+    WindowArray::Config array;          ///< Stage IV
     PixelBuffer::Config image_buffer;
     TileMonitor::Config monitor;
     MainMemoryConfig memory;
 
-    GccConfig();
+    Config();
     std::unique_ptr<AcceleratorConfig> clone() const override {
-        return std::make_unique<GccConfig>(*this);
+        return std::make_unique<Config>(*this);
     }
     void describe(ConfigVisitor& visitor) override;
     std::string problem() const override;
@@ -60,4 +60,4 @@ struct GccConfig : AcceleratorConfig {
     }
 };
 
-} // namespace degs
+} // namespace degs::gcc

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-namespace degs {
+namespace degs::gcc {
 
-GccFootprint::GccFootprint(int view_size, int side) : side_(side) {
+Footprint::Footprint(int view_size, int side) : side_(side) {
     for (int pixel = 0; pixel < view_size; ++pixel) {
         window_of_.push_back(static_cast<std::uint8_t>(pixel / side));
     }
@@ -16,7 +16,7 @@ GccFootprint::GccFootprint(int view_size, int side) : side_(side) {
     }
 }
 
-void GccFootprint::solve(const DataPath& path, std::uint32_t splat, const JobTile& view) {
+void Footprint::solve(const DataPath& path, std::uint32_t splat, const JobTile& view) {
     for (int row = first_row_; row <= last_row_; ++row) {
         const auto i = static_cast<std::size_t>(row);
         valid_[i] = 0;
@@ -42,13 +42,13 @@ void GccFootprint::solve(const DataPath& path, std::uint32_t splat, const JobTil
     last_row_ = rows_.empty() ? -1 : window_of(rows_.back().y);
 }
 
-void GccFootprint::add(const Row& row) {
+void Footprint::add(const Row& row) {
     rows_.push_back(row);
     const int window_row = window_of(row.y);
     const auto i = static_cast<std::size_t>(window_row);
     const int first = window_of(row.first);
     const int last = window_of(row.last);
-    const GccWindowMask windows = windows_between(first, last);
+    const WindowMask windows = windows_between(first, last);
     valid_[i] |= windows;
     if (row.y == window_row * side_) {
         border_[kTop][i] |= windows;
@@ -56,16 +56,16 @@ void GccFootprint::add(const Row& row) {
     if (row.y == window_row * side_ + side_ - 1) {
         border_[kBottom][i] |= windows;
     }
-    GccWindowMask left = windows;
+    WindowMask left = windows;
     if (row.first != first * side_) {
-        left &= ~(GccWindowMask{1} << first);
+        left &= ~(WindowMask{1} << first);
     }
-    GccWindowMask right = windows;
+    WindowMask right = windows;
     if (row.last != last * side_ + side_ - 1) {
-        right &= ~(GccWindowMask{1} << last);
+        right &= ~(WindowMask{1} << last);
     }
     border_[kLeft][i] |= left;
     border_[kRight][i] |= right;
 }
 
-} // namespace degs
+} // namespace degs::gcc

@@ -7,20 +7,20 @@
 
 #include "modules/render_job.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
 /// One bit per window of a row of windows, leftmost first.
-using GccWindowMask = std::uint64_t;
+using WindowMask = std::uint64_t;
 
 /// Bits first .. last (inclusive).
-inline GccWindowMask windows_between(int first, int last) {
-    return ((GccWindowMask{2} << last) - 1) & ~((GccWindowMask{1} << first) - 1);
+inline WindowMask windows_between(int first, int last) {
+    return ((WindowMask{2} << last) - 1) & ~((WindowMask{1} << first) - 1);
 }
 
 /// What of one splat lies inside a view, pixel row by pixel row and window by window. A view is cut
 /// into windows of `side` x `side` px from its top left corner; `valid` is what the alpha test of
 /// the data path accepts (alpha >= 1/255), whether or not the pixel has ended.
-class GccFootprint {
+class Footprint {
 public:
     enum Side { kLeft, kRight, kTop, kBottom };
     static constexpr int kMaxWindows = 64; ///< in a row of windows
@@ -31,7 +31,7 @@ public:
     };
 
     /// view_size <= kMaxWindows * side.
-    GccFootprint(int view_size, int side);
+    Footprint(int view_size, int side);
 
     /// Forgets the splat before.
     void solve(const DataPath& path, std::uint32_t splat, const JobTile& view);
@@ -39,9 +39,9 @@ public:
     /// Rows with valid pixels, top to bottom.
     const std::vector<Row>& rows() const { return rows_; }
     /// Windows of a row of windows that hold a valid pixel.
-    GccWindowMask valid(int row) const { return valid_[static_cast<std::size_t>(row)]; }
+    WindowMask valid(int row) const { return valid_[static_cast<std::size_t>(row)]; }
     /// Those among them with a valid pixel on the given border.
-    GccWindowMask border(Side side, int row) const {
+    WindowMask border(Side side, int row) const {
         return border_[side][static_cast<std::size_t>(row)];
     }
     int first_window_row() const { return first_row_; } ///< that may hold a valid pixel
@@ -56,9 +56,9 @@ private:
     int side_;
     std::vector<std::uint8_t> window_of_;
     std::vector<Row> rows_;
-    std::vector<GccWindowMask> valid_;
-    std::array<std::vector<GccWindowMask>, 4> border_;
+    std::vector<WindowMask> valid_;
+    std::array<std::vector<WindowMask>, 4> border_;
     int first_row_ = 0, last_row_ = -1;
 };
 
-} // namespace degs
+} // namespace degs::gcc

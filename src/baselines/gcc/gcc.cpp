@@ -3,15 +3,15 @@
 
 #include <algorithm>
 
-namespace degs {
+namespace degs::gcc {
 
-std::unique_ptr<RenderEngine> GccConfig::build(const char* module, const Timebase& time,
-                                               RenderJob& job, const BuildOptions& options) const {
-    return std::make_unique<Gcc>(module, *this, time, job, options);
+std::unique_ptr<RenderEngine> Config::build(const char* module, const Timebase& time,
+                                            RenderJob& job, const BuildOptions& options) const {
+    return std::make_unique<Engine>(module, *this, time, job, options);
 }
 
-Gcc::Gcc(const sc_core::sc_module_name& name, const GccConfig& config, const Timebase& time,
-         RenderJob& job, const BuildOptions& options)
+Engine::Engine(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+               RenderJob& job, const BuildOptions& options)
     : RenderEngine(name), config_(config), time_(time), job_(job), options_(options),
       gated_(!options.array_only &&
              job.frames.size() > static_cast<std::size_t>(config.frames_in_flight)) {
@@ -27,13 +27,13 @@ Gcc::Gcc(const sc_core::sc_module_name& name, const GccConfig& config, const Tim
     build_memory();
 }
 
-void Gcc::build_array() {
+void Engine::build_array() {
     const int contexts = config_.tile_contexts();
     const int tokens = kTokenDepth + contexts;
     const int writeback = config_.array.writeback_cycles;
     const bool mask = !options_.array_only && config_.colour.skip_ended;
-    array_ = std::make_unique<GccWindowArray>("array", config_.array, time_, job_, 1, contexts,
-                                              mask ? 1 : 0, config_.colour.block);
+    array_ = std::make_unique<WindowArray>("array", config_.array, time_, job_, 1, contexts,
+                                           mask ? 1 : 0, config_.colour.block);
     image_buffers_.push_back(std::make_unique<PixelBuffer>(
         "image_buffer", config_.image_buffer, config_.traffic.common(), time_, job_, 1, contexts,
         PixelBuffer::Share{}, gated_ || options_.finished != nullptr, options_.array_only));
@@ -52,20 +52,20 @@ void Gcc::build_array() {
     array_->in[0].bind(splats);
 }
 
-void Gcc::bind_cancel(FifoPort<TileNumber>& listener) {
+void Engine::bind_cancel(FifoPort<TileNumber>& listener) {
     auto& cancel =
         add_ring(cancel_rings_, "cancel", time_, kTokenDepth, config_.monitor.latency_cycles);
     monitor_->out[listeners_++].bind(cancel);
     listener.bind(cancel);
 }
 
-void Gcc::build_stages() {
-    grouping_ = std::make_unique<GccGrouping>("grouping", config_.grouping, config_.traffic, time_,
-                                              job_, gated_ ? config_.frames_in_flight : 0);
-    projection_ = std::make_unique<GccProjectionStage>("projection", config_.projection,
-                                                       config_.traffic, time_, job_);
-    colour_ = std::make_unique<GccColourStage>("colour", config_.colour, config_.traffic, time_,
-                                               job_, config_.projection.groups_ahead);
+void Engine::build_stages() {
+    grouping_ = std::make_unique<Grouping>("grouping", config_.grouping, config_.traffic, time_,
+                                           job_, gated_ ? config_.frames_in_flight : 0);
+    projection_ = std::make_unique<ProjectionStage>("projection", config_.projection,
+                                                    config_.traffic, time_, job_);
+    colour_ = std::make_unique<ColourStage>("colour", config_.colour, config_.traffic, time_, job_,
+                                            config_.projection.groups_ahead);
     auto& grouped = add_ring(grouped_rings_, "grouped", time_, kTokenDepth, 1);
     grouping_->out.bind(grouped);
     projection_->start.bind(grouped);
@@ -91,7 +91,7 @@ void Gcc::build_stages() {
     }
 }
 
-void Gcc::build_source() {
+void Engine::build_source() {
     source_ = std::make_unique<ListSource>("lists", time_, job_, 0, 1);
     SplatFetcher::Config fetching;
     fetching.chunk = config_.colour.chunk;
@@ -104,7 +104,7 @@ void Gcc::build_source() {
     bind_cancel(fetcher_->cancel);
 }
 
-void Gcc::build_memory() {
+void Engine::build_memory() {
     if (grouping_) {
         streams_.connect(grouping_->means, "means");
         streams_.connect(grouping_->lists, "group_lists_written");
@@ -119,4 +119,4 @@ void Gcc::build_memory() {
     streams_.build("memory", config_.memory, time_, options_);
 }
 
-} // namespace degs
+} // namespace degs::gcc

@@ -12,7 +12,7 @@
 #include "modules/front_end/list_source.hpp"
 #include "modules/memory_streams.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
 /// The GCC accelerator with its memory (Pei et al., MICRO 2025; DeGS, Sec. II-B):
 ///
@@ -21,24 +21,24 @@ namespace degs {
 ///
 /// with two ways back: ended blocks to Stage III, cancelled views to Stages II and III. An image
 /// that does not fit the image buffer is rendered view by view ("compatibility mode").
-class Gcc : public RenderEngine {
+class Engine : public RenderEngine {
 public:
     /// `job` supplies the work and receives the images. `config.problem()` must be empty.
-    Gcc(const sc_core::sc_module_name& name, const GccConfig& config, const Timebase& time,
-        RenderJob& job, const BuildOptions& options = {});
+    Engine(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+           RenderJob& job, const BuildOptions& options = {});
 
     std::size_t finished_tiles() const override {
         return static_cast<std::size_t>(image_buffers_[0]->stats().tiles);
     }
     void collect(AcceleratorResult& result) const override;
 
-    const GccConfig& config() const { return config_; }
+    const Config& config() const { return config_; }
     /// Stages I to III are null if the array is alone, the fetcher is null if it is not.
-    const GccGrouping* grouping() const { return grouping_.get(); }
-    const GccProjectionStage* projection() const { return projection_.get(); }
-    const GccColourStage* colour() const { return colour_.get(); }
+    const Grouping* grouping() const { return grouping_.get(); }
+    const ProjectionStage* projection() const { return projection_.get(); }
+    const ColourStage* colour() const { return colour_.get(); }
     const SplatFetcher* fetcher() const { return fetcher_.get(); }
-    const GccWindowArray& array() const { return *array_; }
+    const WindowArray& array() const { return *array_; }
     const PixelBuffer& image_buffer() const { return *image_buffers_[0]; }
     const TileMonitor& monitor() const { return *monitor_; }
     const MemoryStreams& streams() const { return streams_; }
@@ -56,17 +56,17 @@ private:
     void collect_laws(AcceleratorResult& result) const;
     void explain(AcceleratorResult& result) const;
 
-    GccConfig config_;
+    Config config_;
     Timebase time_;
     RenderJob& job_;
     BuildOptions options_;
 
-    std::unique_ptr<GccGrouping> grouping_;
-    std::unique_ptr<GccProjectionStage> projection_;
-    std::unique_ptr<GccColourStage> colour_;
+    std::unique_ptr<Grouping> grouping_;
+    std::unique_ptr<ProjectionStage> projection_;
+    std::unique_ptr<ColourStage> colour_;
     std::unique_ptr<ListSource> source_;
     std::unique_ptr<SplatFetcher> fetcher_;
-    std::unique_ptr<GccWindowArray> array_;
+    std::unique_ptr<WindowArray> array_;
     PixelBuffers image_buffers_; // one
     std::unique_ptr<TileMonitor> monitor_;
     FrameEnds frame_ends_;
@@ -77,9 +77,9 @@ private:
 
     Rings<SplatChunk> projected_rings_, splat_rings_;
     Rings<SortedRun> sorted_rings_;
-    Rings<GccBlockEnded> block_rings_;
+    Rings<BlockEnded> block_rings_;
     Rings<SliceReport> done_rings_, state_rings_;
     Rings<TileNumber> context_rings_, cancel_rings_;
 };
 
-} // namespace degs
+} // namespace degs::gcc

@@ -5,9 +5,9 @@
 
 #include "tlm/ceil_div.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
-void GccGrouping::Config::describe(ConfigVisitor& visitor) {
+void Grouping::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("means_per_cycle", means_per_cycle, 1, 1024,
                     "means per cycle; 4, as the units that project elsewhere [assumed]");
     visitor.integer("chunk", chunk, 1, 65536,
@@ -25,20 +25,20 @@ void GccGrouping::Config::describe(ConfigVisitor& visitor) {
                    "[assumed]");
 }
 
-GccGrouping::GccGrouping(const sc_core::sc_module_name& name, const Config& config,
-                         const GccTraffic& traffic, const Timebase& time, const RenderJob& job,
-                         int frames_in_flight)
+Grouping::Grouping(const sc_core::sc_module_name& name, const Config& config,
+                   const Traffic& traffic, const Timebase& time, const RenderJob& job,
+                   int frames_in_flight)
     : sc_core::sc_module(name), out("out"), frame_free("frame_free", frames_in_flight == 0 ? 0 : 1),
       means("means", time), lists("lists", time), config_(config), traffic_(traffic), job_(job),
       frames_in_flight_(static_cast<std::uint32_t>(frames_in_flight)), fetcher_(time),
       grouper_(time), fetched_("fetched", time, static_cast<std::size_t>(config.chunks_in_flight)),
       acknowledged_(static_cast<std::size_t>(config.writes_in_flight), 0) {
-    SC_HAS_PROCESS(GccGrouping);
+    SC_HAS_PROCESS(Grouping);
     SC_THREAD(fetch);
     SC_THREAD(group);
 }
 
-void GccGrouping::end_of_elaboration() {
+void Grouping::end_of_elaboration() {
     fetched_.connect_writer(fetcher_);
     fetched_.connect_reader(grouper_);
     out->connect_writer(grouper_);
@@ -47,7 +47,7 @@ void GccGrouping::end_of_elaboration() {
     }
 }
 
-void GccGrouping::fetch() {
+void Grouping::fetch() {
     const auto chunk = static_cast<std::uint64_t>(config_.chunk);
     const std::uint64_t record = traffic_.stage_one_bytes();
     for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); ++f) {
@@ -55,7 +55,7 @@ void GccGrouping::fetch() {
             frame_free[0]->get(fetcher_);
         }
         const FrameWorkload& frame = *job_.frames[f];
-        const GccMemoryMap map(traffic_, job_, f);
+        const MemoryMap map(traffic_, job_, f);
         for (std::uint64_t first = 0; first < frame.gaussians; first += chunk) {
             const std::uint64_t count = std::min(chunk, frame.gaussians - first);
             fetched_.reserve(fetcher_);
@@ -67,7 +67,7 @@ void GccGrouping::fetch() {
     fetcher_.finish();
 }
 
-void GccGrouping::group() {
+void Grouping::group() {
     for (std::uint32_t f = 0; job_.has_frame(grouper_, f); ++f) {
         const FrameWorkload& frame = *job_.frames[f];
         region_written_ = 0;
@@ -77,7 +77,7 @@ void GccGrouping::group() {
             group_chunk(f, fetched_.get(grouper_));
         }
         grouper_.advance_to(last_write_); // lists are read back from memory: they must be there
-        if (config_.lists == GccLists::Regrouped && frame.tiles() > 1) {
+        if (config_.lists == Lists::Regrouped && frame.tiles() > 1) {
             regroup(f);
         }
         stats_.view_entries += frame.tile_pairs();
@@ -87,9 +87,9 @@ void GccGrouping::group() {
     grouper_.finish();
 }
 
-void GccGrouping::group_chunk(std::uint32_t f, const Chunk& chunk) {
+void Grouping::group_chunk(std::uint32_t f, const Chunk& chunk) {
     const FrameWorkload& frame = *job_.frames[f];
-    const GccMemoryMap map(traffic_, job_, f);
+    const MemoryMap map(traffic_, job_, f);
     const auto& ids = frame.visible_of;
     const auto rank = [&](std::uint64_t id) {
         return static_cast<std::uint32_t>(std::lower_bound(ids.begin(), ids.end(), id) -
@@ -97,7 +97,7 @@ void GccGrouping::group_chunk(std::uint32_t f, const Chunk& chunk) {
     };
     const std::uint32_t begin = rank(chunk.first);
     const std::uint32_t end = rank(chunk.first + chunk.count);
-    const bool by_view = config_.lists == GccLists::Direct || frame.tiles() == 1;
+    const bool by_view = config_.lists == Lists::Direct || frame.tiles() == 1;
     const std::uint64_t entries =
         by_view ? job_.pairs_before(f, end) - job_.pairs_before(f, begin) : end - begin;
     stats_.gaussians += chunk.count;
@@ -106,9 +106,9 @@ void GccGrouping::group_chunk(std::uint32_t f, const Chunk& chunk) {
 }
 
 // Entries of the image's groups come back near to far, as many requests ahead as for the means.
-void GccGrouping::regroup(std::uint32_t f) {
+void Grouping::regroup(std::uint32_t f) {
     const FrameWorkload& frame = *job_.frames[f];
-    const GccMemoryMap map(traffic_, job_, f);
+    const MemoryMap map(traffic_, job_, f);
     const auto chunk = static_cast<std::size_t>(config_.chunk);
     const std::size_t visible = frame.splats.size();
     const std::size_t pieces = (visible + chunk - 1) / chunk;
@@ -133,7 +133,7 @@ void GccGrouping::regroup(std::uint32_t f) {
     grouper_.advance_to(last_write_);
 }
 
-void GccGrouping::write(std::uint64_t region, std::uint64_t entries, Cycle least_cycles) {
+void Grouping::write(std::uint64_t region, std::uint64_t entries, Cycle least_cycles) {
     const Cycle busy = std::max<Cycle>(
         least_cycles, ceil_div(entries, static_cast<std::uint64_t>(config_.entries_per_cycle)));
     grouper_.advance(busy);
@@ -147,4 +147,4 @@ void GccGrouping::write(std::uint64_t region, std::uint64_t entries, Cycle least
     last_write_ = std::max(last_write_, oldest);
 }
 
-} // namespace degs
+} // namespace degs::gcc

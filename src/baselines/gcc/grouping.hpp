@@ -10,18 +10,18 @@
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
 /// How a Gaussian gets into the lists of the views. `Direct`: Stage I appends it to the list of
 /// every view that it overlaps. `Regrouped`: groups of the whole image are written first and dealt
 /// out to the views in a second pass. With a single view both write its groups once.
-enum class GccLists { Direct, Regrouped };
+enum class Lists { Direct, Regrouped };
 
 /// Stage I of GCC, once per frame: reads nothing but the means of all Gaussians, computes their
 /// depth, drops those before the near plane or outside the image, and writes the others' (depth,
 /// index) entries into depth-ordered groups, per view if the image has several. Not modelled: how a
 /// group's depth range is chosen, and that groups come out more or less full.
-class GccGrouping : public sc_core::sc_module {
+class Grouping : public sc_core::sc_module {
 public:
     struct Config {
         int means_per_cycle = 4;   ///< depth and cull
@@ -29,7 +29,7 @@ public:
         int chunks_in_flight = 4;  ///< requests outstanding
         int entries_per_cycle = 8; ///< list entries written per cycle
         int writes_in_flight = 8;  ///< requests not yet acknowledged
-        GccLists lists = GccLists::Direct;
+        Lists lists = Lists::Direct;
         void describe(ConfigVisitor& visitor);
     };
     struct Stats {
@@ -46,9 +46,8 @@ public:
     MemoryPort lists;
 
     /// `frames_in_flight`: frame f + this waits for a message of frame_free; 0: none does.
-    GccGrouping(const sc_core::sc_module_name& name, const Config& config,
-                const GccTraffic& traffic, const Timebase& time, const RenderJob& job,
-                int frames_in_flight);
+    Grouping(const sc_core::sc_module_name& name, const Config& config, const Traffic& traffic,
+             const Timebase& time, const RenderJob& job, int frames_in_flight);
 
     const Stats& stats() const { return stats_; }
     /// Dates at which each frame's lists were complete.
@@ -66,7 +65,7 @@ private:
     void write(std::uint64_t region, std::uint64_t entries, Cycle least_cycles);
 
     Config config_;
-    GccTraffic traffic_;
+    Traffic traffic_;
     const RenderJob& job_;
     std::uint32_t frames_in_flight_;
     Process fetcher_, grouper_;
@@ -79,4 +78,4 @@ private:
     Stats stats_;
 };
 
-} // namespace degs
+} // namespace degs::gcc

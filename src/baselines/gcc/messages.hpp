@@ -5,12 +5,12 @@
 
 #include "modules/messages.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
 /// A block of a view whose pixels have all ended, window array -> Stage III.
-struct GccBlockEnded {
+struct BlockEnded {
     TileNumber view = 0;
     std::int16_t row = 0, column = 0; ///< in blocks, inside the view
 };
 
-} // namespace degs
+} // namespace degs::gcc

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-namespace degs {
+namespace degs::gcc {
 
-void GccProjectionStage::Config::describe(ConfigVisitor& visitor) {
+void ProjectionStage::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("units", units, 1, 64, "projection units; as many as elsewhere [assumed]");
     visitor.integer("group", group, 1, 4096, "Gaussians per depth group; about 256 [unverified]");
     visitor.integer("groups_ahead", groups_ahead, 1, 64,
@@ -26,21 +26,20 @@ bool gcc_cancelled(Process& self, FifoPort<TileNumber>& cancel, TileNumber& firs
     return view < first;
 }
 
-GccProjectionStage::GccProjectionStage(const sc_core::sc_module_name& name, const Config& config,
-                                       const GccTraffic& traffic, const Timebase& time,
-                                       const RenderJob& job)
+ProjectionStage::ProjectionStage(const sc_core::sc_module_name& name, const Config& config,
+                                 const Traffic& traffic, const Timebase& time, const RenderJob& job)
     : sc_core::sc_module(name), start("start"), cancel("cancel", 2), out("out"),
       lists("lists", time), shapes("shapes", time), config_(config), traffic_(traffic), job_(job),
       loader_(time), fetcher_(time), projector_(time),
       loaded_("loaded", time, static_cast<std::size_t>(config.groups_ahead)),
       fetched_("fetched", time, static_cast<std::size_t>(config.groups_ahead)) {
-    SC_HAS_PROCESS(GccProjectionStage);
+    SC_HAS_PROCESS(ProjectionStage);
     SC_THREAD(load);
     SC_THREAD(fetch);
     SC_THREAD(project);
 }
 
-void GccProjectionStage::end_of_elaboration() {
+void ProjectionStage::end_of_elaboration() {
     start->connect_reader(loader_);
     cancel[0]->connect_reader(loader_);
     cancel[1]->connect_reader(fetcher_);
@@ -51,7 +50,7 @@ void GccProjectionStage::end_of_elaboration() {
     out->connect_writer(projector_);
 }
 
-void GccProjectionStage::load() {
+void ProjectionStage::load() {
     std::uint32_t frames_started = 0;
     for (TileNumber number = 0; job_.has_tile(loader_, number); ++number) {
         for (; frames_started <= job_.tiles[number].frame; ++frames_started) {
@@ -62,9 +61,9 @@ void GccProjectionStage::load() {
     loader_.finish();
 }
 
-void GccProjectionStage::load_view(TileNumber number) {
+void ProjectionStage::load_view(TileNumber number) {
     const JobTile& view = job_.tiles[number];
-    const GccMemoryMap map(traffic_, job_, view.frame);
+    const MemoryMap map(traffic_, job_, view.frame);
     SplatChunk group;
     group.tile = number;
     for (std::uint64_t done = 0; done < view.count;) {
@@ -89,7 +88,7 @@ void GccProjectionStage::load_view(TileNumber number) {
     }
 }
 
-void GccProjectionStage::fetch() {
+void ProjectionStage::fetch() {
     const auto record = static_cast<std::uint64_t>(traffic_.shape_bytes);
     for (TileNumber views = 0; !job_.over(views);) {
         SplatChunk group = loaded_.get(fetcher_);
@@ -108,7 +107,7 @@ void GccProjectionStage::fetch() {
                 bytes += traffic_.scattered(record, frame.splats[splat].id);
             }
             ready = shapes.read(
-                fetcher_, GccMemoryMap(traffic_, job_, job_.tiles[group.tile].frame).shapes, bytes);
+                fetcher_, MemoryMap(traffic_, job_, job_.tiles[group.tile].frame).shapes, bytes);
         }
         if (group.count != 0 || group.last) {
             fetched_.put_at(fetcher_, group, ready);
@@ -117,7 +116,7 @@ void GccProjectionStage::fetch() {
     fetcher_.finish();
 }
 
-void GccProjectionStage::project() {
+void ProjectionStage::project() {
     const auto units = static_cast<Cycle>(config_.units);
     for (TileNumber views = 0; !job_.over(views);) {
         const SplatChunk group = fetched_.get(projector_);
@@ -132,4 +131,4 @@ void GccProjectionStage::project() {
     projector_.finish();
 }
 
-} // namespace degs
+} // namespace degs::gcc

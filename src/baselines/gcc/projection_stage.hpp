@@ -8,14 +8,14 @@
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
 /// Stage II of GCC: takes the views in order and the groups of a view near to far; reads the list
 /// of a group, then scale, rotation and opacity of its Gaussians, and projects them. A group is a
 /// fixed number of neighbours in the view's list; the last one may be smaller. Three overlapping
 /// steps, each some groups ahead of the next. Once all pixels of a view have ended, its further
 /// groups are not read. A Gaussian is read again for every view that it overlaps.
-class GccProjectionStage : public sc_core::sc_module {
+class ProjectionStage : public sc_core::sc_module {
 public:
     struct Config {
         int units = 4;               ///< projection units
@@ -40,8 +40,8 @@ public:
     MemoryPort lists;
     MemoryPort shapes;
 
-    GccProjectionStage(const sc_core::sc_module_name& name, const Config& config,
-                       const GccTraffic& traffic, const Timebase& time, const RenderJob& job);
+    ProjectionStage(const sc_core::sc_module_name& name, const Config& config,
+                    const Traffic& traffic, const Timebase& time, const RenderJob& job);
 
     const Stats& stats() const { return stats_; }
 
@@ -53,7 +53,7 @@ private:
     void project();
 
     Config config_;
-    GccTraffic traffic_;
+    Traffic traffic_;
     const RenderJob& job_;
     Process loader_, fetcher_, projector_;
     DatedFifo<SplatChunk> loaded_, fetched_;
@@ -65,4 +65,4 @@ private:
 /// view that is not known to be cancelled or over. The question takes a cycle.
 bool gcc_cancelled(Process& self, FifoPort<TileNumber>& cancel, TileNumber& first, TileNumber view);
 
-} // namespace degs
+} // namespace degs::gcc

@@ -5,9 +5,9 @@
 #include "baselines/gcc/gcc.hpp"
 #include "config/grouped_number.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
-void Gcc::collect(AcceleratorResult& result) const {
+void Engine::collect(AcceleratorResult& result) const {
     collect_frames(result, image_buffers_, frame_ends_.background());
     result.tiles = finished_tiles();
     result.tiles_cancelled = monitor_->stats().tiles_cancelled;
@@ -28,12 +28,12 @@ void Gcc::collect(AcceleratorResult& result) const {
     explain(result);
 }
 
-void Gcc::collect_stages(AcceleratorResult& result) const {
+void Engine::collect_stages(AcceleratorResult& result) const {
     if (grouping_) {
-        const GccGrouping::Stats& g = grouping_->stats();
+        const Grouping::Stats& g = grouping_->stats();
         add_stage(result, "grouping", 1, g.busy,
                   {{"gaussians", g.gaussians}, {"entries_written", g.entries_written}});
-        const GccProjectionStage::Stats& p = projection_->stats();
+        const ProjectionStage::Stats& p = projection_->stats();
         add_stage(result, "projection", 1, p.busy,
                   {{"groups", p.groups},
                    {"entries", p.entries},
@@ -41,11 +41,11 @@ void Gcc::collect_stages(AcceleratorResult& result) const {
                    {"gaussians", p.shapes},
                    {"gaussians_cancelled", p.shapes_cancelled}});
         // Colours and sorting overlap: the stage is as busy as the busier of the two.
-        const GccColourStage::Stats& c = colour_->stats();
+        const ColourStage::Stats& c = colour_->stats();
         add_stage(result, "colour", 1, std::max(c.colour_busy, c.sort_busy),
                   {{"coloured", c.coloured}, {"masked", c.masked}, {"cancelled", c.cancelled}});
     }
-    const GccWindowArray::Stats& a = array_->stats();
+    const WindowArray::Stats& a = array_->stats();
     add_stage(result, "blending", 1, a.windows,
               {{"windows", a.windows},
                {"windows_empty", a.windows_empty},
@@ -56,8 +56,8 @@ void Gcc::collect_stages(AcceleratorResult& result) const {
                {"pixels_ended", a.pixels_ended}});
 }
 
-void Gcc::collect_laws(AcceleratorResult& result) const {
-    const GccWindowArray::Stats& a = array_->stats();
+void Engine::collect_laws(AcceleratorResult& result) const {
+    const WindowArray::Stats& a = array_->stats();
     const SlotAccount& s = a.slots;
     const auto pes = static_cast<std::uint64_t>(config_.pes());
     auto& laws = result.conservation;
@@ -70,8 +70,8 @@ void Gcc::collect_laws(AcceleratorResult& result) const {
                         a.splats + a.splats_dropped});
         return;
     }
-    const GccProjectionStage::Stats& p = projection_->stats();
-    const GccColourStage::Stats& c = colour_->stats();
+    const ProjectionStage::Stats& p = projection_->stats();
+    const ColourStage::Stats& c = colour_->stats();
     laws.push_back({"entries of the views = read + cancelled", grouping_->stats().view_entries,
                     p.entries + p.entries_cancelled});
     laws.push_back(
@@ -81,7 +81,7 @@ void Gcc::collect_laws(AcceleratorResult& result) const {
     laws.push_back({"coloured = rendered + dropped", c.coloured, a.splats + a.splats_dropped});
 }
 
-void Gcc::explain(AcceleratorResult& result) const {
+void Engine::explain(AcceleratorResult& result) const {
     auto& out = result.left_out;
     explain_tiles(result, grouping_ ? projection_->stats().entries_cancelled
                                     : fetcher_->stats().records_cancelled);
@@ -96,4 +96,4 @@ void Gcc::explain(AcceleratorResult& result) const {
                   "slot.");
 }
 
-} // namespace degs
+} // namespace degs::gcc

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/gcc/traffic.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
-void GccTraffic::describe(ConfigVisitor& visitor) {
+void Traffic::describe(ConfigVisitor& visitor) {
     visitor.integer("mean_bytes", mean_bytes, 1, 1024,
                     "bytes per Gaussian read by Stage I: 3 values of FP16 (12 for FP32)");
     visitor.integer("bound_bytes", bound_bytes, 0, 1024,
@@ -21,7 +21,7 @@ void GccTraffic::describe(ConfigVisitor& visitor) {
                     "bytes; scattered records are read in whole bursts of this size");
 }
 
-TrafficConfig GccTraffic::common() const {
+TrafficConfig Traffic::common() const {
     TrafficConfig common;
     common.geometry_bytes = mean_bytes + bound_bytes + shape_bytes;
     common.sh_value_bytes = sh_value_bytes;
@@ -31,8 +31,8 @@ TrafficConfig GccTraffic::common() const {
     return common;
 }
 
-GccMemoryMap::GccMemoryMap(const GccTraffic& traffic, const RenderJob& job, std::uint32_t frame) {
-    const MemoryMap common = job.map(frame, traffic.common());
+MemoryMap::MemoryMap(const Traffic& traffic, const RenderJob& job, std::uint32_t frame) {
+    const degs::MemoryMap common = job.map(frame, traffic.common());
     means = common.geometry;
     shapes = means + (job.frames[frame]->gaussians * traffic.stage_one_bytes() + 63) / 64 * 64;
     sh = common.sh;
@@ -40,4 +40,4 @@ GccMemoryMap::GccMemoryMap(const GccTraffic& traffic, const RenderJob& job, std:
     groups = views + (job.frames[frame]->tile_pairs() * traffic.entry_bytes() + 63) / 64 * 64;
 }
 
-} // namespace degs
+} // namespace degs::gcc

@@ -5,11 +5,11 @@
 
 #include "modules/render_job.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
 /// Record layouts of GCC's streams. A Gaussian is stored stage by stage, so that one that is
 /// dropped early costs only what has been looked at.
-struct GccTraffic {
+struct Traffic {
     int mean_bytes = 6;       ///< per Gaussian, Stage I: 3 values of 2 B
     int bound_bytes = 2;      ///< per Gaussian, Stage I: radius of a sphere around it
     int shape_bytes = 16;     ///< per Gaussian and view, Stage II: scale 3, rotation 4, opacity 1
@@ -34,9 +34,9 @@ struct GccTraffic {
 
 /// Where GCC's streams live: a Gaussian's stages in the geometry region, lists of groups behind the
 /// lists of views.
-struct GccMemoryMap {
+struct MemoryMap {
     std::uint64_t means = 0, shapes = 0, sh = 0, groups = 0, views = 0;
-    GccMemoryMap(const GccTraffic& traffic, const RenderJob& job, std::uint32_t frame);
+    MemoryMap(const Traffic& traffic, const RenderJob& job, std::uint32_t frame);
 };
 
-} // namespace degs
+} // namespace degs::gcc

@@ -3,27 +3,27 @@
 
 #include <algorithm>
 
-namespace degs {
+namespace degs::gcc {
 
-GccTraversal::GccTraversal(int windows) : seen_(static_cast<std::size_t>(windows), 0) {
+Traversal::Traversal(int windows) : seen_(static_cast<std::size_t>(windows), 0) {
     frontier_.reserve(static_cast<std::size_t>(windows * windows));
 }
 
-void GccTraversal::begin(const GccFootprint& splat, int columns, int rows) {
+void Traversal::begin(const Footprint& splat, int columns, int rows) {
     splat_ = &splat;
     columns_ = columns;
     rows_ = rows;
-    std::fill_n(seen_.begin(), rows, GccWindowMask{0});
+    std::fill_n(seen_.begin(), rows, WindowMask{0});
     frontier_.clear();
     head_ = 0;
 }
 
-void GccTraversal::push(const Window& window) {
-    seen_[static_cast<std::size_t>(window.row)] |= GccWindowMask{1} << window.column;
+void Traversal::push(const Window& window) {
+    seen_[static_cast<std::size_t>(window.row)] |= WindowMask{1} << window.column;
     frontier_.push_back(window);
 }
 
-bool GccTraversal::next(Window& window) {
+bool Traversal::next(Window& window) {
     if (head_ == frontier_.size()) {
         return false;
     }
@@ -31,33 +31,33 @@ bool GccTraversal::next(Window& window) {
     return true;
 }
 
-void GccTraversal::expand(const Window& window, Cycle known) {
-    const auto leads = [&](GccFootprint::Side side) {
+void Traversal::expand(const Window& window, Cycle known) {
+    const auto leads = [&](Footprint::Side side) {
         return (splat_->border(side, window.row) >> window.column & 1U) != 0;
     };
-    if (window.column > 0 && leads(GccFootprint::kLeft)) {
+    if (window.column > 0 && leads(Footprint::kLeft)) {
         push_new(window.row, window.column - 1, known);
     }
-    if (window.column + 1 < columns_ && leads(GccFootprint::kRight)) {
+    if (window.column + 1 < columns_ && leads(Footprint::kRight)) {
         push_new(window.row, window.column + 1, known);
     }
-    if (window.row > 0 && leads(GccFootprint::kTop)) {
+    if (window.row > 0 && leads(Footprint::kTop)) {
         push_new(window.row - 1, window.column, known);
     }
-    if (window.row + 1 < rows_ && leads(GccFootprint::kBottom)) {
+    if (window.row + 1 < rows_ && leads(Footprint::kBottom)) {
         push_new(window.row + 1, window.column, known);
     }
 }
 
-void GccTraversal::push_new(int row, int column, Cycle known) {
+void Traversal::push_new(int row, int column, Cycle known) {
     if ((seen_[static_cast<std::size_t>(row)] >> column & 1U) == 0) {
         push({row, column, known});
     }
 }
 
-bool GccTraversal::find_missed(Window& window) const {
+bool Traversal::find_missed(Window& window) const {
     for (int row = splat_->first_window_row(); row <= splat_->last_window_row(); ++row) {
-        const GccWindowMask missed = splat_->valid(row) & ~seen_[static_cast<std::size_t>(row)];
+        const WindowMask missed = splat_->valid(row) & ~seen_[static_cast<std::size_t>(row)];
         if (missed != 0) {
             window.row = row;
             window.column = __builtin_ctzll(missed);
@@ -67,4 +67,4 @@ bool GccTraversal::find_missed(Window& window) const {
     return false;
 }
 
-} // namespace degs
+} // namespace degs::gcc

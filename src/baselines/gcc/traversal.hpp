@@ -6,13 +6,13 @@
 #include "baselines/gcc/footprint.hpp"
 #include "tlm/clock_domain.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
 /// The way of GCC from window to window of one splat (rule: docs/gcc-window-array.md): a frontier
 /// of windows, first found first visited; a visited window adds the neighbours across those of its
 /// sides on which it has a valid border pixel. Says which window comes next and from when on it is
 /// known; the dates are the caller's.
-class GccTraversal {
+class Traversal {
 public:
     struct Window {
         int row = 0, column = 0;
@@ -20,10 +20,10 @@ public:
     };
 
     /// Views of at most `windows` x `windows` windows.
-    explicit GccTraversal(int windows);
+    explicit Traversal(int windows);
 
     /// Starts on a view of `columns` x `rows` windows. `splat` is to stay as it is until the end.
-    void begin(const GccFootprint& splat, int columns, int rows);
+    void begin(const Footprint& splat, int columns, int rows);
     /// Adds a window that no border has led to.
     void seed(const Window& window) { push(window); }
     /// The oldest window of the frontier; false if there is none.
@@ -37,11 +37,11 @@ private:
     void push(const Window& window);
     void push_new(int row, int column, Cycle known);
 
-    const GccFootprint* splat_ = nullptr;
+    const Footprint* splat_ = nullptr;
     int columns_ = 0, rows_ = 0;
-    std::vector<GccWindowMask> seen_; // per row of windows: visited or in the frontier
-    std::vector<Window> frontier_;    // from head_ on
+    std::vector<WindowMask> seen_; // per row of windows: visited or in the frontier
+    std::vector<Window> frontier_; // from head_ on
     std::size_t head_ = 0;
 };
 
-} // namespace degs
+} // namespace degs::gcc

@@ -6,14 +6,14 @@
 
 #include "tlm/ceil_div.hpp"
 
-namespace degs {
+namespace degs::gcc {
 namespace {
 
 constexpr int kLanes = 32; // pixels per call of the data path
 
 } // namespace
 
-void GccWindowArray::Config::describe(ConfigVisitor& visitor) {
+void WindowArray::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("window", window, 1, 64,
                     "px; side of the traversal window, one PE per pixel. 8: the published 8 x 8 "
                     "arrays; it grows with the array (paper, Sec. II-B)");
@@ -28,9 +28,9 @@ void GccWindowArray::Config::describe(ConfigVisitor& visitor) {
                     "cycles from a slot to pixel state and reports written [assumed]");
 }
 
-GccWindowArray::GccWindowArray(const sc_core::sc_module_name& name, const Config& config,
-                               const Timebase& time, RenderJob& job, std::size_t inputs,
-                               int contexts, std::size_t listeners, int block)
+WindowArray::WindowArray(const sc_core::sc_module_name& name, const Config& config,
+                         const Timebase& time, RenderJob& job, std::size_t inputs, int contexts,
+                         std::size_t listeners, int block)
     : sc_core::sc_module(name), in("in", inputs), context_free("context_free"),
       tile_done("tile_done"), tile_state("tile_state"), block_ended("block_ended", listeners),
       config_(config), job_(job), contexts_(contexts), block_(block),
@@ -40,11 +40,11 @@ GccWindowArray::GccWindowArray(const sc_core::sc_module_name& name, const Config
       live_in_window_(static_cast<std::size_t>(grid_ * grid_), 0),
       live_in_block_(static_cast<std::size_t>(blocks_ * blocks_), 0),
       live_windows_(static_cast<std::size_t>(grid_), 0), ended_head_(live_in_window_.size(), -1) {
-    SC_HAS_PROCESS(GccWindowArray);
+    SC_HAS_PROCESS(WindowArray);
     SC_THREAD(run);
 }
 
-void GccWindowArray::end_of_elaboration() {
+void WindowArray::end_of_elaboration() {
     for (auto& port : in) {
         port->connect_reader(self_);
     }
@@ -56,7 +56,7 @@ void GccWindowArray::end_of_elaboration() {
     }
 }
 
-void GccWindowArray::run() {
+void WindowArray::run() {
     for (TileNumber number = 0; !job_.over(number); ++number) {
         SplatChunk chunk = next_chunk(number);
         await_context(number);
@@ -76,14 +76,14 @@ void GccWindowArray::run() {
     self_.finish();
 }
 
-SplatChunk GccWindowArray::next_chunk(TileNumber number) {
+SplatChunk WindowArray::next_chunk(TileNumber number) {
     const Cycle asked = self_.local();
     const SplatChunk chunk = in[number % in.size()]->get(self_);
     idle(Idle::Starved, self_.local() - asked);
     return chunk;
 }
 
-void GccWindowArray::await_context(TileNumber number) {
+void WindowArray::await_context(TileNumber number) {
     const Cycle asked = self_.local();
     while (startable_ <= number) {
         startable_ = std::max(startable_, context_free->get(self_) + 1);
@@ -91,7 +91,7 @@ void GccWindowArray::await_context(TileNumber number) {
     idle(Idle::Blocked, self_.local() - asked);
 }
 
-void GccWindowArray::start_view(TileNumber number) {
+void WindowArray::start_view(TileNumber number) {
     const JobTile& view = job_.tiles[number];
     view_ = &view;
     number_ = number;
@@ -114,7 +114,7 @@ void GccWindowArray::start_view(TileNumber number) {
     std::fill_n(live_windows_.begin(), rows_, windows_between(0, columns_ - 1));
 }
 
-void GccWindowArray::end_view(TileNumber number) {
+void WindowArray::end_view(TileNumber number) {
     const SliceReport report{number, live_pixels_ == 0};
     if (!reported_) {
         tile_state->put(self_, report);
@@ -122,7 +122,7 @@ void GccWindowArray::end_view(TileNumber number) {
     tile_done->put(self_, report);
 }
 
-void GccWindowArray::render(std::uint32_t splat, const ProjectedSplat& projected) {
+void WindowArray::render(std::uint32_t splat, const ProjectedSplat& projected) {
     if (live_pixels_ == 0) {
         stats_.splats_dropped++;
         return;
@@ -140,16 +140,16 @@ void GccWindowArray::render(std::uint32_t splat, const ProjectedSplat& projected
 
 // Every window is visited at most once per splat, so that the order of the windows does not matter
 // to the pixels: they are blended row by row, in long runs, before the windows are given dates.
-void GccWindowArray::evaluate(std::uint32_t splat) {
+void WindowArray::evaluate(std::uint32_t splat) {
     ended_.clear();
     const int side = config_.window;
-    for (const GccFootprint::Row& row : footprint_.rows()) {
-        GccWindowMask live =
+    for (const Footprint::Row& row : footprint_.rows()) {
+        WindowMask live =
             live_windows_[static_cast<std::size_t>(footprint_.window_of(row.y))] &
             windows_between(footprint_.window_of(row.first), footprint_.window_of(row.last));
         while (live != 0) {
             const int first = __builtin_ctzll(live);
-            const GccWindowMask behind = ~(live >> first);
+            const WindowMask behind = ~(live >> first);
             const int last = behind == 0 ? 63 : first + __builtin_ctzll(behind) - 1;
             evaluate_run(splat, row.y, std::max(row.first, first * side),
                          std::min(row.last, last * side + side - 1));
@@ -158,7 +158,7 @@ void GccWindowArray::evaluate(std::uint32_t splat) {
     }
 }
 
-void GccWindowArray::evaluate_run(std::uint32_t splat, int y, int first, int last) {
+void WindowArray::evaluate_run(std::uint32_t splat, int y, int first, int last) {
     PixelTest test;
     test.splat = splat;
     test.y = view_->y + y;
@@ -179,7 +179,7 @@ void GccWindowArray::evaluate_run(std::uint32_t splat, int y, int first, int las
     }
 }
 
-void GccWindowArray::note_ended(int y, int column, std::uint32_t ended) {
+void WindowArray::note_ended(int y, int column, std::uint32_t ended) {
     for (; ended != 0; ended &= ended - 1) {
         const int x = column + __builtin_ctz(ended);
         int& head = ended_head_[window_at(footprint_.window_of(y), footprint_.window_of(x))];
@@ -188,21 +188,21 @@ void GccWindowArray::note_ended(int y, int column, std::uint32_t ended) {
     }
 }
 
-GccTraversal::Window GccWindowArray::centre_window(const ProjectedSplat& splat) const {
+Traversal::Window WindowArray::centre_window(const ProjectedSplat& splat) const {
     const auto clamped = [&](double centre, int begin, int size) {
         const double pixel = std::floor(centre + 0.5) - begin;
         return footprint_.window_of(static_cast<int>(std::clamp(pixel, 0.0, size - 1.0)));
     };
-    GccTraversal::Window window;
+    Traversal::Window window;
     window.row = clamped(splat.mu_y, view_->y, view_->height);
     window.column = clamped(splat.mu_x, view_->x, view_->width);
     return window;
 }
 
-void GccWindowArray::traverse(const ProjectedSplat& splat) {
+void WindowArray::traverse(const ProjectedSplat& splat) {
     const auto latency = static_cast<Cycle>(config_.discovery_cycles - 1);
     traversal_.begin(footprint_, columns_, rows_);
-    GccTraversal::Window window = centre_window(splat);
+    Traversal::Window window = centre_window(splat);
     do {
         window.known = self_.local();
         traversal_.seed(window);
@@ -215,13 +215,13 @@ void GccWindowArray::traverse(const ProjectedSplat& splat) {
     } while (missed(window));
 }
 
-bool GccWindowArray::missed(GccTraversal::Window& window) {
+bool WindowArray::missed(Traversal::Window& window) {
     const bool found = traversal_.find_missed(window);
     stats_.extra_seeds += found ? 1 : 0;
     return found;
 }
 
-void GccWindowArray::visit(const GccTraversal::Window& window) {
+void WindowArray::visit(const Traversal::Window& window) {
     const std::size_t index = window_at(window.row, window.column);
     if (live_in_window_[index] == 0) {
         const auto cycles = static_cast<Cycle>(config_.skip_cycles);
@@ -243,7 +243,7 @@ void GccWindowArray::visit(const GccTraversal::Window& window) {
     self_.advance();
 }
 
-void GccWindowArray::end_pixels(std::size_t window) {
+void WindowArray::end_pixels(std::size_t window) {
     for (int& i = ended_head_[window]; i >= 0;) {
         const EndedPixel pixel = ended_[static_cast<std::size_t>(i)];
         i = pixel.next;
@@ -257,7 +257,7 @@ void GccWindowArray::end_pixels(std::size_t window) {
     }
     if (live_in_window_[window] == 0) {
         live_windows_[window / static_cast<std::size_t>(grid_)] &=
-            ~(GccWindowMask{1} << window % static_cast<std::size_t>(grid_));
+            ~(WindowMask{1} << window % static_cast<std::size_t>(grid_));
     }
     if (live_pixels_ == 0) {
         reported_ = true;
@@ -265,27 +265,27 @@ void GccWindowArray::end_pixels(std::size_t window) {
     }
 }
 
-void GccWindowArray::report_block(int block) {
+void WindowArray::report_block(int block) {
     for (auto& port : block_ended) {
         port->put(self_, {number_, static_cast<std::int16_t>(block / blocks_),
                           static_cast<std::int16_t>(block % blocks_)});
     }
 }
 
-void GccWindowArray::wait_until(Cycle date) {
+void WindowArray::wait_until(Cycle date) {
     if (date > self_.local()) {
         idle(Idle::Conflict, date - self_.local());
         self_.advance_to(date);
     }
 }
 
-void GccWindowArray::idle(Idle cause, Cycle cycles) {
+void WindowArray::idle(Idle cause, Cycle cycles) {
     pending_idle_.idle(cause, cycles * static_cast<std::uint64_t>(config_.pes()));
     idle_pending_ = true;
 }
 
 // Idle time lies inside the window of activity only if a slot follows it, and one has gone before.
-void GccWindowArray::settle_idle() {
+void WindowArray::settle_idle() {
     pending_idle_.terminated += pending_skips_ * static_cast<std::uint64_t>(config_.pes());
     if (!stats_.window.empty()) {
         stats_.slots += pending_idle_;
@@ -296,4 +296,4 @@ void GccWindowArray::settle_idle() {
     idle_pending_ = false;
 }
 
-} // namespace degs
+} // namespace degs::gcc

@@ -11,7 +11,7 @@
 #include "modules/array/slot_account.hpp"
 #include "tlm/dated_fifo.hpp"
 
-namespace degs {
+namespace degs::gcc {
 
 /// Stage IV of GCC: alpha and blending arrays in lock step (paper, Sec. II-B; Pei et al., MICRO
 /// 2025). A square window of PEs wanders over the pixels of a view. For each splat in exact depth
@@ -28,7 +28,7 @@ namespace degs {
 /// thinner than the pixel grid. When the frontier is empty and valid windows are left, the
 /// traversal is seeded again at the first of them, so that the image is right; how the hardware
 /// would know is open.
-class GccWindowArray : public sc_core::sc_module {
+class WindowArray : public sc_core::sc_module {
 public:
     struct Config {
         int window = 8;           ///< side of the window, px; its square is the number of PEs
@@ -56,13 +56,13 @@ public:
     FifoPort<TileNumber> context_free;           ///< from the Pixel Buffer
     FifoPort<SliceReport> tile_done;             ///< to the Pixel Buffer, once per tile
     FifoPort<SliceReport> tile_state;            ///< to the Tile Monitor, once per tile
-    sc_core::sc_vector<FifoPort<GccBlockEnded>> block_ended; ///< to Stage III; may be empty
+    sc_core::sc_vector<FifoPort<BlockEnded>> block_ended; ///< to Stage III; may be empty
 
     /// The job's tile size is at most 64 windows. `block`: side of the blocks that are reported,
     /// px.
-    GccWindowArray(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
-                   RenderJob& job, std::size_t inputs, int contexts, std::size_t listeners = 0,
-                   int block = 8);
+    WindowArray(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+                RenderJob& job, std::size_t inputs, int contexts, std::size_t listeners = 0,
+                int block = 8);
 
     const Config& config() const { return config_; }
     const Stats& stats() const { return stats_; }
@@ -83,10 +83,10 @@ private:
     void evaluate(std::uint32_t splat);
     void evaluate_run(std::uint32_t splat, int y, int first, int last);
     void note_ended(int y, int column, std::uint32_t ended);
-    GccTraversal::Window centre_window(const ProjectedSplat& splat) const;
+    Traversal::Window centre_window(const ProjectedSplat& splat) const;
     void traverse(const ProjectedSplat& splat);
-    bool missed(GccTraversal::Window& window);
-    void visit(const GccTraversal::Window& window);
+    bool missed(Traversal::Window& window);
+    void visit(const Traversal::Window& window);
     void end_pixels(std::size_t window);
     void report_block(int block);
     void wait_until(Cycle date);
@@ -102,8 +102,8 @@ private:
     int block_, blocks_; // side in px; per row of the largest view
     int grid_;           // windows per row of the largest view
     Process self_;
-    GccFootprint footprint_;
-    GccTraversal traversal_;
+    Footprint footprint_;
+    Traversal traversal_;
     const JobTile* view_ = nullptr;
     TileNumber number_ = 0;
     int context_ = 0;
@@ -112,8 +112,8 @@ private:
     int live_pixels_ = 0;
     bool reported_ = false;
     std::vector<int> live_in_window_, live_in_block_;
-    std::vector<GccWindowMask> live_windows_; // per row of windows
-    std::vector<int> ended_head_;             // per window: the splat's first EndedPixel, or -1
+    std::vector<WindowMask> live_windows_; // per row of windows
+    std::vector<int> ended_head_;          // per window: the splat's first EndedPixel, or -1
     std::vector<EndedPixel> ended_;
     SlotAccount pending_idle_; // counts once another slot follows
     Cycle pending_skips_ = 0;
@@ -121,4 +121,4 @@ private:
     Stats stats_;
 };
 
-} // namespace degs
+} // namespace degs::gcc
