@@ -5,7 +5,6 @@
 
 #include <systemc>
 
-#include "config/config.hpp"
 #include "config/error.hpp"
 
 namespace degs::sim {
@@ -16,8 +15,6 @@ Failure failure_of(const std::exception_ptr& error) {
     } catch (const FailureError& failed) {
         return failed.failure();
     } catch (const InputError& mistake) {
-        return {kUserError, mistake.what()};
-    } catch (const ConfigError& mistake) {
         return {kUserError, mistake.what()};
     } catch (const std::bad_alloc&) {
         return {kInternalError, "There is not enough memory for a scene or an image of this size."};

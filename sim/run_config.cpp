@@ -63,7 +63,7 @@ RunConfig load_run_config(const ConfigSource& source, const std::string& where) 
     RunConfig config;
     source.load(config);
     if (const std::string problem = config.problem(); !problem.empty()) {
-        throw ConfigError(where + ": " + problem + ".");
+        throw InputError(where + ": " + problem + ".");
     }
     return config;
 }

@@ -35,7 +35,7 @@ private:
 };
 
 /// Reads and checks a file with `--set` overrides, on the LPDDR5 memory of another file if one is
-/// named. Throws ConfigError.
+/// named. Throws InputError.
 RunConfig load_run_config(const std::string& file, const std::vector<std::string>& overrides,
                           const std::string& memory_file = "");
 /// The same for what is read already; `where` stands for it in messages.

@@ -63,7 +63,7 @@ Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame,
     }
     const Stopwatch clock;
     ProjectionOptions options = frame.projection;
-    options.format = ValueFormat();
+    options.format = NumberFormat();
     const FrameWorkload exact =
         make_frame_workload(cloud, frame.camera, frame.tile_size, frame.tile_mode, options);
     seconds += clock.seconds();

@@ -45,8 +45,8 @@ AccuracyRow row_of(const AccuracyRow& kind, const Candidate& candidate) {
 void measure_kind(const SingleGaussianRequest& request, const std::vector<QuantizedRow>& paths,
                   const AccuracyRow& kind, const Sampler& sampler, std::vector<AccuracyRow>& rows) {
     Progress progress("single Gaussians");
-    const ValueFormat fp64 = parse_format("fp64");
-    const ValueFormat fp16 = parse_format("fp16");
+    const NumberFormat fp64 = parse_format("fp64");
+    const NumberFormat fp16 = parse_format("fp16");
     std::vector<Candidate> candidates{{"fp16-direct", nullptr, {}, {}}};
     for (const QuantizedRow& path : paths) {
         candidates.push_back({path.set().name, &path, {}, {}});

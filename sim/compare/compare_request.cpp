@@ -43,14 +43,14 @@ void add_drafts(std::vector<Draft>& drafts, const std::string& word) {
     }
     for (const ConfigNode& key : tree.children) {
         if (key.key != "points" && key.key != "study") {
-            throw ConfigError(key.place + ": unknown key '" + key.key +
-                              "'; a study has the keys 'study' and 'points'.");
+            throw InputError(key.place + ": unknown key '" + key.key +
+                             "'; a study has the keys 'study' and 'points'.");
         }
     }
     for (const ConfigNode& point : points->children) {
         const ConfigNode* name = point.find("name");
         if (name == nullptr) {
-            throw ConfigError(point.place + ": a point of a study needs a key 'name'.");
+            throw InputError(point.place + ": a point of a study needs a key 'name'.");
         }
         drafts.push_back({name->text, name->place, point});
     }

@@ -36,7 +36,7 @@ struct CompareRequest {
 /// file without folder and extension. A file with a list `points` is a study: every point is a
 /// configuration, called by its key `name`. An override is "path=value" for all or
 /// "NAME:path=value" for one. Throws InputError for a name that is empty, given twice or not known,
-/// else ConfigError.
+/// else InputError.
 std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
                                       const std::vector<std::string>& overrides);
 

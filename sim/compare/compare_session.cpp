@@ -44,7 +44,7 @@ std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedC
     std::map<FrameKind, std::vector<std::size_t>> groups;
     for (std::size_t c = 0; c < configs.size(); ++c) {
         const AcceleratorConfig& config = configs[c].config.accelerator();
-        const ValueFormat projection = config.data_path().projection;
+        const NumberFormat projection = config.data_path().projection;
         groups[{projection.is_fp64() ? "" : projection.name(), config.tile_size_px(),
                 config.tile_mode()}]
             .push_back(c);

@@ -4,26 +4,18 @@
 #pragma once
 
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "config/error.hpp"
+
 namespace degs {
 
-/// A mistake in a configuration: one sentence with file:line (or the --set text), full key, the
-/// offending value and what is allowed. The module kit has its own type because it knows nothing of
-/// src/splat; sim/ catches both.
-class ConfigError : public std::runtime_error {
-public:
-    explicit ConfigError(const std::string& sentence) : std::runtime_error(sentence) {}
-};
-
 /// Walks the fields of a configuration struct. A struct describes itself once,
-///     void Config::describe(ConfigVisitor& v) { v.integer("rows", rows, 1, 64, "rows per cycle");
-///     }
+///     void describe(ConfigVisitor& v) { v.integer("rows", rows, 1, 64, "rows per cycle"); }
 /// and reading, validating, printing and documenting all use that one description. `describe` may
-/// branch on a value it has just visited (a choice of accelerator, say): a reader has set it by
-/// then.
+/// branch on a value that it has just visited (a choice of accelerator, say), because a reader has
+/// set it by then.
 class ConfigVisitor {
 public:
     ConfigVisitor() = default;

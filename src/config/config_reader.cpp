@@ -52,9 +52,9 @@ template <class Number>
 void ConfigReader::check_standing(const std::string& path, Number value, Number low,
                                   Number high) const {
     if (!(value >= low && value <= high)) {
-        throw ConfigError("default: key " + quote(path) + " is " +
-                          config_words::number(static_cast<double>(value)) + ", but must be " +
-                          config_words::range(low, high) + ".");
+        throw InputError("default: key " + quote(path) + " is " +
+                         config_words::number(static_cast<double>(value)) + ", but must be " +
+                         config_words::range(low, high) + ".");
     }
 }
 
@@ -119,7 +119,7 @@ void ConfigReader::choice(const char* key, int& value, const std::vector<const c
 void ConfigReader::require(bool holds, const char* key, const char* rule) {
     if (!holds) {
         const std::string path = join_path(open_.back().path, key);
-        throw ConfigError(source_.place(path) + ": key " + quote(path) + " " + rule + ".");
+        throw InputError(source_.place(path) + ": key " + quote(path) + " " + rule + ".");
     }
 }
 
@@ -161,13 +161,13 @@ void ConfigReader::reject_unknown(const std::string& override_path,
         rest.erase(0, key.size() + 1);
     }
     if (known_.count(section) != 0) {
-        throw ConfigError(
+        throw InputError(
             place + ": key " + quote(section) +
             " is a section; set one of its keys: " + config_words::list(known_.at(section)) + ".");
     }
     if (section != override_path) {
-        throw ConfigError(place + ": key " + quote(override_path) + " is unknown, because " +
-                          quote(section) + " is a single value.");
+        throw InputError(place + ": key " + quote(override_path) + " is unknown, because " +
+                         quote(section) + " is a single value.");
     }
 }
 
@@ -175,10 +175,10 @@ void ConfigReader::fail_unknown(const std::string& place, const std::string& sec
                                 const std::string& key) const {
     const std::string meant = guess(section, key);
     const std::string keys = config_words::list(known_.at(section));
-    throw ConfigError(place + ": key " + quote(join_path(section, key)) + " is unknown" +
-                      (meant.empty() ? "" : ", did you mean " + quote(meant) + "?") + " (allowed " +
-                      (section.empty() ? "at the top" : "in " + quote(section)) + ": " +
-                      (keys.empty() ? "nothing" : keys) + ").");
+    throw InputError(place + ": key " + quote(join_path(section, key)) + " is unknown" +
+                     (meant.empty() ? "" : ", did you mean " + quote(meant) + "?") + " (allowed " +
+                     (section.empty() ? "at the top" : "in " + quote(section)) + ": " +
+                     (keys.empty() ? "nothing" : keys) + ").");
 }
 
 /// A misspelt sibling first, then the same word in another section, then a misspelt section.

@@ -5,8 +5,8 @@
 #include <charconv>
 #include <optional>
 
-#include "config/config.hpp"
 #include "config/config_words.hpp"
+#include "config/error.hpp"
 
 namespace degs::config_scalar {
 namespace {
@@ -51,8 +51,8 @@ bool has_leading_zero(const std::string& text) {
 } // namespace
 
 void reject(const ConfigNode& node, const std::string& path, const std::string& allowed) {
-    throw ConfigError(node.place + ": key " + quote(path) + " " + describe(node) +
-                      ", but must be " + allowed + ".");
+    throw InputError(node.place + ": key " + quote(path) + " " + describe(node) + ", but must be " +
+                     allowed + ".");
 }
 
 std::int64_t integer(const ConfigNode& node, const std::string& path, std::int64_t low,

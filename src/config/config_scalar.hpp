@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text of a configuration into values, strictly. Each function throws ConfigError with the sentence
+// Text of a configuration into values, strictly. Each function throws InputError with the sentence
 // "<place>: key '<path>' is '<value>', but must be <what is allowed>."
 #pragma once
 

@@ -17,15 +17,15 @@ ConfigNode empty_root() {
     return root;
 }
 
-/// The path of `path.to.key=value`, or a ConfigError.
+/// The path of `path.to.key=value`, or a InputError.
 std::string path_of(const std::string& setting) {
     const std::size_t equals = setting.find('=');
     std::string path = setting.substr(0, equals);
     const bool hollow = path.empty() || path.front() == '.' || path.back() == '.' ||
                         path.find("..") != std::string::npos;
     if (equals == std::string::npos || hollow) {
-        throw ConfigError("--set " + quote(setting) +
-                          ": this is not an override; path.to.key=value is expected.");
+        throw InputError("--set " + quote(setting) +
+                         ": this is not an override; path.to.key=value is expected.");
     }
     return path;
 }

@@ -13,7 +13,7 @@
 
 namespace degs {
 
-/// Strict: load() throws ConfigError for anything in the source that the struct does not ask for
+/// Strict: load() throws InputError for anything in the source that the struct does not ask for
 /// and for anything that it asks for and cannot have. What the source does not name keeps its
 /// default.
 ///

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <utility>
 
-#include "config/config.hpp"
 #include "config/config_words.hpp"
 #include "config/config_yaml.hpp"
+#include "config/error.hpp"
 
 namespace degs {
 namespace {
@@ -22,12 +22,12 @@ std::string read_bytes(const fs::path& path, const std::string& place) {
     const std::string name = place + "configuration file " + quote(path.string());
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) {
-        throw ConfigError(name + " is a directory; a YAML file is expected.");
+        throw InputError(name + " is a directory; a YAML file is expected.");
     }
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     if (!file) {
-        throw ConfigError(name + " cannot be read: " + std::strerror(errno) + ".");
+        throw InputError(name + " cannot be read: " + std::strerror(errno) + ".");
     }
     // One byte more than allowed: tells a file that is too long from one that just fits, and ends
     // the reading of an endless one.
@@ -35,8 +35,8 @@ std::string read_bytes(const fs::path& path, const std::string& place) {
     file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     bytes.resize(static_cast<std::size_t>(file.gcount()));
     if (bytes.size() > kLargestConfigBytes) {
-        throw ConfigError(name + " is longer than " + std::to_string(kLargestConfigBytes) +
-                          " bytes, the most that is allowed.");
+        throw InputError(name + " is longer than " + std::to_string(kLargestConfigBytes) +
+                         " bytes, the most that is allowed.");
     }
     return bytes;
 }
@@ -71,12 +71,12 @@ public:
         std::error_code ignored; // a path that cannot be resolved cannot be opened either
         const fs::path identity = fs::weakly_canonical(path, ignored);
         if (std::find(open_.begin(), open_.end(), identity) != open_.end()) {
-            throw ConfigError(place + "include of " + quote(path.string()) +
-                              " goes in a circle; a file must not include itself.");
+            throw InputError(place + "include of " + quote(path.string()) +
+                             " goes in a circle; a file must not include itself.");
         }
         if (++count_ > kMostIncludes) {
-            throw ConfigError(place + "more than " + std::to_string(kMostIncludes) +
-                              " includes in one configuration; fewer are allowed.");
+            throw InputError(place + "more than " + std::to_string(kMostIncludes) +
+                             " includes in one configuration; fewer are allowed.");
         }
         open_.push_back(identity);
         ConfigNode root = text(path.string(), read_bytes(path, place));
@@ -87,12 +87,12 @@ public:
     ConfigNode text(const std::string& name, const std::string& yaml) {
         ConfigNode root = parse_config_yaml(name, yaml);
         if (root.kind == Kind::kNull) {
-            throw ConfigError(name + ": the file is empty; a section of keys is expected.");
+            throw InputError(name + ": the file is empty; a section of keys is expected.");
         }
         if (root.kind != Kind::kSection) {
-            throw ConfigError(name + ": the file is a " +
-                              (root.kind == Kind::kList ? "list" : "single value") +
-                              "; a section of keys is expected.");
+            throw InputError(name + ": the file is a " +
+                             (root.kind == Kind::kList ? "list" : "single value") +
+                             "; a section of keys is expected.");
         }
         expand(root, fs::path(name).parent_path(), "");
         return root;
@@ -119,8 +119,8 @@ void Includer::expand(ConfigNode& section, const fs::path& folder, const std::st
     }
     const std::string include_path = config_words::join_path(path, "include");
     if (include != &section.children.front()) {
-        throw ConfigError(include->place + ": key " + quote(include_path) +
-                          " must be the first key of its section, because later keys win.");
+        throw InputError(include->place + ": key " + quote(include_path) +
+                         " must be the first key of its section, because later keys win.");
     }
     ConfigNode base = included(*include, folder, include_path);
     base.key = section.key;
@@ -139,15 +139,15 @@ ConfigNode Includer::included(const ConfigNode& include, const fs::path& folder,
     base.kind = Kind::kSection;
     for (const ConfigNode& name : names) {
         if (name.kind != Kind::kScalar || include.kind == Kind::kSection || name.text.empty()) {
-            throw ConfigError(include.place + ": key " + quote(path) +
-                              " must be the path of a YAML file or a list of such paths.");
+            throw InputError(include.place + ": key " + quote(path) +
+                             " must be the path of a YAML file or a list of such paths.");
         }
         merge(base, file((folder / name.text).lexically_normal(),
                          name.place + ": key " + quote(path) + ": "));
     }
     if (names.empty()) {
-        throw ConfigError(include.place + ": key " + quote(path) +
-                          " has no value; the path of a YAML file is expected.");
+        throw InputError(include.place + ": key " + quote(path) +
+                         " has no value; the path of a YAML file is expected.");
     }
     return base;
 }

@@ -25,7 +25,7 @@ struct ConfigNode {
 
 /// Reads a file; the first key of any section may be `include: other.yaml` (or a list of files),
 /// whose keys become part of that section and lose against the section's own. Paths are relative to
-/// the including file. Throws ConfigError.
+/// the including file. Throws InputError.
 ConfigNode read_config_file(const std::filesystem::path& path);
 /// The same for text in memory; `name` stands for the file in messages, includes are relative to
 /// it.

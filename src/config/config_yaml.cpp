@@ -7,8 +7,8 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
-#include "config/config.hpp"
 #include "config/config_words.hpp"
+#include "config/error.hpp"
 
 namespace degs {
 namespace {
@@ -57,8 +57,8 @@ public:
 private:
     [[noreturn]] void fail(const YAML::Mark& mark, const std::string& reason) const {
         const std::string path = config_words::join_path(path_, has_key_ ? key_ : "");
-        throw ConfigError(at(mark) + (path.empty() ? "" : "key " + quote(path) + ": ") + reason +
-                          ".");
+        throw InputError(at(mark) + (path.empty() ? "" : "key " + quote(path) + ": ") + reason +
+                         ".");
     }
     std::string at(const YAML::Mark& mark) const { return line_of(mark) + ": "; }
     std::string line_of(const YAML::Mark& mark) const {
@@ -133,17 +133,17 @@ ConfigNode parse_config_yaml(const std::string& name, const std::string& yaml) {
         YAML::Parser parser(stream);
         TreeBuilder builder(name);
         if (!parser.HandleNextDocument(builder)) {
-            throw ConfigError(name + ": the file is empty; a section of keys is expected.");
+            throw InputError(name + ": the file is empty; a section of keys is expected.");
         }
         TreeBuilder second(name);
         if (parser.HandleNextDocument(second)) {
-            throw ConfigError(name +
-                              ": the file holds more than one YAML document; one is allowed.");
+            throw InputError(name +
+                             ": the file holds more than one YAML document; one is allowed.");
         }
         return builder.take();
     } catch (const YAML::Exception& error) {
-        throw ConfigError(name + ":" + std::to_string(error.mark.line + 1) +
-                          ": this is not valid YAML: " + config_words::one_line(error.msg) + ".");
+        throw InputError(name + ":" + std::to_string(error.mark.line + 1) +
+                         ": this is not valid YAML: " + config_words::one_line(error.msg) + ".");
     }
 }
 

@@ -7,7 +7,7 @@
 
 namespace degs {
 
-/// One YAML document without following its includes. Throws ConfigError.
+/// One YAML document without following its includes. Throws InputError.
 ConfigNode parse_config_yaml(const std::string& name, const std::string& yaml);
 
 } // namespace degs

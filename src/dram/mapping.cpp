@@ -31,8 +31,8 @@ unsigned folded(std::uint64_t value, unsigned width) {
 }
 
 [[noreturn]] void reject(const std::string& order, const std::string& why) {
-    throw ConfigError("The key 'order' of the address mapping is " + config_words::quote(order) +
-                      ", but " + why + ".");
+    throw InputError("The key 'order' of the address mapping is " + config_words::quote(order) +
+                     ", but " + why + ".");
 }
 
 } // namespace

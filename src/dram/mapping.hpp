@@ -32,7 +32,7 @@ public:
         void describe(ConfigVisitor& visitor);
     };
 
-    /// `channels` is a power of two. Throws ConfigError if `order` does not name every bit once.
+    /// `channels` is a power of two. Throws InputError if `order` does not name every bit once.
     Mapping(const Config& config, const Timing& timing, unsigned channels);
 
     /// Of the access that holds `address`, which is below capacity().

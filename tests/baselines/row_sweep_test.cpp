@@ -50,7 +50,7 @@ TEST(RowSweepConfiguration, IsConfiguredLikeAnyOther) {
     RowSweepConfig config;
     ConfigSource::from_overrides({"tile_size=32", "memory.latency_ns=7"}).load(config);
     EXPECT_EQ(config.pes(), 32);
-    EXPECT_THROW(ConfigSource::from_overrides({"tile_sise=32"}).load(config), ConfigError);
+    EXPECT_THROW(ConfigSource::from_overrides({"tile_sise=32"}).load(config), InputError);
 }
 
 } // namespace

@@ -42,12 +42,12 @@ struct Keys {
     }
 };
 
-/// The sentence of the ConfigError that `action` throws; "" if it throws none.
+/// The sentence of the InputError that `action` throws; "" if it throws none.
 template <class Action>
 std::string sentence_of(const Action& action) {
     try {
         action();
-    } catch (const ConfigError& error) {
+    } catch (const InputError& error) {
         return error.what();
     }
     return "";

@@ -48,7 +48,7 @@ TEST(Config, FailedLoadLeavesTheStructUntouched) {
     Keys keys;
     keys.banks = 3;
     const auto source = ConfigSource::from_text("a.yaml", "banks: 5\nmemory: {refresh: maybe}");
-    EXPECT_THROW(source.load(keys), ConfigError);
+    EXPECT_THROW(source.load(keys), InputError);
     EXPECT_EQ(keys.banks, 3);
 }
 

@@ -188,7 +188,7 @@ TEST(Lpddr5Mapping, RefusesAnOrderThatIsNone) {
          {"", "column group bank", "column group bank row column:1", "column:9 group bank row",
           "column:x group bank row", "column group bank rows", "column: group bank row"}) {
         config.mapping.order = order;
-        EXPECT_THROW(default_mapping(config), ConfigError) << order;
+        EXPECT_THROW(default_mapping(config), InputError) << order;
     }
 }
 

@@ -76,7 +76,7 @@ TEST(Lpddr5Config, RejectsWhatCannotBe) {
     for (const char* wrong :
          {"timing.burst_length=32", "timing.rows=1000", "channels=12", "timing.refi=200",
           "mapping.interleave_bytes=96", "controller.write_low=0.9", "controller.read_queue=65"}) {
-        EXPECT_THROW(test::lpddr5_config("lpddr5-6400x256", {wrong}), ConfigError) << wrong;
+        EXPECT_THROW(test::lpddr5_config("lpddr5-6400x256", {wrong}), InputError) << wrong;
     }
 }
 

@@ -68,7 +68,7 @@ TEST(HostileLoadConfigs, Studies) {
         std::ofstream(file) << yaml;
         try {
             load_configs({file}, {});
-        } catch (const ConfigError& error) {
+        } catch (const InputError& error) {
             return error.what();
         }
         return "no error";
@@ -91,9 +91,9 @@ TEST(HostileLoadConfigs, Mistakes) {
     EXPECT_THAT(load({"=" + file}), HasSubstr("empty name"));
     EXPECT_THAT(load({""}), HasSubstr("empty name"));
     EXPECT_THAT(load({file}, {"b:clock_ghz=1"}), HasSubstr("'b'"));
-    EXPECT_THROW(load_configs({"absent.yaml"}, {}), ConfigError);
-    EXPECT_THROW(load_configs({file}, {"degs-64:nonsense=1"}), ConfigError);
-    EXPECT_THROW(load_configs({file}, {"nonsense"}), ConfigError);
+    EXPECT_THROW(load_configs({"absent.yaml"}, {}), InputError);
+    EXPECT_THROW(load_configs({file}, {"degs-64:nonsense=1"}), InputError);
+    EXPECT_THROW(load_configs({file}, {"nonsense"}), InputError);
 }
 
 TEST(ParseCameras, PositionsOrAll) {

@@ -50,8 +50,7 @@ TEST(Configs, AnyMemoryFileGoesUnderAnyAccelerator) {
         EXPECT_DOUBLE_EQ(degs.memory.peak_gb_per_s(), peak);
         EXPECT_EQ(degs.memory.lpddr5.timing.rl, 20);
     }
-    EXPECT_THROW(load_run_config(folder + "degs-64.yaml", {}, folder + "degs-64.yaml"),
-                 ConfigError);
+    EXPECT_THROW(load_run_config(folder + "degs-64.yaml", {}, folder + "degs-64.yaml"), InputError);
 }
 
 /// What the configuration's data path computes with.
@@ -100,7 +99,7 @@ void expect_refused(const std::vector<std::string>& assignments, const std::stri
     try {
         numbers_with(assignments, "degs-64");
         ADD_FAILURE() << sentence;
-    } catch (const ConfigError& error) {
+    } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find(sentence), std::string::npos) << error.what();
     }
 }
@@ -186,7 +185,7 @@ TEST(Configs, ProblemsNameTheFile) {
     try {
         load_run_config(file, {"packing.bytes=16"});
         FAIL() << "a Packing Buffer of one task was accepted";
-    } catch (const ConfigError& error) {
+    } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
         EXPECT_NE(std::string(error.what()).find("packing.bytes"), std::string::npos);
     }
