@@ -6,7 +6,7 @@
 namespace degs {
 
 void PipelineConfig::describe(ConfigVisitor& visitor) {
-    visitor.choice("numbers", numbers, number_format_names(),
+    visitor.choice("numbers", numbers, arithmetic_names(),
                    "arithmetic of spans, alpha and blending: the machine's fp32 or fp64 (ideal is "
                    "fp64), or the formats of a number set; fp32 is the yardstick of scheduling, "
                    "the shipped DeGS designs say paper or tuned");
@@ -29,7 +29,7 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
 }
 
 DataPathOptions PipelineConfig::options(SpanEnds ends, int delta) const {
-    const char* const name = number_format_names().at(static_cast<std::size_t>(numbers));
+    const char* const name = arithmetic_names().at(static_cast<std::size_t>(numbers));
     const DataPathOptions named = named_numbers(name, formats.assignments());
     return {numbers, ends, delta, stop_rule, named.set, named.projection};
 }

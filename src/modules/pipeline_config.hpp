@@ -10,7 +10,7 @@ namespace degs {
 
 /// What every data path has to choose, whoever schedules it.
 struct PipelineConfig {
-    NumberFormat numbers = NumberFormat::Fp32;
+    Arithmetic numbers = Arithmetic::Fp32;
     StopRule stop_rule = StopRule::Refuse;
     TileMode tiles = TileMode::Exact;
     FormatsConfig formats;

@@ -289,17 +289,17 @@ private:
 
 std::unique_ptr<DataPath> make_data_path(const DataPathOptions& options, int tile_size,
                                          int contexts) {
-    const NumberFormat numbers = options.numbers;
+    const Arithmetic numbers = options.numbers;
     if (options.set) {
         return make_quantized_data_path(*options.set, options, tile_size, contexts);
     }
-    if (numbers == NumberFormat::Fp32) {
+    if (numbers == Arithmetic::Fp32) {
         return std::make_unique<DataPathOf<float>>(options, tile_size, contexts);
     }
-    if (numbers == NumberFormat::Fp64 || numbers == NumberFormat::Ideal) {
+    if (numbers == Arithmetic::Fp64 || numbers == Arithmetic::Ideal) {
         return std::make_unique<DataPathOf<double>>(options, tile_size, contexts);
     }
-    const char* const name = number_format_names().at(static_cast<std::size_t>(numbers));
+    const char* const name = arithmetic_names().at(static_cast<std::size_t>(numbers));
     return make_quantized_data_path(number_set(name), options, tile_size, contexts);
 }
 

@@ -14,26 +14,26 @@ namespace degs {
 
 /// Arithmetic of the modelled data path: Fp32 and Fp64 in the machine's own operations, the others
 /// in the formats of a named NumberSet. Ideal is Fp64.
-enum class NumberFormat { Fp32, Fp64, Ideal, Fp16, Paper, Tuned };
-/// "fp32", "fp64", "ideal", "fp16", "paper", "tuned", in the order of NumberFormat.
-const std::vector<const char*>& number_format_names();
+enum class Arithmetic { Fp32, Fp64, Ideal, Fp16, Paper, Tuned };
+/// "fp32", "fp64", "ideal", "fp16", "paper", "tuned", in the order of Arithmetic.
+const std::vector<const char*>& arithmetic_names();
 
 /// `Refuse`: the splat that would push T under 1e-4 is not blended and ends the pixel (reference).
 /// `After`: it is blended, then the pixel ends (paper, Sec. II-A).
 enum class StopRule { Refuse, After };
 
 struct DataPathOptions {
-    NumberFormat numbers = NumberFormat::Fp32;
+    Arithmetic numbers = Arithmetic::Fp32;
     SpanEnds ends = SpanEnds::Exact; ///< in place of a number set's own
     int delta = 0; ///< px added at both ends that are not exact, in place of a number set's own
     StopRule stop = StopRule::Refuse;
     std::optional<NumberSet> set = std::nullopt; ///< in place of `numbers`: any formats
     /// What its frames are projected in (ProjectionOptions::format). The data path itself takes
     /// splats as they are.
-    ValueFormat projection = {};
+    NumberFormat projection = {};
 };
 
-/// The numbers of that name (NumberFormat) with the span ends and the projection that their set
+/// The numbers of that name (Arithmetic) with the span ends and the projection that their set
 /// has; fp64 is exact.
 /// InputError lists the names for any other.
 DataPathOptions named_numbers(const std::string& name);

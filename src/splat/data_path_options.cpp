@@ -8,7 +8,7 @@
 
 namespace degs {
 
-const std::vector<const char*>& number_format_names() {
+const std::vector<const char*>& arithmetic_names() {
     static const std::vector<const char*> names{"fp32", "fp64", "ideal", "fp16", "paper", "tuned"};
     return names;
 }
@@ -23,7 +23,7 @@ DataPathOptions options_of(const NumberSet& set) {
 }
 
 DataPathOptions named_numbers(const std::string& name) {
-    const std::vector<const char*>& names = number_format_names();
+    const std::vector<const char*>& names = arithmetic_names();
     const auto at = std::find(names.begin(), names.end(), name);
     if (at == names.end()) {
         std::string known;
@@ -34,7 +34,7 @@ DataPathOptions named_numbers(const std::string& name) {
     }
     DataPathOptions options = options_of(number_set(name == "fp64" ? "ideal" : name));
     options.set.reset();
-    options.numbers = static_cast<NumberFormat>(at - names.begin());
+    options.numbers = static_cast<Arithmetic>(at - names.begin());
     return options;
 }
 

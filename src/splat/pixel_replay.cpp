@@ -61,27 +61,27 @@ void blend_exactly(const FrameWorkload& work, const TileList& list, PixelReplay&
 /// Everything exact but for the order of operations.
 NumberSet unrounded(NumberSet set) {
     const NumberSet ideal = number_set("ideal");
-    for (ValueFormat NumberSet::*stage : {&NumberSet::mean,
-                                          &NumberSet::slope,
-                                          &NumberSet::c_prime,
-                                          &NumberSet::radius,
-                                          &NumberSet::inverse_radius2,
-                                          &NumberSet::conic,
-                                          &NumberSet::q_threshold,
-                                          &NumberSet::colour,
-                                          &NumberSet::distance,
-                                          &NumberSet::square,
-                                          &NumberSet::ratio,
-                                          &NumberSet::edge,
-                                          &NumberSet::level,
-                                          &NumberSet::g0,
-                                          &NumberSet::d0,
-                                          &NumberSet::term,
-                                          &NumberSet::q,
-                                          &NumberSet::alpha,
-                                          &NumberSet::transmittance,
-                                          &NumberSet::weight,
-                                          &NumberSet::sum}) {
+    for (NumberFormat NumberSet::*stage : {&NumberSet::mean,
+                                           &NumberSet::slope,
+                                           &NumberSet::c_prime,
+                                           &NumberSet::radius,
+                                           &NumberSet::inverse_radius2,
+                                           &NumberSet::conic,
+                                           &NumberSet::q_threshold,
+                                           &NumberSet::colour,
+                                           &NumberSet::distance,
+                                           &NumberSet::square,
+                                           &NumberSet::ratio,
+                                           &NumberSet::edge,
+                                           &NumberSet::level,
+                                           &NumberSet::g0,
+                                           &NumberSet::d0,
+                                           &NumberSet::term,
+                                           &NumberSet::q,
+                                           &NumberSet::alpha,
+                                           &NumberSet::transmittance,
+                                           &NumberSet::weight,
+                                           &NumberSet::sum}) {
         set.*stage = ideal.*stage;
     }
     for (TableSpec NumberSet::*table : {&NumberSet::sqrt, &NumberSet::exp}) {
@@ -100,7 +100,7 @@ struct Operation {
     void (*take)(const NumberSet& from, NumberSet& to);
 };
 
-template <ValueFormat NumberSet::*stage>
+template <NumberFormat NumberSet::*stage>
 void take(const NumberSet& from, NumberSet& to) {
     to.*stage = from.*stage;
 }

@@ -17,7 +17,7 @@ struct ProjectionOptions {
     double dilation = 0.3;          ///< px^2, low-pass filter added to both variances
     double jacobian_clamp = 1.3;    ///< times tan(fov/2); limits x/z and y/z in the Jacobian only
     double alpha_min = 1.0 / 255.0; ///< support threshold (paper Eq. 7)
-    ValueFormat format;             ///< every operation is rounded to it; fp64 and fp32 are native
+    NumberFormat format;            ///< every operation is rounded to it; fp64 and fp32 are native
 };
 
 /// A Gaussian on the screen, in the format that projected it; a and opacity fit b, c, det and Q_th.

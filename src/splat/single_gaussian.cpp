@@ -22,7 +22,8 @@ double between(std::mt19937_64& random, double low, double high) {
 
 } // namespace
 
-AlphaMap direct_alpha(const ProjectedSplat& splat, WindowCorner corner, const ValueFormat& format) {
+AlphaMap direct_alpha(const ProjectedSplat& splat, WindowCorner corner,
+                      const NumberFormat& format) {
     const Rounder r(format);
     const double mu_x = r(splat.mu_x);
     const double mu_y = r(splat.mu_y);

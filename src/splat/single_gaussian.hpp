@@ -25,7 +25,7 @@ struct WindowCorner {
 
 /// Eq. 5 and 6 pixel by pixel, as the original rasteriser writes them; parameters, and every
 /// operation, rounded to `format`. The reference is fp64.
-AlphaMap direct_alpha(const ProjectedSplat& splat, WindowCorner corner, const ValueFormat& format);
+AlphaMap direct_alpha(const ProjectedSplat& splat, WindowCorner corner, const NumberFormat& format);
 
 /// The row path of DeGS: spans, closed-form q_n, alpha.
 AlphaMap row_alpha(const ProjectedSplat& splat, WindowCorner corner, const QuantizedRow& path);

@@ -11,7 +11,7 @@ namespace degs::test {
 /// needed.
 inline GbuConfig gbu_of(int tile, int engines, int row_pes) {
     GbuConfig c;
-    c.pipeline.numbers = NumberFormat::Fp64;
+    c.pipeline.numbers = Arithmetic::Fp64;
     c.tile_size = tile;
     c.engines.count = engines;
     c.engines.row_pes = row_pes;

@@ -24,7 +24,7 @@ public:
         Cycle readout_cycles = 10; ///< from a finished view to a free context
         std::size_t listeners = 0; ///< for ended blocks
         int block = 8;
-        NumberFormat numbers = NumberFormat::Fp64;
+        Arithmetic numbers = Arithmetic::Fp64;
         Fidelity fidelity = Fidelity::Exact;
     };
     struct Report {

@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Frames, GccArrayRandom, ::testing::Range(0U, 40U));
 TEST(GccArrayPixelsRandom, TheImageDoesNotDependOnTheWindow) {
     const FrameWorkload frame = random_frame(77, 150, 100, 64, 300);
     GccArrayBench::Options options;
-    options.numbers = NumberFormat::Fp32;
+    options.numbers = Arithmetic::Fp32;
     const GccArrayBench eight("eight", frame, options);
     options.array.window = 16;
     options.array.discovery_cycles = 8;

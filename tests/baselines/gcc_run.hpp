@@ -10,7 +10,7 @@ namespace degs::test {
 /// A GCC for views of `view` px in double precision; everything else as by default.
 inline gcc::Config gcc_of(int view, int window = 8) {
     gcc::Config c;
-    c.pipeline.numbers = NumberFormat::Fp64;
+    c.pipeline.numbers = Arithmetic::Fp64;
     c.view_size = view;
     c.array.window = window;
     c.image_buffer.bytes = c.image_buffer.state_bytes * view * view;

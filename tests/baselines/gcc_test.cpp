@@ -31,8 +31,8 @@ public:
 private:
     gcc::Config candidate(unsigned index) {
         gcc::Config c = gcc_of(among({32, 64, 128, 24}), among({8, 8, 4, 16, 5}));
-        const NumberFormat odd[] = {NumberFormat::Fp32, NumberFormat::Paper, NumberFormat::Tuned};
-        c.pipeline.numbers = index % 2 == 0 ? NumberFormat::Fp64 : odd[index / 2 % 3];
+        const Arithmetic odd[] = {Arithmetic::Fp32, Arithmetic::Paper, Arithmetic::Tuned};
+        c.pipeline.numbers = index % 2 == 0 ? Arithmetic::Fp64 : odd[index / 2 % 3];
         c.pipeline.stop_rule = index % 8 == 1 ? StopRule::After : StopRule::Refuse;
         c.image_buffer.bytes *= among({1, 1, 2, 3});
         c.image_buffer.readout_pixels = among({64, 1, 1024});
@@ -91,7 +91,7 @@ TEST_P(SmallRunGcc, ExactIsStrict) {
     sc_core::sc_start();
     test::expect_sound(exact);
     test::expect_same(exact, strict);
-    if (config.pipeline.numbers == NumberFormat::Fp64 &&
+    if (config.pipeline.numbers == Arithmetic::Fp64 &&
         config.pipeline.stop_rule == StopRule::Refuse) {
         test::expect_reference(exact);
     }

@@ -135,7 +135,7 @@ TEST_P(GccTraversalWindows, AreThoseOfALiteralFloodFill) {
     for (int i = 0; i < 1500; ++i) {
         splats.push_back(random_splat(random, 0, 0, kView));
     }
-    const auto path = path_of(splats, path_options(NumberFormat::Fp32), kView);
+    const auto path = path_of(splats, path_options(Arithmetic::Fp32), kView);
     gcc::Footprint footprint(kView, side);
     gcc::Traversal traversal((kView + side - 1) / side);
     std::size_t visited = 0;
@@ -170,7 +170,7 @@ TEST(GccFootprint, RowsAndWindowsHoldTheValidPixels) {
     for (int i = 0; i < 500; ++i) {
         splats.push_back(random_splat(random, 900, 500, kView));
     }
-    const auto path = path_of(splats, path_options(NumberFormat::Fp64), kView);
+    const auto path = path_of(splats, path_options(Arithmetic::Fp64), kView);
     const JobTile view = view_of(900, 500, kView, kView - 5);
     gcc::Footprint footprint(kView, 8);
     for (std::uint32_t i = 0; i < splats.size(); ++i) {

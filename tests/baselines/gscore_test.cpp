@@ -31,8 +31,8 @@ public:
 private:
     GscoreConfig candidate(unsigned index) {
         GscoreConfig c;
-        const NumberFormat odd[] = {NumberFormat::Fp32, NumberFormat::Paper, NumberFormat::Tuned};
-        c.pipeline.numbers = index % 2 == 0 ? NumberFormat::Fp64 : odd[index / 2 % 3];
+        const Arithmetic odd[] = {Arithmetic::Fp32, Arithmetic::Paper, Arithmetic::Tuned};
+        c.pipeline.numbers = index % 2 == 0 ? Arithmetic::Fp64 : odd[index / 2 % 3];
         c.pipeline.stop_rule = index % 8 == 1 ? StopRule::After : StopRule::Refuse;
         c.array.lanes = among({64, 64, 16, 256});
         c.array.subtile_skip = static_cast<SubtileTest>(among({0, 0, 1, 2}));

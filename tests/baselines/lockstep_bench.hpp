@@ -34,7 +34,7 @@ public:
                   const Sizes& sizes, Fidelity fidelity = Fidelity::Exact)
         : frame_(std::move(frame)), sizes_(sizes), time_{ClockDomain(1.0), fidelity},
           job_(make_render_job({&frame_},
-                               {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}},
+                               {Arithmetic::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}},
                                sizes.contexts)),
           done_((name + "_done").c_str(), time_, 64, static_cast<Cycle>(config.pipeline_cycles)),
           state_((name + "_state").c_str(), time_, 64),

@@ -14,7 +14,7 @@ namespace {
 
 using test::EngineRun;
 
-class SmallRunNumberSets : public ::testing::TestWithParam<NumberFormat> {
+class SmallRunNumberSets : public ::testing::TestWithParam<Arithmetic> {
 protected:
     void expect_image(const EngineRun& run, const FrameWorkload& frame) const {
         run.expect_sound();
@@ -23,7 +23,7 @@ protected:
         for (const float channel : run.image().rgb) {
             ASSERT_TRUE(std::isfinite(channel));
         }
-        // In the order of NumberFormat. Pixels check for themselves: no floor/ceil ends.
+        // In the order of Arithmetic. Pixels check for themselves: no floor/ceil ends.
         const double least[] = {100, 100, 100, 40, 40, 60};
         EXPECT_GE(compare_images(reference, run.image()).psnr_db,
                   least[static_cast<std::size_t>(GetParam())]);
@@ -53,14 +53,14 @@ TEST_P(SmallRunNumberSets, RunEverywhere) {
     expect_image(third, gcc_frame);
 }
 
-std::string set_name(const ::testing::TestParamInfo<NumberFormat>& row) {
+std::string set_name(const ::testing::TestParamInfo<Arithmetic>& row) {
     constexpr const char* kNames[] = {"Ideal", "Fp16", "Paper", "Tuned"};
     return kNames[row.index];
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, SmallRunNumberSets,
-                         ::testing::Values(NumberFormat::Ideal, NumberFormat::Fp16,
-                                           NumberFormat::Paper, NumberFormat::Tuned),
+                         ::testing::Values(Arithmetic::Ideal, Arithmetic::Fp16, Arithmetic::Paper,
+                                           Arithmetic::Tuned),
                          set_name);
 
 } // namespace

@@ -71,7 +71,7 @@ struct TileEngineBench {
                     int contexts_each = 1, Fidelity fidelity = Fidelity::Exact)
         : config(c), time{ClockDomain(1.0), fidelity}, frame(std::move(work)),
           job(make_render_job({&frame},
-                              {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}},
+                              {Arithmetic::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}},
                               engines * contexts_each)),
           contexts(contexts_each), image(frame.camera.width, frame.camera.height) {
         for (int e = 0; e < engines; ++e) {

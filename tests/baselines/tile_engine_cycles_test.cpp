@@ -21,7 +21,7 @@ public:
           const std::vector<ChunkFeed>& feed)
         : config_(config), frame_(frame), feed_(feed),
           job_(make_render_job({&frame},
-                               {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}}, 1)),
+                               {Arithmetic::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}}, 1)),
           pes_(static_cast<std::size_t>(config.row_pes)),
           rows_(static_cast<std::size_t>(job_.tile_size)) {
         for (now_ = 0; !finished_; ++now_) {

@@ -12,7 +12,7 @@ using test::same_bytes;
 using test::Shape;
 
 struct Numbers {
-    NumberFormat format;
+    Arithmetic format;
     SpanEnds ends;
     int delta;
     StopRule stop;
@@ -20,7 +20,7 @@ struct Numbers {
     int segment_length;
 };
 std::ostream& operator<<(std::ostream& out, const Numbers& n) {
-    return out << number_format_names()[static_cast<std::size_t>(n.format)] << "_ends"
+    return out << arithmetic_names()[static_cast<std::size_t>(n.format)] << "_ends"
                << static_cast<int>(n.ends) << "_" << n.delta
                << (n.stop == StopRule::Refuse ? "_refuse" : "_after")
                << (n.rows == SlicedRows::Tile ? "_tile_" : "_splat_") << n.segment_length;
@@ -52,16 +52,16 @@ TEST_P(SmallRunAgainstRenderer, SameImageAndTasks) {
 }
 
 constexpr Numbers kNumbers[] = {
-    {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, SlicedRows::Splat, 16},
-    {NumberFormat::Fp32, SpanEnds::Exact, 0, StopRule::Refuse, SlicedRows::Tile, 7},
-    {NumberFormat::Fp32, SpanEnds::Outward, 0, StopRule::Refuse, SlicedRows::Splat, 16},
-    {NumberFormat::Fp32, SpanEnds::Outward, 2, StopRule::After, SlicedRows::Tile, 1},
-    {NumberFormat::Fp32, SpanEnds::Outward, 1, StopRule::After, SlicedRows::Splat, 32},
-    {NumberFormat::Fp16, SpanEnds::Outward, 0, StopRule::Refuse, SlicedRows::Splat, 16},
-    {NumberFormat::Paper, SpanEnds::Slope, 0, StopRule::Refuse, SlicedRows::Tile, 16},
-    {NumberFormat::Paper, SpanEnds::Exact, 0, StopRule::After, SlicedRows::Splat, 5},
-    {NumberFormat::Tuned, SpanEnds::Exact, 0, StopRule::Refuse, SlicedRows::Splat, 16},
-    {NumberFormat::Tuned, SpanEnds::Outward, 1, StopRule::Refuse, SlicedRows::Tile, 9},
+    {Arithmetic::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, SlicedRows::Splat, 16},
+    {Arithmetic::Fp32, SpanEnds::Exact, 0, StopRule::Refuse, SlicedRows::Tile, 7},
+    {Arithmetic::Fp32, SpanEnds::Outward, 0, StopRule::Refuse, SlicedRows::Splat, 16},
+    {Arithmetic::Fp32, SpanEnds::Outward, 2, StopRule::After, SlicedRows::Tile, 1},
+    {Arithmetic::Fp32, SpanEnds::Outward, 1, StopRule::After, SlicedRows::Splat, 32},
+    {Arithmetic::Fp16, SpanEnds::Outward, 0, StopRule::Refuse, SlicedRows::Splat, 16},
+    {Arithmetic::Paper, SpanEnds::Slope, 0, StopRule::Refuse, SlicedRows::Tile, 16},
+    {Arithmetic::Paper, SpanEnds::Exact, 0, StopRule::After, SlicedRows::Splat, 5},
+    {Arithmetic::Tuned, SpanEnds::Exact, 0, StopRule::Refuse, SlicedRows::Splat, 16},
+    {Arithmetic::Tuned, SpanEnds::Outward, 1, StopRule::Refuse, SlicedRows::Tile, 9},
 };
 INSTANTIATE_TEST_SUITE_P(Numbers, SmallRunAgainstRenderer,
                          ::testing::Combine(::testing::ValuesIn(kNumbers),

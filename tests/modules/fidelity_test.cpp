@@ -57,7 +57,7 @@ private:
             return;
         }
         c.pipeline.numbers =
-            static_cast<NumberFormat>(upto(static_cast<int>(number_format_names().size()) - 1));
+            static_cast<Arithmetic>(upto(static_cast<int>(arithmetic_names().size()) - 1));
         c.pipeline.span_ends = static_cast<SpanEnds>(upto(2));
         c.pipeline.span_delta = chance(3) ? 1 : 0;
         c.pipeline.stop_rule = chance(3) ? StopRule::After : StopRule::Refuse;

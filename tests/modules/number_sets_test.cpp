@@ -13,15 +13,15 @@ namespace {
 using test::DegsRun;
 
 struct Quality {
-    NumberFormat numbers;
+    Arithmetic numbers;
     double psnr_db; ///< at least, with exact span ends
 };
 
 std::ostream& operator<<(std::ostream& out, const Quality& q) {
-    return out << number_format_names()[static_cast<std::size_t>(q.numbers)];
+    return out << arithmetic_names()[static_cast<std::size_t>(q.numbers)];
 }
 
-DegsConfig config_of(NumberFormat numbers, SpanEnds ends) {
+DegsConfig config_of(Arithmetic numbers, SpanEnds ends) {
     DegsConfig config = test::shaped({}, {32, 2, 8, 8, 8});
     config.pipeline.numbers = numbers;
     config.pipeline.span_ends = ends;
@@ -55,15 +55,15 @@ TEST_P(SmallRunNumbers, AreAsNearAsTheirFormats) {
 
 INSTANTIATE_TEST_SUITE_P(
     Sets, SmallRunNumbers,
-    ::testing::Values(Quality{NumberFormat::Ideal, std::numeric_limits<double>::infinity()},
-                      Quality{NumberFormat::Fp32, 100}, Quality{NumberFormat::Fp16, 30},
-                      Quality{NumberFormat::Paper, 40}, Quality{NumberFormat::Tuned, 60}));
+    ::testing::Values(Quality{Arithmetic::Ideal, std::numeric_limits<double>::infinity()},
+                      Quality{Arithmetic::Fp32, 100}, Quality{Arithmetic::Fp16, 30},
+                      Quality{Arithmetic::Paper, 40}, Quality{Arithmetic::Tuned, 60}));
 
 // A delta of its own, beside what the ends have.
 TEST(SmallRunSpanEnds, DeltaWidensThem) {
     const FrameWorkload frame =
         test::make_frame({test::make_splat(64, 16, 10, 3, 0, 0.9)}, 128, 32, 32);
-    DegsConfig config = config_of(NumberFormat::Paper, SpanEnds::Outward);
+    DegsConfig config = config_of(Arithmetic::Paper, SpanEnds::Outward);
     const DegsRun outward("outward", config, {&frame});
     config.pipeline.span_delta = 1;
     const DegsRun wider("wider", config, {&frame});

@@ -9,7 +9,7 @@ namespace degs::test {
 
 /// The default design in double precision with exact span ends: its image is the reference's.
 inline DegsConfig exact_arithmetic(DegsConfig config = {}) {
-    config.pipeline.numbers = NumberFormat::Fp64;
+    config.pipeline.numbers = Arithmetic::Fp64;
     config.pipeline.span_ends = SpanEnds::Exact;
     config.pipeline.stop_rule = StopRule::Refuse;
     return config;

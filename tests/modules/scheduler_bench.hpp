@@ -56,7 +56,7 @@ struct SchedulerBench {
                    int tiles = 1)
         : sizes(s), frame(make_frame(splats, tile * tiles, tile, tile)),
           job(make_render_job({&frame},
-                              {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}}, 1)),
+                              {Arithmetic::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}}, 1)),
           packets("packets", time, static_cast<std::size_t>(s.packets) + 4,
                   static_cast<Cycle>(s.packing_latency)),
           terminated("terminated", time, 4096, static_cast<Cycle>(s.writeback)),

@@ -30,8 +30,7 @@ struct UnitBench {
     explicit UnitBench(FrameWorkload work, int contexts = 1)
         : frame(std::move(work)),
           job(make_render_job(
-              {&frame}, {NumberFormat::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}}, contexts)) {
-    }
+              {&frame}, {Arithmetic::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}}, contexts)) {}
     void connect(const std::vector<MemoryPort*>& ports, double latency_ns = 0,
                  double gb_per_s = 1e9) {
         Memory::Config c;

@@ -35,7 +35,7 @@ inline std::unique_ptr<DataPath> path_of(const std::vector<ProjectedSplat>& spla
     return path;
 }
 
-inline DataPathOptions path_options(NumberFormat numbers, SpanEnds ends = SpanEnds::Exact,
+inline DataPathOptions path_options(Arithmetic numbers, SpanEnds ends = SpanEnds::Exact,
                                     int delta = 0) {
     DataPathOptions o;
     o.numbers = numbers;

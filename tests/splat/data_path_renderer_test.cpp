@@ -37,7 +37,7 @@ TEST(DataPathRenderer, DoublePrecisionIsTheReference) {
     for (const int tile_size : {1, 16, 48, 128}) {
         const FrameWorkload work = random_view(tile_size);
         DataPathRender options;
-        options.numbers.numbers = NumberFormat::Fp64;
+        options.numbers.numbers = Arithmetic::Fp64;
         ReferenceCounts wanted;
         DataPathRenderer renderer(work, options);
         const Image image = renderer.render(all_tiles(work));

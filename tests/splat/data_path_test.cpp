@@ -15,7 +15,7 @@ using test::path_options;
 TEST(DataPath, OpacityIsFoldedIntoTheStartValue) {
     for (const double opacity : {1.0 / 255 + 1e-6, 0.1, 0.5, 0.985}) {
         const ProjectedSplat s = make_splat(8, 8, 4, 4, 0, opacity);
-        const auto path = path_of({s}, path_options(NumberFormat::Fp64));
+        const auto path = path_of({s}, path_options(Arithmetic::Fp64));
         RowSpan span;
         ASSERT_TRUE(path->solve_row(0, 8, 0, 64, 0, span));
         BlendTask task;
@@ -36,7 +36,7 @@ TEST(DataPath, OpacityIsFoldedIntoTheStartValue) {
 
 TEST(DataPath, ContextsAreSeparateAndBeginRowClearsOne) {
     const auto path =
-        path_of({make_splat(8, 8, 400, 400, 0, 0.5)}, path_options(NumberFormat::Fp32), 48, 3);
+        path_of({make_splat(8, 8, 400, 400, 0, 0.5)}, path_options(Arithmetic::Fp32), 48, 3);
     BlendTask task;
     task.mask = 0xFFFFU;
     std::vector<PixelValue> row(48);
@@ -61,7 +61,7 @@ TEST(DataPath, ContextsAreSeparateAndBeginRowClearsOne) {
 // Frames are numbered on: splat 0 of the second frame follows the last one of the first.
 TEST(DataPath, FramesFollowEachOther) {
     const auto path = path_of({make_splat(8, 8, 2, 2, 0, 1), make_splat(9, 9, 2, 2, 0, 1)},
-                              path_options(NumberFormat::Fp32));
+                              path_options(Arithmetic::Fp32));
     EXPECT_EQ(path->add_frame(frame_of({make_splat(50, 50, 1, 1, 0, 1)})), 2U);
     RowSpan span;
     EXPECT_TRUE(path->solve_row(2, 50, 0, 64, 0, span));

@@ -15,11 +15,11 @@ namespace degs {
 namespace {
 
 /// All values >= 0 of a 16-bit format in ascending order, decoded by the definition of the format.
-std::vector<double> magnitudes(const ValueFormat& f) {
+std::vector<double> magnitudes(const NumberFormat& f) {
     std::vector<double> values;
     const int bits = f.storage_bits() - static_cast<int>(f.has_sign);
     for (int code = 0; code < 1 << bits; ++code) {
-        if (f.kind == ValueFormat::Kind::Fixed) {
+        if (f.kind == NumberFormat::Kind::Fixed) {
             values.push_back(code / std::pow(2.0, f.fraction_bits));
             continue;
         }
@@ -34,14 +34,14 @@ std::vector<double> magnitudes(const ValueFormat& f) {
     return values;
 }
 
-std::vector<float> rounded(const ValueFormat& format, RoundFunction round,
+std::vector<float> rounded(const NumberFormat& format, RoundFunction round,
                            std::vector<float> values) {
     round(LaneRounding(format), values.data(), values.size());
     return values;
 }
 
 /// What each of `inputs` must become; both signs, in vectors and one by one.
-void expect_rounding(const ValueFormat& format, const std::vector<float>& inputs,
+void expect_rounding(const NumberFormat& format, const std::vector<float>& inputs,
                      const std::vector<double>& expected) {
     const Rounder scalar(format);
     for (const float sign : {1.0F, -1.0F}) {
@@ -66,7 +66,7 @@ void expect_rounding(const ValueFormat& format, const std::vector<float>& inputs
 class SixteenBits : public testing::TestWithParam<const char*> {};
 
 TEST_P(SixteenBits, ValuesStayAndWhatIsBetweenGoesToTheNearest) {
-    const ValueFormat format = parse_format(GetParam());
+    const NumberFormat format = parse_format(GetParam());
     ASSERT_EQ(format.storage_bits(), 16);
     const std::vector<double> values = magnitudes(format);
     std::vector<float> inputs;
@@ -95,11 +95,11 @@ TEST_P(SixteenBits, ValuesStayAndWhatIsBetweenGoesToTheNearest) {
 }
 
 TEST_P(SixteenBits, OverflowsAsDocumented) {
-    const ValueFormat format = parse_format(GetParam());
+    const NumberFormat format = parse_format(GetParam());
     const std::vector<double> values = magnitudes(format);
     const double top = values.back();
     const double half = (top - values[values.size() - 2]) / 2;
-    const bool fixed = format.kind == ValueFormat::Kind::Fixed;
+    const bool fixed = format.kind == NumberFormat::Kind::Fixed;
     const double over = fixed ? top : std::numeric_limits<double>::infinity();
     const auto limit = static_cast<float>(top + half); // the tie: the next code would be even
     expect_rounding(format,
@@ -110,8 +110,8 @@ TEST_P(SixteenBits, OverflowsAsDocumented) {
 }
 
 TEST_P(SixteenBits, NanStaysNanOrSaturates) {
-    const ValueFormat format = parse_format(GetParam());
-    const bool fixed = format.kind == ValueFormat::Kind::Fixed;
+    const NumberFormat format = parse_format(GetParam());
+    const bool fixed = format.kind == NumberFormat::Kind::Fixed;
     for (const float nan : {std::nanf("1"), -std::nanf("2")}) {
         for (const RoundFunction round : round_variants()) {
             const std::vector<float> results = rounded(format, round, std::vector<float>(11, nan));
@@ -135,7 +135,7 @@ TEST(Rounding, IsTheSameAtEveryWidth) {
     std::mt19937_64 random(7);
     for (const char* name : {"fp32", "fp16", "bf16", "e8m15", "e6m12", "ue6m14b50", "q5.13",
                              "q12.12", "uq2.16", "uq0.23"}) {
-        const ValueFormat format = parse_format(name);
+        const NumberFormat format = parse_format(name);
         const Rounder scalar(format);
         for (int trial = 0; trial < 20000; ++trial) {
             std::vector<float> values(static_cast<std::size_t>(1 + trial % 19));
@@ -175,7 +175,7 @@ TEST(Rounding, DoubleKeepsEverything) {
     }
 }
 
-TEST(ValueFormat, HasTheNameItWasMadeFrom) {
+TEST(NumberFormat, HasTheNameItWasMadeFrom) {
     for (const char* name : {"fp64", "fp32", "fp16", "bf16", "e6m9", "ue5m11b29", "ue5m11", "q4.12",
                              "uq0.16", "q18.12", "uq3.17"}) {
         EXPECT_EQ(parse_format(name).name(), name);
@@ -187,7 +187,7 @@ TEST(ValueFormat, HasTheNameItWasMadeFrom) {
     EXPECT_EQ(parse_format("fp16").max(), 65504);
 }
 
-TEST(ValueFormat, RefusesWhatIsNoFormat) {
+TEST(NumberFormat, RefusesWhatIsNoFormat) {
     for (const char* name :
          {"",   "fp8",   "e9m3",   "e1m3",      "e5",      "e5m0",   "e5m24",
           "em", "q",     "q4",     "q0.8",      "uq0.1",   "q20.13", "q4.12 ",

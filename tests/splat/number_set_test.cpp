@@ -33,8 +33,8 @@ TEST(NumberSets, TunedHasTheBudgetOfPaper) {
     const NumberSet tuned = number_set("tuned");
     for (const NumberSet& set : {paper, tuned}) {
         EXPECT_LE(record_bits(set), 256) << set.name;
-        for (const ValueFormat& word : {set.g0, set.d0, set.conic, set.q, set.alpha, set.colour,
-                                        set.exp.values, set.sqrt.values}) {
+        for (const NumberFormat& word : {set.g0, set.d0, set.conic, set.q, set.alpha, set.colour,
+                                         set.exp.values, set.sqrt.values}) {
             EXPECT_EQ(word.storage_bits(), 16) << set.name << " " << word.name();
         }
         // A pixel of the DeGS configurations (pixel_buffer.state_bytes).

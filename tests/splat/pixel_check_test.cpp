@@ -18,7 +18,7 @@ using test::random_splat;
 
 constexpr int kTileSize = 32;
 
-DataPathOptions stop_options(NumberFormat numbers, StopRule stop) {
+DataPathOptions stop_options(Arithmetic numbers, StopRule stop) {
     DataPathOptions options = path_options(numbers);
     options.stop = stop;
     return options;
@@ -82,9 +82,9 @@ bool bit(std::uint32_t mask, int i) {
     return (mask >> i & 1U) != 0;
 }
 
-void expect_blended_by_hand(NumberFormat numbers, StopRule stop) {
-    const double eps = numbers == NumberFormat::Fp32 ? 0x1p-24 : 0x1p-53;
-    const double exp_error = numbers == NumberFormat::Fp32 ? 3e-7 : 1e-15;
+void expect_blended_by_hand(Arithmetic numbers, StopRule stop) {
+    const double eps = numbers == Arithmetic::Fp32 ? 0x1p-24 : 0x1p-53;
+    const double exp_error = numbers == Arithmetic::Fp32 ? 3e-7 : 1e-15;
     std::mt19937 random(21);
     std::vector<ProjectedSplat> splats;
     for (int i = 0; i < 2000; ++i) {
@@ -140,13 +140,13 @@ void expect_blended_by_hand(NumberFormat numbers, StopRule stop) {
 }
 
 TEST(PixelCheck, Fp32AgainstBruteForce) {
-    expect_blended_by_hand(NumberFormat::Fp32, StopRule::Refuse);
-    expect_blended_by_hand(NumberFormat::Fp32, StopRule::After);
+    expect_blended_by_hand(Arithmetic::Fp32, StopRule::Refuse);
+    expect_blended_by_hand(Arithmetic::Fp32, StopRule::After);
 }
 
 TEST(PixelCheck, Fp64AgainstBruteForce) {
-    expect_blended_by_hand(NumberFormat::Fp64, StopRule::Refuse);
-    expect_blended_by_hand(NumberFormat::Fp64, StopRule::After);
+    expect_blended_by_hand(Arithmetic::Fp64, StopRule::Refuse);
+    expect_blended_by_hand(Arithmetic::Fp64, StopRule::After);
 }
 
 /// The same row by its span.
@@ -182,7 +182,7 @@ TEST(PixelCheck, SameMasksAndPixelsAsExactSpans) {
             splats.push_back(s);
         }
     }
-    const auto path = path_of(splats, path_options(NumberFormat::Fp64), kTileSize, 2);
+    const auto path = path_of(splats, path_options(Arithmetic::Fp64), kTileSize, 2);
     std::vector<PixelValue> spans(kTileSize), tests(kTileSize);
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
         for (int y = 0; y < kTileSize; ++y) {
@@ -209,7 +209,7 @@ TEST(PixelCheck, RefuseOrAfter) {
                                              make_splat(4, 4, 500, 500, 0, 0.1)};
     for (const StopRule stop : {StopRule::Refuse, StopRule::After}) {
         const bool refuse = stop == StopRule::Refuse;
-        const auto path = path_of(splats, stop_options(NumberFormat::Fp64, stop), kTileSize);
+        const auto path = path_of(splats, stop_options(Arithmetic::Fp64, stop), kTileSize);
         EXPECT_EQ(path->test(test_of(0, 4, 0x10)).useful, 0x10U);
         EXPECT_EQ(path->test(test_of(0, 4, 0x10)).useful, 0x10U);
         const BlendOutcome last = path->test(test_of(0, 4, 0x10));
@@ -230,7 +230,7 @@ TEST(PixelCheck, RefuseOrAfter) {
 // Outside the ellipse is boundary, on an ended pixel too.
 TEST(PixelCheck, OutsideIsBoundaryAlsoOnEndedPixels) {
     const auto path = path_of({make_splat(4, 4, 500, 500, 0, 1.0), make_splat(20, 4, 1, 1, 0, 1.0)},
-                              path_options(NumberFormat::Fp32), kTileSize);
+                              path_options(Arithmetic::Fp32), kTileSize);
     for (int i = 0; i < 3; ++i) {
         path->test(test_of(0, 4, ~0U));
     }
@@ -243,7 +243,7 @@ TEST(PixelCheck, OutsideIsBoundaryAlsoOnEndedPixels) {
 // The column counts in the tile, x in the image; context and row select the pixels.
 TEST(PixelCheck, PixelOfTheImageAndPixelOfTheTile) {
     const auto path =
-        path_of({make_splat(1003, 707, 0.6, 0.6, 0, 1.0)}, path_options(NumberFormat::Fp32), 16, 2);
+        path_of({make_splat(1003, 707, 0.6, 0.6, 0, 1.0)}, path_options(Arithmetic::Fp32), 16, 2);
     PixelTest test;
     test.mask = 0xFF;
     test.x = 1000;

@@ -24,7 +24,7 @@ TEST(QuantizedRow, IdealIsTheDoubleDataPath) {
     int spans = 0;
     for (int trial = 0; trial < 3000; ++trial) {
         const ProjectedSplat splat = test::random_splat(random, 64, 128, 64);
-        const auto path = test::path_of({splat}, test::path_options(NumberFormat::Fp64));
+        const auto path = test::path_of({splat}, test::path_options(Arithmetic::Fp64));
         const QuantizedSplat record = row.record(splat);
         for (int y = 128; y < 192; ++y) {
             RowSpan expected;

@@ -21,7 +21,7 @@ long double vertical_q(const ProjectedSplat& s, int y) {
     return dy * dy / s.cov_c;
 }
 
-class RowExtents : public ::testing::TestWithParam<NumberFormat> {};
+class RowExtents : public ::testing::TestWithParam<Arithmetic> {};
 
 // alpha = 1/255 is the largest a splat of that opacity has: its centre, if that is a pixel.
 TEST_P(RowExtents, TheLeastOpacityCoversItsCentreAlone) {
@@ -246,10 +246,9 @@ TEST_P(RowExtents, RowsInColumnsAreTight) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, RowExtents,
-                         ::testing::Values(NumberFormat::Fp64, NumberFormat::Fp32),
+INSTANTIATE_TEST_SUITE_P(Formats, RowExtents, ::testing::Values(Arithmetic::Fp64, Arithmetic::Fp32),
                          [](const auto& format) {
-                             return format.param == NumberFormat::Fp64 ? "Fp64" : "Fp32";
+                             return format.param == Arithmetic::Fp64 ? "Fp64" : "Fp32";
                          });
 
 } // namespace

@@ -72,7 +72,7 @@ void expect_row_is_brute_force(const DataPath& path, std::uint32_t index, const 
     }
 }
 
-class RowSpans : public ::testing::TestWithParam<NumberFormat> {};
+class RowSpans : public ::testing::TestWithParam<Arithmetic> {};
 
 TEST_P(RowSpans, ExactEndsAreThePixelsOfTheEllipse) {
     std::mt19937 random(1);
@@ -85,8 +85,7 @@ TEST_P(RowSpans, ExactEndsAreThePixelsOfTheEllipse) {
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
         SCOPED_TRACE(i);
         for (int y = tile.y; y < tile.y + tile.height; ++y) {
-            expect_row_is_brute_force(*path, i, splats[i], tile, y,
-                                      GetParam() == NumberFormat::Fp32);
+            expect_row_is_brute_force(*path, i, splats[i], tile, y, GetParam() == Arithmetic::Fp32);
         }
     }
 }
@@ -95,7 +94,7 @@ TEST_P(RowSpans, ExactEndsAreThePixelsOfTheEllipse) {
 TEST_P(RowSpans, OutwardEndsAreWhatTheFormulaSays) {
     std::mt19937 random(2);
     const Tile tile{640, 320, 64, 64};
-    const bool single = GetParam() == NumberFormat::Fp32;
+    const bool single = GetParam() == Arithmetic::Fp32;
     for (const int delta : {0, 1, 3}) {
         std::vector<ProjectedSplat> splats;
         for (int i = 0; i < 300; ++i) {
@@ -144,7 +143,7 @@ TEST_P(RowSpans, OutwardEndsAreWhatTheFormulaSays) {
 TEST_P(RowSpans, ClosedFormIsTheDirectForm) {
     std::mt19937 random(3);
     const Tile tile{300, 200, 64, 64};
-    const bool single = GetParam() == NumberFormat::Fp32;
+    const bool single = GetParam() == Arithmetic::Fp32;
     std::vector<ProjectedSplat> splats;
     for (int i = 0; i < 500; ++i) {
         splats.push_back(random_splat(random, tile.x, tile.y, tile.width));
@@ -176,10 +175,9 @@ TEST_P(RowSpans, ClosedFormIsTheDirectForm) {
     EXPECT_GT(worst, 1e-3); // the bound means something
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, RowSpans,
-                         ::testing::Values(NumberFormat::Fp64, NumberFormat::Fp32),
+INSTANTIATE_TEST_SUITE_P(Formats, RowSpans, ::testing::Values(Arithmetic::Fp64, Arithmetic::Fp32),
                          [](const auto& format) {
-                             return format.param == NumberFormat::Fp64 ? "Fp64" : "Fp32";
+                             return format.param == Arithmetic::Fp64 ? "Fp64" : "Fp32";
                          });
 
 } // namespace

@@ -15,7 +15,7 @@ using Sampler = ProjectedSplat (*)(std::mt19937_64&);
 AlphaError measure(const char* set, Sampler sampler, int gaussians,
                    const char* reference = "fp64") {
     const QuantizedRow path(number_set(set));
-    const ValueFormat format = parse_format(reference);
+    const NumberFormat format = parse_format(reference);
     AlphaError error;
     std::mt19937_64 random(21);
     for (int i = 0; i < gaussians; ++i) {

@@ -39,7 +39,7 @@ std::uint32_t named(const DataPath& path, std::uint32_t splat, int x, int y, int
     return mask;
 }
 
-class TestedColumns : public ::testing::TestWithParam<NumberFormat> {};
+class TestedColumns : public ::testing::TestWithParam<Arithmetic> {};
 
 // Far corners too, where float names pixels by the dozen only.
 TEST_P(TestedColumns, AreThoseThatPassTheTest) {
@@ -95,15 +95,14 @@ TEST_P(TestedColumns, NothingToName) {
     EXPECT_TRUE(path->tested_columns(0, 3, 0, kTestedTile, first, last));
 }
 
-std::string format_name(const ::testing::TestParamInfo<NumberFormat>& row) {
+std::string format_name(const ::testing::TestParamInfo<Arithmetic>& row) {
     constexpr const char* kNames[] = {"Fp32", "Fp64", "Fp16", "Paper", "Tuned"};
     return kNames[row.index];
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, TestedColumns,
-                         ::testing::Values(NumberFormat::Fp32, NumberFormat::Fp64,
-                                           NumberFormat::Fp16, NumberFormat::Paper,
-                                           NumberFormat::Tuned),
+                         ::testing::Values(Arithmetic::Fp32, Arithmetic::Fp64, Arithmetic::Fp16,
+                                           Arithmetic::Paper, Arithmetic::Tuned),
                          format_name);
 
 } // namespace

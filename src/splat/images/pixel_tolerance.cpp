@@ -15,8 +15,8 @@ constexpr double kAlphaQ = 0.368;    ///< e^-1: largest alpha q f
 constexpr double kNoAlpha = 1e-7;    ///< fainter pixels are more than a pixel outside
 
 /// Half a unit of a format at a value.
-double half_unit(const ValueFormat& format, double at) {
-    return format.kind == ValueFormat::Kind::Fixed
+double half_unit(const NumberFormat& format, double at) {
+    return format.kind == NumberFormat::Kind::Fixed
                ? format.quantum() / 2
                : std::max(std::ldexp(std::abs(at), -format.fraction_bits - 1),
                           format.quantum() / 2);

@@ -11,8 +11,8 @@
 namespace degs {
 namespace {
 
-ValueFormat float_format(int exponent_bits, int mantissa_bits, int bias, bool has_sign) {
-    ValueFormat format;
+NumberFormat float_format(int exponent_bits, int mantissa_bits, int bias, bool has_sign) {
+    NumberFormat format;
     format.has_sign = has_sign;
     format.exponent_bits = exponent_bits;
     format.fraction_bits = mantissa_bits;
@@ -59,9 +59,9 @@ private:
     std::size_t at_ = 0;
 };
 
-ValueFormat read_fixed(FormatReader& reader, bool has_sign) {
-    ValueFormat format;
-    format.kind = ValueFormat::Kind::Fixed;
+NumberFormat read_fixed(FormatReader& reader, bool has_sign) {
+    NumberFormat format;
+    format.kind = NumberFormat::Kind::Fixed;
     format.has_sign = has_sign;
     format.exponent_bits = format.bias = 0;
     format.integer_bits = reader.number(has_sign ? 1 : 0, 32);
@@ -76,14 +76,14 @@ ValueFormat read_fixed(FormatReader& reader, bool has_sign) {
     return format;
 }
 
-ValueFormat read_float(FormatReader& reader, bool has_sign) {
+NumberFormat read_float(FormatReader& reader, bool has_sign) {
     const int exponent_bits = reader.number(2, 8);
     if (!reader.take('m')) {
         reader.fail();
     }
     const int mantissa_bits = reader.number(1, 23);
     const int bias = reader.take('b') ? reader.number(0, 127) : usual_bias(exponent_bits);
-    const ValueFormat format = float_format(exponent_bits, mantissa_bits, bias, has_sign);
+    const NumberFormat format = float_format(exponent_bits, mantissa_bits, bias, has_sign);
     if (!format.fits_float()) {
         reader.fail();
     }
@@ -97,10 +97,10 @@ std::uint64_t pattern_of(double value) {
 }
 
 /// The exponent of the smallest normal value.
-int lowest_exponent(const ValueFormat& format) {
+int lowest_exponent(const NumberFormat& format) {
     return 1 - format.bias;
 }
-int highest_exponent(const ValueFormat& format) {
+int highest_exponent(const NumberFormat& format) {
     return (1 << format.exponent_bits) - 2 - format.bias;
 }
 
@@ -113,12 +113,12 @@ std::int32_t bits_of(double value) {
 
 } // namespace
 
-int ValueFormat::storage_bits() const {
+int NumberFormat::storage_bits() const {
     return kind == Kind::Fixed ? integer_bits + fraction_bits
                                : static_cast<int>(has_sign) + exponent_bits + fraction_bits;
 }
 
-double ValueFormat::max() const {
+double NumberFormat::max() const {
     if (kind == Kind::Fixed) {
         const int whole = integer_bits - static_cast<int>(has_sign);
         return std::ldexp(1.0, whole) - quantum();
@@ -126,23 +126,23 @@ double ValueFormat::max() const {
     return std::ldexp(2.0 - std::ldexp(1.0, -fraction_bits), highest_exponent(*this));
 }
 
-double ValueFormat::quantum() const {
+double NumberFormat::quantum() const {
     return std::ldexp(1.0, kind == Kind::Fixed ? -fraction_bits
                                                : lowest_exponent(*this) - fraction_bits);
 }
 
-double ValueFormat::min_normal() const {
+double NumberFormat::min_normal() const {
     return std::ldexp(1.0, lowest_exponent(*this));
 }
 
-bool ValueFormat::fits_float() const {
+bool NumberFormat::fits_float() const {
     if (kind == Kind::Fixed) {
         return storage_bits() - static_cast<int>(has_sign) <= 23;
     }
     return fraction_bits <= 23 && lowest_exponent(*this) >= -126 && highest_exponent(*this) <= 127;
 }
 
-std::string ValueFormat::name() const {
+std::string NumberFormat::name() const {
     if (kind == Kind::Fixed) {
         return std::string(has_sign ? "q" : "uq") + std::to_string(integer_bits) + "." +
                std::to_string(fraction_bits);
@@ -157,13 +157,13 @@ std::string ValueFormat::name() const {
     return bias == usual_bias(exponent_bits) ? name : name + "b" + std::to_string(bias);
 }
 
-bool operator==(const ValueFormat& a, const ValueFormat& b) {
+bool operator==(const NumberFormat& a, const NumberFormat& b) {
     return a.kind == b.kind && a.has_sign == b.has_sign && a.exponent_bits == b.exponent_bits &&
            a.bias == b.bias && a.integer_bits == b.integer_bits &&
            a.fraction_bits == b.fraction_bits;
 }
 
-ValueFormat parse_format(const std::string& name) {
+NumberFormat parse_format(const std::string& name) {
     if (name == "fp64") {
         return {};
     }
@@ -182,7 +182,7 @@ ValueFormat parse_format(const std::string& name) {
     if (!is_float && !reader.take('q')) {
         reader.fail();
     }
-    const ValueFormat format =
+    const NumberFormat format =
         is_float ? read_float(reader, has_sign) : read_fixed(reader, has_sign);
     if (!reader.over()) {
         reader.fail();
@@ -190,8 +190,8 @@ ValueFormat parse_format(const std::string& name) {
     return format;
 }
 
-Rounder::Rounder(const ValueFormat& format)
-    : exact_(format.is_fp64()), fixed_(format.kind == ValueFormat::Kind::Fixed) {
+Rounder::Rounder(const NumberFormat& format)
+    : exact_(format.is_fp64()), fixed_(format.kind == NumberFormat::Kind::Fixed) {
     if (exact_) {
         return;
     }
@@ -225,12 +225,12 @@ double Rounder::outside(double x) const {
     return min_ < 0 ? -over : 0.0;
 }
 
-LaneRounding::LaneRounding(const ValueFormat& format) {
+LaneRounding::LaneRounding(const NumberFormat& format) {
     if (!format.fits_float()) {
         throw InputError("The number format '" + format.name() +
                          "' has more bits than the lanes of the array, which carry fp32.");
     }
-    const bool fixed = format.kind == ValueFormat::Kind::Fixed;
+    const bool fixed = format.kind == NumberFormat::Kind::Fixed;
     max = bits_of(format.max());
     over = fixed ? max : over;
     nan = fixed ? max : nan;

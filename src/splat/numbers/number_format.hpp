@@ -16,7 +16,7 @@ namespace degs {
 /// 2^-fraction_bits; too large saturates at the largest value of either sign (the lowest two's
 /// complement code is not used), NaN at the positive one. An unsigned format has no sign bit, and
 /// what is negative becomes 0.
-struct ValueFormat {
+struct NumberFormat {
     enum class Kind { Float, Fixed };
     Kind kind = Kind::Float;
     bool has_sign = true;
@@ -40,21 +40,21 @@ struct ValueFormat {
     std::string name() const;
 };
 
-bool operator==(const ValueFormat& a, const ValueFormat& b);
-inline bool operator!=(const ValueFormat& a, const ValueFormat& b) {
+bool operator==(const NumberFormat& a, const NumberFormat& b);
+inline bool operator!=(const NumberFormat& a, const NumberFormat& b) {
     return !(a == b);
 }
 
 /// "fp64", "fp32", "fp16", "bf16"; "e6m9", "e5m10b29", "ue5m11b29": exponent and mantissa bits,
 /// bias (2^(E-1) - 1 if not given), u without sign; "q4.12", "uq0.16": integer bits (sign included)
 /// and fraction bits. InputError tells what is allowed.
-ValueFormat parse_format(const std::string& name);
+NumberFormat parse_format(const std::string& name);
 
 /// Rounds doubles to a format; the constants are worked out once.
 class Rounder {
 public:
     Rounder() = default; ///< to fp64: keeps everything
-    explicit Rounder(const ValueFormat& format);
+    explicit Rounder(const NumberFormat& format);
 
     double operator()(double x) const {
         if (exact_) {
@@ -107,7 +107,7 @@ struct LaneRounding {
 
     LaneRounding() = default; ///< to fp32: keeps everything
     /// InputError unless format.fits_float().
-    explicit LaneRounding(const ValueFormat& format);
+    explicit LaneRounding(const NumberFormat& format);
 };
 
 /// Rounds an array in place, every value once.

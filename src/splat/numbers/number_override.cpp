@@ -33,8 +33,8 @@ NumberPart format(const char* name, const char* meaning, const Get& get) {
             }};
 }
 
-NumberPart stage(const char* name, const char* meaning, ValueFormat NumberSet::*member) {
-    return format(name, meaning, [member](NumberSet& set) -> ValueFormat& { return set.*member; });
+NumberPart stage(const char* name, const char* meaning, NumberFormat NumberSet::*member) {
+    return format(name, meaning, [member](NumberSet& set) -> NumberFormat& { return set.*member; });
 }
 
 /// `words` in the order of the enumeration.
@@ -144,7 +144,7 @@ void add_table(std::vector<NumberPart>& parts, const std::string& table,
                            "0.001 to 1000",
                            [spec](NumberSet& set) -> double& { return spec(set).range; }));
     parts.push_back(format((table + ".values").c_str(), "entries and results",
-                           [spec](NumberSet& set) -> ValueFormat& { return spec(set).values; }));
+                           [spec](NumberSet& set) -> NumberFormat& { return spec(set).values; }));
 }
 
 const std::vector<NumberPart>& parts() {
@@ -156,13 +156,13 @@ const std::vector<NumberPart>& parts() {
         add_table(list, "exp", &NumberSet::exp);
         list.push_back(format("exp.argument",
                               "q log2(e) / 2, in front of the table of a natural exponent",
-                              [](NumberSet& set) -> ValueFormat& { return set.exp.argument; }));
+                              [](NumberSet& set) -> NumberFormat& { return set.exp.argument; }));
         return list;
     }();
     return all;
 }
 
-[[noreturn]] void refuse(const std::string& part, const ValueFormat& format,
+[[noreturn]] void refuse(const std::string& part, const NumberFormat& format,
                          const std::string& need) {
     std::string sentence = "The number format " + format.name();
     sentence.append(" of ").append(part).append(" ").append(need).append(".");
@@ -200,14 +200,14 @@ std::string override_number(NumberSet& set, const std::string& name, const std::
 }
 
 void check_numbers(const NumberSet& set) {
-    const std::pair<const char*, const ValueFormat&> with_sign[] = {{"projection", set.projection},
-                                                                    {"mean", set.mean},
-                                                                    {"slope", set.slope},
-                                                                    {"distance", set.distance},
-                                                                    {"edge", set.edge},
-                                                                    {"square", set.square},
-                                                                    {"d0", set.d0},
-                                                                    {"term", set.term}};
+    const std::pair<const char*, const NumberFormat&> with_sign[] = {{"projection", set.projection},
+                                                                     {"mean", set.mean},
+                                                                     {"slope", set.slope},
+                                                                     {"distance", set.distance},
+                                                                     {"edge", set.edge},
+                                                                     {"square", set.square},
+                                                                     {"d0", set.d0},
+                                                                     {"term", set.term}};
     for (const auto& [name, format] : with_sign) {
         if (!format.has_sign) {
             refuse(name, format, "has no sign, but its values may be negative");

@@ -12,33 +12,33 @@ namespace {
 NumberSet uniform(const std::string& name, const std::string& format) {
     NumberSet set;
     set.name = name;
-    const ValueFormat value = parse_format(format);
-    for (ValueFormat* stage : {&set.projection,
-                               &set.mean,
-                               &set.slope,
-                               &set.c_prime,
-                               &set.radius,
-                               &set.inverse_radius2,
-                               &set.conic,
-                               &set.q_threshold,
-                               &set.colour,
-                               &set.distance,
-                               &set.square,
-                               &set.ratio,
-                               &set.edge,
-                               &set.level,
-                               &set.g0,
-                               &set.d0,
-                               &set.term,
-                               &set.q,
-                               &set.alpha,
-                               &set.transmittance,
-                               &set.weight,
-                               &set.sum,
-                               &set.sqrt.values,
-                               &set.exp.values,
-                               &set.sqrt.argument,
-                               &set.exp.argument}) {
+    const NumberFormat value = parse_format(format);
+    for (NumberFormat* stage : {&set.projection,
+                                &set.mean,
+                                &set.slope,
+                                &set.c_prime,
+                                &set.radius,
+                                &set.inverse_radius2,
+                                &set.conic,
+                                &set.q_threshold,
+                                &set.colour,
+                                &set.distance,
+                                &set.square,
+                                &set.ratio,
+                                &set.edge,
+                                &set.level,
+                                &set.g0,
+                                &set.d0,
+                                &set.term,
+                                &set.q,
+                                &set.alpha,
+                                &set.transmittance,
+                                &set.weight,
+                                &set.sum,
+                                &set.sqrt.values,
+                                &set.exp.values,
+                                &set.sqrt.argument,
+                                &set.exp.argument}) {
         *stage = value;
     }
     set.exp.function = TableFunction::ExpHalf;
@@ -54,7 +54,7 @@ NumberSet ideal_set() {
 NumberSet fp32_set() {
     NumberSet set = uniform("fp32", "fp32");
     set.meaning = "single precision, exact span ends; splats from double";
-    set.projection = ValueFormat(); // fp32 would swap splats of nearly equal depth
+    set.projection = NumberFormat(); // fp32 would swap splats of nearly equal depth
     set.mean_form = Mean::PixelAndOffset;
     return set;
 }
@@ -184,7 +184,7 @@ int record_bits(const NumberSet& set) {
 std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set) {
     const char* const multiplier =
         set.multiplier == IntegerMultiplier::HalfLookup ? "half-lookup." : "multiply.";
-    const auto key = [](const char* operation, const ValueFormat& format) {
+    const auto key = [](const char* operation, const NumberFormat& format) {
         return operation + format.name();
     };
     return {{"record", "bits." + std::to_string(record_bits(set))},

@@ -43,33 +43,33 @@ struct NumberSet {
     std::string name;
     std::string meaning; ///< a sentence for people
 
-    ValueFormat projection; ///< every value and operation that makes splats (ProjectionOptions)
+    NumberFormat projection; ///< every value and operation that makes splats (ProjectionOptions)
 
     // Splat record in memory.
-    ValueFormat mean;            ///< mu_x, mu_y, px
-    ValueFormat slope;           ///< m
-    ValueFormat c_prime;         ///< C'; not stored with Vertical::FromRatio
-    ValueFormat radius;          ///< r_x, px
-    ValueFormat inverse_radius2; ///< 1 / r_y^2, px^-2
-    ValueFormat conic;           ///< A (and B, C while Literal derives)
-    ValueFormat q_threshold;     ///< Q_th
-    ValueFormat colour;          ///< red, green, blue
+    NumberFormat mean;            ///< mu_x, mu_y, px
+    NumberFormat slope;           ///< m
+    NumberFormat c_prime;         ///< C'; not stored with Vertical::FromRatio
+    NumberFormat radius;          ///< r_x, px
+    NumberFormat inverse_radius2; ///< 1 / r_y^2, px^-2
+    NumberFormat conic;           ///< A (and B, C while Literal derives)
+    NumberFormat q_threshold;     ///< Q_th
+    NumberFormat colour;          ///< red, green, blue
 
     // Span Unit.
-    ValueFormat distance; ///< dy, u = x - x_c, px
-    ValueFormat square;   ///< dy^2, dy inv_ry^2, A u, 2u + 1 and other intermediate products
-    ValueFormat ratio;    ///< x = dy^2 inv_ry^2 and 1 - x
-    ValueFormat edge;     ///< m dy, x_c, w, x_c -+ w; px
-    ValueFormat level;    ///< terms of g0
-    ValueFormat g0, d0;   ///< Span Vector
+    NumberFormat distance; ///< dy, u = x - x_c, px
+    NumberFormat square;   ///< dy^2, dy inv_ry^2, A u, 2u + 1 and other intermediate products
+    NumberFormat ratio;    ///< x = dy^2 inv_ry^2 and 1 - x
+    NumberFormat edge;     ///< m dy, x_c, w, x_c -+ w; px
+    NumberFormat level;    ///< terms of g0
+    NumberFormat g0, d0;   ///< Span Vector
 
     // Blending PE and Pixel Buffer.
-    ValueFormat term; ///< n d0, A n(n-1), and their sum with Base::Vertex
-    ValueFormat q;    ///< q_n
-    ValueFormat alpha;
-    ValueFormat transmittance; ///< T and 1 - alpha; fixed formats store 1 - T, so that 1 is exact
-    ValueFormat weight;        ///< alpha T, and its products with the colour
-    ValueFormat sum;           ///< accumulated colour
+    NumberFormat term; ///< n d0, A n(n-1), and their sum with Base::Vertex
+    NumberFormat q;    ///< q_n
+    NumberFormat alpha;
+    NumberFormat transmittance; ///< T and 1 - alpha; fixed formats store 1 - T, so that 1 is exact
+    NumberFormat weight;        ///< alpha T, and its products with the colour
+    NumberFormat sum;           ///< accumulated colour
 
     TableSpec sqrt, exp;
 

@@ -14,11 +14,11 @@ int to_pixel(double x) {
 }
 
 /// Largest error of rounding a value of that magnitude; infinite if it is beyond the format.
-double rounding_error(const ValueFormat& format, double magnitude) {
+double rounding_error(const NumberFormat& format, double magnitude) {
     if (!(magnitude <= format.max())) {
         return std::numeric_limits<double>::infinity();
     }
-    return format.kind == ValueFormat::Kind::Fixed
+    return format.kind == NumberFormat::Kind::Fixed
                ? format.quantum() / 2
                : std::max(std::ldexp(magnitude, -format.fraction_bits - 1), format.quantum() / 2);
 }

@@ -22,7 +22,7 @@ public:
     double ends(const QuantizedSplat& splat, double reach) const;
 
 private:
-    ValueFormat distance_, square_, ratio_, edge_;
+    NumberFormat distance_, square_, ratio_, edge_;
     bool squared_;
     double cell_ = 0, root_ = 0; // of the root: as an error of x, as one of the result
     double outward_ = 0;         // px that the set's ends lie outside

@@ -128,9 +128,9 @@ bool is_power_of_two(double value) {
 }
 
 /// The formats that PEs round to; the first are those of operands, which they only read.
-std::vector<ValueFormat> pe_results(const NumberSet& set) {
-    std::vector<ValueFormat> results = {set.term,   set.q,   set.alpha,     set.transmittance,
-                                        set.weight, set.sum, set.exp.values};
+std::vector<NumberFormat> pe_results(const NumberSet& set) {
+    std::vector<NumberFormat> results = {set.term,   set.q,   set.alpha,     set.transmittance,
+                                         set.weight, set.sum, set.exp.values};
     if (set.exp.function == TableFunction::ExpHalf && set.exp.reduction == Reduction::Binary) {
         results.push_back(set.exp.argument);
     }
@@ -138,12 +138,12 @@ std::vector<ValueFormat> pe_results(const NumberSet& set) {
 }
 
 LaneFamily family_of(const NumberSet& set) {
-    const ValueFormat half = parse_format("fp16");
+    const NumberFormat half = parse_format("fp16");
     bool fixed = true;
     bool halves = true;
-    for (const ValueFormat& format : pe_results(set)) {
+    for (const NumberFormat& format : pe_results(set)) {
         halves = halves && format == half;
-        fixed = fixed && format.kind == ValueFormat::Kind::Fixed &&
+        fixed = fixed && format.kind == NumberFormat::Kind::Fixed &&
                 format.storage_bits() - static_cast<int>(format.has_sign) <= 22;
     }
     fixed =
@@ -188,9 +188,9 @@ std::vector<Variant> variants(LaneFamily family) {
 } // namespace
 
 bool lanes_can(const NumberSet& set) {
-    std::vector<ValueFormat> formats = pe_results(set);
+    std::vector<NumberFormat> formats = pe_results(set);
     formats.insert(formats.end(), {set.conic, set.g0, set.d0, set.colour});
-    for (const ValueFormat& format : formats) {
+    for (const NumberFormat& format : formats) {
         if (format.is_fp64() || !format.fits_float()) {
             return false;
         }

@@ -15,9 +15,9 @@ class Rounded;
 class RoundedNumbers {
 public:
     using Scalar = Rounded;
-    explicit RoundedNumbers(const ValueFormat& format)
+    explicit RoundedNumbers(const NumberFormat& format)
         : rounder_(format),
-          max_(format.kind == ValueFormat::Kind::Fixed ? format.max() : INFINITY) {}
+          max_(format.kind == NumberFormat::Kind::Fixed ? format.max() : INFINITY) {}
     Rounded operator()(double x) const;
     double round(double x) const {
         // A zero keeps the sign of what it was rounded from, and NaN stays NaN.
