@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Plants one mistake after the other in an otherwise clean little site: site_check.sh must accept the clean one and
-# must name each mistake.
+# Plants one mistake after the other in an otherwise clean little site: site_check.sh and documents.py must accept the
+# clean one and must name each mistake.
 set -euo pipefail
 
 here=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
@@ -11,8 +11,9 @@ failures=0
 
 clean_tree() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/{docs,scripts,src}
+    mkdir -p "$tree"/{docs,scripts,src,configs,tests/docs}
     cp "$here/../../scripts/site_hook.py" "$tree/scripts/"
+    cp "$here/documents.py" "$tree/tests/docs/"
     echo 'int a;' >"$tree/src/a.cpp"
     printf '# Front\n\n[page](docs/page.md#part) and [source](src/a.cpp)\n' >"$tree/README.md"
     echo '# Changes' >"$tree/CHANGELOG.md"
@@ -32,6 +33,36 @@ finds() {
     fi
 }
 
+# A program with one command and one option that prints two lines.
+program() {
+    cat >"$tree/degs" <<'END'
+#!/usr/bin/env bash
+case "$*" in
+    --help) printf 'Subcommands:\n  run    runs\n' ;;
+    'run --help') printf '  --set TEXT  sets\n' ;;
+    run*) printf 'one\nhost 3 s\n' ;;
+    *) exit 2 ;;
+esac
+END
+    chmod +x "$tree/degs"
+}
+
+# finds_command REASON LINES...: a page of LINES must fail and say REASON; without REASON it must pass.
+finds_command() {
+    local reason=$1 output
+    shift
+    clean_tree
+    program
+    printf '%s\n' "$@" >"$tree/docs/page.md"
+    if output=$(/usr/bin/python3 "$tree/tests/docs/documents.py" "$tree/degs" 2>&1); then
+        [[ -n $reason ]] || return 0
+    elif [[ -n $reason ]] && grep -qF "$reason" <<<"$output"; then
+        return 0
+    fi
+    echo "documents.py: expected '${reason:-no mistake}' for '$*'; it said: $output"
+    failures=$((failures + 1))
+}
+
 clean_tree
 "$here/site_check.sh" "$tree" || { echo "the clean site was rejected"; exit 1; }
 finds docs/page.md '[gone](gone.md)' gone.md
@@ -39,5 +70,17 @@ finds docs/page.md '[gone](../src/gone.cpp)' gone.cpp
 finds README.md '[gone](docs/page.md#gone)' 'names an anchor that does not exist'
 finds docs/page.md '![far](https://example.org/a.png)' 'from another host'
 finds docs/alone.md '# Alone' 'the navigation does not reach it'
+
+finds_command '' '```console' '$ degs run' one 'host 5 s' '```' 'and `degs run --set a=b`'
+finds_command '' '<!-- slow -->' '```sh' 'degs gone' '```'
+finds_command '' '<!-- with NAME=run -->' '```sh' 'degs NAME' '```'
+finds_command '' '<!-- file a.txt -->' '```text' hello '```' '' '```console' '$ cat a.txt' hello '```'
+finds_command '' '<!-- output of: degs run -->' '' one 'host 7 s' '' more
+finds_command 'exit code 2' '```sh' 'degs gone' '```'
+finds_command 'page.md:2: the page shows other output' '```console' '$ degs run' two '```'
+finds_command 'page.md:2: the page shows other output' '<!-- output of: degs run -->' '' two ''
+finds_command "no command 'degs walk'" '`degs walk`'
+finds_command 'no option --get' '`degs run a.yaml --get b`'
+finds_command 'needs a fence' '    degs run'
 [[ $failures -eq 0 ]] || exit 1
 echo "documents self-test: every planted mistake was found"
