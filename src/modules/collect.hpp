@@ -70,7 +70,7 @@ inline void add_buffer(AcceleratorResult& result, const char* name, int bytes, i
     BufferUse buffer;
     buffer.name = name;
     buffer.bytes = bytes;
-    buffer.depth = static_cast<std::uint64_t>(depth);
+    buffer.depth = depth;
     buffer.rings = use.depth / buffer.depth;
     buffer.high_water = use.high_water;
     if (result.cycles != 0 && use.depth != 0) {

@@ -15,7 +15,7 @@ void Degs::collect_slots(AcceleratorResult& result) const {
         result.window.include(slice->stats().window);
         result.hazards += slice->stats().hazards;
     }
-    const auto width = static_cast<std::uint64_t>(config_.array.pes_per_bank);
+    const std::uint64_t width = config_.array.pes_per_bank;
     for (std::size_t b = 0; b < slices_.size(); ++b) {
         result.slots += packing_[b]->idle();
         const ActiveWindow& own = slices_[b]->stats().window;

@@ -25,7 +25,7 @@ std::uint64_t aligned(std::uint64_t bytes) {
     return (bytes + 4095) / 4096 * 4096;
 }
 std::uint64_t times(std::uint64_t count, int bytes) {
-    return count * static_cast<std::uint64_t>(bytes);
+    return count * bytes;
 }
 
 } // namespace

@@ -24,7 +24,7 @@ struct TrafficConfig {
     void describe(ConfigVisitor& visitor);
 
     std::uint64_t sh_bytes(int degree) const {
-        return static_cast<std::uint64_t>(3 * (degree + 1) * (degree + 1) * sh_value_bytes);
+        return 3 * (degree + 1) * (degree + 1) * sh_value_bytes;
     }
 };
 

@@ -17,19 +17,17 @@ ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config
       tile_done("tile_done"), tile_state("tile_state"), config_(config), job_(job), index_(index),
       slices_(slices), segment_length_(segment_length),
       segments_per_row_((job.tile_size + segment_length - 1) / segment_length), self_(time),
-      contexts_(static_cast<std::size_t>(contexts)),
-      segments_(
-          static_cast<std::size_t>((job.tile_size + slices - 1) / slices * segments_per_row_)) {
+      contexts_(contexts), segments_((job.tile_size + slices - 1) / slices * segments_per_row_) {
     for (Context& context : contexts_) {
         context.live_in_segment.resize(segments_);
         context.ended_in_segment.resize(segments_);
     }
     recent_.resize(segments_ * contexts_.size());
-    port_of_listener_.resize(static_cast<std::size_t>(config.region_listeners), 0);
+    port_of_listener_.resize(config.region_listeners, 0);
     std::size_t port = 0;
     for (int g = 0; g < config.region_listeners; ++g) {
         if (shares_row(index, slices, g, config.region_listeners)) {
-            port_of_listener_[static_cast<std::size_t>(g)] = port++;
+            port_of_listener_[g] = port++;
         }
     }
     SC_HAS_PROCESS(ArraySlice);
@@ -63,7 +61,7 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
     stats_.packets++;
     stats_.window.include(now);
     for (int i = 0; i < packet.run_count; ++i) {
-        const TaskRun& run = packet.runs[static_cast<std::size_t>(i)];
+        const TaskRun& run = packet.runs[i];
         for (; next_tile_ <= run.tile; ++next_tile_) {
             start_tile(next_tile_);
         }
@@ -73,9 +71,7 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
         const std::uint32_t first_task = run.task.mask & (0U - run.task.mask);
         if ((run.part & first_task) != 0) {
             outcome_ = job_.path->blend(run.task);
-            const auto count = [](std::uint32_t mask) {
-                return static_cast<std::uint64_t>(__builtin_popcount(mask));
-            };
+            const auto count = [](std::uint32_t mask) { return __builtin_popcount(mask); };
             stats_.slots.useful += count(outcome_.useful);
             stats_.slots.boundary += count(outcome_.boundary);
             stats_.slots.terminated += count(outcome_.terminated);
@@ -133,22 +129,22 @@ void ArraySlice::start_tile(TileNumber number) {
 
 // The invariant the scoreboard exists for; see the tests that switch it off.
 void ArraySlice::check_reuse(const TaskRun& run, Cycle date) {
-    Recent& recent = recent_[static_cast<std::size_t>(run.task.context) * segments_ + run.domain];
+    Recent& recent = recent_[run.task.context * segments_ + run.domain];
     const bool late = date - recent.date >= static_cast<Cycle>(config_.writeback_cycles);
     const std::uint32_t busy = late ? 0 : recent.mask;
-    stats_.hazards += static_cast<std::uint64_t>(__builtin_popcount(busy & run.part));
+    stats_.hazards += __builtin_popcount(busy & run.part);
     recent.mask = busy | run.part;
     recent.date = date;
 }
 
 void ArraySlice::pixels_ended(const TaskRun& run, std::uint32_t ended) {
-    Context& context = contexts_[static_cast<std::size_t>(run.task.context)];
+    Context& context = contexts_[run.task.context];
     const std::size_t segment = run.domain;
     const int count = __builtin_popcount(ended);
     context.ended_in_segment[segment] |= ended;
     context.live_in_segment[segment] -= count;
     context.live_pixels -= count;
-    stats_.pixels_ended += static_cast<std::uint64_t>(count);
+    stats_.pixels_ended += count;
     const bool all = context.live_in_segment[segment] == 0;
     if (all && config_.region_listeners != 0) {
         report_region(context, run);
@@ -168,7 +164,7 @@ void ArraySlice::pixels_ended(const TaskRun& run, std::uint32_t ended) {
 }
 
 void ArraySlice::report_region(const Context& context, const TaskRun& run) {
-    const auto listener = static_cast<std::size_t>(run.task.row % config_.region_listeners);
+    const std::size_t listener = run.task.row % config_.region_listeners;
     const auto segment = static_cast<std::int16_t>(run.task.column / segment_length_);
     region_ended[port_of_listener_[listener]]->put(self_, {context.tile, run.task.row, segment});
 }

@@ -5,8 +5,7 @@
 
 namespace degs {
 
-FeatureBuffer::FeatureBuffer(int entries)
-    : entries_(static_cast<std::size_t>(entries)), free_count_(entries_.size()) {
+FeatureBuffer::FeatureBuffer(int entries) : entries_(entries), free_count_(entries_.size()) {
     for (int i = 0; i < entries; ++i) {
         free_.push_back({0, static_cast<std::uint16_t>(i)});
     }

@@ -48,7 +48,7 @@ PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& conf
     : sc_core::sc_module(name), in("in", slices), context_free("context_free", slices),
       frame_done("frame_done", gated ? 1 : 0), frame_buffer("frame_buffer", time), config_(config),
       traffic_(traffic), job_(job), contexts_(contexts), share_(share), instant_(instant),
-      self_(time), in_flight_(static_cast<std::size_t>(config.writes_in_flight), 0) {
+      self_(time), in_flight_(config.writes_in_flight, 0) {
     for (int c = 0; c < contexts; ++c) {
         clear(share.first_context + c);
     }
@@ -94,7 +94,7 @@ bool PixelBuffer::take_tile(TileNumber& number) {
 // Of a granted tile: before it is counted.
 int PixelBuffer::context_of(TileNumber number) const {
     const std::uint64_t turn = share_.granted ? stats_.tiles : number;
-    return share_.first_context + static_cast<int>(turn % static_cast<std::uint64_t>(contexts_));
+    return share_.first_context + static_cast<int>(turn % contexts_);
 }
 
 void PixelBuffer::finish_tile(TileNumber number) {
@@ -118,7 +118,7 @@ void PixelBuffer::finish_tile(TileNumber number) {
     }
     stats_.finished = std::max(written_, read_out_);
     stats_.tiles++;
-    const TileNumber next = number + static_cast<TileNumber>(contexts_);
+    const TileNumber next = number + contexts_;
     if (share_.granted || !job_.over(next)) {
         for (auto& port : context_free) {
             port->put(self_, next);
@@ -132,8 +132,8 @@ Cycle PixelBuffer::write_rows(TileNumber number) {
     constexpr int kRowsPerCycle = 2;
     const JobTile& tile = job_.tiles[number];
     const MemoryMap map = job_.map(tile.frame, traffic_);
-    const auto pixel_bytes = static_cast<std::uint64_t>(job_.pixel_bytes(tile.frame, traffic_));
-    const auto frame_width = static_cast<std::uint64_t>(job_.frame_of(tile).camera.width);
+    const std::uint64_t pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
+    const std::uint64_t frame_width = job_.frame_of(tile).camera.width;
     const int per_cycle = std::max(1, config_.readout_pixels / share_.row_stride);
     const Cycle start = self_.local();
     Cycle done = start;
@@ -141,13 +141,11 @@ Cycle PixelBuffer::write_rows(TileNumber number) {
     int row = 0;
     for (int y = share_.first_row; y < tile.height; y += share_.row_stride, ++row) {
         if (!instant_) {
-            self_.advance_to(start +
-                             static_cast<Cycle>(std::max(read / per_cycle, row / kRowsPerCycle)));
+            self_.advance_to(start + std::max(read / per_cycle, row / kRowsPerCycle));
         }
-        const auto image_row = static_cast<std::uint64_t>(tile.y + y);
+        const std::uint64_t image_row = tile.y + y;
         const std::uint64_t address =
-            map.frame_buffer +
-            (image_row * frame_width + static_cast<std::uint64_t>(tile.x)) * pixel_bytes;
+            map.frame_buffer + (image_row * frame_width + tile.x) * pixel_bytes;
         const std::vector<unsigned char>& pixels = read_out(number, y);
         if (instant_) {
             frame_buffer.poke(address, pixels);
@@ -159,9 +157,8 @@ Cycle PixelBuffer::write_rows(TileNumber number) {
     if (instant_) {
         return done;
     }
-    self_.advance_to(start +
-                     static_cast<Cycle>(std::max((read + per_cycle - 1) / per_cycle,
-                                                 (row + kRowsPerCycle - 1) / kRowsPerCycle)));
+    self_.advance_to(start + std::max((read + per_cycle - 1) / per_cycle,
+                                      (row + kRowsPerCycle - 1) / kRowsPerCycle));
     return done;
 }
 
@@ -169,8 +166,8 @@ const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y
     const JobTile& tile = job_.tiles[number];
     Image& image = job_.images[tile.frame];
     const int pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
-    pixels_.resize(static_cast<std::size_t>(tile.width));
-    bytes_.resize(pixels_.size() * static_cast<std::size_t>(pixel_bytes));
+    pixels_.resize(tile.width);
+    bytes_.resize(pixels_.size() * pixel_bytes);
     job_.path->read_row(context_of(number), y, tile.width, pixels_.data());
     unsigned char* out = bytes_.data();
     std::size_t i = image.at(tile.x, tile.y + y);

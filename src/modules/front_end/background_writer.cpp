@@ -11,7 +11,7 @@ BackgroundWriter::BackgroundWriter(const sc_core::sc_module_name& name,
                                    bool instant)
     : sc_core::sc_module(name), frame_done("frame_done", reports ? 1 : 0),
       frame_buffer("frame_buffer", time), traffic_(traffic), job_(job),
-      cycles_per_write_(static_cast<Cycle>(cycles_per_write)), instant_(instant), self_(time) {
+      cycles_per_write_(cycles_per_write), instant_(instant), self_(time) {
     SC_HAS_PROCESS(BackgroundWriter);
     SC_THREAD(run);
 }
@@ -39,8 +39,7 @@ Cycle BackgroundWriter::write_frame(std::uint32_t frame) {
     const FrameWorkload& work = *job_.frames[frame];
     Cycle done = self_.local();
     const auto empty = [&work](int tile) {
-        const auto t = static_cast<std::size_t>(tile);
-        return work.tile_begin[t] == work.tile_begin[t + 1];
+        return work.tile_begin[tile] == work.tile_begin[tile + 1];
     };
     for (int row = 0; row < work.tiles_y; ++row) {
         for (int begin = 0; begin < work.tiles_x;) {
@@ -59,7 +58,7 @@ Cycle BackgroundWriter::write_frame(std::uint32_t frame) {
 
 // Tiles [begin, end) of a row of tiles. Background is transparent black: zeros in any format.
 Cycle BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, int end) {
-    stats_.tiles += static_cast<std::uint64_t>(end - begin);
+    stats_.tiles += end - begin;
     Cycle done = self_.local();
     if (instant_) {
         return done;
@@ -71,13 +70,11 @@ Cycle BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, 
     const int bottom = std::min(top + work.tile_size, work.camera.height);
     // Rows as wide as the image follow each other.
     const int rows = width == work.camera.width ? bottom - top : 1;
-    const auto pixel_bytes = static_cast<std::uint64_t>(job_.pixel_bytes(frame, traffic_));
-    const std::vector<unsigned char> zeros(static_cast<std::size_t>(rows * width) * pixel_bytes, 0);
+    const std::uint64_t pixel_bytes = job_.pixel_bytes(frame, traffic_);
+    const std::vector<unsigned char> zeros((rows * width) * pixel_bytes, 0);
     const std::uint64_t base = job_.map(frame, traffic_).frame_buffer;
     for (int y = top; y < bottom; y += rows) {
-        const std::uint64_t pixel =
-            static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(work.camera.width) +
-            static_cast<std::uint64_t>(left);
+        const std::uint64_t pixel = y * static_cast<std::uint64_t>(work.camera.width) + left;
         self_.advance_to(next_write_);
         next_write_ = self_.local() + cycles_per_write_;
         done = std::max(done, frame_buffer.write(self_, base + pixel * pixel_bytes, zeros));

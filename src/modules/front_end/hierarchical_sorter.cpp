@@ -35,9 +35,9 @@ HierarchicalSorter::HierarchicalSorter(const sc_core::sc_module_name& name, cons
                                        const RenderJob& job, int index, std::uint64_t capacity)
     : sc_core::sc_module(name), start("start"), cancel("cancel"), sorted("sorted"),
       loader("loader", traffic, time, job, index, config.count), lists("lists", time),
-      chunks("chunks", time), config_(config), traffic_(traffic), job_(job),
-      index_(static_cast<std::size_t>(index)), capacity_(capacity), partitioner_(time),
-      sorter_(time), loaded_("loaded", time, 1), partitioned_("partitioned", time, 1) {
+      chunks("chunks", time), config_(config), traffic_(traffic), job_(job), index_(index),
+      capacity_(capacity), partitioner_(time), sorter_(time), loaded_("loaded", time, 1),
+      partitioned_("partitioned", time, 1) {
     loader.start.bind(start);
     loader.out.bind(loaded_);
     SC_HAS_PROCESS(HierarchicalSorter);
@@ -54,9 +54,9 @@ void HierarchicalSorter::end_of_elaboration() {
 }
 
 void HierarchicalSorter::coarse() {
-    const auto entry = static_cast<std::uint64_t>(traffic_.list_entry_bytes);
-    const auto rate = static_cast<std::uint64_t>(config_.keys_per_cycle);
-    for (std::size_t t = index_; !job_.over(t); t += static_cast<std::size_t>(config_.count)) {
+    const std::uint64_t entry = traffic_.list_entry_bytes;
+    const std::uint64_t rate = config_.keys_per_cycle;
+    for (std::size_t t = index_; !job_.over(t); t += config_.count) {
         const TileNumber number = loaded_.get(partitioner_);
         const JobTile& tile = job_.tiles[number];
         const MemoryMap map = job_.map(tile.frame, traffic_);
@@ -71,7 +71,7 @@ void HierarchicalSorter::coarse() {
             partitioner_.advance(level);
             partitioner_.advance_to(lists.write(partitioner_, address, tile.count * entry));
         }
-        const std::uint64_t all = levels(tile.count, static_cast<std::uint64_t>(config_.chunk));
+        const std::uint64_t all = levels(tile.count, config_.chunk);
         partitioner_.advance((all - std::min(all, outside)) * level);
         stats_.coarse_busy += std::max(all, outside) * level;
         stats_.memory_levels += outside;
@@ -82,7 +82,7 @@ void HierarchicalSorter::coarse() {
 }
 
 void HierarchicalSorter::fine() {
-    for (std::size_t t = index_; !job_.over(t); t += static_cast<std::size_t>(config_.count)) {
+    for (std::size_t t = index_; !job_.over(t); t += config_.count) {
         sort_chunks(partitioned_.get(sorter_));
     }
     sorted->put(sorter_, {kNoTile, 0});
@@ -91,7 +91,7 @@ void HierarchicalSorter::fine() {
 
 void HierarchicalSorter::sort_chunks(TileNumber number) {
     const JobTile& tile = job_.tiles[number];
-    const auto entry = static_cast<std::uint64_t>(traffic_.list_entry_bytes);
+    const std::uint64_t entry = traffic_.list_entry_bytes;
     for (std::uint64_t done = 0; done < tile.count;) {
         const std::uint64_t count =
             std::min(static_cast<std::uint64_t>(config_.chunk), tile.count - done);
@@ -104,7 +104,7 @@ void HierarchicalSorter::sort_chunks(TileNumber number) {
                 sorter_.advance_to(
                     chunks.read(sorter_, map.lists + (tile.first + done) * entry, count * entry));
             }
-            const Cycle busy = count * static_cast<Cycle>(config_.fine_cycles_per_key);
+            const Cycle busy = count * config_.fine_cycles_per_key;
             sorter_.advance(busy);
             stats_.fine_busy += busy;
             stats_.keys_sorted += count;

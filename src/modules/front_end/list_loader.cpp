@@ -6,8 +6,7 @@ namespace degs {
 ListLoader::ListLoader(const sc_core::sc_module_name& name, const TrafficConfig& traffic,
                        const Timebase& time, const RenderJob& job, int first, int stride)
     : sc_core::sc_module(name), start("start"), out("out"), lists("lists", time), traffic_(traffic),
-      job_(job), first_(static_cast<std::size_t>(first)), stride_(static_cast<std::size_t>(stride)),
-      self_(time) {
+      job_(job), first_(first), stride_(stride), self_(time) {
     SC_HAS_PROCESS(ListLoader);
     SC_THREAD(run);
 }
@@ -18,7 +17,7 @@ void ListLoader::end_of_elaboration() {
 }
 
 void ListLoader::run() {
-    const auto entry = static_cast<std::uint64_t>(traffic_.list_entry_bytes);
+    const std::uint64_t entry = traffic_.list_entry_bytes;
     std::uint32_t frames_started = 0;
     for (std::size_t t = first_; job_.has_tile(self_, t); t += stride_) {
         const JobTile& tile = job_.tiles[t];

@@ -24,11 +24,9 @@ ProjectionUnit::ProjectionUnit(const sc_core::sc_module_name& name, const Config
                                const RenderJob& job, int index, int frames_in_flight)
     : sc_core::sc_module(name), geometry("geometry", time), sh("sh", time), out("out"),
       frame_free("frame_free", frames_in_flight == 0 ? 0 : 1), config_(config), traffic_(traffic),
-      job_(job), index_(index), frames_in_flight_(static_cast<std::uint32_t>(frames_in_flight)),
-      fetcher_(time), projector_(time), shader_(time),
-      fetched_("fetched", time, static_cast<std::size_t>(config.chunks_in_flight)),
-      projected_("projected", time, static_cast<std::size_t>(config.chunks_in_flight),
-                 static_cast<Cycle>(config.latency_cycles)) {
+      job_(job), index_(index), frames_in_flight_(frames_in_flight), fetcher_(time),
+      projector_(time), shader_(time), fetched_("fetched", time, config.chunks_in_flight),
+      projected_("projected", time, config.chunks_in_flight, config.latency_cycles) {
     SC_HAS_PROCESS(ProjectionUnit);
     SC_THREAD(fetch);
     SC_THREAD(project);
@@ -47,18 +45,17 @@ void ProjectionUnit::end_of_elaboration() {
 }
 
 void ProjectionUnit::fetch() {
-    const auto chunk = static_cast<std::uint64_t>(config_.chunk);
-    const std::uint64_t stride = chunk * static_cast<std::uint64_t>(config_.count);
+    const std::uint64_t chunk = config_.chunk;
+    const std::uint64_t stride = chunk * config_.count;
     for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); ++f) {
         if (frames_in_flight_ != 0 && f >= frames_in_flight_) {
             frame_free[0]->get(fetcher_);
         }
         const MemoryMap map = job_.map(f, traffic_);
         const std::uint64_t total = job_.frames[f]->gaussians;
-        for (std::uint64_t first = chunk * static_cast<std::uint64_t>(index_); first < total;
-             first += stride) {
+        for (std::uint64_t first = chunk * index_; first < total; first += stride) {
             const std::uint64_t count = std::min(chunk, total - first);
-            const auto bytes = static_cast<std::uint64_t>(traffic_.geometry_bytes);
+            const std::uint64_t bytes = traffic_.geometry_bytes;
             fetched_.reserve(fetcher_);
             const Cycle ready =
                 geometry.read(fetcher_, map.geometry + first * bytes, count * bytes);
@@ -72,9 +69,9 @@ void ProjectionUnit::fetch() {
 void ProjectionUnit::project() {
     for (std::uint32_t f = 0; job_.has_frame(projector_, f); ++f) {
         const FrameWorkload& frame = *job_.frames[f];
-        const auto chunk = static_cast<std::uint64_t>(config_.chunk);
-        for (std::uint64_t first = chunk * static_cast<std::uint64_t>(index_);
-             first < frame.gaussians; first += chunk * static_cast<std::uint64_t>(config_.count)) {
+        const std::uint64_t chunk = config_.chunk;
+        for (std::uint64_t first = chunk * index_; first < frame.gaussians;
+             first += chunk * config_.count) {
             const Chunk in = fetched_.get(projector_);
             const auto& ids = frame.visible_of;
             const auto begin = std::lower_bound(ids.begin(), ids.end(), in.first);
@@ -85,7 +82,7 @@ void ProjectionUnit::project() {
             result.visible = static_cast<std::uint32_t>(end - begin);
             result.tile_pairs = job_.pairs_before(f, result.first_visible + result.visible) -
                                 job_.pairs_before(f, result.first_visible);
-            const Cycle busy = in.count * static_cast<Cycle>(config_.cycles_per_gaussian);
+            const Cycle busy = in.count * config_.cycles_per_gaussian;
             projector_.advance(busy);
             stats_.project_busy += busy;
             stats_.gaussians += in.count;
@@ -103,15 +100,14 @@ Cycle ProjectionUnit::read_sh(std::uint32_t f, const Chunk& chunk, const Project
         const std::uint64_t record = traffic_.sh_bytes(frame.sh_degree);
         return sh.read(projector_, map.sh + chunk.first * record, chunk.count * record);
     }
-    return sh.read(projector_, map.sh,
-                   sh_bursts(frame, visible) * static_cast<std::uint64_t>(traffic_.burst_bytes));
+    return sh.read(projector_, map.sh, sh_bursts(frame, visible) * traffic_.burst_bytes);
 }
 
 // Distinct bursts that the visible records of a chunk touch; neighbours share one.
 std::uint64_t ProjectionUnit::sh_bursts(const FrameWorkload& frame,
                                         const ProjectedChunk& chunk) const {
     const std::uint64_t record = traffic_.sh_bytes(frame.sh_degree);
-    const auto burst = static_cast<std::uint64_t>(traffic_.burst_bytes);
+    const std::uint64_t burst = traffic_.burst_bytes;
     std::uint64_t count = 0;
     std::uint64_t next_free = 0; // bursts below this are counted already
     for (std::uint32_t v = 0; v < chunk.visible; ++v) {
@@ -126,13 +122,11 @@ std::uint64_t ProjectionUnit::sh_bursts(const FrameWorkload& frame,
 
 void ProjectionUnit::shade() {
     for (std::uint32_t f = 0; job_.has_frame(shader_, f); ++f) {
-        const auto chunk = static_cast<std::uint64_t>(config_.chunk);
-        for (std::uint64_t first = chunk * static_cast<std::uint64_t>(index_);
-             first < job_.frames[f]->gaussians;
-             first += chunk * static_cast<std::uint64_t>(config_.count)) {
+        const std::uint64_t chunk = config_.chunk;
+        for (std::uint64_t first = chunk * index_; first < job_.frames[f]->gaussians;
+             first += chunk * config_.count) {
             const ProjectedChunk in = projected_.get(shader_);
-            const Cycle busy =
-                static_cast<Cycle>(in.visible) * static_cast<Cycle>(config_.cycles_per_colour);
+            const Cycle busy = in.visible * static_cast<Cycle>(config_.cycles_per_colour);
             shader_.advance(busy);
             stats_.shade_busy += busy;
             stats_.visible += in.visible;

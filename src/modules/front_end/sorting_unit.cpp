@@ -19,8 +19,8 @@ SortingUnit::SortingUnit(const sc_core::sc_module_name& name, const Config& conf
                          int index, std::uint64_t sort_capacity)
     : sc_core::sc_module(name), start("start"), sorted("sorted"),
       loader("loader", traffic, time, job, index, config.count), lists("lists", time),
-      config_(config), traffic_(traffic), job_(job), index_(static_cast<std::size_t>(index)),
-      sort_capacity_(sort_capacity), sorter_(time), loaded_("loaded", time, 1) {
+      config_(config), traffic_(traffic), job_(job), index_(index), sort_capacity_(sort_capacity),
+      sorter_(time), loaded_("loaded", time, 1) {
     loader.start.bind(start);
     loader.out.bind(loaded_);
     SC_HAS_PROCESS(SortingUnit);
@@ -35,16 +35,15 @@ void SortingUnit::end_of_elaboration() {
 std::uint64_t SortingUnit::passes(std::uint64_t keys) const {
     std::uint64_t count = 0;
     for (std::uint64_t runs = keys; runs > 1; ++count) {
-        runs = (runs + static_cast<std::uint64_t>(config_.merge_ways) - 1) /
-               static_cast<std::uint64_t>(config_.merge_ways);
+        runs = (runs + config_.merge_ways - 1) / config_.merge_ways;
     }
     return std::max<std::uint64_t>(count, 1);
 }
 
 void SortingUnit::sort() {
-    const auto entry = static_cast<std::uint64_t>(traffic_.list_entry_bytes);
-    const auto rate = static_cast<std::uint64_t>(config_.keys_per_cycle);
-    for (std::size_t t = index_; !job_.over(t); t += static_cast<std::size_t>(config_.count)) {
+    const std::uint64_t entry = traffic_.list_entry_bytes;
+    const std::uint64_t rate = config_.keys_per_cycle;
+    for (std::size_t t = index_; !job_.over(t); t += config_.count) {
         const TileNumber number = loaded_.get(sorter_);
         const JobTile& tile = job_.tiles[number];
         const MemoryMap map = job_.map(tile.frame, traffic_);

@@ -17,7 +17,7 @@ SplatFetcher::SplatFetcher(const sc_core::sc_module_name& name, const Config& co
     : sc_core::sc_module(name), sorted("sorted"), cancel("cancel"), out("out", readers),
       request("request", granted ? 1 : 0), records("records", time), config_(config),
       traffic_(traffic), job_(job), instant_(instant), granted_(granted), cache_(cache),
-      self_(time), answered_(static_cast<std::size_t>(config.chunks_in_flight), 0) {
+      self_(time), answered_(config.chunks_in_flight, 0) {
     SC_HAS_PROCESS(SplatFetcher);
     SC_THREAD(run);
 }
@@ -75,8 +75,8 @@ Cycle SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
         return self_.local();
     }
     const MemoryMap map = job_.map(tile.frame, traffic_);
-    const auto burst = static_cast<std::uint64_t>(
-        std::max(traffic_.burst_bytes, traffic_.splat_bytes)); // records are scattered
+    const std::uint64_t burst =
+        std::max(traffic_.burst_bytes, traffic_.splat_bytes); // records are scattered
     Cycle& oldest = answered_[requests_++ % answered_.size()];
     self_.advance_to(oldest);
     oldest = records.read(self_, map.splats, missed * burst);
@@ -108,8 +108,8 @@ void SplatFetcher::fetch(const SortedRun& run) {
             skipped_ = run.tile;
             done_ = tile.count;
         } else {
-            chunk.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(
-                static_cast<std::uint64_t>(config_.chunk), run.end - done_));
+            chunk.count =
+                static_cast<std::uint32_t>(std::min<std::uint64_t>(config_.chunk, run.end - done_));
             done_ += chunk.count;
             stats_.records += chunk.count;
             ready = read(tile, chunk);

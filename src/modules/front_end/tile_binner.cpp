@@ -17,9 +17,8 @@ TileBinner::TileBinner(const sc_core::sc_module_name& name, const Config& config
                        const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
                        int chunk, std::size_t inputs, std::size_t outputs)
     : sc_core::sc_module(name), in("in", inputs), out("out", outputs), splats("splats", time),
-      lists("lists", time), config_(config), traffic_(traffic), job_(job),
-      chunk_(static_cast<std::uint64_t>(chunk)), self_(time),
-      acknowledged_(static_cast<std::size_t>(config.writes_in_flight), 0) {
+      lists("lists", time), config_(config), traffic_(traffic), job_(job), chunk_(chunk),
+      self_(time), acknowledged_(config.writes_in_flight, 0) {
     SC_HAS_PROCESS(TileBinner);
     SC_THREAD(run);
 }
@@ -51,14 +50,14 @@ void TileBinner::run() {
 }
 
 void TileBinner::bin(const ProjectedChunk& chunk, const MemoryMap& map) {
-    const auto rate = static_cast<Cycle>(config_.pairs_per_cycle);
+    const Cycle rate = config_.pairs_per_cycle;
     const Cycle busy = std::max<Cycle>(1, (chunk.tile_pairs + rate - 1) / rate);
     self_.advance(busy);
     stats_.busy += busy;
     Cycle& oldest = acknowledged_[writes_++ % acknowledged_.size()];
     self_.advance_to(oldest);
-    const auto record = static_cast<std::uint64_t>(traffic_.splat_bytes);
-    const auto entry = static_cast<std::uint64_t>(traffic_.list_entry_bytes);
+    const std::uint64_t record = traffic_.splat_bytes;
+    const std::uint64_t entry = traffic_.list_entry_bytes;
     const Cycle splats_done =
         splats.write(self_, map.splats + chunk.first_visible * record, chunk.visible * record);
     const Cycle lists_done =

@@ -7,12 +7,9 @@ namespace degs {
 
 TileFrontEnd::TileFrontEnd(const sc_core::sc_module_name& name, const Config& config,
                            const Timebase& time, const RenderJob& job)
-    : sc_core::sc_module(name), sorted("sorted", static_cast<std::size_t>(config.sorters())),
-      cancel("cancel", config.on_demand && !config.instant
-                           ? static_cast<std::size_t>(config.hierarchical.count)
-                           : 0),
-      frame_free("frame_free",
-                 gated(config, job) ? static_cast<std::size_t>(config.projection.count) : 0) {
+    : sc_core::sc_module(name), sorted("sorted", config.sorters()),
+      cancel("cancel", config.on_demand && !config.instant ? config.hierarchical.count : 0),
+      frame_free("frame_free", gated(config, job) ? config.projection.count : 0) {
     if (config.instant) {
         build_sources(time, job);
     } else {
@@ -36,15 +33,14 @@ void TileFrontEnd::build_units(const Config& config, const Timebase& time, const
         "binner", config.binning, config.traffic, time, job, config.projection.chunk,
         static_cast<std::size_t>(config.projection.count), sorters);
     for (int i = 0; i < config.projection.count; ++i) {
-        const auto unit = static_cast<std::size_t>(i);
-        projection_.push_back(std::make_unique<ProjectionUnit>(numbered("projection", unit).c_str(),
+        projection_.push_back(std::make_unique<ProjectionUnit>(numbered("projection", i).c_str(),
                                                                config.projection, config.traffic,
                                                                time, job, i, waits_for));
         auto& chunks = add_ring(projected_, "projected", time, 4, 1);
         projection_.back()->out.bind(chunks);
-        binner_->in[unit].bind(chunks);
+        binner_->in[i].bind(chunks);
         if (waits_for != 0) {
-            projection_.back()->frame_free[0].bind(frame_free[unit]);
+            projection_.back()->frame_free[0].bind(frame_free[i]);
         }
     }
     for (std::size_t i = 0; i < sorters; ++i) {

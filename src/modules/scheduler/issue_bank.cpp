@@ -34,7 +34,7 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
       queue_(config.queue_depth, power_of_two(tiles_in_flight_),
              Segmenter::domains_per_tile(job.tile_size, config.segment_length, config.count),
              config.scan),
-      features_(config.feature_entries), startable_(static_cast<TileNumber>(contexts)) {
+      features_(config.feature_entries), startable_(contexts) {
     SC_HAS_PROCESS(IssueBank);
     SC_THREAD(run);
 }
@@ -88,8 +88,7 @@ void IssueBank::see_terminations() {
 
 void IssueBank::see_contexts() {
     // A context comes back only after this bank, too, has ended the tile that holds it.
-    while (startable_ < oldest_tile_ + static_cast<TileNumber>(contexts_) &&
-           self_.arrived(*contexts_freed_)) {
+    while (startable_ < oldest_tile_ + contexts_ && self_.arrived(*contexts_freed_)) {
         startable_ = std::max(startable_, contexts_freed_->take(self_) + 1);
     }
 }
@@ -132,7 +131,7 @@ void IssueBank::enter_tile() {
 
 void IssueBank::drop(std::uint32_t mask) {
     stats_.segments_dropped++;
-    stats_.tasks_dropped += static_cast<std::uint64_t>(__builtin_popcount(mask));
+    stats_.tasks_dropped += __builtin_popcount(mask);
 }
 
 void IssueBank::accept(Cycle now) {
@@ -171,7 +170,7 @@ bool IssueBank::open_span(Cycle now) {
         if (span) {
             segmenter_.start(item);
             stats_.spans++;
-            stats_.tasks_in += static_cast<std::uint64_t>(item.span.length);
+            stats_.tasks_in += item.span.length;
         }
         source->drop(self_);
         if (span) {
@@ -244,14 +243,14 @@ bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile) {
     }
     Cycle last = now;
     if (tasks != 0) {
-        last = packing->add(self_, segment.run, wanted) + static_cast<Cycle>(config_.reuse_cycles);
+        last = packing->add(self_, segment.run, wanted) + config_.reuse_cycles;
         if (config_.scoreboard) {
             queue_.set_ready_at(tile, domain, last);
         }
     }
     stats_.segments_issued++;
-    stats_.tasks_issued += static_cast<std::uint64_t>(tasks);
-    stats_.tasks_dropped += static_cast<std::uint64_t>(__builtin_popcount(mask) - tasks);
+    stats_.tasks_issued += tasks;
+    stats_.tasks_dropped += __builtin_popcount(mask) - tasks;
     features_.release(segment.feature, last);
     queue_.pop(tile, domain);
     return true;
@@ -331,7 +330,7 @@ Cycle IssueBank::next_date(Cycle now) {
     }
     watched_[watched++] = terminations_;
     // A context comes back only after this bank, too, has ended the tile that holds it.
-    if (startable_ < oldest_tile_ + static_cast<TileNumber>(contexts_)) {
+    if (startable_ < oldest_tile_ + contexts_) {
         watched_[watched++] = contexts_freed_;
     }
     limit = self_.next_arrival(watched_.data(), watched, next, std::max(next, limit));

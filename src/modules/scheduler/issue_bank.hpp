@@ -78,8 +78,7 @@ private:
 
     bool takes(TileNumber tile) const { return tile == entering_tile_ && in_flight(tile); }
     bool in_flight(TileNumber tile) const {
-        return tile >= oldest_tile_ &&
-               tile < oldest_tile_ + static_cast<TileNumber>(tiles_in_flight_);
+        return tile >= oldest_tile_ && tile < oldest_tile_ + tiles_in_flight_;
     }
 
     Config config_;

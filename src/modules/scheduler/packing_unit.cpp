@@ -22,9 +22,8 @@ std::uint32_t lowest_bits(std::uint32_t mask, int count) {
 } // namespace
 
 PackingUnit::PackingUnit(const sc_core::sc_module_name& name, const Config& config)
-    : sc_core::sc_module(name), out("out"), config_(config),
-      latency_(static_cast<Cycle>(config.latency_cycles)), width_(static_cast<Cycle>(config.width)),
-      capacity_(width_ * static_cast<Cycle>(config.depth)) {}
+    : sc_core::sc_module(name), out("out"), config_(config), latency_(config.latency_cycles),
+      width_(config.width), capacity_(width_ * config.depth) {}
 
 Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask) {
     std::uint32_t left = mask;
@@ -38,7 +37,7 @@ Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask) {
         const int taken = std::min(count, config_.width - tasks_);
         const std::uint32_t part = taken == count ? left : lowest_bits(left, taken);
         TaskPacket& packet = ring_->staged();
-        TaskRun& packed = packet.runs[static_cast<std::size_t>(packet.run_count++)];
+        TaskRun& packed = packet.runs[packet.run_count++];
         packed = run;
         packed.task.mask = mask;
         packed.part = part;
@@ -105,8 +104,8 @@ void PackingUnit::send(Process& bank, Idle cause) {
     packet.tasks = tasks_;
     packet.ends_tile = ends_tile_;
     stats_.packets++;
-    stats_.tasks += static_cast<std::uint64_t>(tasks_);
-    idle_.idle(cause, static_cast<std::uint64_t>(config_.width - tasks_));
+    stats_.tasks += tasks_;
+    idle_.idle(cause, config_.width - tasks_);
     tasks_ = 0;
     open_until_ = kNever;
     ends_tile_ = false;

@@ -42,7 +42,7 @@ public:
     bool room(Cycle now, int tasks) const {
         const Cycle queued = std::max(next_slot_, now + 1) - (now + 1);
         // ceil((open + new) / width) more packets fit, without dividing.
-        return queued * width_ + static_cast<Cycle>(tasks_ + tasks) <= capacity_;
+        return queued * width_ + (tasks_ + tasks) <= capacity_;
     }
     /// Packs those tasks of a segment that `mask` names, at least one; returns the execution date
     /// of the last one.

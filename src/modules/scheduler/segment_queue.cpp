@@ -7,11 +7,8 @@ namespace degs {
 SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan)
     : domains_(domains_per_tile), words_((static_cast<std::size_t>(domains_per_tile) + 63) / 64),
       tile_mask_(static_cast<std::size_t>(tiles_in_flight) - 1), scan_(scan),
-      bits_(static_cast<std::size_t>(tiles_in_flight) * words_ * (2 + kWheel)),
-      keys_(static_cast<std::size_t>(tiles_in_flight * domains_per_tile)),
-      entries_(static_cast<std::size_t>(depth)),
-      lists_(static_cast<std::size_t>(tiles_in_flight * domains_per_tile)),
-      tiles_(static_cast<std::size_t>(tiles_in_flight)) {
+      bits_(tiles_in_flight * words_ * (2 + kWheel)), keys_(tiles_in_flight * domains_per_tile),
+      entries_(depth), lists_(tiles_in_flight * domains_per_tile), tiles_(tiles_in_flight) {
     std::uint64_t* bits = bits_.data();
     std::uint64_t* keys = keys_.data();
     List* lists = lists_.data();
@@ -27,7 +24,7 @@ SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile,
         bits += words_ * (2 + kWheel);
     }
     for (int i = depth - 1; i >= 0; --i) {
-        Entry& entry = entries_[static_cast<std::size_t>(i)];
+        Entry& entry = entries_[i];
         entry.next = free_;
         free_ = &entry;
     }
@@ -116,13 +113,13 @@ int SegmentQueue::pick_least(const Tile& tile) const {
 int SegmentQueue::pick_next(Tile& tile) const {
     int domain = -1;
     if (words_ == 1) { // as a rule: then without a branch that depends on the data
-        const auto cursor = static_cast<unsigned>(tile.cursor);
+        const unsigned cursor = tile.cursor;
         const std::uint64_t bits = ready(tile, 0);
         if (bits == 0) {
             return -1;
         }
         const std::uint64_t rotated = bits >> cursor | bits << ((64 - cursor) % 64);
-        domain = static_cast<int>((static_cast<unsigned>(__builtin_ctzll(rotated)) + cursor) % 64);
+        domain = (__builtin_ctzll(rotated) + cursor) % 64;
     } else {
         std::size_t w = word_of(tile.cursor);
         std::uint64_t bits = ready(tile, w) & ~(bit_of(tile.cursor) - 1);

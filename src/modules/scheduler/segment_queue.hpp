@@ -111,9 +111,7 @@ private:
     void turn_wheel(Tile& tile, Cycle date) const;
     int pick_next(Tile& tile) const;
     int pick_least(const Tile& tile) const;
-    static std::uint64_t bit_of(int domain) {
-        return std::uint64_t{1} << (static_cast<unsigned>(domain) % 64U);
-    }
+    static std::uint64_t bit_of(int domain) { return std::uint64_t{1} << (domain % 64U); }
     static std::size_t word_of(int domain) { return static_cast<std::size_t>(domain) / 64; }
     static std::uint64_t ready(const Tile& tile, std::size_t word) {
         return tile.occupied[word] & ~tile.cooling[word];
@@ -150,7 +148,7 @@ inline __attribute__((always_inline)) void SegmentQueue::pop(Tile& tile, int dom
     if (scan_ != DomainScan::RoundRobin) {
         tile.keys[domain] = key(head.segment.sequence, list.length);
     }
-    tile.occupied[word_of(domain)] ^= std::uint64_t{last} << (static_cast<unsigned>(domain) % 64U);
+    tile.occupied[word_of(domain)] ^= std::uint64_t{last} << (domain % 64U);
     __builtin_prefetch(head.next);
 }
 

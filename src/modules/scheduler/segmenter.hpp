@@ -21,7 +21,7 @@ public:
 
     /// For bank `index` of `banks`, which owns every row y with y mod banks = index.
     Segmenter(int tile_size, int length, int index, int banks, int contexts)
-        : length_(length), contexts_(static_cast<TileNumber>(contexts)) {
+        : length_(length), contexts_(contexts) {
         const int per_row = (tile_size + length - 1) / length;
         for (int i = 0; i < tile_size; ++i) {
             first_domain_of_row_.push_back(i / banks * per_row);
@@ -41,15 +41,14 @@ public:
     }
     const std::vector<Domain>& domains() const { return domains_; }
     int domain_of(int row, int column) const {
-        return first_domain_of_row_[static_cast<std::size_t>(row)] +
-               segment_of_column_[static_cast<std::size_t>(column)];
+        return first_domain_of_row_[row] + segment_of_column_[column];
     }
 
     void start(const SpanItem& item) {
         const RowSpan& span = item.span;
-        const int first = segment_of_column_[static_cast<std::size_t>(span.x0)];
+        const int first = segment_of_column_[span.x0];
         column_ = first * length_;
-        domain_ = first_domain_of_row_[static_cast<std::size_t>(span.y)] + first;
+        domain_ = first_domain_of_row_[span.y] + first;
         begin_ = span.x0;
         end_ = span.x0 + span.length;
         base_ = span.base;
@@ -74,7 +73,7 @@ public:
     /// written would wait for the write.
     void fill(TaskRun& run, std::uint32_t mask) const {
         run.tile = tile_;
-        run.domain = static_cast<std::uint32_t>(domain_);
+        run.domain = domain_;
         run.task.g0 = g0_;
         run.task.d0 = d0_;
         run.task.splat = splat_;

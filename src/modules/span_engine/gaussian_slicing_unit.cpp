@@ -33,11 +33,11 @@ GaussianSlicingUnit::GaussianSlicingUnit(const sc_core::sc_module_name& name, co
                                          std::size_t inputs, int lanes, std::size_t slices,
                                          int segment_length)
     : sc_core::sc_module(name), in("in", inputs), cancel("cancel"),
-      out("out", static_cast<std::size_t>(lanes / config.count)),
+      out("out", lanes / config.count),
       region_ended("region_ended", config.skip_dead_rows ? slices : 0), config_(config), job_(job),
       index_(index), segment_length_(segment_length), self_(time) {
     for (int row = 0; row < job.tile_size; ++row) {
-        lane_of_row_.push_back(static_cast<std::size_t>((row % lanes) / config.count));
+        lane_of_row_.push_back((row % lanes) / config.count);
     }
     SC_HAS_PROCESS(GaussianSlicingUnit);
     SC_THREAD(run);
@@ -59,7 +59,7 @@ void GaussianSlicingUnit::end_of_elaboration() {
 
 void GaussianSlicingUnit::run() {
     for (TileNumber number = 0; !job_.over(number); ++number) {
-        ended_.assign(static_cast<std::size_t>(job_.tile_size), 0);
+        ended_.assign(job_.tile_size, 0);
         FifoPort<SplatChunk>& source = in[number % in.size()];
         for (bool last = false; !last;) {
             const SplatChunk chunk = source->get(self_);
@@ -94,8 +94,7 @@ void GaussianSlicingUnit::see_ended_regions(TileNumber number) {
         while (self_.arrived(*port.operator->())) {
             const RegionEnded message = port->take(self_);
             if (message.tile == number && message.segment < kLastBit) {
-                ended_[static_cast<std::size_t>(message.row)] |= std::uint64_t{1}
-                                                                 << message.segment;
+                ended_[message.row] |= std::uint64_t{1} << message.segment;
             }
         }
     }
@@ -149,7 +148,7 @@ void GaussianSlicingUnit::slice_splat(TileNumber number, std::uint32_t splat) {
     int left = config_.rows_per_cycle; // of this cycle
     Cycle busy = 1;
     for (int row = first; row <= last; row += config_.count) {
-        if ((below & ~ended_[static_cast<std::size_t>(row)]) == 0) {
+        if ((below & ~ended_[row]) == 0) {
             stats_.rows_skipped++;
             continue;
         }
@@ -158,7 +157,7 @@ void GaussianSlicingUnit::slice_splat(TileNumber number, std::uint32_t splat) {
             ++busy;
             left = config_.rows_per_cycle - 1;
         }
-        DatedFifo<RowItem>& lane = *lanes_[lane_of_row_[static_cast<std::size_t>(row)]];
+        DatedFifo<RowItem>& lane = *lanes_[lane_of_row_[row]];
         lane.reserve(self_);
         RowItem& item = lane.staged();
         item.tile = number;
@@ -171,7 +170,7 @@ void GaussianSlicingUnit::slice_splat(TileNumber number, std::uint32_t splat) {
     self_.advance();
     stats_.busy += busy;
     stats_.splats++;
-    stats_.rows += static_cast<std::uint64_t>(emitted);
+    stats_.rows += emitted;
 }
 
 } // namespace degs

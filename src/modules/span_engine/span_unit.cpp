@@ -19,15 +19,15 @@ SpanUnit::SpanUnit(const sc_core::sc_module_name& name, const Config& config, co
                    const RenderJob& job, int index, int banks)
     : sc_core::sc_module(name), in("in"), out("out", reachable(index, config.count, banks)),
       config_(config), job_(job), self_(time) {
-    std::vector<std::size_t> port_of_bank(static_cast<std::size_t>(banks), 0);
+    std::vector<std::size_t> port_of_bank(banks, 0);
     std::size_t port = 0;
     for (int bank = 0; bank < banks; ++bank) {
         if (shares_row(index, config.count, bank, banks)) {
-            port_of_bank[static_cast<std::size_t>(bank)] = port++;
+            port_of_bank[bank] = port++;
         }
     }
     for (int row = 0; row < job.tile_size; ++row) {
-        port_of_row_.push_back(port_of_bank[static_cast<std::size_t>(row % banks)]);
+        port_of_row_.push_back(port_of_bank[row % banks]);
     }
     SC_HAS_PROCESS(SpanUnit);
     if (self_.strict()) {
@@ -76,28 +76,28 @@ void SpanUnit::take() {
         holding_ = true;
         return;
     }
-    next_port_ = port_of_row_[static_cast<std::size_t>(row)];
+    next_port_ = port_of_row_[row];
     DatedFifo<SpanItem>& ring = *rings_[next_port_];
     holding_ = ring.full();
     SpanItem& result = holding_ ? held_ : ring.staged();
     const JobTile& tile = job_.tiles[tile_number];
     stats_.rows++;
-    stats_.busy += static_cast<Cycle>(config_.cycles_per_row);
+    stats_.busy += config_.cycles_per_row;
     if (!job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y,
                               result.span)) {
         stats_.empty_rows++;
         holding_ = false;
-        self_.advance(static_cast<Cycle>(config_.cycles_per_row));
+        self_.advance(config_.cycles_per_row);
         return;
     }
     result.tile = tile_number;
     result.end = false;
     stats_.spans++;
-    stats_.tasks += static_cast<std::uint64_t>(result.span.length);
+    stats_.tasks += result.span.length;
     if (!holding_) {
         ring.reserve(self_);
         ring.put_staged(self_);
-        self_.advance(static_cast<Cycle>(config_.cycles_per_row));
+        self_.advance(config_.cycles_per_row);
     }
 }
 
@@ -113,7 +113,7 @@ bool SpanUnit::deliver() {
         ring.put(self_, held_);
         holding_ = held_.end && ++next_port_ < rings_.size();
         if (!held_.end) {
-            self_.advance(static_cast<Cycle>(config_.cycles_per_row));
+            self_.advance(config_.cycles_per_row);
         } else if (!holding_ && job_.over(++tiles_done_)) {
             self_.finish();
         }

@@ -14,8 +14,8 @@ void TileMonitor::Config::describe(ConfigVisitor& visitor) {
 TileMonitor::TileMonitor(const sc_core::sc_module_name& name, const Config& config,
                          const Timebase& time, const RenderJob& job, int slices,
                          std::size_t listeners, bool granted)
-    : sc_core::sc_module(name), in("in", static_cast<std::size_t>(slices)), out("out", listeners),
-      config_(config), job_(job), granted_(granted), self_(time) {
+    : sc_core::sc_module(name), in("in", slices), out("out", listeners), config_(config), job_(job),
+      granted_(granted), self_(time) {
     SC_HAS_PROCESS(TileMonitor);
     SC_THREAD(run);
 }
