@@ -20,12 +20,6 @@ Json latency_json(const LatencyHistogram& latency) {
             {"max", latency.largest_ns()},        {"samples", latency.samples()}};
 }
 
-/// Share of the first kind; 0 if nothing was counted.
-double hit_rate(const std::array<std::uint64_t, 3>& counts) {
-    const std::uint64_t all = counts[0] + counts[1] + counts[2];
-    return all == 0 ? 0 : static_cast<double>(counts[0]) / static_cast<double>(all);
-}
-
 Json commands_json(const dram::Channel::Stats& stats) {
     Json json;
     for (std::size_t c = 0; c < dram::kCommands; ++c) {
@@ -96,8 +90,8 @@ Json memory_json(const MemoryFacts& facts) {
     json["simulated_us"] = result.seconds * 1e6;
     json["latency_ns"] = latency_json(latency_of(result));
     json["write_latency_ns"] = latency_json(result.writes);
-    json["row_hit_rate"] = hit_rate(result.commands.bursts);
-    json["access_hit_rate"] = hit_rate(result.commands.accesses);
+    json["row_hit_rate"] = dram::hit_rate(result.commands.bursts);
+    json["access_hit_rate"] = dram::hit_rate(result.commands.accesses);
     json["bursts"] = rows_json(result.commands.bursts);
     json["accesses"] = rows_json(result.commands.accesses);
     json["forwarded"] = result.commands.forwarded;
@@ -131,8 +125,9 @@ std::string memory_words(const MemoryFacts& facts) {
                            percent(point_of(result, memory).carried) + " % of the peak"},
          {"latency", "mean " + three_digits(latency.mean_ns()) + " ns · 95 % within " +
                          three_digits(latency.percentile_ns(0.95)) + " ns"},
-         {"rows", "hits " + percent(hit_rate(result.commands.bursts)) + " % of the bursts, " +
-                      percent(hit_rate(result.commands.accesses)) + " % of the 64 B accesses"},
+         {"rows", "hits " + percent(dram::hit_rate(result.commands.bursts)) + " % of the bursts, " +
+                      percent(dram::hit_rate(result.commands.accesses)) +
+                      " % of the 64 B accesses"},
          {"energy",
           three_digits(1e3 * result.energy.total_nj() / (8.0 * static_cast<double>(result.bytes))) +
               " pJ/bit · " + three_digits(1e-9 * result.energy.total_nj() / result.seconds) + " W"},

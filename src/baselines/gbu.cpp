@@ -120,7 +120,7 @@ void Gbu::build_pixel_buffer(int index) {
 void Gbu::build_memory() {
     front_end_->connect_memory(streams_, fetchers_);
     for (auto& unit : pixel_buffers_) {
-        streams_.connect(unit->frame_buffer, "frame_buffer");
+        streams_.connect(unit->frame_buffer, "frame_buffer", StreamData::Own);
     }
     frame_ends_.connect_memory(streams_);
     streams_.build("memory", config_.memory, time_, options_);

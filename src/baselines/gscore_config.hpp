@@ -9,7 +9,7 @@
 #include "modules/front_end/projection_unit.hpp"
 #include "modules/front_end/splat_fetcher.hpp"
 #include "modules/front_end/tile_binner.hpp"
-#include "modules/main_memory.hpp"
+#include "modules/main_memory_config.hpp"
 #include "modules/pipeline_config.hpp"
 #include "modules/render_engine.hpp"
 #include "modules/span_engine/tile_monitor.hpp"

@@ -46,9 +46,8 @@ class Channel {
 public:
     struct Stats {
         std::array<std::uint64_t, kCommands> commands{};
-        std::array<std::uint64_t, 3> bursts{};   ///< by RowState; first burst of an access
-                                                 ///< as it found the row, others hit
-        std::array<std::uint64_t, 3> accesses{}; ///< likewise, per access of up to 64 B
+        ByRowState bursts{};   ///< first burst of an access as it found the row, others hit
+        ByRowState accesses{}; ///< of up to 64 B
         std::uint64_t forwarded = 0, merged = 0; ///< accesses that never reached the DRAM
         std::uint64_t drains = 0;                ///< turns from reads to writes
         Ck open = 0;                             ///< CK with a row open, up to the last change

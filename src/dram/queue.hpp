@@ -22,6 +22,14 @@ struct Access {
 
 /// What the row buffer held when an access was first served.
 enum class RowState : std::uint8_t { Hit, Closed, Conflict };
+using ByRowState = std::array<std::uint64_t, 3>;
+
+/// Share that found its row open, 0 to 1; 0 of nothing.
+inline double hit_rate(const ByRowState& counts) {
+    const auto [hits, closed, conflicts] = counts;
+    const double all = static_cast<double>(hits + closed + conflicts);
+    return all == 0 ? 0 : static_cast<double>(hits) / all;
+}
 
 /// A controller queue of one direction: fixed slots, and a list per bank in the order of arrival.
 class Queue {

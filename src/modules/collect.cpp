@@ -54,11 +54,7 @@ void explain_tiles(AcceleratorResult& result, std::uint64_t records_cancelled) {
                   "ended: " +
                   grouped(records_cancelled) + " splat records were not fetched.");
     out.emplace_back(
-        "The memory is a shared data bus with latency: its banks, rows and refresh are "
-        "not modelled, so there is no row hit rate.");
-    out.emplace_back(
-        "Only what is written to the frame buffer exists as bytes in memory; the other "
-        "streams cost their time and carry no data.");
+        "The energy of the accelerator is not reported: its blocks have no energy model.");
 }
 
 } // namespace degs

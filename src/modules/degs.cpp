@@ -201,7 +201,7 @@ void Degs::connect_region_feedback(int slice, int listeners) {
 void Degs::build_memory() {
     front_end_->connect_memory(streams_, fetchers_);
     for (auto& unit : pixel_buffers_) {
-        streams_.connect(unit->frame_buffer, "frame_buffer");
+        streams_.connect(unit->frame_buffer, "frame_buffer", StreamData::Own);
     }
     frame_ends_.connect_memory(streams_);
     streams_.build("memory", config_.memory, time_, options_);

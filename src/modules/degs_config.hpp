@@ -10,7 +10,7 @@
 #include "modules/front_end/sorting_unit.hpp"
 #include "modules/front_end/splat_fetcher.hpp"
 #include "modules/front_end/tile_binner.hpp"
-#include "modules/main_memory.hpp"
+#include "modules/main_memory_config.hpp"
 #include "modules/render_engine.hpp"
 #include "modules/scheduler/issue_bank.hpp"
 #include "modules/span_engine/gaussian_slicing_unit.hpp"

@@ -2,14 +2,126 @@
 #include "modules/main_memory.hpp"
 
 namespace degs {
+namespace {
 
-void MainMemoryConfig::describe(ConfigVisitor& visitor) {
-    visitor.choice(
-        "model", model, {"bus", "lpddr5"},
-        "bus: one data bus with latency, bandwidth_gb_per_s and latency_ns count; lpddr5: "
-        "channels, banks and rows, the section of that name counts");
-    Memory::Config::describe(visitor);
-    visitor.section("lpddr5", lpddr5, "the keys of configs/memory/*.yaml");
+constexpr const char* kOnlyPixels =
+    "Only what is written to the frame buffer exists as bytes in memory; the other streams cost "
+    "their time and carry no data.";
+
+template <class Sockets>
+void bind_each(const std::vector<MemoryStream>& streams, Sockets& sockets) {
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+        streams[i].port->out.bind(sockets[i]);
+    }
+}
+
+template <class Stats>
+MemoryTraffic traffic_of(const Stats& stats) {
+    return {stats.reads, stats.writes, stats.bytes_read, stats.bytes_written};
+}
+
+/// One data bus with latency.
+class BusMemory : public MainMemory {
+public:
+    BusMemory(const char* name, const Memory::Config& config, const Timebase& time)
+        : name_(name), config_(config), time_(time) {}
+    void connect(const std::vector<MemoryStream>& streams) override {
+        bus_ = std::make_unique<Memory>(name_, config_, time_, streams.size());
+        bind_each(streams, bus_->in);
+    }
+    MemoryTraffic traffic(std::size_t initiator) const override {
+        return traffic_of(bus_->stats(initiator));
+    }
+    double peak_gb_per_s() const override { return config_.bandwidth_gb_per_s; }
+    double busy_ns() const override { return bus_->total().busy_ns; }
+    std::vector<std::string> explain() const override {
+        return {"The memory is a shared data bus with latency: its banks, rows and refresh are not "
+                "modelled, so it has no row hit rate and no energy.",
+                kOnlyPixels};
+    }
+
+private:
+    const char* name_;
+    Memory::Config config_;
+    const Timebase& time_;
+    std::unique_ptr<Memory> bus_;
+};
+
+/// For arrays alone.
+class UnlimitedMemory : public BusMemory {
+public:
+    UnlimitedMemory(const char* name, const Timebase& time) : BusMemory(name, unlimited(), time) {}
+    double peak_gb_per_s() const override { return 0; }
+    std::vector<std::string> explain() const override {
+        return {"The array runs alone: its lists and records are there at once, and the memory has "
+                "neither latency nor a limit of bandwidth.",
+                kOnlyPixels};
+    }
+
+private:
+    static Memory::Config unlimited() {
+        Memory::Config config;
+        config.bandwidth_gb_per_s = 1e12; // a frame takes less than a cycle
+        config.latency_ns = 0;
+        return config;
+    }
+};
+
+/// LPDDR5 with channels, banks and rows.
+class Lpddr5Memory : public MainMemory {
+public:
+    Lpddr5Memory(const char* name, const dram::Config& config, const Timebase& time)
+        : name_(name), config_(config), time_(time) {}
+    void connect(const std::vector<MemoryStream>& streams) override {
+        dram_ = std::make_unique<dram::Lpddr5>(name_, config_, time_, streams.size());
+        initiators_ = streams.size();
+        bind_each(streams, dram_->in);
+    }
+    MemoryTraffic traffic(std::size_t initiator) const override {
+        return traffic_of(dram_->stats(initiator));
+    }
+    double peak_gb_per_s() const override { return config_.peak_gb_per_s(); }
+    double busy_ns() const override {
+        std::uint64_t bytes = 0;
+        for (std::size_t i = 0; i < initiators_; ++i) {
+            bytes += dram_->stats(i).bytes_read + dram_->stats(i).bytes_written;
+        }
+        return static_cast<double>(bytes) / peak_gb_per_s();
+    }
+    const LatencyHistogram* read_latency(std::size_t initiator) const override {
+        return &dram_->stats(initiator).read_latency;
+    }
+    void collect(AcceleratorResult& result) const override {
+        result.row_hit_rate = dram::hit_rate(dram_->commands().accesses);
+        result.dram_energy = dram_->energy();
+    }
+    std::vector<std::string> explain() const override {
+        return {"The memory is LPDDR5 with channels, banks, rows and refresh; the interconnect in "
+                "front of the channels, power-down and the start of WCK are not modelled.",
+                "The energy of the memory is that of its DRAM devices: the controllers and the PHY "
+                "are not in it.",
+                kOnlyPixels};
+    }
+
+private:
+    const char* name_;
+    dram::Config config_;
+    const Timebase& time_;
+    std::size_t initiators_ = 0;
+    std::unique_ptr<dram::Lpddr5> dram_;
+};
+
+} // namespace
+
+std::unique_ptr<MainMemory> make_main_memory(const char* name, const MainMemoryConfig& config,
+                                             const Timebase& time, bool unlimited) {
+    if (unlimited) {
+        return std::make_unique<UnlimitedMemory>(name, time);
+    }
+    if (config.model == MemoryModel::Lpddr5) {
+        return std::make_unique<Lpddr5Memory>(name, config.lpddr5, time);
+    }
+    return std::make_unique<BusMemory>(name, config, time);
 }
 
 } // namespace degs

@@ -1,25 +1,67 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
+#include <vector>
 
-#include "dram/lpddr5.hpp"
-#include "tlm/memory.hpp"
+#include "modules/accelerator_result.hpp"
+#include "modules/main_memory_config.hpp"
+#include "tlm/latency_histogram.hpp"
+#include "tlm/memory_port.hpp"
 
 namespace degs {
 
-/// `Bus`: one data bus with latency, the fields of Memory::Config. `Lpddr5`: channels, banks and
-/// rows.
-enum class MemoryModel { Bus, Lpddr5 };
+/// Whose bytes a stream carries. `Scene`: what somebody has put into memory for the accelerator to
+/// read. `Own`: what the accelerator itself writes, and may read back.
+enum class StreamData { Scene, Own };
 
-/// The off-chip memory of an accelerator: which model, and the parameters of each.
-struct MainMemoryConfig : Memory::Config {
-    MemoryModel model = MemoryModel::Bus;
-    dram::Config lpddr5;
-    void describe(ConfigVisitor& visitor);
-    double peak_gb_per_s() const {
-        return model == MemoryModel::Bus ? bandwidth_gb_per_s : lpddr5.peak_gb_per_s();
-    }
+/// A stream between the accelerator and its memory. Every stream is an initiator of its own;
+/// streams of the same kind of record share a name.
+struct MemoryStream {
+    MemoryPort* port = nullptr;
+    const char* name = "";
+    StreamData data = StreamData::Own;
 };
+
+/// What one initiator has transferred.
+struct MemoryTraffic {
+    std::uint64_t reads = 0, writes = 0;             ///< accesses
+    std::uint64_t bytes_read = 0, bytes_written = 0; ///< as they occupied the memory
+};
+
+/// The memory of an accelerator, whichever it is: its own, see make_main_memory(), or that of a
+/// platform.
+class MainMemory {
+public:
+    MainMemory() = default;
+    MainMemory(const MainMemory&) = delete;
+    MainMemory& operator=(const MainMemory&) = delete;
+    virtual ~MainMemory() = default;
+
+    /// Binds the ports of an accelerator; once, during elaboration. Initiators are numbered, and
+    /// ties in time resolved, in this order.
+    virtual void connect(const std::vector<MemoryStream>& streams) = 0;
+
+    virtual MemoryTraffic traffic(std::size_t initiator) const = 0;
+    /// Peak bandwidth in 1e9 B/s; 0: unlimited, or not known.
+    virtual double peak_gb_per_s() const = 0;
+    /// Nanoseconds in which the data bus, or the mean channel, was occupied; 0: not known.
+    virtual double busy_ns() const = 0;
+    /// From the date of a read to its last byte; nullptr: not measured.
+    virtual const LatencyHistogram* read_latency(std::size_t /*initiator*/) const {
+        return nullptr;
+    }
+    /// Fills in what only this memory knows.
+    virtual void collect(AcceleratorResult& /*result*/) const {}
+    /// What this memory leaves out, one sentence each, for --explain.
+    virtual std::vector<std::string> explain() const = 0;
+};
+
+/// The memory that `config` describes. `unlimited`: neither latency nor bandwidth count. `name`,
+/// `config` and `time` are used by connect() and must live until then.
+std::unique_ptr<MainMemory> make_main_memory(const char* name, const MainMemoryConfig& config,
+                                             const Timebase& time, bool unlimited);
 
 } // namespace degs

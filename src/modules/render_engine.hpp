@@ -15,7 +15,7 @@
 
 namespace degs {
 
-class MemoryGateway;
+class MainMemory;
 
 /// An accelerator with its memory, as whoever runs it sees it: built for a job, run by the kernel,
 /// asked for its counters when nothing is left to happen.
@@ -28,7 +28,7 @@ public:
     virtual void collect(AcceleratorResult& result) const = 0;
 };
 
-/// What of an accelerator is built.
+/// Which parts of an accelerator to build, and what to connect them to.
 struct BuildOptions {
     /// The rasterisation array alone: depth-ordered lists are there at once and memory is
     /// unlimited, so that arrays can be compared without their front ends.
@@ -36,9 +36,9 @@ struct BuildOptions {
     /// Gets the number of every frame once its last pixel is in memory. Its writer is the engine;
     /// its forward latency is FrameEndConfig::gate_latency_cycles.
     DatedFifo<std::uint32_t>* finished = nullptr;
-    /// Memory that is not the accelerator's: its streams go there instead of to a memory of its
-    /// own.
-    MemoryGateway* gateway = nullptr;
+    /// Memory of somebody else, e.g. of a platform; nullptr: the accelerator gets the memory that
+    /// its configuration describes.
+    MainMemory* memory = nullptr;
 };
 
 /// Silicon area, for comparisons at equal area.

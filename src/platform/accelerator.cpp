@@ -65,7 +65,7 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
     job_.joined = std::make_unique<sc_core::sc_event>();
     BuildOptions build;
     build.finished = &finished_;
-    build.gateway = &gateway_;
+    build.memory = &gateway_;
     engine_ = config_->build("engine", time_, job_, build);
     SC_HAS_PROCESS(Accelerator);
     SC_THREAD(run);
@@ -147,7 +147,7 @@ AcceleratorFault Accelerator::make_workload() {
 }
 
 AcceleratorFault Accelerator::render() {
-    const MemoryGateway::Stats before = gateway_.total();
+    const MemoryTraffic before = gateway_.total();
     gateway_.clear_errors();
     gateway_.set_regions(request_.regions());
     scene_changed_ = false;
@@ -165,8 +165,8 @@ AcceleratorFault Accelerator::render() {
                           : AcceleratorFault{};
 }
 
-void Accelerator::count_frame(Cycle started, const MemoryGateway::Stats& before) {
-    const MemoryGateway::Stats after = gateway_.total();
+void Accelerator::count_frame(Cycle started, const MemoryTraffic& before) {
+    const MemoryTraffic after = gateway_.total();
     std::uint64_t fragments = 0;
     for (const std::uint32_t updates : job_.images.back().fragments) {
         fragments += updates;

@@ -8,9 +8,9 @@
 #include <tlm>
 #include <tlm_utils/simple_target_socket.h>
 
-#include "modules/memory_gateway.hpp"
 #include "modules/render_engine.hpp"
 #include "platform/accelerator_request.hpp"
+#include "platform/memory_gateway.hpp"
 #include "platform/scene_copy.hpp"
 
 namespace degs {
@@ -68,7 +68,7 @@ private:
     AcceleratorFault prepare();
     AcceleratorFault make_workload();
     AcceleratorFault render();
-    void count_frame(Cycle started, const MemoryGateway::Stats& before);
+    void count_frame(Cycle started, const MemoryTraffic& before);
     void end_frame(const AcceleratorFault& fault);
     void set_status(std::uint32_t set, std::uint32_t clear);
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/memory_gateway.hpp"
 #include "modules/traffic.hpp"
 #include "platform/accelerator_registers.hpp"
+#include "platform/memory_gateway.hpp"
 #include "platform/scene_copy.hpp"
 #include "splat/camera.hpp"
 

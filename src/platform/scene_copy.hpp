@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/memory_gateway.hpp"
+#include "platform/memory_gateway.hpp"
 #include "splat/gaussian.hpp"
 
 namespace degs {

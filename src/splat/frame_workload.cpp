@@ -7,6 +7,7 @@
 #include <string>
 
 #include "config/error.hpp"
+#include "config/grouped_number.hpp"
 #include "splat/tile_cover.hpp"
 
 namespace degs {
@@ -188,6 +189,14 @@ FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& came
     reorder(work.tiles_touched, order);
     fill_lists(binner, work);
     return work;
+}
+
+std::string CullCounts::explain() const {
+    return grouped(total()) +
+           " Gaussians of the scene were culled, so that their colours were not evaluated: " +
+           grouped(off_screen) + " touch no pixel, " + grouped(near) +
+           " are nearer than the near plane, " + grouped(transparent) +
+           " are fainter than 1/255, " + grouped(degenerate) + " have no finite projection.";
 }
 
 } // namespace degs

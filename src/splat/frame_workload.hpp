@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "splat/projection.hpp"
@@ -15,6 +16,9 @@ enum class TileMode { Exact, Ref };
 
 struct CullCounts {
     std::uint64_t near = 0, transparent = 0, degenerate = 0, off_screen = 0;
+    std::uint64_t total() const { return near + transparent + degenerate + off_screen; }
+    /// One sentence: how many were culled, and why.
+    std::string explain() const;
 };
 
 /// Everything about one frame that does not depend on the accelerator: splats in depth order and

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "config/grouped_number.hpp"
+
 namespace degs {
 namespace {
 
@@ -99,6 +101,14 @@ SanitizeReport sanitize(GaussianCloud& cloud) {
     }
     truncate(cloud, kept);
     return report;
+}
+
+std::string SanitizeReport::explain() const {
+    return grouped(total()) +
+           " Gaussians of the file cannot be drawn and were dropped: " + grouped(non_finite) +
+           " hold NaN or infinity, " + grouped(zero_rotation) + " a rotation of length zero, " +
+           grouped(bad_scale) + " a negative scale, " + grouped(bad_opacity) +
+           " an opacity outside 0 to 1.";
 }
 
 } // namespace degs

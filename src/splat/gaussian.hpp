@@ -36,6 +36,8 @@ struct SanitizeReport {
     std::uint64_t bad_scale = 0;     ///< negative scale
     std::uint64_t bad_opacity = 0;   ///< opacity outside 0..1
     std::uint64_t total() const { return non_finite + zero_rotation + bad_scale + bad_opacity; }
+    /// One sentence: how many were dropped, and why.
+    std::string explain() const;
 };
 
 /// Removes Gaussians that no renderer can draw and normalises the other quaternions (in double).

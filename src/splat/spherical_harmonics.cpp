@@ -94,4 +94,14 @@ glm::dvec3 evaluate_sh(int degree, const float* coefficients, const glm::dvec3& 
     return {sum.x, sum.y, sum.z};
 }
 
+std::string explain_sh(int degree) {
+    if (degree == kMaxShDegree) {
+        return "The scene has all SH bands (degree 3): nothing of the colour is left out.";
+    }
+    const int left_out = 3 * (kMaxShCoefficients - (degree + 1) * (degree + 1));
+    return "The scene has SH degree " + std::to_string(degree) + ": the " +
+           std::to_string(left_out) +
+           " coefficients of higher bands are neither read nor evaluated.";
+}
+
 } // namespace degs

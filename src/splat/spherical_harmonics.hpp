@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 
 #include "splat/numbers/rounded.hpp"
 #include "splat/vector3.hpp"
@@ -26,5 +27,8 @@ template <class Numbers>
 Vector3<typename Numbers::Scalar> evaluate_sh(const Numbers& numbers, int degree,
                                               const float* coefficients,
                                               const Vector3<typename Numbers::Scalar>& direction);
+
+/// One sentence: what a scene of this degree leaves out of the colours.
+std::string explain_sh(int degree);
 
 } // namespace degs

@@ -43,8 +43,8 @@ public:
         }
     }
     void add_streams(const MemoryStreams& streams) {
-        for (std::size_t i = 0; i < streams.names().size(); ++i) {
-            add(streams.names()[i], streams.traffic(i));
+        for (std::size_t i = 0; i < streams.size(); ++i) {
+            add(streams.name(i), streams.traffic(i));
         }
     }
     void expect_same(const Signature& other) const {

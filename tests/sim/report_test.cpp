@@ -216,6 +216,16 @@ TEST(SmallRunTerminal, SummaryAndExplanation) {
     EXPECT_EQ(reported_run({}).text.find("left out"), std::string::npos);
 }
 
+TEST(SmallRunTerminal, TheExplanationOfLpddr5DoesNotContradictTheReport) {
+    const ReportedRun run = reported_run({"--explain", "--set", "memory.model=lpddr5"});
+    EXPECT_FALSE(run.report["dram"]["row_hit_rate"].is_null());
+    EXPECT_FALSE(run.report["dram"]["energy_nj"].is_null());
+    EXPECT_EQ(run.text.find("no row hit rate"), std::string::npos) << run.text;
+    EXPECT_EQ(run.text.find("Energy is not reported"), std::string::npos) << run.text;
+    EXPECT_NE(run.text.find("The memory is LPDDR5"), std::string::npos) << run.text;
+    EXPECT_NE(run.text.find("The energy of the accelerator is not"), std::string::npos) << run.text;
+}
+
 TEST(TrainedScene, DoublePrecisionCountsLikeTheReference) {
     const fs::path scene = trained_scenes() / "flowers-small" / "scene.ply";
     if (!fs::exists(scene)) {

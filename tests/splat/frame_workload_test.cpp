@@ -31,9 +31,7 @@ TEST_P(Workload, IsConsistentWithItself) {
     EXPECT_EQ(work.sh_degree, 2);
     EXPECT_GT(work.culled.near, 0U);
     EXPECT_GT(work.culled.off_screen, 0U);
-    EXPECT_EQ(work.splats.size() + work.culled.near + work.culled.transparent +
-                  work.culled.degenerate + work.culled.off_screen,
-              2000U);
+    EXPECT_EQ(work.splats.size() + work.culled.total(), 2000U);
 
     ASSERT_EQ(work.tile_begin.size(), 25U);
     EXPECT_EQ(work.tile_begin.front(), 0U);
@@ -93,6 +91,10 @@ TEST_P(Workload, EmptyAndFullyCulledScenes) {
     EXPECT_EQ(culled.culled.transparent, 1U);
     EXPECT_EQ(culled.culled.degenerate, 1U);
     EXPECT_EQ(culled.culled.off_screen, 1U);
+    EXPECT_EQ(culled.culled.explain(),
+              "4 Gaussians of the scene were culled, so that their colours were not evaluated: 1 "
+              "touch no pixel, 1 are nearer than the near plane, 1 are fainter than 1/255, 1 have "
+              "no finite projection.");
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, Workload, testing::Values(TileMode::Exact, TileMode::Ref),

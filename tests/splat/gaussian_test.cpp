@@ -84,6 +84,17 @@ TEST(Sanitize, KeepsTheOrderOfTheRest) {
     }
 }
 
+TEST(Sanitize, ExplainsWhatItDropped) {
+    SanitizeReport report;
+    report.non_finite = 1200;
+    report.zero_rotation = 30;
+    report.bad_scale = 4;
+    EXPECT_EQ(report.explain(),
+              "1 234 Gaussians of the file cannot be drawn and were dropped: 1 200 hold NaN or "
+              "infinity, 30 a rotation of length zero, 4 a negative scale, 0 an opacity outside 0 "
+              "to 1.");
+}
+
 TEST(Sanitize, NormalisesQuaternionsOfAnyLength) {
     for (const double length : {1e-37, 1e-20, 0.3, 1.0, 1.00001, 7.0, 1e20, 1.7e38}) {
         GaussianCloud cloud = test::random_cloud(1, 7);

@@ -87,5 +87,14 @@ TEST(SphericalHarmonics, CoefficientsAreInterleavedByChannel) {
     }
 }
 
+TEST(SphericalHarmonics, TheDegreeExplainsWhatIsLeftOut) {
+    EXPECT_EQ(explain_sh(3),
+              "The scene has all SH bands (degree 3): nothing of the colour is left out.");
+    EXPECT_EQ(explain_sh(1), "The scene has SH degree 1: the 36 coefficients of higher bands are "
+                             "neither read nor evaluated.");
+    EXPECT_EQ(explain_sh(0), "The scene has SH degree 0: the 45 coefficients of higher bands are "
+                             "neither read nor evaluated.");
+}
+
 } // namespace
 } // namespace degs

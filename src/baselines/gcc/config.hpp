@@ -7,7 +7,7 @@
 #include "baselines/gcc/window_array.hpp"
 #include "modules/array/pixel_buffer.hpp"
 #include "modules/front_end/splat_fetcher.hpp"
-#include "modules/main_memory.hpp"
+#include "modules/main_memory_config.hpp"
 #include "modules/render_engine.hpp"
 #include "modules/span_engine/tile_monitor.hpp"
 

@@ -106,15 +106,15 @@ void Engine::build_source() {
 
 void Engine::build_memory() {
     if (grouping_) {
-        streams_.connect(grouping_->means, "means");
-        streams_.connect(grouping_->lists, "group_lists_written");
-        streams_.connect(projection_->lists, "group_lists_read");
-        streams_.connect(projection_->shapes, "shapes");
-        streams_.connect(colour_->sh, "sh");
+        streams_.connect(grouping_->means, "means", StreamData::Scene);
+        streams_.connect(grouping_->lists, "group_lists_written", StreamData::Own);
+        streams_.connect(projection_->lists, "group_lists_read", StreamData::Own);
+        streams_.connect(projection_->shapes, "shapes", StreamData::Scene);
+        streams_.connect(colour_->sh, "sh", StreamData::Scene);
     } else {
-        streams_.connect(fetcher_->records, "splats_read");
+        streams_.connect(fetcher_->records, "splats_read", StreamData::Own);
     }
-    streams_.connect(image_buffers_[0]->frame_buffer, "frame_buffer");
+    streams_.connect(image_buffers_[0]->frame_buffer, "frame_buffer", StreamData::Own);
     frame_ends_.connect_memory(streams_);
     streams_.build("memory", config_.memory, time_, options_);
 }

@@ -12,7 +12,7 @@ TileArrayEngine::TileArrayEngine(const sc_core::sc_module_name& name, const Part
     frame_ends_.build(parts_.frame_end, time, parts_.front.traffic, job_, pixel_buffers_,
                       front_end_->frame_free, 1, options_);
     front_end_->connect_memory(streams_, fetchers_);
-    streams_.connect(pixel_buffers_.front()->frame_buffer, "frame_buffer");
+    streams_.connect(pixel_buffers_.front()->frame_buffer, "frame_buffer", StreamData::Own);
     frame_ends_.connect_memory(streams_);
     streams_.build("memory", parts_.memory, time, options_);
 }

@@ -9,7 +9,7 @@
 #include "modules/collect.hpp"
 #include "modules/front_end/frame_ends.hpp"
 #include "modules/front_end/tile_front_end.hpp"
-#include "modules/main_memory.hpp"
+#include "modules/main_memory_config.hpp"
 #include "modules/memory_streams.hpp"
 #include "modules/render_engine.hpp"
 #include "modules/span_engine/tile_monitor.hpp"

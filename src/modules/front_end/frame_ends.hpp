@@ -28,7 +28,7 @@ public:
                sc_core::sc_vector<FifoPort<std::uint32_t>>& listeners, std::uint64_t reports,
                const BuildOptions& options);
     void connect_memory(MemoryStreams& streams) {
-        streams.connect(background_->frame_buffer, "frame_buffer");
+        streams.connect(background_->frame_buffer, "frame_buffer", StreamData::Own);
     }
     const BackgroundWriter& background() const { return *background_; }
 

@@ -71,25 +71,25 @@ void TileFrontEnd::build_sorter(std::size_t index, const Config& config, const T
 void TileFrontEnd::connect_memory(MemoryStreams& streams,
                                   const std::vector<std::unique_ptr<SplatFetcher>>& fetchers) {
     for (auto& unit : projection_) {
-        streams.connect(unit->geometry, "geometry");
-        streams.connect(unit->sh, "sh");
+        streams.connect(unit->geometry, "geometry", StreamData::Scene);
+        streams.connect(unit->sh, "sh", StreamData::Scene);
     }
     if (binner_) {
-        streams.connect(binner_->splats, "splats_written");
-        streams.connect(binner_->lists, "tile_lists_written");
+        streams.connect(binner_->splats, "splats_written", StreamData::Own);
+        streams.connect(binner_->lists, "tile_lists_written", StreamData::Own);
     }
     for (std::size_t i = 0; i < std::max(sorted.size(), fetchers.size()); ++i) {
         if (i < sorting_.size()) {
-            streams.connect(sorting_[i]->loader.lists, "tile_lists_sorted");
-            streams.connect(sorting_[i]->lists, "tile_lists_sorted");
+            streams.connect(sorting_[i]->loader.lists, "tile_lists_sorted", StreamData::Own);
+            streams.connect(sorting_[i]->lists, "tile_lists_sorted", StreamData::Own);
         }
         if (i < hierarchical_.size()) {
-            streams.connect(hierarchical_[i]->loader.lists, "tile_lists_sorted");
-            streams.connect(hierarchical_[i]->lists, "tile_lists_sorted");
-            streams.connect(hierarchical_[i]->chunks, "tile_lists_sorted");
+            streams.connect(hierarchical_[i]->loader.lists, "tile_lists_sorted", StreamData::Own);
+            streams.connect(hierarchical_[i]->lists, "tile_lists_sorted", StreamData::Own);
+            streams.connect(hierarchical_[i]->chunks, "tile_lists_sorted", StreamData::Own);
         }
         if (i < fetchers.size()) {
-            streams.connect(fetchers[i]->records, "splats_read");
+            streams.connect(fetchers[i]->records, "splats_read", StreamData::Own);
         }
     }
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -10,8 +11,8 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 
-#include "tlm/at_requester.hpp"
-#include "tlm/memory_port.hpp"
+#include "modules/main_memory.hpp"
+#include "platform/at_requester.hpp"
 
 namespace degs {
 
@@ -19,7 +20,7 @@ namespace degs {
 /// platform: every access moves real bytes, and the platform arbitrates. An access that the
 /// platform refuses is remembered and then counts as done: an accelerator ends its frame and says
 /// so in a register, it does not end the simulation.
-class MemoryGateway : public sc_core::sc_module {
+class MemoryGateway : public sc_core::sc_module, public MainMemory {
 public:
     /// `Lt`: one b_transport() per access, whose annotated delay lets a stream have several
     /// accesses under way. `At`: four phases, for memories without b_transport(); a stream then
@@ -29,8 +30,8 @@ public:
         Transport transport = Transport::Lt;
         /// AT: transactions of all streams under way at a time; at least 1.
         unsigned outstanding = 64;
-        /// AT: an access is cut at multiples of this, and its pieces are under way together; 0:
-        /// not.
+        /// AT: accesses are split at multiples of this and the pieces overlap; 0 disables
+        /// splitting.
         std::uint64_t piece_bytes = 0;
     };
 
@@ -40,12 +41,16 @@ public:
     /// Throws std::invalid_argument if no transaction may be outstanding.
     MemoryGateway(const sc_core::sc_module_name& name, const Options& options);
 
-    /// Called with what is read of the scene, see MemoryPort::observe_reads(). Before connect().
+    /// Called with what is read by streams that carry the scene, see MemoryPort::observe_reads().
+    /// Before connect().
     using Observer = MemoryPort::Observer;
     void observe_scene(Observer observer) { scene_ = std::move(observer); }
 
-    /// Binds the ports of an accelerator; once, during elaboration. `streams`: their names.
-    void connect(const std::vector<MemoryPort*>& ports, const std::vector<const char*>& streams);
+    void connect(const std::vector<MemoryStream>& streams) override;
+    MemoryTraffic traffic(std::size_t initiator) const override { return traffic_[initiator]; }
+    double peak_gb_per_s() const override { return 0; }
+    double busy_ns() const override { return 0; }
+    std::vector<std::string> explain() const override;
 
     /// A part of memory that belongs to the accelerator.
     struct Region {
@@ -56,14 +61,8 @@ public:
     /// longer than a small array, and must not touch what is not theirs. At any time.
     void set_regions(std::vector<Region> regions) { regions_ = std::move(regions); }
 
-    struct Stats {
-        std::uint64_t reads = 0, writes = 0;
-        std::uint64_t bytes_read = 0, bytes_written = 0;
-    };
-    /// Of one port, in the order of connect().
-    const Stats& stats(std::size_t port) const { return stats_[port]; }
-
-    Stats total() const;
+    /// Of all streams.
+    MemoryTraffic total() const;
 
     /// An access that belongs to no stream: is not counted, not kept in the regions, and keeps its
     /// response. From a thread, like debug().
@@ -97,7 +96,7 @@ private:
     sc_core::sc_vector<tlm_utils::simple_target_socket_tagged<MemoryGateway>> in_;
     Options options_;
     std::unique_ptr<AtRequester> requester_;
-    std::vector<Stats> stats_;
+    std::vector<MemoryTraffic> traffic_;
     Observer scene_;
     std::vector<Region> regions_;
     std::uint64_t errors_ = 0;

@@ -6,9 +6,9 @@
 
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include "platform/at_requester.hpp"
 #include "tests/tlm/at_memory.hpp"
 #include "tests/tlm/script.hpp"
-#include "tlm/at_requester.hpp"
 
 namespace degs::test {
 namespace {

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/memory_gateway.hpp"
+#include "platform/memory_gateway.hpp"
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 namespace degs {
-namespace {
-
-// Streams whose bytes are the scene; all others carry what the accelerator itself has written.
-bool is_scene(std::string_view stream) {
-    constexpr std::array<std::string_view, 4> kNames{"geometry", "sh", "means", "shapes"};
-    return std::find(kNames.begin(), kNames.end(), stream) != kNames.end();
-}
-
-} // namespace
 
 MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name)
     : MemoryGateway(name, Options()) {}
@@ -27,18 +16,22 @@ MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options&
     }
 }
 
-void MemoryGateway::connect(const std::vector<MemoryPort*>& ports,
-                            const std::vector<const char*>& streams) {
-    in_.init(ports.size());
-    stats_.resize(ports.size());
-    for (std::size_t i = 0; i < ports.size(); ++i) {
+void MemoryGateway::connect(const std::vector<MemoryStream>& streams) {
+    in_.init(streams.size());
+    traffic_.resize(streams.size());
+    for (std::size_t i = 0; i < streams.size(); ++i) {
         in_[i].register_b_transport(this, &MemoryGateway::serve, static_cast<int>(i));
         in_[i].register_transport_dbg(this, &MemoryGateway::debug_of, static_cast<int>(i));
-        ports[i]->out.bind(in_[i]);
-        if (scene_ && is_scene(streams[i])) {
-            ports[i]->observe_reads(scene_);
+        streams[i].port->out.bind(in_[i]);
+        if (scene_ && streams[i].data == StreamData::Scene) {
+            streams[i].port->observe_reads(scene_);
         }
     }
+}
+
+std::vector<std::string> MemoryGateway::explain() const {
+    return {"The memory belongs to the platform: its peak, its occupation and its energy are not "
+            "known here."};
 }
 
 tlm::tlm_sync_enum MemoryGateway::backward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
@@ -47,14 +40,14 @@ tlm::tlm_sync_enum MemoryGateway::backward(tlm::tlm_generic_payload& payload, tl
 }
 
 void MemoryGateway::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-    access(static_cast<unsigned>(stats_.size()), payload, cut(payload, false), delay);
+    access(static_cast<unsigned>(traffic_.size()), payload, cut(payload, false), delay);
 }
 
 void MemoryGateway::serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
     access(static_cast<unsigned>(port), payload, cut(payload, true), delay);
-    Stats& stats = stats_[static_cast<std::size_t>(port)];
-    (payload.is_read() ? stats.reads : stats.writes)++;
-    (payload.is_read() ? stats.bytes_read : stats.bytes_written) += payload.get_data_length();
+    MemoryTraffic& traffic = traffic_[port];
+    (payload.is_read() ? traffic.reads : traffic.writes)++;
+    (payload.is_read() ? traffic.bytes_read : traffic.bytes_written) += payload.get_data_length();
     if (payload.is_response_error()) {
         first_error_ = errors_++ == 0 ? payload.get_response_status() : first_error_;
         payload.set_response_status(tlm::TLM_OK_RESPONSE);
@@ -133,9 +126,9 @@ void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Piece
     delay = done > now ? done - now : sc_core::SC_ZERO_TIME;
 }
 
-MemoryGateway::Stats MemoryGateway::total() const {
-    Stats sum;
-    for (const Stats& each : stats_) {
+MemoryTraffic MemoryGateway::total() const {
+    MemoryTraffic sum;
+    for (const MemoryTraffic& each : traffic_) {
         sum.reads += each.reads;
         sum.writes += each.writes;
         sum.bytes_read += each.bytes_read;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tlm/at_requester.hpp"
+#include "platform/at_requester.hpp"
 
 #include <algorithm>
 #include <stdexcept>
