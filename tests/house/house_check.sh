@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# house_check.sh RULE [ROOT]: checks one rule of the house, or `all`, and prints every violation as
+# house_check.sh RULE [ROOT]: checks one rule about folders and sources, or `all`, and prints every violation as
 # "file:line: reason". Rules: arrows systemc printing namespaces length licence.
 set -euo pipefail
 
