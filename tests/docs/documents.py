@@ -92,7 +92,8 @@ class Trial:
     """A folder in which the blocks of a page run, and the program."""
 
     def __init__(self, program, slow):
-        self.folder = Path(tempfile.mkdtemp(prefix="degs-pages-"))
+        self.temporary = tempfile.TemporaryDirectory(prefix="degs-pages-")
+        self.folder = Path(self.temporary.name)
         self.slow = slow
         for child in ROOT.iterdir():
             if child.name in WORKING_COPY:
@@ -104,8 +105,8 @@ class Trial:
         self.environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
         scenes = Path(os.environ.get("DEGS_SCENES", ""))
         if slow and scenes.is_absolute():
-            for scene in scenes.iterdir():
-                (self.folder / scene.name).symlink_to(scene)
+            for scene in scenes.glob("*/scene.ply"):
+                (self.folder / scene.parent.name).symlink_to(scene.parent)
 
     def run(self, command):
         """Exit code, output and errors of a shell command."""
@@ -118,7 +119,7 @@ class Trial:
         return done.returncode, done.stdout, done.stderr
 
     def close(self):
-        shutil.rmtree(self.folder)
+        self.temporary.cleanup()
 
 
 def try_block(block, trial, update):
