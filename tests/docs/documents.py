@@ -21,6 +21,7 @@ DIRECTIVE = re.compile(r"<!-- (slow|elsewhere|with|file|output of)\b:? ?(.*?) --
 TIMES = re.compile(r"^host .*| · host .*$")  # the machine that simulates differs
 COMMAND_IN_TEXT = re.compile(r"`(?:build/release/sim/)?degs ([a-z]+)\b([^`]*)`")
 WORKING_COPY = ("configs",)  # files that a page may add to
+MOST_CHARACTERS = 120  # of a line outside of tables and fenced blocks
 LIMIT_S = {False: 300, True: 3600}
 
 
@@ -203,13 +204,15 @@ def mistakes_in_text(page, known):
                     yield f"{place}: 'degs {command}' has no option {option}"
 
 
-def unfenced(page):
-    """Commands in indented blocks, which nobody would try."""
+def mistakes_of_form(page):
+    """Commands in indented blocks, which nobody would try, and prose that is not wrapped."""
     fence = False
     for number, line in enumerate(page.read_text().split("\n"), 1):
         fence ^= line.lstrip().startswith("```")
         if not fence and re.match(r"^ {4,}(\$ |(build/release/sim/)?degs [a-z])", line):
             yield f"{page.relative_to(ROOT)}:{number}: a command needs a fence (```sh)"
+        if not fence and len(line) > MOST_CHARACTERS and not line.lstrip().startswith("|"):
+            yield f"{page.relative_to(ROOT)}:{number}: {len(line)} characters, {MOST_CHARACTERS} are allowed"
 
 
 def main():
@@ -227,7 +230,7 @@ def main():
     pages = [page.resolve() for page in options.pages] or [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
     known, reasons, tried = helps(program), [], 0
     for page in pages:
-        reasons += [*mistakes_in_text(page, known), *unfenced(page)]
+        reasons += [*mistakes_in_text(page, known), *mistakes_of_form(page)]
         found, count = try_page(page, program, options)
         reasons, tried = reasons + found, tried + count
     for reason in reasons:

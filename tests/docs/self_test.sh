@@ -70,6 +70,7 @@ finds docs/page.md '[gone](../src/gone.cpp)' gone.cpp
 finds README.md '[gone](docs/page.md#gone)' 'names an anchor that does not exist'
 finds docs/page.md '![far](https://example.org/a.png)' 'from another host'
 finds docs/alone.md '# Alone' 'the navigation does not reach it'
+finds docs/alone.md '# Alone' 'README.md does not link it'
 
 finds_command '' '```console' '$ degs run' one 'host 5 s' '```' 'and `degs run --set a=b`'
 finds_command '' '<!-- slow -->' '```sh' 'degs gone' '```'
@@ -82,5 +83,7 @@ finds_command 'page.md:2: the page shows other output' '<!-- output of: degs run
 finds_command "no command 'degs walk'" '`degs walk`'
 finds_command 'no option --get' '`degs run a.yaml --get b`'
 finds_command 'needs a fence' '    degs run'
+finds_command '121 characters, 120 are allowed' "$(printf 'x%.0s' {1..121})"
+finds_command '' "| $(printf 'x%.0s' {1..121}) |"
 [[ $failures -eq 0 ]] || exit 1
 echo "documents self-test: every planted mistake was found"

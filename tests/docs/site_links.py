@@ -2,7 +2,7 @@
 """site_links.py SITE DOCS: checks the links of the built site; prints each mistake as "page: reason".
 
 Every relative link must lead to a file and its anchor to an element there, no script, style sheet or image may come
-from another host, and the navigation of the front page must reach every page of DOCS.
+from another host, the navigation of the front page must reach every page of DOCS, and README.md must link it.
 """
 
 import sys
@@ -49,18 +49,21 @@ def problems(site, pages):
                 yield f"{name}: {link} names an anchor that does not exist"
 
 
-def unreached(site, docs, front):
+def unreached(docs, front):
     reached = {urlsplit(link).path for link in front.links}
+    readme = (docs.parent / "README.md").read_text()
     for page in sorted(docs.glob("*.md")):
         if f"{page.stem}.html" not in reached:
             yield f"{page.name}: the navigation does not reach it"
+        if f"](docs/{page.name}" not in readme:
+            yield f"{page.name}: README.md does not link it"
 
 
 def main():
     site, docs = (Path(argument).resolve() for argument in sys.argv[1:3])
     # The error page has absolute links for servers.
     pages = {path: Page(path) for path in sorted(site.rglob("*.html")) if path.name != "404.html"}
-    found = list(problems(site, pages)) + list(unreached(site, docs, pages[site / "index.html"]))
+    found = list(problems(site, pages)) + list(unreached(docs, pages[site / "index.html"]))
     for mistake in found:
         print(mistake)
     links = sum(len(page.links) for page in pages.values())
