@@ -89,10 +89,10 @@ void Gbu::build_engine(int index) {
 
     monitors_.push_back(std::make_unique<TileMonitor>(numbered("monitor", e).c_str(),
                                                       config_.monitor, time_, job_, 1, 1, true));
-    auto& state = ring(state_rings_, "tile_state", kTokenDepth, 1);
+    auto& state = wire(state_rings_, "tile_state", 1);
     engines_[e]->tile_state.bind(state);
     monitors_[e]->in[0].bind(state);
-    auto& cancel = ring(cancel_rings_, "cancel", kTokenDepth, config_.monitor.latency_cycles);
+    auto& cancel = wire(cancel_rings_, "cancel", config_.monitor.latency_cycles);
     monitors_[e]->out[0].bind(cancel);
     fetchers_[e]->cancel.bind(cancel);
 }
@@ -109,10 +109,10 @@ void Gbu::build_pixel_buffer(int index) {
         numbered("pixel_buffer", e).c_str(), config, config_.traffic, time_, job_, 1,
         config_.contexts(), share, FrameEnds::awaited(front_end_->frame_free, options_),
         options_.array_only));
-    auto& done = ring(done_rings_, "tile_done", kTokenDepth, 1);
+    auto& done = wire(done_rings_, "tile_done", 1);
     engines_[e]->tile_done.bind(done);
     pixel_buffers_[e]->in[0].bind(done);
-    auto& contexts = ring(context_rings_, "context_free", kTokenDepth + config_.contexts(), 1);
+    auto& contexts = wire(context_rings_, "context_free", 1);
     pixel_buffers_[e]->context_free[0].bind(contexts);
     engines_[e]->context_free.bind(contexts);
 }

@@ -53,6 +53,10 @@ private:
     DatedFifo<T>& ring(Rings<T>& rings, const char* name, int depth, int latency) {
         return add_ring(rings, name, time_, depth, latency);
     }
+    template <class T>
+    DatedFifo<T>& wire(Rings<T>& rings, const char* name, int latency) {
+        return add_wire(rings, name, time_, latency);
+    }
     void build_front_end();
     void build_caches();
     void build_engine(int index);

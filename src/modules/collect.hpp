@@ -99,10 +99,6 @@ inline std::string numbered(const char* name, std::size_t index) {
     return std::string(name) + "_" + std::to_string(index);
 }
 
-/// Depth of rings of tokens and messages. They are wires, not buffers: deep enough never to push
-/// back, also with a message for every pixel of what a Packing Buffer can hold, a few tiles.
-constexpr int kTokenDepth = 64;
-
 /// A ring of at least one cell, owned by whoever wires blocks together.
 template <class T>
 DatedFifo<T>& add_ring(std::vector<std::unique_ptr<DatedFifo<T>>>& rings, const char* name,
@@ -110,6 +106,15 @@ DatedFifo<T>& add_ring(std::vector<std::unique_ptr<DatedFifo<T>>>& rings, const 
     rings.push_back(std::make_unique<DatedFifo<T>>(numbered(name, rings.size()).c_str(), time,
                                                    static_cast<std::size_t>(depth),
                                                    static_cast<Cycle>(latency)));
+    return *rings.back();
+}
+
+/// The same for tokens and messages, which never push back.
+template <class T>
+DatedFifo<T>& add_wire(std::vector<std::unique_ptr<DatedFifo<T>>>& rings, const char* name,
+                       const Timebase& time, int latency) {
+    rings.push_back(std::make_unique<DatedFifo<T>>(numbered(name, rings.size()).c_str(), time,
+                                                   FifoBase::kWire, static_cast<Cycle>(latency)));
     return *rings.back();
 }
 

@@ -30,6 +30,11 @@ DatedFifo<T>& Degs::ring(Rings<T>& rings, const char* name, int depth, int laten
     return add_ring(rings, name, time_, depth, latency);
 }
 
+template <class T>
+DatedFifo<T>& Degs::wire(Rings<T>& rings, const char* name, int latency) {
+    return add_wire(rings, name, time_, latency);
+}
+
 void Degs::build_front_end() {
     const auto sorters = static_cast<std::size_t>(config_.sorting.count);
     const auto slicers = static_cast<std::size_t>(config_.slicing.count);
@@ -51,7 +56,7 @@ void Degs::build_front_end() {
         auto& lists = ring(sorted_rings_, "sorted", 1, 1);
         front_end_->sorted[i].bind(lists);
         fetchers_[i]->sorted.bind(lists);
-        auto& cancel = ring(cancel_rings_, "cancel", kTokenDepth, config_.monitor.latency_cycles);
+        auto& cancel = wire(cancel_rings_, "cancel", config_.monitor.latency_cycles);
         monitor_->out[i].bind(cancel);
         fetchers_[i]->cancel.bind(cancel);
     }
@@ -71,7 +76,7 @@ void Degs::build_span_engine() {
             fetchers_[s]->out[static_cast<std::size_t>(g)].bind(splats);
             unit.in[s].bind(splats);
         }
-        auto& cancel = ring(cancel_rings_, "cancel", kTokenDepth, config_.monitor.latency_cycles);
+        auto& cancel = wire(cancel_rings_, "cancel", config_.monitor.latency_cycles);
         monitor_->out[sorters + static_cast<std::size_t>(g)].bind(cancel);
         unit.cancel.bind(cancel);
     }
@@ -133,10 +138,6 @@ void Degs::build_array() {
                                    config_.scheduler.termination,
                                    config_.slicing.skip_dead_rows ? config_.slicing.count : 0};
     next_region_port_.assign(slicing_.size(), 0);
-    const int messages =
-        (config_.packing_depth() + config_.packing.latency_cycles + writeback + 4) *
-        config_.array.pes_per_bank;
-    const int tokens = kTokenDepth + config_.contexts();
     for (int b = 0; b < config_.scheduler.banks; ++b) {
         const auto i = static_cast<std::size_t>(b);
         slices_.push_back(std::make_unique<ArraySlice>(
@@ -147,19 +148,19 @@ void Degs::build_array() {
                              config_.packing.latency_cycles);
         packing_[i]->out.bind(packets);
         slices_[i]->in.bind(packets);
-        auto& terminations = ring(termination_rings_, "terminations", messages, writeback);
+        auto& terminations = wire(termination_rings_, "terminations", writeback);
         slices_[i]->terminated.bind(terminations);
         banks_[i]->terminated.bind(terminations);
         connect_region_feedback(b, slice.region_listeners);
-        auto& done = ring(done_rings_, "tile_done", tokens, writeback);
+        auto& done = wire(done_rings_, "tile_done", writeback);
         slices_[i]->tile_done.bind(done);
         PixelBuffer& pixels = *pixel_buffers_[i % pixel_buffers_.size()];
         const std::size_t port = i / pixel_buffers_.size();
         pixels.in[port].bind(done);
-        auto& state = ring(state_rings_, "tile_state", tokens, writeback);
+        auto& state = wire(state_rings_, "tile_state", writeback);
         slices_[i]->tile_state.bind(state);
         monitor_->in[i].bind(state);
-        auto& contexts = ring(context_rings_, "context_free", tokens, 1);
+        auto& contexts = wire(context_rings_, "context_free", 1);
         pixels.context_free[port].bind(contexts);
         banks_[i]->context_free.bind(contexts);
     }
@@ -181,16 +182,10 @@ void Degs::build_pixel_buffer() {
 }
 
 void Degs::connect_region_feedback(int slice, int listeners) {
-    const DegsConfig::Scheduler& scheduler = config_.scheduler;
-    const int slice_rows = (config_.tile_size + scheduler.banks - 1) / scheduler.banks;
-    const int segments =
-        (config_.tile_size + scheduler.segment_length - 1) / scheduler.segment_length;
-    const int region_depth = slice_rows * segments * (config_.contexts() + 1);
     std::size_t port = 0;
     for (int g = 0; g < listeners; ++g) {
         if (shares_row(slice, config_.scheduler.banks, g, listeners)) {
-            auto& rows =
-                ring(region_rings_, "region_ended", region_depth, config_.slicing.feedback_cycles);
+            auto& rows = wire(region_rings_, "region_ended", config_.slicing.feedback_cycles);
             slices_[static_cast<std::size_t>(slice)]->region_ended[port++].bind(rows);
             const auto listener = static_cast<std::size_t>(g);
             slicing_[listener]->region_ended[next_region_port_[listener]++].bind(rows);

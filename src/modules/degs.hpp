@@ -56,6 +56,8 @@ private:
 
     template <class T>
     DatedFifo<T>& ring(Rings<T>& rings, const char* name, int depth, int latency);
+    template <class T>
+    DatedFifo<T>& wire(Rings<T>& rings, const char* name, int latency);
     void build_front_end();
     void build_span_engine();
     void build_scheduler();

@@ -18,6 +18,9 @@ namespace degs {
 /// ("Smart FIFO", Helmstetter et al., DATE 2013). Depth D, forward latency Lf, release latency Lb:
 ///     write(i) = max(a_w, read(i - D) + Lb)      read(i) = max(a_r, write(i) + Lf)
 /// where a_w, a_r are the dates at which the sides are ready. One writer and one reader process.
+/// A FIFO of depth kWire never pushes back: write(i) = a_w.
+///
+/// The host allocates cells as they are needed, so that a depth costs memory only if it is used.
 ///
 /// Blocks use the calls that take their Process. The standard TLM-1 interfaces are implemented for
 /// foreign blocks, which live in kernel time. A FIFO whose reader asks Process::next_arrival()
@@ -40,9 +43,10 @@ public:
               Cycle forward_latency = 1, Cycle release_latency = 0)
         : sc_core::sc_module(name),
           FifoBase(forward_latency, release_latency), time_{time.clock, Fidelity::Exact},
-          cells_(std::max<std::size_t>(depth, 1)), first_(cells_.data()),
-          end_(first_ + cells_.size()), front_(first_), tail_(first_), earlier_(first_) {
-        depth_ = cells_.size();
+          cells_(std::clamp<std::size_t>(depth, 1, kFirstCells)), first_(cells_.data()),
+          end_(first_ + cells_.size()), front_(first_), tail_(first_), earlier_(first_),
+          capacity_(cells_.size()) {
+        depth_ = std::max<std::size_t>(depth, 1);
         head_ = &front_->date;
         free_ = &tail_->date;
     }
@@ -54,12 +58,9 @@ public:
     /// Waits for a free cell and moves the writer to the date from which it is free.
     void reserve(Process& writer) {
         writer_ = &writer;
-        const Cycle ready = writer.local();
-        while (filled_ == depth_) {
-            writer.block_on_room(*this);
+        if (filled_ == depth_ || tail_->date > writer.local()) {
+            make_room(writer);
         }
-        writer.advance_to(tail_->date);
-        stats_.full_cycles += writer.local() - ready;
     }
     void put(Process& writer, const T& value) { put_at(writer, value, 0); }
     /// Like put(), but the item may be read from `ready` on at the earliest (data that is on its
@@ -136,7 +137,7 @@ public:
         return true;
     }
     bool nb_can_put(tlm::tlm_tag<T>* = nullptr) const override {
-        return filled_ < depth_ && time_.clock.at(tail_->date) <= sc_core::sc_time_stamp();
+        return filled_ < depth_ && time_.clock.at(room_date()) <= sc_core::sc_time_stamp();
     }
     const sc_core::sc_event& ok_to_put(tlm::tlm_tag<T>* = nullptr) const override {
         listen();
@@ -184,6 +185,7 @@ public:
     }
 
 private:
+    static constexpr std::size_t kFirstCells = 16;
     struct Cell {
         Cycle date = 0; // filled: readable from; free: writable from
         Cycle written = 0;
@@ -196,6 +198,9 @@ private:
         const bool was_empty = filled_++ == 0;
         tail_ = next(tail_);
         free_ = &tail_->date;
+        if (filled_ == capacity_ && capacity_ < depth_) {
+            grow(); // so that tail_ is free unless the ring is full
+        }
         if (foreign_listens_) {
             announce();
         }
@@ -203,6 +208,53 @@ private:
         if (was_empty && reader_ != nullptr && reader_->blocked()) {
             reader_->wake();
         }
+    }
+    /// The cell to be written holds no item, but its last one was read later than the writer's date,
+    /// or there is none.
+    __attribute__((noinline)) void make_room(Process& writer) {
+        if (capacity_ < depth_) {
+            grow();
+            return;
+        }
+        const Cycle ready = writer.local();
+        while (filled_ == depth_) {
+            writer.block_on_room(*this);
+        }
+        writer.advance_to(tail_->date);
+        stats_.full_cycles += writer.local() - ready;
+    }
+    /// Twice the cells, or all of them. The new ring starts with the oldest item. Behind the last
+    /// one come cells that are free from the start: the reads they would have to wait for all lie
+    /// before the latest write, else the ring would have grown then. Cells keep the date of their
+    /// last read, which count_fill() asks for. A reader may hold on to an item in the old cells.
+    __attribute__((noinline)) void grow() {
+        std::vector<Cell> cells(capacity_ <= depth_ / 2 ? 2 * capacity_ : depth_);
+        const std::size_t added = cells.size() - capacity_;
+        const Cell* from = front_;
+        for (std::size_t i = 0; i < capacity_; ++i, from = next(from)) {
+            Cell& behind = cells[added + i];
+            behind.read = from->read;
+            if (added + i >= filled_ && from->read != kNever) {
+                behind.date = from->read + release_latency_;
+            }
+            if (i < filled_) {
+                cells[i].date = from->date;
+                cells[i].written = from->written;
+                cells[i].value = from->value;
+            } else if (i == filled_) {
+                cells[i].value = from->value; // staged, perhaps
+            }
+        }
+        left_.push_back(std::move(cells_));
+        cells_ = std::move(cells);
+        capacity_ = cells_.size();
+        first_ = cells_.data();
+        end_ = first_ + capacity_;
+        front_ = first_;
+        tail_ = first_ + filled_;
+        earlier_ = stats_.high_water == 0 ? first_ : end_ - stats_.high_water;
+        head_ = &front_->date;
+        free_ = &tail_->date;
     }
     /// Raises the high-water mark if more items than that were inside when the item now read was
     /// written: itself, and those before it that were read later. Told by dates alone, because how
@@ -216,11 +268,13 @@ private:
             earlier_ = next(earlier_);
         }
     }
-    Cell* next(Cell* cell) const {
-        Cell* const first = first_; // loaded in any case, so that no branch is needed
+    template <class AnyCell>
+    AnyCell* next(AnyCell* cell) const {
+        AnyCell* const first = first_; // loaded in any case, so that no branch is needed
         ++cell;
         return cell == end_ ? first : cell;
     }
+    Cycle room_date() const { return capacity_ < depth_ ? 0 : tail_->date; }
     void listen() const {
         foreign_listens_ = true;
         announce();
@@ -232,7 +286,7 @@ private:
             notify_foreign(foreign_item_, front_->date);
         }
         if (filled_ < depth_) {
-            notify_foreign(foreign_room_, tail_->date);
+            notify_foreign(foreign_room_, room_date());
         }
     }
     void notify_foreign(sc_core::sc_event& event, Cycle date) const {
@@ -256,6 +310,8 @@ private:
     Cell* front_;
     Cell* tail_;
     Cell* earlier_; // stats_.high_water places before front_, see count_fill()
+    std::size_t capacity_;                // cells; no more than depth_
+    std::vector<std::vector<Cell>> left_; // cells that were too few
     Stats stats_;
     std::unique_ptr<Process> foreign_writer_;
     std::unique_ptr<Process> foreign_reader_;

@@ -134,6 +134,9 @@ private:
 /// What a ring of any item type shows to processes; see DatedFifo.
 class FifoBase {
 public:
+    /// Depth of a FIFO that never pushes back: messages and tokens travel on wires, and whoever
+    /// gets them has a register for what they say.
+    static constexpr std::size_t kWire = ~std::size_t{0};
     FifoBase(Cycle forward_latency, Cycle release_latency)
         : forward_latency_(forward_latency), release_latency_(release_latency) {}
     virtual ~FifoBase() = default;

@@ -229,6 +229,58 @@ TEST(DatedFifo, StatisticsOfAFullRing) {
     EXPECT_EQ(stats.high_water, depth);
 }
 
+// A writer that is done long before its reader starts, and a reader that is done before the writer
+// goes on: a wire moves neither, however far they are apart.
+TEST(DatedFifo, WireNeverPushesBack) {
+    constexpr Cycle n = 1000;
+    const Timebase time;
+    DatedFifo<int> wire("wire", time, FifoBase::kWire, 3);
+    Process writer(time);
+    Process reader(time);
+    const Script write("write", [&] {
+        for (int i = 0; i < static_cast<int>(n); ++i) {
+            wire.put(writer, i);
+            writer.advance();
+        }
+    });
+    bool ordered = true;
+    const Script read("read", [&] {
+        reader.advance(5000);
+        for (int i = 0; i < static_cast<int>(n); ++i) {
+            ordered = ordered && wire.get(reader) == i;
+            reader.advance(2);
+        }
+    });
+    sc_core::sc_start();
+    EXPECT_TRUE(ordered);
+    EXPECT_EQ(writer.local(), n);
+    EXPECT_EQ(reader.local(), 5000 + 2 * n);
+    EXPECT_EQ(wire.stats().full_cycles, 0U);
+    EXPECT_EQ(wire.stats().high_water, n);
+    EXPECT_FALSE(wire.full());
+}
+
+// The reader holds on to an item in its cell while the writer fills all others.
+TEST(DatedFifo, ItemStaysWhereItIsWhileTheRingGrows) {
+    const Timebase time;
+    DatedFifo<int> ring("ring", time, 1000);
+    Process writer(time);
+    Process reader(time);
+    int seen = 0;
+    const Script run("run", [&] {
+        ring.put(writer, 7);
+        const int& item = ring.arrive(reader);
+        for (int i = 0; i < 999; ++i) {
+            ring.put(writer, i);
+        }
+        seen = item;
+        ring.drop(reader);
+        EXPECT_EQ(ring.get(reader), 0);
+    });
+    sc_core::sc_start();
+    EXPECT_EQ(seen, 7);
+}
+
 // A ring of depth 0 would deadlock; it has one cell.
 TEST(DatedFifo, HasAtLeastOneCell) {
     const Timebase time;

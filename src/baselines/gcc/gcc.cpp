@@ -29,7 +29,6 @@ Engine::Engine(const sc_core::sc_module_name& name, const Config& config, const 
 
 void Engine::build_array() {
     const int contexts = config_.tile_contexts();
-    const int tokens = kTokenDepth + contexts;
     const int writeback = config_.array.writeback_cycles;
     const bool mask = !options_.array_only && config_.colour.skip_ended;
     array_ = std::make_unique<WindowArray>("array", config_.array, time_, job_, 1, contexts,
@@ -39,13 +38,13 @@ void Engine::build_array() {
         PixelBuffer::Share{}, gated_ || options_.finished != nullptr, options_.array_only));
     monitor_ = std::make_unique<TileMonitor>("monitor", config_.monitor, time_, job_, 1,
                                              options_.array_only ? 1 : 3);
-    auto& done = add_ring(done_rings_, "tile_done", time_, tokens, writeback);
+    auto& done = add_wire(done_rings_, "tile_done", time_, writeback);
     array_->tile_done.bind(done);
     image_buffers_[0]->in[0].bind(done);
-    auto& state = add_ring(state_rings_, "tile_state", time_, tokens, writeback);
+    auto& state = add_wire(state_rings_, "tile_state", time_, writeback);
     array_->tile_state.bind(state);
     monitor_->in[0].bind(state);
-    auto& free = add_ring(context_rings_, "context_free", time_, tokens, 1);
+    auto& free = add_wire(context_rings_, "context_free", time_, 1);
     image_buffers_[0]->context_free[0].bind(free);
     array_->context_free.bind(free);
     auto& splats = add_ring(splat_rings_, "splats", time_, config_.chunks_ahead(), 1);
@@ -54,7 +53,7 @@ void Engine::build_array() {
 
 void Engine::bind_cancel(FifoPort<TileNumber>& listener) {
     auto& cancel =
-        add_ring(cancel_rings_, "cancel", time_, kTokenDepth, config_.monitor.latency_cycles);
+        add_wire(cancel_rings_, "cancel", time_, config_.monitor.latency_cycles);
     monitor_->out[listeners_++].bind(cancel);
     listener.bind(cancel);
 }
@@ -66,7 +65,7 @@ void Engine::build_stages() {
                                                     config_.traffic, time_, job_);
     colour_ = std::make_unique<ColourStage>("colour", config_.colour, config_.traffic, time_, job_,
                                             config_.projection.groups_ahead);
-    auto& grouped = add_ring(grouped_rings_, "grouped", time_, kTokenDepth, 1);
+    auto& grouped = add_wire(grouped_rings_, "grouped", time_, 1);
     grouping_->out.bind(grouped);
     projection_->start.bind(grouped);
     auto& groups = add_ring(projected_rings_, "projected", time_, config_.projection.groups_ahead,
@@ -78,13 +77,7 @@ void Engine::build_stages() {
     bind_cancel(projection_->cancel[1]);
     bind_cancel(colour_->cancel);
     if (config_.colour.skip_ended) {
-        // The mask is read once per group. Until then the array may end every block of each view
-        // that is on the way to it; a full ring could stop both for ever.
-        const int per_row = (config_.view_size + config_.colour.block - 1) / config_.colour.block;
-        const int ahead = config_.chunks_ahead() + config_.projection.groups_ahead + 3;
-        const int views =
-            job_.joined ? ahead : std::clamp(static_cast<int>(job_.tiles.size()), 1, ahead);
-        auto& blocks = add_ring(block_rings_, "block_ended", time_, per_row * per_row * views,
+        auto& blocks = add_wire(block_rings_, "block_ended", time_,
                                 config_.array.writeback_cycles + config_.colour.feedback_cycles);
         array_->block_ended[0].bind(blocks);
         colour_->block_ended[0].bind(blocks);

@@ -24,7 +24,7 @@ void TileArrayEngine::build_front_end(const Timebase& time) {
                                              fetchers + front_end_->cancel.size());
     const auto cancel_ring = [&](std::size_t listener) -> DatedFifo<TileNumber>& {
         auto& cancel =
-            add_ring(cancel_rings_, "cancel", time, kTokenDepth, parts_.monitor.latency_cycles);
+            add_wire(cancel_rings_, "cancel", time, parts_.monitor.latency_cycles);
         monitor_->out[listener].bind(cancel);
         return cancel;
     };
@@ -44,15 +44,14 @@ void TileArrayEngine::build_front_end(const Timebase& time) {
 }
 
 void TileArrayEngine::build_pixels(const Timebase& time) {
-    const int tokens = kTokenDepth + parts_.contexts;
     pixel_buffers_.push_back(std::make_unique<PixelBuffer>(
         "pixel_buffer", parts_.pixel_buffer, parts_.front.traffic, time, job_, 1, parts_.contexts,
         PixelBuffer::Share{}, FrameEnds::awaited(front_end_->frame_free, options_),
         options_.array_only));
     PixelBuffer& pixels = *pixel_buffers_.front();
-    pixels.in[0].bind(add_ring(report_rings_, "tile_done", time, tokens, parts_.writeback_cycles));
-    monitor_->in[0].bind(add_ring(report_rings_, "tile_state", time, tokens, 1));
-    pixels.context_free[0].bind(add_ring(context_rings_, "context_free", time, tokens, 1));
+    pixels.in[0].bind(add_wire(report_rings_, "tile_done", time, parts_.writeback_cycles));
+    monitor_->in[0].bind(add_wire(report_rings_, "tile_state", time, 1));
+    pixels.context_free[0].bind(add_wire(context_rings_, "context_free", time, 1));
 }
 
 std::size_t TileArrayEngine::finished_tiles() const {

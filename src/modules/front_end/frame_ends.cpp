@@ -15,19 +15,18 @@ void FrameEnds::build(const FrameEndConfig& config, const Timebase& time,
     if (!gated) {
         return;
     }
-    constexpr int kDepth = 64; // one message per tile: more than can wait for the gate
     const std::size_t waiting = listeners.size() + (options.finished != nullptr ? 1 : 0);
     gate_ =
         std::make_unique<FrameGate>("frame_gate", time, job, buffers.size() + 1, waiting, reports);
     for (std::size_t i = 0; i <= buffers.size(); ++i) {
-        auto& done = add_ring(rings_, "frame_done", time, kDepth, 1);
+        auto& done = add_wire(rings_, "frame_done", time, 1);
         auto& reporter =
             i < buffers.size() ? buffers[i]->frame_done[0] : background_->frame_done[0];
         reporter.bind(done);
         gate_->in[i].bind(done);
     }
     for (std::size_t i = 0; i < listeners.size(); ++i) {
-        auto& free = add_ring(rings_, "frame_free", time, kDepth, config.gate_latency_cycles);
+        auto& free = add_wire(rings_, "frame_free", time, config.gate_latency_cycles);
         gate_->out[i].bind(free);
         listeners[i].bind(free);
     }

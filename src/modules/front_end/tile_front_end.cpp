@@ -44,7 +44,7 @@ void TileFrontEnd::build_units(const Config& config, const Timebase& time, const
         }
     }
     for (std::size_t i = 0; i < sorters; ++i) {
-        auto& frames = add_ring(frames_, "frames", time, kTokenDepth, 1);
+        auto& frames = add_wire(frames_, "frames", time, 1);
         binner_->out[i].bind(frames);
         build_sorter(i, config, time, job, frames);
     }
