@@ -126,7 +126,7 @@ tlm::tlm_sync_enum Lpddr5::begin_request(std::uint32_t socket, Payload& payload,
         return tlm::TLM_UPDATED;
     }
     // The count may be behind, but only too high. Everything dated before now is certain.
-    settle();
+    settle(now());
     const bool held_back = initiator.waiting > limit;
     if (held_back) {
         initiator.held_back = &payload;

@@ -48,8 +48,12 @@ public:
     const Stats& stats(std::size_t initiator) const { return stats_[initiator]; }
     Stats total() const;
     /// Of all channels, up to now.
-    Channel::Stats commands();
-    Energy energy();
+    Channel::Stats commands() { return commands(sc_core::sc_time_stamp()); }
+    Energy energy() { return energy(sc_core::sc_time_stamp()); }
+    /// The same up to another date: of a run that is over, which may end before or after the date
+    /// at which the kernel had nothing left to do. Not before the last request, and none follows.
+    Channel::Stats commands(const sc_core::sc_time& until);
+    Energy energy(const sc_core::sc_time& until);
     const Channels& channels() const { return channels_; }
     /// Called with every command; no cost when never called. Before the simulation starts.
     void observe(const std::function<void(unsigned channel, const Issued&)>& observer);
@@ -108,8 +112,9 @@ private:
     void schedule();
     void serve_by(Ck due);
     void schedule_responses();
-    /// Everything dated before now is in the statistics; returns now in CK.
-    Ck settle();
+    /// Everything dated before `date`, in kernel time units, is in the statistics; returns it in
+    /// CK.
+    Ck settle(std::uint64_t date);
 
     tlm::tlm_response_status check(const Payload& payload) const;
     void copy(Payload& payload);

@@ -101,20 +101,20 @@ Lpddr5::Stats Lpddr5::total() const {
     return sum;
 }
 
-Ck Lpddr5::settle() {
-    if (now() == 0) {
+Ck Lpddr5::settle(std::uint64_t date) {
+    if (date == 0) {
         return 0;
     }
-    advance(now() - 1);
-    const Ck known = (now() - 1) / ck_;
+    advance(date - 1);
+    const Ck known = (date - 1) / ck_;
     channels_.settle(known);
     plan_answers();
     schedule();
     return known + 1;
 }
 
-Channel::Stats Lpddr5::commands() {
-    settle();
+Channel::Stats Lpddr5::commands(const sc_core::sc_time& until) {
+    settle(until.value());
     Channel::Stats sum;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         sum.add(channels_[c].stats());
@@ -122,8 +122,8 @@ Channel::Stats Lpddr5::commands() {
     return sum;
 }
 
-Energy Lpddr5::energy() {
-    const Ck elapsed = settle();
+Energy Lpddr5::energy(const sc_core::sc_time& until) {
+    const Ck elapsed = settle(until.value());
     Energy sum;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         sum.add(config_.energy, config_.timing, channels_[c], elapsed);

@@ -92,8 +92,11 @@ public:
         return &dram_->stats(initiator).read_latency;
     }
     void collect(AcceleratorResult& result) const override {
-        result.row_hit_rate = dram::hit_rate(dram_->commands().accesses);
-        result.dram_energy = dram_->energy();
+        // Reads of cancelled tiles may still be answered when the last pixel is in memory.
+        const sc_core::sc_time end =
+            std::max(ClockDomain(result.clock_ghz).at(result.cycles), dram_->total().last_answer);
+        result.row_hit_rate = dram::hit_rate(dram_->commands(end).accesses);
+        result.dram_energy = dram_->energy(end);
     }
     std::vector<std::string> explain() const override {
         return {"The memory is LPDDR5 with channels, banks, rows and refresh; the interconnect in "

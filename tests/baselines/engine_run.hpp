@@ -79,6 +79,9 @@ inline std::string EngineRun::words() const {
     }
     out << r.tiles << ' ' << r.background_tiles << ' ' << r.tiles_cancelled << ' '
         << r.memory_utilization << '\n';
+    if (r.dram_energy) {
+        out << r.row_hit_rate.value_or(0) << ' ' << r.dram_energy->total_nj() << '\n';
+    }
     return out.str();
 }
 

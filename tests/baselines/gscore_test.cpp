@@ -171,6 +171,25 @@ TEST(Gscore, ArrayOnlyNeverStarves) {
     EXPECT_LT(result.cycles, result.window.cycles() + 40);
 }
 
+// The kernel goes on for longer than the frame, and not as long in both fidelities.
+TEST(SmallRunGscore, MemoryEnergyEndsWithTheRun) {
+    const FrameWorkload frame = test::random_frame(9, 64, 17, 16, 1500);
+    GscoreConfig config;
+    config.sorting.fine_cycles_per_key = 1024;
+    config.memory.model = MemoryModel::Lpddr5;
+    const EngineRun exact("exact", config, {&frame}, Fidelity::Exact);
+    const EngineRun strict("strict", config, {&frame}, Fidelity::Strict);
+    sc_core::sc_start(sc_core::sc_time(20, sc_core::SC_MS));
+    exact.expect_sound();
+    EXPECT_EQ(exact.words(), strict.words());
+    const AcceleratorResult result = exact.result();
+    // Channels that do nothing but refresh: 22 to 30 mW each (docs/lpddr5.md).
+    const auto us = static_cast<double>(result.cycles) * 1e-3;
+    const auto channels = static_cast<double>(config.memory.lpddr5.channels);
+    EXPECT_GE(result.dram_energy->background_nj, 22 * channels * us);
+    EXPECT_LE(result.dram_energy->background_nj, 30.1 * channels * us);
+}
+
 // Fewer useless slots the finer the test, at the same image.
 TEST(ShapeGscore, FinerSubtileTestsTakeFewerPasses) {
     const FrameWorkload frame = test::random_frame(8, 120, 80, 16, 600);
