@@ -17,7 +17,7 @@ Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Tim
         build_pixel_buffer(e);
     }
     frame_ends_.build(config_.frame_end, time_, config_.traffic, job_, pixel_buffers_,
-                      front_end_->frame_free, 1, options_);
+                      {front_end_->frame_free, front_end_->listed}, 1, options_);
     build_memory();
 }
 

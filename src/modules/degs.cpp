@@ -16,7 +16,8 @@ Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const 
     build_scheduler();
     build_array();
     frame_ends_.build(config_.frame_end, time_, config_.traffic, job_, pixel_buffers_,
-                      front_end_->frame_free, pixel_buffers_.size(), options_);
+                      {front_end_->frame_free, front_end_->listed}, pixel_buffers_.size(),
+                      options_);
     build_memory();
 }
 

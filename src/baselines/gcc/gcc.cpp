@@ -22,8 +22,10 @@ Engine::Engine(const sc_core::sc_module_name& name, const Config& config, const 
         build_stages();
     }
     sc_core::sc_vector<FifoPort<std::uint32_t>> nobody;
-    frame_ends_.build(config_.frame_end, time_, config_.traffic.common(), job_, image_buffers_,
-                      grouping_ ? grouping_->frame_free : nobody, 1, options_);
+    frame_ends_.build(
+        config_.frame_end, time_, config_.traffic.common(), job_, image_buffers_,
+        {grouping_ ? grouping_->frame_free : nobody, grouping_ ? grouping_->listed : nobody}, 1,
+        options_);
     build_memory();
 }
 
@@ -52,15 +54,14 @@ void Engine::build_array() {
 }
 
 void Engine::bind_cancel(FifoPort<TileNumber>& listener) {
-    auto& cancel =
-        add_wire(cancel_rings_, "cancel", time_, config_.monitor.latency_cycles);
+    auto& cancel = add_wire(cancel_rings_, "cancel", time_, config_.monitor.latency_cycles);
     monitor_->out[listeners_++].bind(cancel);
     listener.bind(cancel);
 }
 
 void Engine::build_stages() {
     grouping_ = std::make_unique<Grouping>("grouping", config_.grouping, config_.traffic, time_,
-                                           job_, gated_ ? config_.frames_in_flight : 0);
+                                           job_, gated_ ? config_.frames_in_flight : 0, 1);
     projection_ = std::make_unique<ProjectionStage>("projection", config_.projection,
                                                     config_.traffic, time_, job_);
     colour_ = std::make_unique<ColourStage>("colour", config_.colour, config_.traffic, time_, job_,

@@ -27,9 +27,10 @@ void Grouping::Config::describe(ConfigVisitor& visitor) {
 
 Grouping::Grouping(const sc_core::sc_module_name& name, const Config& config,
                    const Traffic& traffic, const Timebase& time, const RenderJob& job,
-                   int frames_in_flight)
-    : sc_core::sc_module(name), out("out"), frame_free("frame_free", frames_in_flight == 0 ? 0 : 1),
-      means("means", time), lists("lists", time), config_(config), traffic_(traffic), job_(job),
+                   int frames_in_flight, std::size_t listeners)
+    : sc_core::sc_module(name), out("out"), listed("listed", listeners),
+      frame_free("frame_free", frames_in_flight == 0 ? 0 : 1), means("means", time),
+      lists("lists", time), config_(config), traffic_(traffic), job_(job),
       frames_in_flight_(static_cast<std::uint32_t>(frames_in_flight)), fetcher_(time),
       grouper_(time), fetched_("fetched", time, static_cast<std::size_t>(config.chunks_in_flight)),
       acknowledged_(static_cast<std::size_t>(config.writes_in_flight), 0) {
@@ -42,6 +43,9 @@ void Grouping::end_of_elaboration() {
     fetched_.connect_writer(fetcher_);
     fetched_.connect_reader(grouper_);
     out->connect_writer(grouper_);
+    for (auto& port : listed) {
+        port->connect_writer(grouper_);
+    }
     for (auto& port : frame_free) {
         port->connect_reader(fetcher_);
     }
@@ -83,6 +87,9 @@ void Grouping::group() {
         stats_.view_entries += frame.tile_pairs();
         frames_grouped_.push_back(grouper_.local());
         out->put(grouper_, f);
+        for (auto& port : listed) {
+            port->put(grouper_, f);
+        }
     }
     grouper_.finish();
 }

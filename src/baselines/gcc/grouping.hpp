@@ -40,6 +40,8 @@ public:
     };
 
     FifoPort<std::uint32_t> out; ///< frames whose lists are complete
+    /// The same for whoever else wants to know.
+    sc_core::sc_vector<FifoPort<std::uint32_t>> listed;
     /// Frames that have been written; empty unless frames have to wait for each other.
     sc_core::sc_vector<FifoPort<std::uint32_t>> frame_free;
     MemoryPort means;
@@ -47,7 +49,8 @@ public:
 
     /// `frames_in_flight`: frame f + this waits for a message of frame_free; 0: none does.
     Grouping(const sc_core::sc_module_name& name, const Config& config, const Traffic& traffic,
-             const Timebase& time, const RenderJob& job, int frames_in_flight);
+             const Timebase& time, const RenderJob& job, int frames_in_flight,
+             std::size_t listeners = 0);
 
     const Stats& stats() const { return stats_; }
     /// Dates at which each frame's lists were complete.

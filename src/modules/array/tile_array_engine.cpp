@@ -10,7 +10,7 @@ TileArrayEngine::TileArrayEngine(const sc_core::sc_module_name& name, const Part
     build_front_end(time);
     build_pixels(time);
     frame_ends_.build(parts_.frame_end, time, parts_.front.traffic, job_, pixel_buffers_,
-                      front_end_->frame_free, 1, options_);
+                      {front_end_->frame_free, front_end_->listed}, 1, options_);
     front_end_->connect_memory(streams_, fetchers_);
     streams_.connect(pixel_buffers_.front()->frame_buffer, "frame_buffer", StreamData::Own);
     frame_ends_.connect_memory(streams_);
@@ -23,8 +23,7 @@ void TileArrayEngine::build_front_end(const Timebase& time) {
     monitor_ = std::make_unique<TileMonitor>("monitor", parts_.monitor, time, job_, 1,
                                              fetchers + front_end_->cancel.size());
     const auto cancel_ring = [&](std::size_t listener) -> DatedFifo<TileNumber>& {
-        auto& cancel =
-            add_wire(cancel_rings_, "cancel", time, parts_.monitor.latency_cycles);
+        auto& cancel = add_wire(cancel_rings_, "cancel", time, parts_.monitor.latency_cycles);
         monitor_->out[listener].bind(cancel);
         return cancel;
     };

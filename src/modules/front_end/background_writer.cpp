@@ -9,14 +9,18 @@ BackgroundWriter::BackgroundWriter(const sc_core::sc_module_name& name,
                                    const TrafficConfig& traffic, const Timebase& time,
                                    const RenderJob& job, int cycles_per_write, bool reports,
                                    bool instant)
-    : sc_core::sc_module(name), frame_done("frame_done", reports ? 1 : 0),
-      frame_buffer("frame_buffer", time), traffic_(traffic), job_(job),
-      cycles_per_write_(cycles_per_write), instant_(instant), self_(time) {
+    : sc_core::sc_module(name), listed("listed", instant ? 0 : 1),
+      frame_done("frame_done", reports ? 1 : 0), frame_buffer("frame_buffer", time),
+      traffic_(traffic), job_(job), cycles_per_write_(cycles_per_write), instant_(instant),
+      self_(time) {
     SC_HAS_PROCESS(BackgroundWriter);
     SC_THREAD(run);
 }
 
 void BackgroundWriter::end_of_elaboration() {
+    for (auto& port : listed) {
+        port->connect_reader(self_);
+    }
     for (auto& port : frame_done) {
         port->connect_writer(self_);
     }
@@ -24,6 +28,9 @@ void BackgroundWriter::end_of_elaboration() {
 
 void BackgroundWriter::run() {
     for (std::uint32_t f = 0; job_.has_frame(self_, f); ++f) {
+        for (auto& port : listed) {
+            port->get(self_);
+        }
         const Cycle done = write_frame(f);
         stats_.finished = std::max(stats_.finished, done);
         frames_written_.push_back(done);

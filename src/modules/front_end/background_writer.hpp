@@ -11,9 +11,10 @@
 
 namespace degs {
 
-/// Writes the pixels of the tiles that list no splat, as soon as their frame starts: they never
-/// enter the pipeline. A posted write every `cycles_per_write`, each a row of pixels of
-/// neighbouring background tiles; all their rows where they are as wide as the image.
+/// Writes the pixels of the tiles that list no splat: they never enter the pipeline. That a tile is
+/// one of them is known when the lists of its frame are complete. A posted write every
+/// `cycles_per_write`, each a row of pixels of neighbouring background tiles; all their rows where
+/// they are as wide as the image.
 class BackgroundWriter : public sc_core::sc_module {
 public:
     struct Stats {
@@ -21,6 +22,8 @@ public:
         Cycle finished = 0; ///< date at which the last background pixel was in memory
     };
 
+    /// Frames whose lists are complete; empty if `instant`.
+    sc_core::sc_vector<FifoPort<std::uint32_t>> listed;
     /// The frame, once its background is in memory; empty if nobody wants to know.
     sc_core::sc_vector<FifoPort<std::uint32_t>> frame_done;
     MemoryPort frame_buffer;

@@ -5,13 +5,18 @@ namespace degs {
 
 void FrameEnds::build(const FrameEndConfig& config, const Timebase& time,
                       const TrafficConfig& traffic, const RenderJob& job,
-                      const PixelBuffers& buffers,
-                      sc_core::sc_vector<FifoPort<std::uint32_t>>& listeners, std::uint64_t reports,
+                      const PixelBuffers& buffers, const FrontEnd& front_end, std::uint64_t reports,
                       const BuildOptions& options) {
+    auto& listeners = front_end.frame_free;
     const bool gated = awaited(listeners, options);
     background_ = std::make_unique<BackgroundWriter>("background", traffic, time, job,
                                                      config.background_cycles_per_write, gated,
                                                      options.array_only);
+    for (std::size_t i = 0; i < background_->listed.size(); ++i) {
+        auto& listed = add_wire(rings_, "listed", time, 1);
+        front_end.listed[i].bind(listed);
+        background_->listed[i].bind(listed);
+    }
     if (!gated) {
         return;
     }

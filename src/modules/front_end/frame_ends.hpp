@@ -22,11 +22,16 @@ public:
         return listeners.size() != 0 || options.finished != nullptr;
     }
 
-    /// `listeners`: ports of the front end that wait for finished frames. `reports`: see FrameGate.
+    /// What a front end and the end of a frame tell each other.
+    struct FrontEnd {
+        sc_core::sc_vector<FifoPort<std::uint32_t>>& frame_free; ///< wait for finished frames
+        sc_core::sc_vector<FifoPort<std::uint32_t>>& listed;     ///< tell whose lists are complete
+    };
+
+    /// `reports`: see FrameGate.
     void build(const FrameEndConfig& config, const Timebase& time, const TrafficConfig& traffic,
-               const RenderJob& job, const PixelBuffers& buffers,
-               sc_core::sc_vector<FifoPort<std::uint32_t>>& listeners, std::uint64_t reports,
-               const BuildOptions& options);
+               const RenderJob& job, const PixelBuffers& buffers, const FrontEnd& front_end,
+               std::uint64_t reports, const BuildOptions& options);
     void connect_memory(MemoryStreams& streams) {
         streams.connect(background_->frame_buffer, "frame_buffer", StreamData::Own);
     }

@@ -26,7 +26,7 @@ public:
     };
 
     sc_core::sc_vector<FifoPort<ProjectedChunk>> in; ///< one per Projection Unit
-    sc_core::sc_vector<FifoPort<std::uint32_t>> out; ///< frame tokens, one per Sorting Unit
+    sc_core::sc_vector<FifoPort<std::uint32_t>> out; ///< frames whose lists are complete
     MemoryPort splats;
     MemoryPort lists;
 

@@ -9,7 +9,8 @@ TileFrontEnd::TileFrontEnd(const sc_core::sc_module_name& name, const Config& co
                            const Timebase& time, const RenderJob& job)
     : sc_core::sc_module(name), sorted("sorted", config.sorters()),
       cancel("cancel", config.on_demand && !config.instant ? config.hierarchical.count : 0),
-      frame_free("frame_free", gated(config, job) ? config.projection.count : 0) {
+      frame_free("frame_free", gated(config, job) ? config.projection.count : 0),
+      listed("listed", config.instant ? 0 : 1) {
     if (config.instant) {
         build_sources(time, job);
     } else {
@@ -31,7 +32,10 @@ void TileFrontEnd::build_units(const Config& config, const Timebase& time, const
     const int waits_for = frame_free.size() == 0 ? 0 : config.frames_in_flight;
     binner_ = std::make_unique<TileBinner>(
         "binner", config.binning, config.traffic, time, job, config.projection.chunk,
-        static_cast<std::size_t>(config.projection.count), sorters);
+        static_cast<std::size_t>(config.projection.count), sorters + listed.size());
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+        binner_->out[sorters + i].bind(listed[i]);
+    }
     for (int i = 0; i < config.projection.count; ++i) {
         projection_.push_back(std::make_unique<ProjectionUnit>(numbered("projection", i).c_str(),
                                                                config.projection, config.traffic,

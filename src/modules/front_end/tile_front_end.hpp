@@ -43,6 +43,8 @@ public:
     sc_core::sc_vector<FifoPort<TileNumber>> cancel;
     /// Numbers of finished frames, one per Projection Unit; empty unless gated().
     sc_core::sc_vector<FifoPort<std::uint32_t>> frame_free;
+    /// Numbers of frames whose lists are complete, for the Background Writer; empty if instant.
+    sc_core::sc_vector<FifoPort<std::uint32_t>> listed;
 
     TileFrontEnd(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                  const RenderJob& job);
