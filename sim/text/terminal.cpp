@@ -38,12 +38,12 @@ std::string scene_line(const RunResult& result) {
 
 std::string design_line(const RunResult& result) {
     const AcceleratorResult& run = result.accelerator;
-    int bytes = 0;
+    std::int64_t bytes = 0;
     for (const BufferUse& buffer : run.buffers) {
         bytes += buffer.bytes;
     }
     return run.name + kDot + std::to_string(run.pes) + " PEs" + kDot +
-           three_digits(bytes / 1024.0) + " KB of SRAM";
+           three_digits(static_cast<double>(bytes) / 1024.0) + " KB of SRAM";
 }
 
 std::string frame_line(const RunResult& result) {

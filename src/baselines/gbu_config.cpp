@@ -65,9 +65,8 @@ std::string GbuConfig::problem() const {
         return "engines.row_pes = " + std::to_string(engines.row_pes) +
                " must not be above tile_size = " + std::to_string(tile_size);
     }
-    if (contexts() < 1) {
-        return need("pixel_buffer.bytes / pixel_buffer.state_bytes per engine (tiles of tile_size)",
-                    contexts(), 1);
+    if (const std::string why = pixel_buffer.problem(tile_size, engines.count); !why.empty()) {
+        return why;
     }
     if (sort_capacity() < sorting.chunk) {
         return need("list_buffer.bytes per sorting unit in list entries", sort_capacity(),

@@ -76,13 +76,16 @@ struct GbuConfig : AcceleratorConfig {
     }
     /// Records in the reuse cache of one engine.
     int cache_records() const { return reuse_cache.bytes / engines.count / traffic.splat_bytes; }
-    int queue_bytes() const { return pes() * engines.queue_depth * engines.entry_bytes; }
-    int splat_buffer_bytes() const {
-        return engines.count * list_buffer.chunks * fetching.chunk * traffic.splat_bytes;
+    std::int64_t queue_bytes() const {
+        return std::int64_t{pes()} * engines.queue_depth * engines.entry_bytes;
     }
-    int sram_bytes() const {
-        return list_buffer.bytes + splat_buffer_bytes() + reuse_cache.bytes + queue_bytes() +
-               pixel_buffer.bytes;
+    std::int64_t splat_buffer_bytes() const {
+        return std::int64_t{engines.count} * list_buffer.chunks * fetching.chunk *
+               traffic.splat_bytes;
+    }
+    std::int64_t sram_bytes() const {
+        return std::int64_t{list_buffer.bytes} + splat_buffer_bytes() + reuse_cache.bytes +
+               queue_bytes() + pixel_buffer.bytes;
     }
 };
 

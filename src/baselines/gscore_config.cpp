@@ -52,10 +52,8 @@ std::string GscoreConfig::problem() const {
         return what + " holds " + std::to_string(has) + ", but at least " + std::to_string(least) +
                " must fit";
     };
-    if (tile_contexts() < 1) {
-        return need("pixel_buffer.bytes / pixel_buffer.state_bytes (tiles of " +
-                        std::to_string(tile_size_px()) + " px)",
-                    tile_contexts(), 1);
+    if (const std::string why = pixel_buffer.problem(tile_size_px()); !why.empty()) {
+        return why;
     }
     if (pixel_buffer.bytes > buffer.bytes) {
         return "pixel_buffer.bytes = " + std::to_string(pixel_buffer.bytes) +

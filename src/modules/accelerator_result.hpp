@@ -29,7 +29,7 @@ struct StageUse {
 /// One buffer or ring; fields that a kind of buffer does not have stay 0 and are not reported.
 struct BufferUse {
     std::string name;
-    int bytes = 0;                ///< configured capacity, 0 if the configuration counts cells
+    std::int64_t bytes = 0;       ///< configured capacity, 0 if the configuration counts cells
     std::uint64_t rings = 0;      ///< parts of the buffer, one per reader
     std::uint64_t depth = 0;      ///< cells per ring
     std::uint64_t high_water = 0; ///< most cells filled in any ring

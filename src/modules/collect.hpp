@@ -65,7 +65,7 @@ RingUse use_of(const std::vector<std::unique_ptr<DatedFifo<T>>>& rings) {
 }
 
 /// Adds a buffer of `bytes` made of rings of `depth` cells each.
-inline void add_buffer(AcceleratorResult& result, const char* name, int bytes, int depth,
+inline void add_buffer(AcceleratorResult& result, const char* name, std::int64_t bytes, int depth,
                        const RingUse& use) {
     BufferUse buffer;
     buffer.name = name;

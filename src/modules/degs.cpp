@@ -141,9 +141,9 @@ void Degs::build_array() {
     next_region_port_.assign(slicing_.size(), 0);
     for (int b = 0; b < config_.scheduler.banks; ++b) {
         const auto i = static_cast<std::size_t>(b);
-        slices_.push_back(std::make_unique<ArraySlice>(
-            numbered("slice", i).c_str(), slice, time_, job_, b, config_.scheduler.banks,
-            config_.scheduler.segment_length, config_.contexts()));
+        slices_.push_back(std::make_unique<ArraySlice>(numbered("slice", i).c_str(), slice, time_,
+                                                       job_, b, config_.scheduler.banks,
+                                                       config_.scheduler.segment_length));
         // Control packets (tile ends) need cells of their own: they take no room of the buffer.
         auto& packets = ring(packing_rings_, "packing_buffer", config_.packing_depth() + 4,
                              config_.packing.latency_cycles);

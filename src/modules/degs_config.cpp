@@ -135,9 +135,8 @@ std::string DegsConfig::problem() const {
                " must not be below array.writeback_cycles = " +
                std::to_string(array.writeback_cycles);
     }
-    if (contexts() < 1) {
-        return need("pixel_buffer.bytes / pixel_buffer.state_bytes (tiles of tile_size)",
-                    contexts(), 1);
+    if (const std::string why = pixel_buffer.problem(tile_size); !why.empty()) {
+        return why;
     }
     if (span_lane_depth() < 1) {
         return need("span_buffer.bytes / span_buffer.row_bytes per Span Unit", span_lane_depth(),

@@ -113,9 +113,9 @@ struct DegsConfig : AcceleratorConfig {
     // Derived sizes.
     int pes() const override { return scheduler.banks * array.pes_per_bank; }
     int contexts() const { return pixel_buffer.contexts(tile_size); }
-    int sram_bytes() const {
-        return gaussian_buffer.bytes + span_buffer.bytes + packing.bytes + feature_buffer.bytes +
-               pixel_buffer.bytes;
+    std::int64_t sram_bytes() const {
+        return std::int64_t{gaussian_buffer.bytes} + span_buffer.bytes + packing.bytes +
+               feature_buffer.bytes + pixel_buffer.bytes;
     }
     int span_lane_depth() const { return span_buffer.bytes / span_buffer.row_bytes / span.count; }
     int queue_depth() const { return scheduler.queue_segments_per_pe * array.pes_per_bank; }

@@ -17,6 +17,9 @@ struct BlendRecord {
     T r, g, b;
 };
 
+/// Pixels behind the last one that a block of lanes may touch.
+constexpr std::size_t kLanePadding = 16;
+
 /// Pixel state as planes, so that neighbouring pixels are neighbouring lanes.
 template <class T>
 struct PixelPlanes {
@@ -24,11 +27,23 @@ struct PixelPlanes {
     std::vector<T> live; // 1 while the pixel takes splats, 0 once it has ended
     std::vector<std::uint32_t> updates;
 
-    explicit PixelPlanes(std::size_t size)
-        : transmittance(size, T(1)), r(size, T(0)), g(size, T(0)), b(size, T(0)), live(size, T(1)),
-          updates(size, 0) {}
+    explicit PixelPlanes(std::size_t size = 0) { hold(size); }
 
+    /// Room for `size` pixels at least; new ones are clear.
+    void hold(std::size_t size) {
+        if (size <= updates.size()) {
+            return;
+        }
+        transmittance.resize(size, T(1));
+        live.resize(size, T(1));
+        for (std::vector<T>* plane : {&r, &g, &b}) {
+            plane->resize(size, T(0));
+        }
+        updates.resize(size, 0U);
+    }
+    /// Makes room if need be, for lanes behind the last pixel, too.
     void clear(std::size_t first, std::size_t count) {
+        hold(first + count + kLanePadding);
         std::fill_n(transmittance.begin() + static_cast<std::ptrdiff_t>(first), count, T(1));
         std::fill_n(live.begin() + static_cast<std::ptrdiff_t>(first), count, T(1));
         for (std::vector<T>* plane : {&r, &g, &b}) {
@@ -79,8 +94,6 @@ using TestFunction = BlendOutcome (*)(const TestRow<T>& row, const BlendRecord<T
                                       bool refuse, PixelPlanes<T>& pixels, std::size_t first);
 TestFunction<float> test_function(float);
 TestFunction<double> test_function(double);
-
-constexpr std::size_t kLanePadding = 16;
 
 /// All variants this build has, narrow first; those the machine cannot run are left out. For tests.
 std::vector<BlendFunction<float>> blend_variants();

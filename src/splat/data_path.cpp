@@ -7,6 +7,7 @@
 
 #include "splat/blend_lanes.hpp"
 #include "splat/numbers/quantized_data_path.hpp"
+#include "splat/pixel_rows.hpp"
 
 namespace degs {
 namespace {
@@ -76,9 +77,8 @@ template <class T>
 class DataPathOf final : public DataPath {
 public:
     DataPathOf(const DataPathOptions& options, int tile_size, int contexts)
-        : options_(options), tile_size_(tile_size), stride_((tile_size + 31) / 32 * 32),
-          pixels_(static_cast<std::size_t>(contexts * tile_size * stride_) + kLanePadding),
-          blend_(blend_function(T{})), test_(test_function(T{})) {}
+        : options_(options), rows_(contexts, tile_size), blend_(blend_function(T{})),
+          test_(test_function(T{})) {}
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
         const auto base = static_cast<std::uint32_t>(spans_.size());
@@ -176,9 +176,7 @@ public:
         return true;
     }
 
-    void begin_row(int context, int row) override {
-        pixels_.clear(at(context, row, 0), static_cast<std::size_t>(stride_));
-    }
+    void begin_row(int context, int row) override { rows_.release(context, row); }
 
     BlendOutcome blend(const BlendTask& task) override {
         const std::size_t first = at(task.context, task.row, task.column);
@@ -245,7 +243,11 @@ public:
     }
 
     void read_row(int context, int row, int count, PixelValue* pixels) const override {
-        const std::size_t first = at(context, row, 0);
+        if (!rows_.placed(context, row)) {
+            std::fill_n(pixels, count, PixelValue{});
+            return;
+        }
+        const std::size_t first = rows_.first_pixel(context, row);
         for (int i = 0; i < count; ++i) {
             pixels[i] = pixels_.read(first + static_cast<std::size_t>(i));
         }
@@ -270,13 +272,15 @@ private:
         return s.pixel_y + static_cast<int>(direction < 0 ? std::ceil(limited - slack)
                                                           : std::floor(limited + slack));
     }
-    std::size_t at(int context, int row, int column) const {
-        return static_cast<std::size_t>((context * tile_size_ + row) * stride_ + column);
+    std::size_t at(int context, int row, int column) {
+        if (!rows_.placed(context, row)) {
+            pixels_.clear(rows_.place(context, row), rows_.stride());
+        }
+        return rows_.first_pixel(context, row) + static_cast<std::size_t>(column);
     }
 
     DataPathOptions options_;
-    int tile_size_;
-    int stride_; // tile rows are padded to 32 px so that a lane block never leaves its row
+    PixelRows rows_;
     PixelPlanes<T> pixels_;
     BlendFunction<T> blend_;
     TestFunction<T> test_;

@@ -55,6 +55,9 @@ struct RowSpan {
     double d0 = 0; ///< first forward difference
 };
 
+/// Tile contexts are numbered in 16 bits, the sign included.
+constexpr int kMostContexts = 32767;
+
 /// Up to 32 neighbouring pixels of one row span, handed to the PEs in one go.
 struct BlendTask {
     double g0 = 0, d0 = 0; ///< of the span
@@ -117,7 +120,7 @@ public:
     virtual bool solve_row(std::uint32_t splat, int y, int x_begin, int x_end, int tile_y,
                            RowSpan& span) const = 0;
 
-    /// Makes a row of a context ready for a tile: T = 1, colour 0, nothing ended.
+    /// Makes a row of a context ready for a tile: T = 1, colour 0, nothing ended. All are at first.
     virtual void begin_row(int context, int row) = 0;
     /// Updates the pixels of one task, left to right.
     virtual BlendOutcome blend(const BlendTask& task) = 0;
@@ -133,7 +136,7 @@ public:
     virtual void read_row(int context, int row, int count, PixelValue* pixels) const = 0;
 };
 
-/// A data path for tiles of `tile_size` px and `contexts` tiles in flight.
+/// A data path for tiles of `tile_size` px and `contexts` tiles in flight, at most kMostContexts.
 std::unique_ptr<DataPath> make_data_path(const DataPathOptions& options, int tile_size,
                                          int contexts);
 

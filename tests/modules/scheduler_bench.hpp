@@ -64,7 +64,7 @@ struct SchedulerBench {
           state("state", time, 8, static_cast<Cycle>(s.writeback)),
           bank("bank", bank_config(s), time, job, 0, 1, 1),
           packing("packing", PackingUnit::Config{s.width, s.packing_latency, s.packets}),
-          slice("slice", slice_config(s), time, job, 0, 1, 16, 1) {
+          slice("slice", slice_config(s), time, job, 0, 1, 16) {
         bank.packing = &packing;
         bank.in[0].bind(crossbar);
         bank.terminated.bind(terminated);

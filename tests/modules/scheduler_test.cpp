@@ -202,6 +202,22 @@ TEST(IssueBank, TheNextTileStartsWhenItsContextIsFree) {
     EXPECT_EQ(bench.accounted(), bench.window_slots());
 }
 
+// Room for two packets and ten cycles from issue to execution: a full packet that executes at e
+// leaves room for the next one when it is two cycles ahead, and that one then executes at e + 9.
+// Five rows wait from the start and none conflicts with another; 4 x 8 cycles find no packet.
+TEST(IssueBank, WaitingForPackingRoomIsBlocked) {
+    SchedulerBench::Sizes sizes;
+    sizes.packing_latency = 10;
+    sizes.packets = 2;
+    SchedulerBench bench(sizes, {blanket(8, 8, 16, 0.2)});
+    bench.run(SchedulerBench::rows(0, 5, 10));
+    EXPECT_EQ(bench.stats().window.first, 20U);
+    EXPECT_EQ(bench.stats().window.last, 20U + 4 * 9);
+    EXPECT_EQ(bench.packing.idle().blocked, 4U * 8 * 16);
+    EXPECT_EQ(bench.packing.idle().conflict, 0U);
+    EXPECT_EQ(bench.accounted(), bench.window_slots());
+}
+
 // Deep packing buffer, four segments issued per cycle but a quarter of one executed: whatever
 // queues up drains back to back and still keeps its distance. Without scoreboard it does not.
 class Hazards : public ::testing::TestWithParam<bool> {};

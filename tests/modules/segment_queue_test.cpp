@@ -10,6 +10,30 @@
 namespace degs {
 namespace {
 
+// Room for one tile at first, then for eight: each keeps its segments, their order and its dates.
+TEST(SegmentQueue, HoldsAsManyTilesAsAreInFlight) {
+    SegmentQueue queue(64, 1, 3, DomainScan::Oldest);
+    for (std::size_t number = 5; number < 13; ++number) {
+        queue.hold(5, number);
+        SegmentQueue::Tile& tile = queue.tile(number);
+        queue.push(tile, 1, 10 * number);
+        queue.push(tile, 1, 10 * number + 1);
+        queue.push(tile, 2, 10 * number + 2);
+        EXPECT_EQ(queue.pick(tile, 50), 1);
+        queue.set_ready_at(tile, 1, 60 + number);
+    }
+    for (std::size_t number = 5; number < 13; ++number) {
+        SegmentQueue::Tile& tile = queue.tile(number);
+        ASSERT_EQ(queue.waiting(tile), 3U);
+        EXPECT_EQ(queue.front(tile, 1).sequence, 10 * number);
+        EXPECT_EQ(queue.next_ready(tile), 60 + number);
+        EXPECT_EQ(queue.pick(tile, 59 + number), 2); // the other domain is within the distance
+        EXPECT_EQ(queue.pick(tile, 60 + number), 1);
+        queue.pop(tile, 1);
+        EXPECT_EQ(queue.front(tile, 1).sequence, 10 * number + 1);
+    }
+}
+
 TEST(SegmentQueue, KeepsOrderInsideADomain) {
     SegmentQueue queue(4, 1, 3, DomainScan::Oldest);
     for (std::uint64_t i = 0; i < 4; ++i) {

@@ -42,6 +42,41 @@ TEST(SmallRun, NoSplatsAtAll) {
     }
 }
 
+// The host holds what is used; these buffers as a whole would take it 30 GB.
+TEST(SmallRun, HugeBuffersChangeNothing) {
+    const FrameWorkload frame = test::random_frame(4, 90, 70, 16, 200);
+    DegsConfig config = tiles_of(16);
+    config.packing.bytes = 64 * 1024 * 1024;
+    config.gaussian_buffer.bytes = 64 * 1024 * 1024;
+    config.span_buffer.bytes = 64 * 1024 * 1024;
+    config.pixel_buffer.bytes = 64 * config.pixel_buffer.state_bytes * 16 * 16; // more than tiles
+    DegsConfig huge = config;
+    huge.packing.bytes = huge.gaussian_buffer.bytes = huge.span_buffer.bytes = 1 << 30;
+    huge.pixel_buffer.bytes = kMostContexts * config.pixel_buffer.state_bytes * 16 * 16;
+    const DegsRun large("large", config, {&frame});
+    const DegsRun most("most", huge, {&frame});
+    sc_core::sc_start();
+    test::expect_sound(most);
+    test::expect_reference(most);
+    EXPECT_EQ(most.degs().finished(), large.degs().finished());
+    EXPECT_EQ(most.slots().starved, large.slots().starved);
+}
+
+TEST(SmallRun, MoreContextsThanAreNumberedAreRefused) {
+    DegsConfig config;
+    config.tile_size = 4;
+    config.pixel_buffer.state_bytes = 1;
+    config.pixel_buffer.bytes = 16 * (kMostContexts + 1) - 1;
+    EXPECT_EQ(config.problem(), "");
+    config.pixel_buffer.bytes = 16 * (kMostContexts + 1);
+    EXPECT_EQ(config.problem(),
+              "pixel_buffer.bytes = 524288 holds 32768 tiles of 4 x 4 px at "
+              "pixel_buffer.state_bytes = 1, but at most 32767 are supported: 524287 bytes");
+    config.pixel_buffer.bytes = 15;
+    EXPECT_EQ(config.problem(), "pixel_buffer.bytes = 15 holds 0 tiles of 4 x 4 px at "
+                                "pixel_buffer.state_bytes = 1, but at least 1 must fit: 16 bytes");
+}
+
 TEST(SmallRun, GaussiansThatNobodySees) {
     FrameWorkload frame = make_frame({}, 40, 30, 16);
     frame.gaussians = 1000;

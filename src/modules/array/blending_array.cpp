@@ -11,18 +11,14 @@ namespace degs {
 
 ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config,
                        const Timebase& time, RenderJob& job, int index, int slices,
-                       int segment_length, int contexts)
+                       int segment_length)
     : sc_core::sc_module(name), in("in"), terminated("terminated"),
       region_ended("region_ended", reachable(index, slices, config.region_listeners)),
       tile_done("tile_done"), tile_state("tile_state"), config_(config), job_(job), index_(index),
       slices_(slices), segment_length_(segment_length),
       segments_per_row_((job.tile_size + segment_length - 1) / segment_length), self_(time),
-      contexts_(contexts), segments_((job.tile_size + slices - 1) / slices * segments_per_row_) {
-    for (Context& context : contexts_) {
-        context.live_in_segment.resize(segments_);
-        context.ended_in_segment.resize(segments_);
-    }
-    recent_.resize(segments_ * contexts_.size());
+      segments_((job.tile_size + slices - 1) / slices * segments_per_row_) {
+    hold_tiles(1);
     port_of_listener_.resize(config.region_listeners, 0);
     std::size_t port = 0;
     for (int g = 0; g < config.region_listeners; ++g) {
@@ -111,9 +107,30 @@ void ArraySlice::pump() {
     }
 }
 
+// Tiles end in order, so those in flight are neighbours.
+void ArraySlice::hold_tiles(TileNumber count) {
+    while (contexts_.size() < count) {
+        const std::size_t before = contexts_.size();
+        contexts_.resize(std::max<std::size_t>(1, 2 * before));
+        for (std::size_t c = before; c < contexts_.size(); ++c) {
+            contexts_[c].live_in_segment.resize(segments_);
+            contexts_[c].ended_in_segment.resize(segments_);
+            contexts_[c].recent.resize(segments_);
+        }
+        for (std::size_t c = 0; c < before; ++c) { // to where its number says
+            Context& home = context_of(contexts_[c].tile);
+            if (&home != &contexts_[c]) {
+                std::swap(home, contexts_[c]);
+            }
+        }
+    }
+}
+
 void ArraySlice::start_tile(TileNumber number) {
+    hold_tiles(number - tiles_done_ + 1);
     const JobTile& tile = job_.tiles[number];
     Context& context = context_of(number);
+    std::fill(context.recent.begin(), context.recent.end(), Recent{});
     context.tile = number;
     context.live_pixels = 0;
     context.reported = false;
@@ -129,7 +146,7 @@ void ArraySlice::start_tile(TileNumber number) {
 
 // The invariant the scoreboard exists for; see the tests that switch it off.
 void ArraySlice::check_reuse(const TaskRun& run, Cycle date) {
-    Recent& recent = recent_[run.task.context * segments_ + run.domain];
+    Recent& recent = context_of(run.tile).recent[run.domain];
     const bool late = date - recent.date >= static_cast<Cycle>(config_.writeback_cycles);
     const std::uint32_t busy = late ? 0 : recent.mask;
     stats_.hazards += __builtin_popcount(busy & run.part);
@@ -138,7 +155,7 @@ void ArraySlice::check_reuse(const TaskRun& run, Cycle date) {
 }
 
 void ArraySlice::pixels_ended(const TaskRun& run, std::uint32_t ended) {
-    Context& context = contexts_[run.task.context];
+    Context& context = context_of(run.tile);
     const std::size_t segment = run.domain;
     const int count = __builtin_popcount(ended);
     context.ended_in_segment[segment] |= ended;

@@ -38,44 +38,45 @@ public:
     FifoPort<SliceReport> tile_state; ///< to the Tile Monitor, once per tile
 
     ArraySlice(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
-               RenderJob& job, int index, int slices, int segment_length, int contexts);
+               RenderJob& job, int index, int slices, int segment_length);
 
     const Stats& stats() const { return stats_; }
 
 private:
-    /// Tile state kept per context: what is still alive in this slice's rows.
+    struct Recent {
+        Cycle date = 0;
+        std::uint32_t mask = 0;
+    };
+    /// Tile state: what is still alive in this slice's rows.
     struct Context {
         TileNumber tile = 0;
         int live_pixels = 0;
         bool reported = false;
         std::vector<int> live_in_segment;
         std::vector<std::uint32_t> ended_in_segment;
-    };
-    struct Recent {
-        Cycle date = 0;
-        std::uint32_t mask = 0;
+        std::vector<Recent> recent; ///< per segment: pixels updated lately
     };
     void end_of_elaboration() override;
     void run();
     void pump() override;
     void start_tile(TileNumber number);
+    void hold_tiles(TileNumber count);
     void execute(const TaskPacket& packet);
     void check_reuse(const TaskRun& run, Cycle date);
     void pixels_ended(const TaskRun& run, std::uint32_t ended);
     void report_region(const Context& context, const TaskRun& run);
     void end_tile(TileNumber number);
-    Context& context_of(TileNumber tile) { return contexts_[tile % contexts_.size()]; }
+    Context& context_of(TileNumber tile) { return contexts_[tile & (contexts_.size() - 1)]; }
 
     Config config_;
     RenderJob& job_;
     int index_, slices_, segment_length_, segments_per_row_;
     Process self_;
     DatedFifo<TaskPacket>* packets_ = nullptr; // what `in` is bound to
-    std::vector<Context> contexts_;
-    std::size_t segments_; // of a context
+    std::vector<Context> contexts_; // as many as tiles have been in flight, a power of two
+    std::size_t segments_;          // of a context
     std::vector<std::size_t> port_of_listener_;
-    std::vector<Recent> recent_; // per context and segment: pixels updated lately
-    BlendOutcome outcome_;       // of the segment whose tasks execute
+    BlendOutcome outcome_; // of the segment whose tasks execute
     TileNumber tiles_done_ = 0;
     TileNumber next_tile_ = 0; // first tile that has not started here
     Stats stats_;

@@ -41,6 +41,24 @@ void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
                     "pixels per cycle when a finished tile is read out; one per PE [assumed]");
 }
 
+std::string PixelBuffer::Config::problem(int tile_size, int least) const {
+    const std::int64_t tile_bytes = std::int64_t{state_bytes} * tile_size * tile_size;
+    const int held = contexts(tile_size);
+    const std::string what = "pixel_buffer.bytes = " + std::to_string(bytes) + " holds " +
+                             std::to_string(held) + " tiles of " + std::to_string(tile_size) +
+                             " x " + std::to_string(tile_size) +
+                             " px at pixel_buffer.state_bytes = " + std::to_string(state_bytes);
+    if (held < least) {
+        return what + ", but at least " + std::to_string(least) +
+               " must fit: " + std::to_string(tile_bytes * least) + " bytes";
+    }
+    if (held > kMostContexts) {
+        return what + ", but at most " + std::to_string(kMostContexts) +
+               " are supported: " + std::to_string(tile_bytes * (kMostContexts + 1) - 1) + " bytes";
+    }
+    return "";
+}
+
 PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& config,
                          const TrafficConfig& traffic, const Timebase& time, RenderJob& job,
                          std::size_t slices, int contexts, const Share& share, bool gated,
@@ -49,9 +67,6 @@ PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& conf
       frame_done("frame_done", gated ? 1 : 0), frame_buffer("frame_buffer", time), config_(config),
       traffic_(traffic), job_(job), contexts_(contexts), share_(share), instant_(instant),
       self_(time), in_flight_(config.writes_in_flight, 0) {
-    for (int c = 0; c < contexts; ++c) {
-        clear(share.first_context + c);
-    }
     SC_HAS_PROCESS(PixelBuffer);
     SC_THREAD(run);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include <systemc>
 
 #include "config/config.hpp"
@@ -33,6 +35,8 @@ public:
         void describe(ConfigVisitor& visitor);
         /// Tile contexts that fit; 0 if not even one does.
         int contexts(int tile_size) const { return bytes / (state_bytes * tile_size * tile_size); }
+        /// One sentence if fewer than `least` contexts fit, or more than kMostContexts; else empty.
+        std::string problem(int tile_size, int least = 1) const;
     };
     struct Stats {
         Cycle readout_busy = 0;

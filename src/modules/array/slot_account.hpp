@@ -18,7 +18,7 @@ struct SlotAccount {
     std::uint64_t terminated = 0; ///< the pixel has ended or refuses the splat
     std::uint64_t conflict = 0;   ///< work there, but within the reuse distance
     std::uint64_t starved = 0;    ///< no work there
-    std::uint64_t blocked = 0;    ///< work there, but no Pixel Buffer context is free
+    std::uint64_t blocked = 0;    ///< work there, but no room: a Pixel Buffer context, a packet
     std::uint64_t drain = 0;      ///< this slice is done with the frame, others are not
 
     void idle(Idle cause, std::uint64_t slots) {

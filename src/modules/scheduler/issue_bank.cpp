@@ -13,13 +13,8 @@ int tiles_in_queue(int contexts) {
     return std::max(2, contexts);
 }
 
-int power_of_two(int least) {
-    int size = 1;
-    while (size < least) {
-        size *= 2;
-    }
-    return size;
-}
+// The queue holds more when they come.
+constexpr int kFirstTiles = 2;
 
 } // namespace
 
@@ -31,7 +26,7 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
       tiles_in_flight_(tiles_in_queue(contexts)),
       by_pixel_(config.termination == TerminationGrain::Pixel), self_(time),
       segmenter_(job.tile_size, config.segment_length, index, config.count, contexts),
-      queue_(config.queue_depth, power_of_two(tiles_in_flight_),
+      queue_(config.queue_depth, kFirstTiles,
              Segmenter::domains_per_tile(job.tile_size, config.segment_length, config.count),
              config.scan),
       features_(config.feature_entries), startable_(contexts) {
@@ -120,6 +115,7 @@ std::uint32_t IssueBank::end_pixels(SegmentQueue::Tile& tile, int domain,
 
 // Called when the first item of a tile is taken. Pixels outside of the image count as ended.
 void IssueBank::enter_tile() {
+    queue_.hold(oldest_tile_, entering_tile_);
     const int width = job_.tiles[entering_tile_].width;
     const std::vector<Segmenter::Domain>& domains = segmenter_.domains();
     for (std::size_t d = 0; d < domains.size(); ++d) {
@@ -213,7 +209,7 @@ bool IssueBank::issue(Cycle now) {
     no_room_ = false;
     width_limited_ = false;
     int issued = 0;
-    const TileNumber end = startable_;
+    const TileNumber end = first_unstarted();
     for (TileNumber number = oldest_tile_; number < end; ++number) {
         SegmentQueue::Tile& tile = queue_.tile(number);
         while (SegmentQueue::waiting(tile) != 0 && issue_one(now, tile)) {
@@ -237,8 +233,8 @@ bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile) {
     const std::uint32_t mask = segment.run.task.mask;
     const std::uint32_t wanted = mask & SegmentQueue::live(tile, domain);
     const int tasks = __builtin_popcount(wanted);
-    no_room_ = !packing->room(now, tasks);
-    if (no_room_) {
+    if (!packing->room(now, tasks)) {
+        no_room_ = true;
         return false;
     }
     Cycle last = now;
@@ -273,9 +269,10 @@ Idle IssueBank::idle_cause() const {
     if (queue_.empty()) {
         return Idle::Starved;
     }
-    for (TileNumber tile = oldest_tile_; tile < startable_; ++tile) {
+    const TileNumber end = first_unstarted();
+    for (TileNumber tile = oldest_tile_; tile < end; ++tile) {
         if (SegmentQueue::waiting(queue_.tile(tile)) != 0) {
-            return width_limited_ ? Idle::Starved : Idle::Conflict;
+            return width_limited_ ? Idle::Starved : no_room_ ? Idle::Blocked : Idle::Conflict;
         }
     }
     return Idle::Blocked;
@@ -287,7 +284,8 @@ Cycle IssueBank::next_ready(Cycle now) const {
         return now + 1;
     }
     Cycle earliest = kNever;
-    for (TileNumber number = oldest_tile_; number < startable_; ++number) {
+    const TileNumber end = first_unstarted();
+    for (TileNumber number = oldest_tile_; number < end; ++number) {
         const SegmentQueue::Tile& tile = queue_.tile(number);
         if (SegmentQueue::waiting(tile) != 0) {
             earliest = std::min(earliest, queue_.next_ready(tile));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include <systemc>
 
 #include "config/config.hpp"
@@ -73,6 +75,10 @@ private:
     bool issue_one(Cycle now, SegmentQueue::Tile& tile);
     bool finish_tiles();
     Idle idle_cause() const;
+    /// The first tile that may not issue, or has nothing to issue yet.
+    TileNumber first_unstarted() const {
+        return std::min(startable_, entering_tile_ + (entered_ ? 1U : 0U));
+    }
     Cycle next_ready(Cycle now) const;
     Cycle next_date(Cycle now);
 

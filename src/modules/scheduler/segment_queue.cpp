@@ -6,27 +6,44 @@
 namespace degs {
 SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan)
     : domains_(domains_per_tile), words_((static_cast<std::size_t>(domains_per_tile) + 63) / 64),
-      tile_mask_(static_cast<std::size_t>(tiles_in_flight) - 1), scan_(scan),
-      bits_(tiles_in_flight * words_ * (2 + kWheel)), keys_(tiles_in_flight * domains_per_tile),
-      entries_(depth), lists_(tiles_in_flight * domains_per_tile), tiles_(tiles_in_flight) {
-    std::uint64_t* bits = bits_.data();
-    std::uint64_t* keys = keys_.data();
-    List* lists = lists_.data();
-    for (Tile& tile : tiles_) {
-        tile.lists = lists;
-        tile.keys = keys;
-        tile.occupied = bits;
-        tile.cooling = bits + words_;
-        tile.wheel = bits + 2 * words_;
-        clear_lists(tile);
-        lists += domains_per_tile;
-        keys += domains_per_tile;
-        bits += words_ * (2 + kWheel);
-    }
+      scan_(scan), entries_(depth) {
+    add_tiles(tiles_in_flight);
     for (int i = depth - 1; i >= 0; --i) {
         Entry& entry = entries_[i];
         entry.next = free_;
         free_ = &entry;
+    }
+}
+
+void SegmentQueue::add_tiles(std::size_t count) {
+    const std::size_t sets = words_ * (2 + kWheel);
+    const auto domains = static_cast<std::size_t>(domains_);
+    Block& block = blocks_.emplace_back();
+    block.bits.resize(count * sets);
+    block.keys.resize(count * domains);
+    block.lists.resize(count * domains);
+    for (std::size_t t = 0; t < count; ++t) {
+        Tile& tile = tiles_.emplace_back();
+        tile.lists = &block.lists[t * domains];
+        tile.keys = &block.keys[t * domains];
+        tile.occupied = &block.bits[t * sets];
+        tile.cooling = tile.occupied + words_;
+        tile.wheel = tile.occupied + 2 * words_;
+        clear_lists(tile);
+    }
+    tile_mask_ = tiles_.size() - 1;
+}
+
+// Those in flight go to where their number says.
+void SegmentQueue::double_tiles(std::size_t oldest) {
+    const std::size_t before = tiles_.size();
+    add_tiles(before);
+    for (std::size_t number = oldest; number < oldest + before; ++number) {
+        Tile& home = tiles_[number & tile_mask_];
+        Tile& from = tiles_[number & (before - 1)];
+        if (&home != &from) {
+            std::swap(home, from);
+        }
     }
 }
 

@@ -52,11 +52,18 @@ public:
         std::uint64_t* wheel = nullptr;    // kWheel sets: released at date mod kWheel
     };
 
-    /// `tiles_in_flight` is a power of two.
+    /// `tiles_in_flight`: a power of two; see hold().
     SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan);
     SegmentQueue(const SegmentQueue&) = delete; // tiles and entries point at each other
     SegmentQueue& operator=(const SegmentQueue&) = delete;
 
+    /// Makes room for the tiles `oldest` .. `latest` together; all others have been cleared.
+    /// Invalidates references to tiles.
+    void hold(std::size_t oldest, std::size_t latest) {
+        while (latest - oldest > tile_mask_) {
+            double_tiles(oldest);
+        }
+    }
     /// The part of tile `number`; tiles a multiple of tiles_in_flight apart share one.
     Tile& tile(std::size_t number) { return tiles_[number & tile_mask_]; }
     const Tile& tile(std::size_t number) const { return tiles_[number & tile_mask_]; }
@@ -106,6 +113,8 @@ private:
                    ? head_sequence | std::uint64_t{~length & 0xFFFFU} << kSequenceBits
                    : head_sequence;
     }
+    void add_tiles(std::size_t count);
+    void double_tiles(std::size_t oldest);
     void clear_lists(Tile& tile) const;
     void release_all(Tile& tile) const;
     void turn_wheel(Tile& tile, Cycle date) const;
@@ -119,14 +128,19 @@ private:
 
     static constexpr int kSequenceBits = 48;
 
+    /// What some tiles point at; entries point at lists, so they stay where they are.
+    struct Block {
+        std::vector<std::uint64_t> bits, keys;
+        std::vector<List> lists;
+    };
+
     int domains_;
-    std::size_t words_, tile_mask_;
+    std::size_t words_, tile_mask_ = 0;
     DomainScan scan_;
-    std::vector<std::uint64_t> bits_, keys_;
+    std::vector<Block> blocks_;
     std::vector<Entry> entries_;
     Entry* free_ = nullptr; // first of the list of free entries
     std::size_t size_ = 0;
-    std::vector<List> lists_;
     std::vector<Tile> tiles_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "splat/numbers/quantized_extent.hpp"
 #include "splat/numbers/quantized_pixels.hpp"
+#include "splat/pixel_rows.hpp"
 
 namespace degs {
 namespace {
@@ -22,11 +23,8 @@ public:
     QuantizedDataPath(const NumberSet& set, const DataPathOptions& options, int tile_size,
                       int contexts)
         : row_(with_ends(set, options)), slack_(row_.set()),
-          refuse_(options.stop == StopRule::Refuse), tile_size_(tile_size),
-          stride_((tile_size + 31) / 32 * 32),
-          pixels_(make_quantized_pixels(row_,
-                                        static_cast<std::size_t>(contexts * tile_size * stride_))) {
-    }
+          refuse_(options.stop == StopRule::Refuse), rows_(contexts, tile_size),
+          pixels_(make_quantized_pixels(row_)) {}
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
         const auto base = static_cast<std::uint32_t>(splats_.size());
@@ -76,9 +74,7 @@ public:
         return true;
     }
 
-    void begin_row(int context, int row) override {
-        pixels_->clear(at(context, row, 0), static_cast<std::size_t>(stride_));
-    }
+    void begin_row(int context, int row) override { rows_.release(context, row); }
 
     BlendOutcome blend(const BlendTask& task) override {
         return pixels_->blend(task, refuse_, at(task.context, task.row, task.column));
@@ -131,22 +127,28 @@ public:
     }
 
     void read_row(int context, int row, int count, PixelValue* pixels) const override {
-        const std::size_t first = at(context, row, 0);
+        if (!rows_.placed(context, row)) {
+            std::fill_n(pixels, count, PixelValue{});
+            return;
+        }
+        const std::size_t first = rows_.first_pixel(context, row);
         for (int i = 0; i < count; ++i) {
             pixels[i] = pixels_->read(first + static_cast<std::size_t>(i));
         }
     }
 
 private:
-    std::size_t at(int context, int row, int column) const {
-        return static_cast<std::size_t>((context * tile_size_ + row) * stride_ + column);
+    std::size_t at(int context, int row, int column) {
+        if (!rows_.placed(context, row)) {
+            pixels_->clear(rows_.place(context, row), rows_.stride());
+        }
+        return rows_.first_pixel(context, row) + static_cast<std::size_t>(column);
     }
 
     QuantizedRow row_;
     QuantizedSlack slack_;
     bool refuse_;
-    int tile_size_;
-    int stride_; // tile rows are padded to 32 px so that lanes never leave their row
+    PixelRows rows_;
     std::unique_ptr<QuantizedPixels> pixels_;
     std::vector<QuantizedSplat> splats_;
     std::vector<QuantizedExtent> extents_;

@@ -10,9 +10,9 @@ namespace {
 
 class LanePixels final : public QuantizedPixels {
 public:
-    LanePixels(const NumberSet& set, std::size_t pixels)
+    explicit LanePixels(const NumberSet& set)
         : numbers_(set), blend_(quantized_blend_function(numbers_.family)),
-          test_(quantized_test_function(numbers_.family)), pixels_(pixels + kLanePadding) {}
+          test_(quantized_test_function(numbers_.family)) {}
 
     void add(const QuantizedSplat& splat) override {
         splats_.push_back({static_cast<float>(splat.a), static_cast<float>(splat.colour[0]),
@@ -43,7 +43,7 @@ private:
 /// The definition, for formats that lanes of floats cannot carry.
 class ScalarPixels final : public QuantizedPixels {
 public:
-    ScalarPixels(const QuantizedRow& row, std::size_t pixels) : row_(row), pixels_(pixels) {}
+    explicit ScalarPixels(const QuantizedRow& row) : row_(row) {}
 
     void add(const QuantizedSplat& splat) override { splats_.push_back(splat); }
     void clear(std::size_t first, std::size_t count) override { pixels_.clear(first, count); }
@@ -104,12 +104,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<QuantizedPixels> make_quantized_pixels(const QuantizedRow& row,
-                                                       std::size_t pixels) {
+std::unique_ptr<QuantizedPixels> make_quantized_pixels(const QuantizedRow& row) {
     if (lanes_can(row.set())) {
-        return std::make_unique<LanePixels>(row.set(), pixels);
+        return std::make_unique<LanePixels>(row.set());
     }
-    return std::make_unique<ScalarPixels>(row, pixels);
+    return std::make_unique<ScalarPixels>(row);
 }
 
 } // namespace degs

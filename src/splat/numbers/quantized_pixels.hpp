@@ -16,6 +16,7 @@ public:
     virtual ~QuantizedPixels() = default;
     /// The next splat: what a PE fetches by G_ID.
     virtual void add(const QuantizedSplat& splat) = 0;
+    /// Makes room if need be.
     virtual void clear(std::size_t first, std::size_t count) = 0;
     /// The tasks of a span; `first` is the pixel of mask bit 0. `refuse`: StopRule::Refuse.
     virtual BlendOutcome blend(const BlendTask& task, bool refuse, std::size_t first) = 0;
@@ -25,8 +26,7 @@ public:
     virtual PixelValue read(std::size_t pixel) const = 0;
 };
 
-/// Lanes if lanes_can() the set, else QuantizedRow pixel by pixel. Room for `pixels`, and as many
-/// more as lanes need. `row` must live as long.
-std::unique_ptr<QuantizedPixels> make_quantized_pixels(const QuantizedRow& row, std::size_t pixels);
+/// Lanes if lanes_can() the set, else QuantizedRow pixel by pixel. `row` must live as long.
+std::unique_ptr<QuantizedPixels> make_quantized_pixels(const QuantizedRow& row);
 
 } // namespace degs
