@@ -209,8 +209,8 @@ private:
             reader_->wake();
         }
     }
-    /// The cell to be written holds no item, but its last one was read later than the writer's date,
-    /// or there is none.
+    /// The cell to be written holds no item, but its last one was read later than the writer's
+    /// date, or there is none.
     __attribute__((noinline)) void make_room(Process& writer) {
         if (capacity_ < depth_) {
             grow();
@@ -309,8 +309,8 @@ private:
     Cell* end_;
     Cell* front_;
     Cell* tail_;
-    Cell* earlier_; // stats_.high_water places before front_, see count_fill()
-    std::size_t capacity_;                // cells; no more than depth_
+    Cell* earlier_;        // stats_.high_water places before front_, see count_fill()
+    std::size_t capacity_; // cells; no more than depth_
     std::vector<std::vector<Cell>> left_; // cells that were too few
     Stats stats_;
     std::unique_ptr<Process> foreign_writer_;
