@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/main_memory.hpp"
 
+#include <algorithm>
+
 namespace degs {
 namespace {
 
