@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/cameras.hpp"
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
 
-#include <nlohmann/json.hpp>
-
+#include "scene/camera_entry.hpp"
 #include "scene/input_file.hpp"
 
 namespace degs {
@@ -14,160 +15,110 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uint64_t kMaxFileBytes = 256U << 20U;
-constexpr double kMaxSide = 65536;       // px
-constexpr double kMaxFocal = 1e9;        // px
-constexpr double kOrthonormality = 1e-3; // largest deviation of an entry of R^T R from identity
+constexpr std::array<const char*, 8> kKeys{"id", "img_name", "width",    "height",
+                                           "fx", "fy",       "position", "rotation"};
+constexpr int kMostValues = 13; ///< of a key: a rotation is an array of 3 arrays of 3 numbers
+constexpr int kMostDepth = 64;  ///< of arrays and objects inside each other
+constexpr std::size_t kMostKeys = 256; ///< of a camera
 
-/// One entry of the array, and who to blame.
-class CameraEntry {
+/// Listens to the parser of the JSON library. It keeps the values of one camera at a time, and of
+/// these only the keys that it needs, so that a file cannot take memory that its cameras do not.
+class CameraListener {
 public:
-    CameraEntry(const std::string& path, std::size_t index, const Json& json)
-        : path_(path), index_(index), json_(json) {
-        if (!json.is_object()) {
-            fail("is not an object with the keys width, height, position, rotation, fx and fy.");
+    explicit CameraListener(const std::string& path) : path_(path) {}
+
+    /// Whether the parser is to keep what it has found; `depth` counts the arrays and objects
+    /// around it. Throws InputError.
+    bool hear(int depth, Json::parse_event_t event, const Json& value) {
+        using Event = Json::parse_event_t;
+        switch (event) {
+        case Event::key:
+            return depth != kInEntry || hear_key(value.get_ref<const std::string&>());
+        case Event::object_end:
+            return depth != kEntry || end_entry(value);
+        case Event::array_end:
+            return true;
+        default:
+            hear_value(depth, event, value);
+            return true;
         }
     }
 
-    Camera parse() const {
-        constexpr double kMaxInt = std::numeric_limits<int>::max();
-        Camera camera;
-        camera.id =
-            json_.contains("id") ? integer("id", -kMaxInt, kMaxInt) : static_cast<int>(index_);
-        camera.name = name();
-        camera.width = integer("width", 1, kMaxSide);
-        camera.height = integer("height", 1, kMaxSide);
-        camera.fx = focal("fx");
-        camera.fy = focal("fy");
-        camera.position = vector(at("position"), "position");
-        camera.camera_to_world = rotation();
-        return camera;
-    }
+    std::vector<Camera> take() { return std::move(cameras_); }
 
 private:
+    static constexpr int kFile = 0, kEntry = 1, kInEntry = 2;
+
     [[noreturn]] void fail(const std::string& sentence) const {
-        fail_file(path_, "camera " + std::to_string(index_) + " " + sentence);
+        fail_camera(path_, cameras_.size(), sentence);
     }
 
-    const Json& at(const char* key) const {
-        const auto found = json_.find(key);
-        if (found == json_.end()) {
-            fail("has no key '" + std::string(key) +
-                 "'; needed are width, height, position, rotation, fx and fy.");
+    void hear_value(int depth, Json::parse_event_t event, const Json& value) {
+        const bool array = event == Json::parse_event_t::array_start;
+        const bool object = event == Json::parse_event_t::object_start;
+        if (depth == kFile && !array) {
+            fail_file(path_, "a camera file is a JSON array of cameras, and this is a single " +
+                                 std::string(object ? "object" : value.type_name()) + ".");
         }
-        return *found;
+        if (depth == kEntry && !object) {
+            fail("is not an object with the keys width, height, position, rotation, fx and fy.");
+        }
+        if (depth >= kInEntry && wanted_ && ++values_ > kMostValues) {
+            fail("has more values in its '" + key_ + "' than any key needs.");
+        }
+        if (depth > kMostDepth) {
+            fail("has arrays or objects more than " + std::to_string(kMostDepth) +
+                 " deep inside each other.");
+        }
     }
 
-    std::string name() const {
-        const auto found = json_.find("img_name");
-        if (found == json_.end()) {
-            return "camera " + std::to_string(index_);
+    bool hear_key(const std::string& key) {
+        if (!seen_.insert(key).second) {
+            fail("has the key '" + key + "' twice.");
         }
-        if (!found->is_string()) {
-            fail("has an img_name that is not a text.");
+        if (seen_.size() > kMostKeys) {
+            fail("has more than " + std::to_string(kMostKeys) + " keys.");
         }
-        return found->get<std::string>();
+        wanted_ = std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
+        values_ = 0;
+        key_ = wanted_ ? key : std::string();
+        return wanted_;
     }
 
-    /// `what` is a key or a place inside one.
-    double number(const Json& value, const std::string& what) const {
-        if (!value.is_number()) {
-            fail("has a " + what + " that is not a number.");
-        }
-        const auto number = value.get<double>();
-        if (!std::isfinite(number)) {
-            fail("has a " + what + " that is not finite.");
-        }
-        return number;
-    }
-
-    int integer(const char* key, double low, double high) const {
-        const double value = number(at(key), key);
-        if (!(value >= low && value <= high) || value != std::floor(value)) {
-            fail("has a " + std::string(key) + " of " + at(key).dump() +
-                 "; allowed are integers from " + std::to_string(static_cast<long>(low)) + " to " +
-                 std::to_string(static_cast<long>(high)) + ".");
-        }
-        return static_cast<int>(value);
-    }
-
-    double focal(const char* key) const {
-        const double value = number(at(key), key);
-        if (!(value > 0 && value <= kMaxFocal)) {
-            fail("has a focal length " + std::string(key) + " of " + at(key).dump() +
-                 "; allowed are more than 0 and at most 1e9 pixels.");
-        }
-        return value;
-    }
-
-    glm::dvec3 vector(const Json& value, const std::string& what) const {
-        if (!value.is_array() || value.size() != 3) {
-            fail("has a " + what + " that is not an array of 3 numbers.");
-        }
-        return {number(value[0], what + "[0]"), number(value[1], what + "[1]"),
-                number(value[2], what + "[2]")};
-    }
-
-    glm::dmat3 rotation() const {
-        const Json& rows = at("rotation");
-        if (!rows.is_array() || rows.size() != 3) {
-            fail("has a rotation that is not an array of 3 rows of 3 numbers.");
-        }
-        glm::dmat3 transposed; // GLM constructs columns, the file has rows
-        for (int i = 0; i < 3; ++i) {
-            transposed[i] =
-                vector(rows[static_cast<std::size_t>(i)], "rotation[" + std::to_string(i) + "]");
-        }
-        check_rotation(transposed);
-        return glm::transpose(transposed);
-    }
-
-    void check_rotation(const glm::dmat3& matrix) const {
-        const glm::dmat3 product = glm::transpose(matrix) * matrix;
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) {
-                if (!(std::abs(product[i][j] - (i == j ? 1 : 0)) <= kOrthonormality)) {
-                    fail("has a rotation whose rows are not orthogonal unit vectors within 1e-3.");
-                }
-            }
-        }
-        if (!(glm::determinant(matrix) > 0)) {
-            fail(
-                "has a rotation that mirrors (determinant -1); only proper rotations are allowed.");
-        }
+    bool end_entry(const Json& entry) {
+        cameras_.push_back(parse_camera(path_, cameras_.size(), entry));
+        seen_.clear();
+        return false;
     }
 
     const std::string& path_;
-    std::size_t index_;
-    const Json& json_;
+    std::vector<Camera> cameras_;
+    std::set<std::string> seen_; ///< keys of this entry
+    std::string key_;            ///< the last of them, if it is wanted
+    bool wanted_ = false;
+    int values_ = 0; ///< of that key so far
 };
 
-Json parse_json(const std::string& path) {
-    const std::string text = read_text(path, kMaxFileBytes);
+} // namespace
+
+std::vector<Camera> read_cameras(const std::string& path) {
+    InputFile file(path);
+    file.require_at_most(kMaxFileBytes);
+    CameraListener listener(path);
     try {
-        return Json::parse(text);
+        const Json rest =
+            Json::parse(file.stream(), [&](int depth, Json::parse_event_t event, Json& value) {
+                return listener.hear(depth, event, value);
+            });
     } catch (const Json::parse_error& error) {
         fail_file(path, "this is not valid JSON (at byte " + std::to_string(error.byte) +
                             "); a camera file is a JSON array of cameras.");
     } catch (const Json::exception&) { // a number beyond double
         fail_file(path, "a number in this JSON file is out of range.");
     }
-}
-
-} // namespace
-
-std::vector<Camera> read_cameras(const std::string& path) {
-    const Json json = parse_json(path);
-    if (!json.is_array()) {
-        fail_file(path, "a camera file is a JSON array of cameras, and this is a single " +
-                            std::string(json.type_name()) + ".");
-    }
-    if (json.empty()) {
+    std::vector<Camera> cameras = listener.take();
+    if (cameras.empty()) {
         fail_file(path, "the array holds no camera; at least one is needed.");
-    }
-    std::vector<Camera> cameras;
-    cameras.reserve(json.size());
-    for (std::size_t i = 0; i < json.size(); ++i) {
-        cameras.push_back(CameraEntry(path, i, json[i]).parse());
     }
     return cameras;
 }

@@ -11,7 +11,8 @@ namespace degs {
 
 /// Reads cameras.json of the original 3DGS code: an array of {width, height, position, rotation,
 /// fx, fy} with optional id and img_name. `rotation` holds the rows of the camera-to-world matrix.
-/// Anything doubtful is an InputError that names the file, the entry and the key.
+/// Anything doubtful is an InputError that names the file, the entry and the key. Reading takes at
+/// most 12 bytes of memory per byte of the file, the cameras included.
 std::vector<Camera> read_cameras(const std::string& path);
 
 /// How `orbit_camera` looks at a scene that has no cameras of its own.

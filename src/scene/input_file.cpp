@@ -73,12 +73,16 @@ void InputFile::read_exactly(char* destination, std::size_t bytes) {
     }
 }
 
+void InputFile::require_at_most(std::uint64_t limit_bytes) const {
+    if (size_ > limit_bytes) {
+        fail_file(path_, "the file has " + std::to_string(size_) + " bytes; at most " +
+                             std::to_string(limit_bytes) + " are allowed for a file of this kind.");
+    }
+}
+
 std::string read_text(const std::string& path, std::uint64_t limit_bytes) {
     InputFile file(path);
-    if (file.size() > limit_bytes) {
-        fail_file(path, "the file has " + std::to_string(file.size()) + " bytes; at most " +
-                            std::to_string(limit_bytes) + " are allowed for a file of this kind.");
-    }
+    file.require_at_most(limit_bytes);
     std::string text(file.size(), '\0');
     file.read_exactly(text.data(), text.size());
     return text;

@@ -30,6 +30,11 @@ public:
     /// Exactly `bytes`; InputError if the file ends before (it shrank while we read).
     void read_exactly(char* destination, std::size_t bytes);
 
+    /// InputError if the file is larger.
+    void require_at_most(std::uint64_t limit_bytes) const;
+    /// For a parser that reads by itself; position() does not follow it.
+    std::istream& stream() { return stream_; }
+
 private:
     std::string path_;
     std::uint64_t size_ = 0;

@@ -84,7 +84,7 @@ TEST(HostileCameras, FilesThatAreNoCameraFiles) {
         {"[{\"width\": NaN}]", "not valid JSON"},
         {"\x01\xff", "not valid JSON"},
         {"[1e999]", "out of range"},
-        {std::string(200000, '['), "not valid JSON"},
+        {std::string(200000, '['), "camera 0 is not an object"},
         {file_with("width", "64") + "x", "not valid JSON"},
     };
     for (const auto& [text, sentence] : cases) {
@@ -95,6 +95,46 @@ TEST(HostileCameras, FilesThatAreNoCameraFiles) {
     EXPECT_THAT(complaint_about_cameras(""), IsSentenceWith("empty"));
     EXPECT_THAT(test::complaint([] { read_cameras("/no/such/cameras.json"); }),
                 IsSentenceWith("/no/such/cameras.json: there is no such file"));
+}
+
+TEST(HostileCameras, KeysOccurOnce) {
+    for (const char* key : {"width", "img_name", "rotation"}) {
+        std::string text = file_with("id", "3");
+        const std::string again = std::string(",\"") + key + "\":64";
+        text.insert(text.size() - 2, again);
+        EXPECT_THAT(complaint_about_cameras(text),
+                    IsSentenceWith("camera 0 has the key '" + std::string(key) + "' twice"));
+    }
+    // Also keys that nobody reads: one of the two is a mistake.
+    std::string unknown = file_with("id", "3");
+    unknown.insert(unknown.size() - 2, R"(,"lens":{"a":1},"lens":[{"a":1}])");
+    EXPECT_THAT(complaint_about_cameras(unknown), IsSentenceWith("the key 'lens' twice"));
+}
+
+TEST(HostileCameras, WhatIsNotNeededIsSkippedWithinLimits) {
+    const test::Folder folder;
+    const auto with = [](const std::string& value) {
+        std::string text = file_with("id", "3");
+        return text.insert(text.size() - 2, R"(,"extra":)" + value);
+    };
+    const std::string odd = R"({"width":[1,2],"x":{"width":{}},"y":[[{"id":"no"}],null]})";
+    const std::vector<Camera> cameras = read_cameras(folder.write("c.json", with(odd)));
+    ASSERT_EQ(cameras.size(), 1U);
+    EXPECT_EQ(cameras[0].width, 64);
+    EXPECT_EQ(cameras[0].id, 3);
+    const auto nested = [](int levels) {
+        return std::string(levels, '[') + std::string(levels, ']');
+    };
+    EXPECT_EQ(read_cameras(folder.write("d.json", with(nested(60)))).size(), 1U);
+    EXPECT_THAT(complaint_about_cameras(with(nested(100))), IsSentenceWith("64 deep"));
+    std::string keys;
+    for (int i = 0; i < 300; ++i) {
+        keys += ",\"k" + std::to_string(i) + "\":0";
+    }
+    EXPECT_THAT(complaint_about_cameras(with("0" + keys)), IsSentenceWith("more than 256 keys"));
+    EXPECT_THAT(complaint_about_cameras(file_with("fx", "[[[1,2,3],[4,5,6],[7,8,9],[0,0]]]")),
+                IsSentenceWith("more values in its 'fx'"));
+    EXPECT_THAT(complaint_about_cameras("[{},{},1]"), IsSentenceWith("camera 0 has no key"));
 }
 
 TEST(HostileCameras, NameTheEntry) {

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a camera file may cost: memory in proportion to its size. Not a Hostile suite, because the
+// address sanitizer keeps what has been freed.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "scene/cameras.hpp"
+#include "tests/scene/scene_fixture.hpp"
+
+namespace degs {
+namespace {
+
+constexpr std::size_t kFileBytes = 8U << 20U;
+const char* const kCamera = R"({"width":1,"height":1,"position":[0,0,0],)"
+                            R"("rotation":[[1,0,0],[0,1,0],[0,0,1]],"fx":1,"fy":1})";
+
+/// `head`, then `part` as often as it fits, then `tail`.
+std::string filled(const std::string& head, const std::string& part, const std::string& tail) {
+    std::string text = head;
+    while (text.size() + part.size() + tail.size() < kFileBytes) {
+        text += part;
+    }
+    return text + tail;
+}
+
+/// "k0":1,"k1":1, ...
+std::string many_keys() {
+    std::string text = "[{";
+    for (int i = 0; text.size() < kFileBytes; ++i) {
+        text += "\"k" + std::to_string(i) + "\":1,";
+    }
+    return text + "\"x\":1}]";
+}
+
+long peak_bytes() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss * 1024;
+}
+
+/// Bytes of memory per byte of the file that reading it takes, accepted or refused; in a process of
+/// its own, whose peak begins at what this one has.
+double memory_per_byte(const std::string& path) {
+    int ends[2] = {-1, -1};
+    EXPECT_EQ(::pipe(ends), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const long before = peak_bytes();
+        try {
+            read_cameras(path);
+        } catch (const InputError&) {
+        }
+        const long grown = peak_bytes() - before;
+        ::_exit(::write(ends[1], &grown, sizeof grown) == sizeof grown ? 0 : 1);
+    }
+    ::close(ends[1]);
+    long grown = -1;
+    EXPECT_EQ(::read(ends[0], &grown, sizeof grown), long{sizeof grown});
+    ::close(ends[0]);
+    ::waitpid(child, nullptr, 0);
+    return static_cast<double>(grown) / kFileBytes;
+}
+
+TEST(CameraMemory, IsAtMostTwelveTimesTheFile) {
+    const std::pair<const char*, std::string> cases[] = {
+        {"cameras", filled("[", std::string(kCamera) + ",", std::string(kCamera) + "]")},
+        {"empty objects", filled("[", "{},", "1]")},
+        {"objects in an unknown key", filled("[{\"x\":[", "{},", "1]}]")},
+        {"members in an unknown key", filled("[{\"x\":{", "\"a\":{},", "\"a\":1}}]")},
+        {"numbers in a position", filled("[{\"position\":[", "1,", "1]}]")},
+        {"numbers in an unknown key", filled("[{\"x\":[", "1,", "1]}]")},
+        {"levels", filled("[{\"x\":", "[", "")},
+        {"one text", filled("[{\"img_name\":\"", "a", "\"}]")},
+        {"one number", filled("[{\"width\":", "1", "}]")},
+        {"keys", many_keys()}};
+    const test::Folder folder;
+    const std::string path = folder.write("cameras.json", kCamera);
+    for (const auto& [what, text] : cases) {
+        folder.write("cameras.json", text);
+        const double cost = memory_per_byte(path);
+        EXPECT_GE(cost, 0) << what;
+        EXPECT_LE(cost, 12) << what;
+    }
+}
+
+} // namespace
+} // namespace degs
