@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <fstream>
+#include <stdexcept>
 #include <vector>
 
 #include <ImfChannelList.h>
@@ -10,6 +12,7 @@
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <png.h>
 
@@ -20,6 +23,8 @@
 namespace degs {
 namespace {
 
+static_assert(kMostImageSide <= PNG_USER_WIDTH_MAX && kMostImageSide <= PNG_USER_HEIGHT_MAX,
+              "libpng refuses larger images");
 constexpr const char* kColourSpace = "srgb_rec709_display";
 constexpr const char* kTransmittance = "transmittance";
 constexpr const char* kFragments = "fragments";
@@ -64,6 +69,12 @@ Imf::Header exr_header(const Image& image) {
     }
     header.channels().insert(kFragments, Imf::Channel(Imf::UINT));
     return header;
+}
+
+void write_pixels(const Image& image, Imf::OStream& stream) {
+    Imf::OutputFile file(stream, exr_header(image));
+    file.setFrameBuffer(frame_buffer(const_cast<Image&>(image))); // only read from
+    file.writePixels(image.height);
 }
 
 void check_header(const Imf::Header& header, const std::string& path, std::uint64_t file_bytes) {
@@ -114,9 +125,13 @@ void write_exr(const Image& image, const std::string& path) {
     check_not_empty(image, path);
     write_atomically(path, [&](const std::string& temporary) {
         try {
-            Imf::OutputFile file(temporary.c_str(), exr_header(image));
-            file.setFrameBuffer(frame_buffer(const_cast<Image&>(image))); // only read from
-            file.writePixels(image.height);
+            std::ofstream stream(temporary, std::ios::binary);
+            Imf::StdOFStream named(stream, temporary.c_str());
+            write_pixels(image, named);
+            stream.close(); // the library does not look at what its buffer holds at the end
+            if (!stream) {
+                throw std::runtime_error("the disk may be full");
+            }
         } catch (const std::exception& error) {
             fail_file(path, std::string("the image could not be written (") + error.what() + ").");
         }

@@ -7,6 +7,9 @@
 
 namespace degs {
 
+/// Largest width and height of an image in pixels: what libpng writes (PNG_USER_WIDTH_MAX).
+constexpr int kMostImageSide = 1000000;
+
 /// Writes an OpenEXR file: float channels R, G, B as they are (display-referred; the attribute
 /// `colorSpace` says "srgb_rec709_display"), float `transmittance` and uint `fragments`. Values
 /// need not be finite. Atomic, and InputError if the place cannot be written, like `write_png`.
