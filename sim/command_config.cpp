@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs config: what a configuration file may say.
-#include <iostream>
 #include <memory>
 
 #include "config/config_document.hpp"
 #include "sim/commands.hpp"
 #include "sim/run_config.hpp"
+#include "sim/text/standard_output.hpp"
 
 namespace degs::sim {
 namespace {
@@ -35,13 +35,12 @@ void run(const ConfigOptions& options) {
     const RunConfig config =
         options.config.empty() ? RunConfig{} : load_run_config(options.config, options.overrides);
     if (options.format == "markdown") {
-        std::cout << markdown_table(document(config));
+        print(markdown_table(document(config)));
     } else if (options.format == "yaml") {
-        std::cout << resolved_yaml(config);
+        print(resolved_yaml(config));
     } else {
-        std::cout << text(document(config));
+        print(text(document(config)));
     }
-    std::cout << std::flush;
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs render: the reference image in double precision, no accelerator.
-#include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
 #include "sim/stopwatch.hpp"
+#include "sim/text/standard_output.hpp"
 #include "sim/text/terminal.hpp"
 #include "sim/text/words.hpp"
 #include "sim/view_options.hpp"
@@ -76,13 +76,12 @@ void run(const RenderOptions& options) {
     write_png(result.image, out.path("image.png"));
     out.write_json("render.json", render_json(result, wall.seconds()));
     const auto fragments = static_cast<double>(result.workload.reference->fragments);
-    std::cout << layout({{"scene", scene_words(result.scene) + " · " +
-                                       grouped(result.workload.visible) + " visible"},
-                         {"frame", size_words(result.camera) + " · " + scaled(fragments) +
-                                       " fragments · " + out.path("image.exr")},
-                         {"host", "rendering " + three_digits(result.render_s) + " s · " +
-                                      three_digits(wall.seconds()) + " s in all"}})
-              << std::flush;
+    print(layout({{"scene", scene_words(result.scene) + " · " + grouped(result.workload.visible) +
+                                " visible"},
+                  {"frame", size_words(result.camera) + " · " + scaled(fragments) +
+                                " fragments · " + out.path("image.exr")},
+                  {"host", "rendering " + three_digits(result.render_s) + " s · " +
+                               three_digits(wall.seconds()) + " s in all"}}));
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs run: one frame, or a camera path, on one accelerator.
-#include <iostream>
 #include <memory>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
+#include "sim/text/standard_output.hpp"
 #include "sim/text/terminal.hpp"
 #include "sim/view_options.hpp"
 
@@ -42,11 +42,7 @@ void run(const RunOptions& options) {
     write_exr(result.accelerator.images.front(), out.path("image.exr"));
     write_png(result.accelerator.images.front(), out.path("image.png"));
     out.write_json("report.json", report(result));
-    std::cout << summary(result, out.path("image.exr"));
-    if (options.explain) {
-        std::cout << explanation(result);
-    }
-    std::cout << std::flush;
+    print(summary(result, out.path("image.exr")) + (options.explain ? explanation(result) : ""));
 }
 
 } // namespace

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs scene info | generate | convert
 #include <filesystem>
-#include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
 #include "config/error.hpp"
+#include "config/visible_text.hpp"
 #include "scene/ply/ply.hpp"
 #include "scene/synthetic/synthetic.hpp"
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
 #include "sim/text/scene_words.hpp"
+#include "sim/text/standard_output.hpp"
 #include "sim/view_options.hpp"
 
 namespace degs::sim {
@@ -38,10 +39,10 @@ void check_ply(const std::string& file) {
 void write_scene(const Scene& scene, const std::string& file) {
     const OutputFolder folder(folder_of(file), {fs::path(file).filename().string()});
     write_ply(scene.cloud, file);
-    std::cout << file << ": " << scene_words(facts_of(scene)) << "\n";
+    print(visible(file) + ": " + visible(scene_words(facts_of(scene))) + "\n");
     const std::string cameras = folder.path("cameras.json");
     if (fs::exists(cameras)) {
-        std::cout << cameras << ": exists already and stays as it is" << std::endl;
+        print(visible(cameras) + ": exists already and stays as it is\n");
         return;
     }
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -49,7 +50,7 @@ void write_scene(const Scene& scene, const std::string& file) {
         list.push_back(camera_json(camera));
     }
     folder.write_json("cameras.json", list);
-    std::cout << cameras << ": " << scene.cameras.size() << " camera(s)" << std::endl;
+    print(visible(cameras) + ": " + std::to_string(scene.cameras.size()) + " camera(s)\n");
 }
 
 void add_info(CLI::App& scene) {
@@ -70,11 +71,10 @@ void add_info(CLI::App& scene) {
     add_resolution_option(*command, view.resolution)->needs(options->camera)->excludes(width);
     command->callback([options] {
         const View loaded = load_view(options->view);
-        std::cout << scene_info(loaded.scene);
+        print(scene_info(loaded.scene));
         if (options->camera->count() != 0) {
-            std::cout << view_info(loaded.scene, loaded.camera);
+            print(view_info(loaded.scene, loaded.camera));
         }
-        std::cout << std::flush;
     });
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs soc: the accelerator on a platform where others use the memory, too.
-#include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/soc/soc_study.hpp"
+#include "sim/text/standard_output.hpp"
 #include "sim/view_options.hpp"
 
 namespace degs::sim {
@@ -59,7 +59,7 @@ void run(const SocOptions& options) {
     out.write_text("soc.svg", soc_svg(request.config.accelerator().name +
                                           ": frame latency under competing traffic",
                                       result.points));
-    std::cout << soc_words(request, view, result) << std::flush;
+    print(soc_words(request, view, result));
 }
 
 void add_traffic_options(CLI::App& command, SocOptions& options) {

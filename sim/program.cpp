@@ -7,23 +7,37 @@
 #include <CLI/CLI.hpp>
 #include <systemc>
 
-#include "config/config_words.hpp"
+#include "config/visible_text.hpp"
+#include "sim/command_line/decimal_numbers.hpp"
 #include "sim/commands.hpp"
 #include "sim/failure.hpp"
+#include "sim/text/standard_output.hpp"
 
 namespace degs::sim {
 namespace {
 
 /// One line, whatever a file name or a message may contain.
 int fail(int code, const std::string& sentence) {
-    std::cerr << "degs: " << config_words::one_line(sentence) << std::endl;
+    std::cerr << "degs: " << visible(sentence) << std::endl;
     return code;
 }
 
-int fail_parse(const CLI::App& program, const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-        return program.exit(error); // --help and --version
+/// --help and --version.
+std::string answer(const CLI::App& program, const CLI::Success& question) {
+    const bool help = dynamic_cast<const CLI::CallForHelp*>(&question) != nullptr;
+    return help ? program.help() : question.what() + std::string("\n");
+}
+
+/// Runs the command that the arguments ask for.
+void parse(CLI::App& program, int argc, char* argv[]) {
+    try {
+        program.parse(argc, argv);
+    } catch (const CLI::Success& question) {
+        print(answer(program, question));
     }
+}
+
+int fail_parse(const CLI::App& program, const CLI::ParseError& error) {
     std::string reason = error.what();
     // CLI11 misses the command before it looks at what stands in its place.
     if (const auto extras = program.remaining(true); !extras.empty()) {
@@ -56,6 +70,7 @@ void add_commands(CLI::App& program) {
     add_soc_command(program);
     add_config_command(program);
     add_accuracy_command(program);
+    require_decimal_numbers(program);
 }
 
 } // namespace
@@ -73,7 +88,7 @@ int run_program(int argc, char* argv[]) {
     try {
         quieten_kernel();
         add_commands(program);
-        program.parse(argc, argv);
+        parse(program, argc, argv);
         return kSuccess;
     } catch (const CLI::ParseError& error) {
         return fail_parse(program, error);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "config/error.hpp"
+#include "scene/image_io.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/words.hpp"
@@ -24,9 +25,14 @@ void check_positive(const char* option, std::optional<int> value) {
 /// `sides` in double, so that no product of two int overflows.
 void check_pixels(double width, double height) {
     if (width * height > static_cast<double>(kMostPixels)) {
-        throw InputError("An image of " + three_digits(width) + " x " + three_digits(height) +
+        throw InputError("An image of " + as_typed(width) + " x " + as_typed(height) +
                          " pixels is too large; at most " + grouped(kMostPixels) +
                          " pixels (8192 x 4320) are allowed.");
+    }
+    if (std::max(width, height) > kMostImageSide) {
+        throw InputError("An image of " + as_typed(width) + " x " + as_typed(height) +
+                         " pixels cannot be written as PNG; at most " + grouped(kMostImageSide) +
+                         " pixels to a side are allowed.");
     }
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs accuracy: number sets against double precision.
-#include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
 #include "config/error.hpp"
+#include "config/visible_text.hpp"
 #include "scene/input_file.hpp"
 #include "sim/accuracy/accuracy.hpp"
 #include "sim/accuracy/accuracy_numbers.hpp"
@@ -13,6 +13,7 @@
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/scene_list.hpp"
+#include "sim/text/standard_output.hpp"
 
 namespace degs::sim {
 namespace {
@@ -97,11 +98,11 @@ SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
 
 void write(const std::vector<AccuracyRow>& rows, const OutputFolder& out) {
     out.write_json("accuracy.json", accuracy_json(rows));
-    std::cout << accuracy_table(rows) << "all numbers: " << out.path("accuracy.json") << std::endl;
+    print(accuracy_table(rows) + "all numbers: " + visible(out.path("accuracy.json")) + "\n");
     const std::string plot = accuracy_svg(rows);
     if (!plot.empty()) {
         out.write_text("accuracy.svg", plot);
-        std::cout << "plot: " << out.path("accuracy.svg") << std::endl;
+        print("plot: " + visible(out.path("accuracy.svg")) + "\n");
     }
 }
 
@@ -125,8 +126,7 @@ void run_hard(const AccuracyOptions& options) {
     const std::vector<HardResult> results = run_hard_cases(request, out.path(""));
     out.write_json("hard_cases.json", hard_case_json(results));
     out.write_text("hard_cases.md", hard_case_markdown(results));
-    std::cout << hard_case_table(results) << "all numbers: " << out.path("hard_cases.json")
-              << std::endl;
+    print(hard_case_table(results) + "all numbers: " + visible(out.path("hard_cases.json")) + "\n");
 }
 
 void run(const AccuracyOptions& options) {

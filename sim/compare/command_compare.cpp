@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs compare: several accelerators on the same views.
-#include <iostream>
 #include <memory>
 
+#include "config/visible_text.hpp"
 #include "sim/commands.hpp"
 #include "sim/compare/compare_session.hpp"
 #include "sim/compare/comparison_output.hpp"
+#include "sim/text/standard_output.hpp"
 #include "sim/view_options.hpp"
 
 namespace degs::sim {
@@ -46,11 +47,10 @@ void run(const CompareOptions& options) {
     const OutputFolder out(options.out, comparison_files());
     CompareSession session(request, out);
     const Comparison comparison = session.run();
-    std::cout << comparison_text(comparison);
+    print(comparison_text(comparison));
     if (!comparison.rows.empty()) {
-        std::cout << "all numbers and pictures: " << out.path("") << "\n";
+        print("all numbers and pictures: " + visible(out.path("")) + "\n");
     }
-    std::cout << std::flush;
     if (const std::optional<Failure> failure = session.failure()) {
         throw FailureError(*failure);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/config_words.hpp"
+#include "config/visible_text.hpp"
 #include "sim/compare/comparison_output.hpp"
 #include "sim/plot/plot_svg.hpp"
 #include "sim/text/text_table.hpp"
@@ -113,11 +114,11 @@ std::string heading(const ComparedView& view) {
     if (view.fragments) {
         words += " · " + scaled(static_cast<double>(*view.fragments)) + " fragments";
     }
-    return words + "\n";
+    return visible(words) + "\n";
 }
 
 std::string legend(const Comparison& comparison) {
-    const std::string& first = comparison.configs.front().name;
+    const std::string first = visible(comparison.configs.front().name);
     std::string words = "speed: 1 / latency of one frame alone; " + first + " = 1";
     if (comparison.frames > 1) {
         words += "; path: throughput over " + std::to_string(comparison.frames) + " frames of " +
@@ -143,7 +144,7 @@ std::string comparison_text(const Comparison& comparison) {
         return "";
     }
     for (const FailedRun& failed : comparison.failed) {
-        text += "failed: " + failed.sentence + "\n";
+        text += "failed: " + visible(failed.sentence) + "\n";
     }
     return text + legend(comparison);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs memory: bandwidth and latency of a memory alone.
-#include <iostream>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -12,6 +11,7 @@
 #include "sim/output_folder.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
+#include "sim/text/standard_output.hpp"
 
 namespace degs::sim {
 namespace {
@@ -86,7 +86,7 @@ void run(const MemoryOptions& options) {
     }
     facts.wall_s = wall.seconds();
     out.write_json("memory.json", memory_json(facts));
-    std::cout << memory_words(facts) << std::flush;
+    print(memory_words(facts));
 }
 
 void add_traffic_options(CLI::App& command, TrafficShape& shape) {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/config_document.hpp"
+#include "config/visible_text.hpp"
 #include "sim/report.hpp"
 #include "sim/soc/soc_study.hpp"
 #include "sim/text/text_table.hpp"
@@ -48,19 +49,21 @@ std::string soc_words(const SocRequest& request, const View& view, const SocResu
     TextTable table({"CPU asks GB/s", "gets", "display", "accelerator GB/s", "frame ms", "slower"});
     const double alone = result.points.front().frame.latency_ns;
     for (const SocPoint& p : result.points) {
-        table.add({three_digits(p.offered_gb_per_s), three_digits(p.cpu_gb_per_s),
+        table.add({as_typed(p.offered_gb_per_s), three_digits(p.cpu_gb_per_s),
                    three_digits(p.display_gb_per_s), three_digits(p.accelerator_gb_per_s),
                    three_digits(p.frame.latency_ns / 1e6),
                    three_digits(p.frame.latency_ns / alone) + "x"});
     }
-    return request.config.accelerator().name + " · " + view.scene.name + " · " +
-           std::to_string(view.camera.width) + "×" + std::to_string(view.camera.height) + " · " +
-           request.memory.name + ", " + three_digits(request.memory.peak_gb_per_s()) + " GB/s · " +
-           std::to_string(request.cores) + " cores\n" + table.text() +
-           "pixels  the same under every load · " + three_digits(result.psnr_db) +
-           " dB against double precision, 8 bits per channel\n" + "display " +
-           grouped(result.display.rows) + " rows, " + grouped(result.display.underruns) +
-           " late · host " + three_digits(result.wall_s) + " s\n";
+    const std::string heading = request.config.accelerator().name + " · " + view.scene.name +
+                                " · " + std::to_string(view.camera.width) + "×" +
+                                std::to_string(view.camera.height) + " · " + request.memory.name +
+                                ", " + as_typed(request.memory.peak_gb_per_s()) + " GB/s · " +
+                                std::to_string(request.cores) + " cores";
+    return visible(heading) + "\n" + table.text() + "pixels  the same under every load · " +
+           three_digits(result.psnr_db) + " dB against double precision, 8 bits per channel\n" +
+           "display " + grouped(result.display.rows) + " rows, " +
+           grouped(result.display.underruns) + " late · host " + three_digits(result.wall_s) +
+           " s\n";
 }
 
 } // namespace degs::sim

@@ -8,6 +8,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "config/visible_text.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/text/words.hpp"
 
@@ -29,6 +30,14 @@ std::size_t line_length() {
     winsize size{};
     return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col - 1U
                                                                              : 79U;
+}
+
+void show_line(const std::string& words) {
+    std::string line = visible(words);
+    while (characters(line) > line_length()) {
+        line.pop_back();
+    }
+    std::cerr << kClear << line << std::flush;
 }
 
 } // namespace
@@ -73,11 +82,7 @@ StatusLine::~StatusLine() {
 
 void StatusLine::show(const std::string& words) {
     if (terminal_) {
-        std::string line = words;
-        while (characters(line) > line_length()) {
-            line.pop_back();
-        }
-        std::cerr << kClear << line << std::flush;
+        show_line(words);
         shown_ = true;
     }
 }
@@ -88,7 +93,7 @@ void Progress::watch() {
     std::unique_lock<std::mutex> lock(mutex_);
     while (!wake_.wait_for(lock, kPeriod, [this] { return over_; })) {
         if (clock.seconds() > kQuietSeconds) {
-            std::cerr << kClear << progress_line(step_, clock.seconds(), share_) << std::flush;
+            show_line(progress_line(step_, clock.seconds(), share_));
             shown = true;
         }
     }

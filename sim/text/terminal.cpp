@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "config/config_words.hpp"
+#include "config/visible_text.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -135,7 +136,7 @@ std::string layout(const Block& block) {
     }
     std::string lines;
     for (const auto& [name, text] : block) {
-        lines.append(name).append(width + 2 - name.size(), ' ').append(text).append("\n");
+        lines.append(name).append(width + 2 - name.size(), ' ').append(visible(text)).append("\n");
     }
     return lines;
 }

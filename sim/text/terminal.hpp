@@ -12,7 +12,7 @@ namespace degs::sim {
 
 /// Lines of a block: a name and what it says.
 using Block = std::vector<std::pair<std::string, std::string>>;
-/// The names padded to one column.
+/// The names padded to one column; what they say is one line each, whatever it contains.
 std::string layout(const Block& block);
 
 /// The summary of a run; `image_path` is where the image went.

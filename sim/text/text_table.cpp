@@ -2,10 +2,17 @@
 #include "sim/text/text_table.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "config/visible_text.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
+
+void TextTable::add(std::vector<std::string> cells) {
+    std::transform(cells.begin(), cells.end(), cells.begin(), visible);
+    lines_.push_back(std::move(cells));
+}
 
 std::string TextTable::text() const {
     const std::size_t columns = lines_.front().size();

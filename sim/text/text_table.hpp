@@ -11,8 +11,8 @@ namespace degs::sim {
 class TextTable {
 public:
     explicit TextTable(std::vector<std::string> headings) : lines_{std::move(headings)} {}
-    /// As many cells as there are headings.
-    void add(std::vector<std::string> cells) { lines_.push_back(std::move(cells)); }
+    /// As many cells as there are headings, each one line, whatever it contains.
+    void add(std::vector<std::string> cells);
     std::string text() const;
 
 private:

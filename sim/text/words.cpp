@@ -34,6 +34,12 @@ std::string three_digits(double value) {
     return fixed(shown, std::clamp(2 - magnitude, 0, 9));
 }
 
+std::string as_typed(double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.15g", value);
+    return text;
+}
+
 std::string scaled(double value) {
     const char* const units[] = {"", " k", " M", " G", " T"};
     std::size_t unit = 0;

@@ -13,6 +13,9 @@ namespace degs::sim {
 using degs::grouped;
 /// Three significant digits without exponent: 2.108 -> "2.11", 473.9 -> "474", 51234 -> "51200".
 std::string three_digits(double value);
+/// Fifteen significant digits at most, without trailing zeros: what a person typed, as it was
+/// typed, and 76.80000000000001, which arithmetic made, as 76.8.
+std::string as_typed(double value);
 /// 54512345 -> "54.5 M"; k, M, G and T are decimal.
 std::string scaled(double value);
 inline std::string scaled(std::uint64_t value) {

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "config/visible_text.hpp"
+
 namespace degs::config_words {
 namespace {
 
@@ -58,15 +60,9 @@ std::string list(const std::vector<std::string>& words) {
     return joined;
 }
 
-std::string one_line(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-    return text;
-}
-
 std::string quote(const std::string& text) {
     constexpr std::size_t kLongest = 60;
-    return "'" + one_line(text.substr(0, kLongest)) + (text.size() > kLongest ? "..." : "") + "'";
+    return "'" + visible(text.substr(0, kLongest)) + (text.size() > kLongest ? "..." : "") + "'";
 }
 
 std::string range(std::int64_t low, std::int64_t high) {

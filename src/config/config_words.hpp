@@ -13,8 +13,6 @@ std::string number(double value);
 /// "memory" + "latency_ns" = "memory.latency_ns"; the root section has the empty path.
 std::string join_path(const std::string& section, const std::string& key);
 std::string list(const std::vector<std::string>& words);
-/// `text` without control characters, so that a message stays one line.
-std::string one_line(std::string text);
 /// 'text' on one line and of bounded length, whatever a file may contain.
 std::string quote(const std::string& text);
 

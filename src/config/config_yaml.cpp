@@ -9,6 +9,7 @@
 
 #include "config/config_words.hpp"
 #include "config/error.hpp"
+#include "config/visible_text.hpp"
 
 namespace degs {
 namespace {
@@ -143,7 +144,7 @@ ConfigNode parse_config_yaml(const std::string& name, const std::string& yaml) {
         return builder.take();
     } catch (const YAML::Exception& error) {
         throw InputError(name + ":" + std::to_string(error.mark.line + 1) +
-                         ": this is not valid YAML: " + config_words::one_line(error.msg) + ".");
+                         ": this is not valid YAML: " + visible(error.msg) + ".");
     }
 }
 

@@ -193,7 +193,7 @@ TEST_F(HostileConfig, EndlessFileEnds) {
 
 TEST_F(HostileConfig, LongAndUnprintableValuesStayOneShortLine) {
     EXPECT_EQ(error_of("banks: \"a\\nb" + std::string(1000, 'c') + "\"\n"),
-              here(1) + "key 'banks' is the quoted text 'a b" + std::string(57, 'c') +
+              here(1) + "key 'banks' is the quoted text 'a\\nb" + std::string(57, 'c') +
                   "...', but must be an integer in decimal digits, 1 to 64.");
 }
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -57,8 +58,9 @@ struct Outcome {
     std::string out, err;
 };
 
-/// Runs the program and waits for it.
-inline Outcome degs(const std::vector<std::string>& arguments) {
+/// Runs the program and waits for it; `prepare` is called in the child before the program starts.
+inline Outcome degs(const std::vector<std::string>& arguments,
+                    const std::function<void()>& prepare = {}) {
     const Folder folder;
     const std::string out = folder / "out";
     const std::string err = folder / "err";
@@ -66,6 +68,9 @@ inline Outcome degs(const std::vector<std::string>& arguments) {
     if (child == 0) {
         ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
         ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+        if (prepare) {
+            prepare();
+        }
         std::vector<char*> argv{const_cast<char*>(DEGS_PROGRAM)};
         for (const std::string& argument : arguments) {
             argv.push_back(const_cast<char*>(argument.c_str()));

@@ -126,6 +126,16 @@ TEST(HostileView, BadSizes) {
     expect_mistake(run_scene(kSingleScene, folder, {"--width", "wide"}), "--width");
 }
 
+TEST(HostileView, SizesAreShownAsTheyWereTyped) {
+    const Folder folder;
+    expect_mistake(run_scene(kSingleScene, folder, {"--width", "16384", "--height", "16383"}),
+                   "16384 x 16383 pixels");
+    // PNG libraries hold a million pixels to a side; refused before the run.
+    expect_mistake(run_scene(kSingleScene, folder, {"--width", "1", "--height", "1000001"}),
+                   "1 x 1000001 pixels cannot be written as PNG");
+    EXPECT_FALSE(fs::exists(folder / "result"));
+}
+
 TEST(HostileView, BadResolutions) {
     const Folder folder;
     expect_mistake(run_scene(kSingleScene, folder, {"--resolution", "5k"}), "'5k'");

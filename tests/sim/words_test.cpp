@@ -29,6 +29,13 @@ TEST(Words, ThreeDigits) {
     EXPECT_EQ(three_digits(-0.5), "-0.500");
 }
 
+TEST(Words, AsTyped) {
+    EXPECT_EQ(as_typed(16384), "16384");
+    EXPECT_EQ(as_typed(12.3456789), "12.3456789");
+    EXPECT_EQ(as_typed(204.8 * 3 / 8), "76.8");
+    EXPECT_EQ(as_typed(0), "0");
+}
+
 TEST(Words, Scaled) {
     EXPECT_EQ(scaled(0.0), "0");
     EXPECT_EQ(scaled(999.4), "999");

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/text/standard_output.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+#include "config/visible_text.hpp"
+#include "sim/failure.hpp"
+
+namespace degs::sim {
+
+void print(const std::string& text) {
+    const std::string shown = visible_lines(text);
+    errno = 0;
+    if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size() ||
+        std::fflush(stdout) != 0) {
+        throw FailureError({kUserError, "The standard output cannot be written: " +
+                                            std::generic_category().message(errno) + "."});
+    }
+}
+
+} // namespace degs::sim
