@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
-#include <memory>
+#include <utility>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -16,6 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "sim/interruption.hpp"
 #include "sim/stopping_signals.hpp"
 
 namespace degs::sim {
@@ -26,8 +27,8 @@ constexpr int kTickMilliseconds = 250;
 /// First byte of what a child writes; the text follows.
 enum Tag : char { kOutput = 'o', kMistake = 'm', kBroken = 'b' };
 
-Failure child_failure(int code, const ChildJob& job, const std::string& sentence) {
-    return {code, job.name + ": " + sentence};
+Failure child_failure(int code, const std::string& job, const std::string& sentence) {
+    return {code, job + ": " + sentence};
 }
 
 void write_all(int file, const std::string& bytes) {
@@ -51,8 +52,10 @@ std::string message_of(const ChildJob& job) {
     }
 }
 
+} // namespace
+
 /// A forked child and the end of the pipe from which its message comes. Killed when destroyed.
-class Child {
+class ChildPool::Child {
 public:
     Child(std::size_t index, const ChildJob& job, const StoppingSignals& signals);
     ~Child();
@@ -67,20 +70,21 @@ public:
     ChildOutcome outcome();
 
 private:
-    [[noreturn]] void run(int write_end, pid_t parent, const StoppingSignals& signals);
+    [[noreturn]] static void run(const ChildJob& job, int write_end, pid_t parent,
+                                 const StoppingSignals& signals);
     ChildOutcome failed(const std::string& sentence) const {
-        return {{}, child_failure(kInternalError, *job_, sentence)};
+        return {{}, child_failure(kInternalError, name_, sentence)};
     }
 
     std::size_t index_;
-    const ChildJob* job_;
+    std::string name_;
     pid_t pid_ = -1;
     int read_end_ = -1;
     std::string message_;
 };
 
-Child::Child(std::size_t index, const ChildJob& job, const StoppingSignals& signals)
-    : index_(index), job_(&job) {
+ChildPool::Child::Child(std::size_t index, const ChildJob& job, const StoppingSignals& signals)
+    : index_(index), name_(job.name) {
     std::array<int, 2> ends{-1, -1};
     const pid_t parent = ::getpid();
     // What waits in a buffer would otherwise be written by both.
@@ -93,19 +97,19 @@ Child::Child(std::size_t index, const ChildJob& job, const StoppingSignals& sign
                 ::close(end);
             }
         }
-        throw FailureError(child_failure(kInternalError, job,
+        throw FailureError(child_failure(kInternalError, name_,
                                          std::string("No process could be started: ") +
                                              std::strerror(reason) + "."));
     }
     if (pid_ == 0) {
         ::close(ends[0]);
-        run(ends[1], parent, signals);
+        run(job, ends[1], parent, signals);
     }
     ::close(ends[1]);
     read_end_ = ends[0];
 }
 
-Child::~Child() {
+ChildPool::Child::~Child() {
     if (pid_ > 0) {
         ::kill(pid_, SIGKILL);
         while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
@@ -116,16 +120,18 @@ Child::~Child() {
     }
 }
 
-void Child::run(int write_end, pid_t parent, const StoppingSignals& signals) {
+void ChildPool::Child::run(const ChildJob& job, int write_end, pid_t parent,
+                           const StoppingSignals& signals) {
+    keep_interruption_quiet();
     signals.restore();
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() == parent) { // else the parent died before it could be watched
-        write_all(write_end, message_of(*job_));
+        write_all(write_end, message_of(job));
     }
     ::_exit(kSuccess);
 }
 
-bool Child::read() {
+bool ChildPool::Child::read() {
     std::array<char, 65536> part;
     const ssize_t count = ::read(read_end_, part.data(), part.size());
     if (count > 0) {
@@ -134,7 +140,7 @@ bool Child::read() {
     return count == 0 || (count < 0 && errno != EINTR);
 }
 
-ChildOutcome Child::outcome() {
+ChildOutcome ChildPool::Child::outcome() {
     int status = 0;
     while (::waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
     }
@@ -154,74 +160,81 @@ ChildOutcome Child::outcome() {
     if (tag == kOutput) {
         return {std::move(message_), {}};
     }
-    return {{}, child_failure(tag == kMistake ? kUserError : kInternalError, *job_, message_)};
+    return {{}, child_failure(tag == kMistake ? kUserError : kInternalError, name_, message_)};
 }
 
-using Children = std::vector<std::unique_ptr<Child>>;
+ChildPool::ChildPool(int at_once, ChildWatcher watcher)
+    : at_once_(std::max(at_once, 1)), watcher_(std::move(watcher)) {}
 
-/// Waits for a message, a tick or a signal. One entry per child, then the signals.
-std::vector<pollfd> wait_for(const Children& children, const StoppingSignals& signals) {
-    std::vector<pollfd> files;
-    for (const auto& child : children) {
-        files.push_back({child->file(), POLLIN, 0});
-    }
-    files.push_back({signals.file(), POLLIN, 0});
-    if (::poll(files.data(), files.size(), kTickMilliseconds) < 0) {
-        for (pollfd& file : files) {
-            file.revents = 0;
-        }
-    }
-    return files;
+ChildPool::~ChildPool() = default;
+
+bool ChildPool::make_room() {
+    return wait_for_fewer_than(at_once_, StoppingSignals());
 }
 
-void start_children(const std::vector<ChildJob>& jobs, std::size_t& next, int at_once,
-                    Children& running, const StoppingSignals& signals, const ChildWatcher& watcher,
-                    std::size_t& ended) {
-    while (next < jobs.size() && running.size() < static_cast<std::size_t>(at_once)) {
-        const std::size_t index = next++;
-        try {
-            running.push_back(std::make_unique<Child>(index, jobs[index], signals));
-        } catch (const FailureError& error) {
-            ++ended;
-            watcher.ended(index, {{}, error.failure()});
-        }
-    }
+bool ChildPool::finish() {
+    return wait_for_fewer_than(1, StoppingSignals());
 }
 
-std::vector<std::size_t> indices_of(const Children& children) {
-    std::vector<std::size_t> indices;
-    for (const auto& child : children) {
-        indices.push_back(child->index());
-    }
-    return indices;
-}
-
-} // namespace
-
-bool run_children(const std::vector<ChildJob>& jobs, int at_once, const ChildWatcher& watcher) {
+bool ChildPool::start(const ChildJob& job) {
     const StoppingSignals signals;
-    Children running;
-    std::size_t next = 0;
-    std::size_t ended = 0;
-    start_children(jobs, next, at_once, running, signals, watcher, ended);
-    while (!running.empty()) {
-        const std::vector<pollfd> files = wait_for(running, signals);
-        if (signals.take()) {
-            return false;
-        }
-        for (std::size_t i = running.size(); i-- > 0;) {
-            if (files[i].revents != 0 && running[i]->read()) {
-                ++ended;
-                watcher.ended(running[i]->index(), running[i]->outcome());
-                running.erase(running.begin() + static_cast<std::ptrdiff_t>(i));
-            }
-        }
-        start_children(jobs, next, at_once, running, signals, watcher, ended);
-        if (watcher.tick) {
-            watcher.tick(ended, indices_of(running));
-        }
+    if (!wait_for_fewer_than(at_once_, signals)) {
+        return false;
+    }
+    const std::size_t index = started_++;
+    try {
+        running_.push_back(std::make_unique<Child>(index, job, signals));
+    } catch (const FailureError& error) {
+        ++ended_;
+        watcher_.ended(index, {{}, error.failure()});
     }
     return true;
+}
+
+bool ChildPool::wait_for_fewer_than(std::size_t count, const StoppingSignals& signals) {
+    while (running_.size() >= count) {
+        std::vector<pollfd> files; // one per child, then the signals
+        for (const auto& child : running_) {
+            files.push_back({child->file(), POLLIN, 0});
+        }
+        files.push_back({signals.file(), POLLIN, 0});
+        const bool any = ::poll(files.data(), files.size(), kTickMilliseconds) > 0;
+        if (signals.take()) {
+            running_.clear();
+            return false;
+        }
+        for (std::size_t i = running_.size(); any && i-- > 0;) {
+            if (files[i].revents != 0 && running_[i]->read()) {
+                take(i);
+            }
+        }
+        tell_watcher();
+    }
+    return true;
+}
+
+void ChildPool::take(std::size_t place) {
+    const std::unique_ptr<Child> child = std::move(running_[place]);
+    running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(place));
+    ++ended_;
+    watcher_.ended(child->index(), child->outcome());
+}
+
+void ChildPool::tell_watcher() const {
+    if (watcher_.tick) {
+        std::vector<std::size_t> indices;
+        for (const auto& child : running_) {
+            indices.push_back(child->index());
+        }
+        watcher_.tick(ended_, indices);
+    }
+}
+
+bool run_children(const std::vector<ChildJob>& jobs, int at_once, const ChildWatcher& watcher) {
+    ChildPool pool(at_once, watcher);
+    return std::all_of(jobs.begin(), jobs.end(),
+                       [&pool](const ChildJob& job) { return pool.start(job); }) &&
+           pool.finish();
 }
 
 } // namespace degs::sim

@@ -49,9 +49,12 @@ void add_config_command(CLI::App& program) {
     auto options = std::make_shared<ConfigOptions>();
     CLI::App* command = program.add_subcommand(
         "config", "explain every configuration key with its default, or with a file's value");
-    CLI::Option* file = command->add_option("config", options->config,
-                                            "configuration file (YAML); without it, the defaults");
+    CLI::Option* file = command
+                            ->add_option("config", options->config,
+                                         "configuration file (YAML); without it, the defaults")
+                            ->type_name("FILE");
     command->add_option("--set", options->overrides, "path.to.key=value; may be repeated")
+        ->type_name("KEY=VALUE")
         ->take_all()
         ->expected(1)
         ->needs(file);

@@ -99,8 +99,7 @@ void add_render_command(CLI::App& program) {
     command->add_option("--tile-size", options->tile_size, "pixels")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    command->add_option("--out", options->out, "folder for image.exr, image.png and render.json")
-        ->capture_default_str();
+    add_out_option(*command, options->out, "folder for image.exr, image.png and render.json");
     command->callback([options] { run(*options); });
 }
 

@@ -51,7 +51,7 @@ void add_run_command(CLI::App& program) {
     auto options = std::make_shared<RunOptions>();
     CLI::App* command =
         program.add_subcommand("run", "simulate a frame or a camera path on an accelerator");
-    command->add_option("config", options->config, "configuration file (YAML)")->required();
+    add_config_option(*command, options->config)->required();
     add_view_options(*command, options->view);
     add_path_options(*command, options->path);
     command
@@ -59,11 +59,12 @@ void add_run_command(CLI::App& program) {
                      "exact, or strict: synchronise every cycle; the results are the same")
         ->check(CLI::IsMember({"exact", "strict"}))
         ->capture_default_str();
-    command->add_option("--out", options->out, "folder for image.exr, image.png and report.json")
-        ->capture_default_str();
-    command->add_option("--memory", options->memory,
-                        "file of an LPDDR5 memory, as in configs/memory, in place of what the "
-                        "configuration says of memory");
+    add_out_option(*command, options->out, "folder for image.exr, image.png and report.json");
+    command
+        ->add_option("--memory", options->memory,
+                     "file of an LPDDR5 memory, as in configs/memory, in place of what the "
+                     "configuration says of memory")
+        ->type_name("FILE");
     add_overrides_option(*command, options->overrides);
     command->add_flag("--no-reference", options->no_reference,
                       "do not render the double-precision image to compare with");

@@ -62,8 +62,10 @@ void add_info(CLI::App& scene) {
     CLI::App* command =
         scene.add_subcommand("info", "statistics of a scene and, with --camera, of a view");
     ViewRequest& view = options->view;
-    command->add_option("scene", view.scene, "scene file, or synthetic:NAME[,...]")->required();
-    command->add_option("--cameras", view.cameras, "cameras.json instead of the scene's own");
+    command->add_option("scene", view.scene, "scene file, or synthetic:NAME[,...]")
+        ->type_name("SCENE")
+        ->required();
+    add_camera_file_option(*command, view.camera_file);
     options->camera = command->add_option("--camera", view.camera, "view to measure, from 0");
     CLI::Option* width =
         command->add_option("--width", view.width, "image width of the view in pixels")
@@ -94,7 +96,9 @@ void add_generate(CLI::App& scene) {
     command->add_option("--seed", options->seed, "of the random numbers")
         ->type_name("UINT")
         ->capture_default_str();
-    command->add_option("--out", options->out, "file to write (.ply)")->required();
+    command->add_option("--out", options->out, "file to write (.ply)")
+        ->type_name("FILE")
+        ->required();
     command->callback([options] {
         check_ply(options->out);
         std::string spec = "synthetic:" + options->profile + ",seed=" + options->seed;
@@ -112,8 +116,12 @@ void add_convert(CLI::App& scene) {
     auto options = std::make_shared<Options>();
     CLI::App* command = scene.add_subcommand(
         "convert", "write a scene as PLY, without the Gaussians that cannot be drawn");
-    command->add_option("scene", options->in, "scene file, or synthetic:NAME[,...]")->required();
-    command->add_option("--out", options->out, "file to write (.ply)")->required();
+    command->add_option("scene", options->in, "scene file, or synthetic:NAME[,...]")
+        ->type_name("SCENE")
+        ->required();
+    command->add_option("--out", options->out, "file to write (.ply)")
+        ->type_name("FILE")
+        ->required();
     command->callback([options] {
         check_ply(options->out);
         write_scene(load_scene(options->in), options->out);

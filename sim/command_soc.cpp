@@ -93,14 +93,15 @@ void add_soc_command(CLI::App& program) {
     auto options = std::make_shared<SocOptions>();
     CLI::App* command = program.add_subcommand(
         "soc", "run the accelerator on a platform with cores and a display that use the memory");
-    command->add_option("config", options->config, "configuration file (YAML)")->required();
+    add_config_option(*command, options->config)->required();
     add_view_options(*command, options->view);
-    command->add_option("--memory", options->memory,
-                        "configuration file of the platform's memory (configs/memory/*.yaml); "
-                        "default: LPDDR5-6400 of 256 bit");
+    command
+        ->add_option("--memory", options->memory,
+                     "configuration file of the platform's memory (configs/memory/*.yaml); "
+                     "default: LPDDR5-6400 of 256 bit")
+        ->type_name("FILE");
     add_traffic_options(*command, *options);
-    command->add_option("--out", options->out, "folder for soc.json and soc.svg")
-        ->capture_default_str();
+    add_out_option(*command, options->out, "folder for soc.json and soc.svg");
     add_overrides_option(*command, options->overrides);
     command->callback([options] { run(*options); });
 }

@@ -98,7 +98,7 @@ View load_view(const ViewRequest& request) {
     const Progress progress("loading " + request.scene);
     const Stopwatch clock;
     View view;
-    view.scene = load_scene(request.scene, request.cameras);
+    view.scene = load_scene(request.scene, request.camera_file);
     view.camera = resize(select_camera(view.scene, request.camera), request.width, height);
     view.load_s = clock.seconds();
     return view;

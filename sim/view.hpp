@@ -14,7 +14,7 @@ namespace degs::sim {
 
 struct ViewRequest {
     std::string scene;
-    std::string cameras; ///< file, empty: the scene's own
+    std::string camera_file; ///< empty: the scene's own
     int camera = 0;
     std::optional<int> width, height;
     std::string resolution; ///< a name of resolution_names(), empty: width and height decide

@@ -10,19 +10,35 @@ constexpr int kMostFrames = 10000;
 } // namespace
 
 CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution) {
-    return command.add_option(
-        "--resolution", resolution,
-        "720p, 1080p, 2k, 4k or 8k: images 720, 1080, 1440, 2160 or 4320 pixels high, as wide as "
-        "the camera's aspect ratio makes them");
+    return command
+        .add_option(
+            "--resolution", resolution,
+            "720p, 1080p, 2k, 4k or 8k: images 720, 1080, 1440, 2160 or 4320 pixels high, as wide "
+            "as the camera's aspect ratio makes them")
+        ->type_name("NAME");
+}
+
+CLI::Option* add_config_option(CLI::App& command, std::string& config) {
+    return command.add_option("config", config, "configuration file (YAML)")->type_name("FILE");
+}
+
+CLI::Option* add_camera_file_option(CLI::App& command, std::string& file, const char* names) {
+    return command
+        .add_option(names, file, "cameras.json to use instead of the one beside the scene")
+        ->type_name("FILE");
+}
+
+CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning) {
+    return command.add_option("--out", folder, meaning)->type_name("FOLDER")->capture_default_str();
 }
 
 void add_view_options(CLI::App& command, ViewRequest& request) {
     command
         .add_option("--scene", request.scene,
                     "scene file (.ply), or synthetic:NAME[,gaussians=N][,seed=N]")
+        ->type_name("SCENE")
         ->required();
-    command.add_option("--cameras", request.cameras,
-                       "cameras.json to use instead of the one beside the scene");
+    add_camera_file_option(command, request.camera_file);
     command.add_option("--camera", request.camera, "position in the list of cameras, from 0");
     CLI::Option* width =
         command.add_option("--width", request.width, "image width in pixels; the view is scaled");

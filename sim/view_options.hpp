@@ -11,11 +11,21 @@
 
 namespace degs::sim {
 
-/// Adds --scene, --cameras, --camera and the options for the image size.
+/// Adds --scene, --camera-file, --camera and the options for the image size.
 void add_view_options(CLI::App& command, ViewRequest& request);
 
 /// Adds --resolution, which excludes the options for width and height.
 CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution);
+
+/// Adds the configuration file, an argument.
+CLI::Option* add_config_option(CLI::App& command, std::string& config);
+
+/// Adds --camera-file; --cameras is its older name, which `degs compare` uses for positions.
+CLI::Option* add_camera_file_option(CLI::App& command, std::string& file,
+                                    const char* names = "--camera-file,--cameras");
+
+/// Adds --out, the folder for results.
+CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning);
 
 /// Adds --frames and --path-step.
 void add_path_options(CLI::App& command, PathRequest& request);

@@ -14,6 +14,7 @@
 #include "sim/output_folder.hpp"
 #include "sim/scene_list.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/view_options.hpp"
 
 namespace degs::sim {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 struct AccuracyOptions {
     std::vector<std::string> numbers{"fp16", "paper", "tuned"};
     std::vector<std::string> scenes; ///< as written
-    std::string cameras;
+    std::string camera_file;
     int camera = 0;
     std::vector<std::string> resolutions;
     std::string span_ends;
@@ -41,7 +42,7 @@ std::vector<ViewRequest> views_of(const AccuracyOptions& options) {
     for (const std::string& scene : split_scenes(options.scenes)) {
         ViewRequest view;
         view.scene = scene;
-        view.cameras = options.cameras;
+        view.camera_file = options.camera_file;
         view.camera = options.camera;
         views.push_back(view);
     }
@@ -165,15 +166,16 @@ void add_scene_options(CLI::App& command, AccuracyOptions& options) {
         .add_option("--scene", options.scenes,
                     "scenes: files or synthetic:NAME[,...]; several separated by commas, or "
                     "repeated; with --single-gaussian, their projected Gaussians are measured")
+        ->type_name("SCENE")
         ->take_all()
         ->expected(1);
-    command.add_option("--cameras", options.cameras,
-                       "cameras.json to use instead of the ones beside the scenes");
+    add_camera_file_option(command, options.camera_file);
     command.add_option("--camera", options.camera, "position in the list of cameras, from 0");
     command
         .add_option("--resolution", options.resolutions,
                     "720p, 1080p, 2k, 4k or 8k: images 720, 1080, 1440, 2160 or 4320 pixels high; "
                     "several separated by commas")
+        ->type_name("NAMES")
         ->delimiter(',')
         ->take_all();
     command
@@ -201,10 +203,12 @@ void add_accuracy_command(CLI::App& program) {
         "--hard-cases", options->hard_cases,
         "generated scenes that break renderers, in images of 16:9 (docs/numerical-stability.md)");
     command->add_option("--only", options->only, "hard cases, e.g. H7,H19; all without it")
+        ->type_name("NAMES")
         ->delimiter(',')
         ->take_all()
         ->needs(hard);
     command->add_option("--numbers", options->numbers, set_words())
+        ->type_name("NAMES")
         ->delimiter(',')
         ->take_all()
         ->capture_default_str();
@@ -214,8 +218,7 @@ void add_accuracy_command(CLI::App& program) {
     command->add_option("--splats", options->splats, "single Gaussians of each kind")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
-    command->add_option("--out", options->out, "folder for accuracy.json, the plot and the images")
-        ->capture_default_str();
+    add_out_option(*command, options->out, "folder for accuracy.json, the plot and the images");
     command->callback([options] { run(*options); });
 }
 

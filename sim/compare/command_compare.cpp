@@ -15,6 +15,7 @@ namespace {
 struct CompareOptions {
     std::vector<std::string> configs, overrides, scenes;
     std::string cameras = "0";
+    std::string camera_file;
     std::string resolutions;
     std::optional<int> width;
     PathRequest path;
@@ -30,6 +31,7 @@ CompareRequest request_of(const CompareOptions& options) {
     check_scenes(options.scenes);
     request.scenes = options.scenes;
     request.cameras = parse_cameras(options.cameras);
+    request.camera_file = options.camera_file;
     if (!options.resolutions.empty()) {
         request.sizes = parse_resolutions(options.resolutions);
     } else {
@@ -61,27 +63,34 @@ void add_what_options(CLI::App& command, CompareOptions& options) {
         .add_option("config", options.configs,
                     "configuration files (YAML), each as FILE or NAME=FILE; the others are "
                     "compared with the first")
+        ->type_name("FILE")
         ->required();
     command
         .add_option("--scene", options.scenes,
                     "scene file (.ply), or synthetic:NAME[,gaussians=N][,seed=N]; may be repeated")
+        ->type_name("SCENE")
         ->required()
         ->take_all()
         ->expected(1);
     command
-        .add_option("--cameras,--camera", options.cameras,
+        .add_option("--camera,--cameras", options.cameras,
                     "positions in the scene's list of cameras, from 0: 0,2 or all")
+        ->type_name("LIST")
         ->capture_default_str();
+    add_camera_file_option(command, options.camera_file, "--camera-file");
     CLI::Option* resolution =
-        command.add_option("--resolution", options.resolutions,
-                           "720p, 1080p, 2k, 4k, 8k, or several separated by commas; else the "
-                           "cameras' own");
+        command
+            .add_option("--resolution", options.resolutions,
+                        "720p, 1080p, 2k, 4k, 8k, or several separated by commas; else the "
+                        "cameras' own")
+            ->type_name("NAMES");
     command.add_option("--width", options.width, "image width in pixels; the views are scaled")
         ->excludes(resolution);
     add_path_options(command, options.path);
     command
         .add_option("--set", options.overrides,
                     "path.to.key=value for all, NAME:path.to.key=value for one; may be repeated")
+        ->type_name("KEY=VALUE")
         ->take_all()
         ->expected(1);
     command.add_flag("--array-only", options.array_only,
@@ -101,8 +110,7 @@ void add_compare_command(CLI::App& program) {
     command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
-    command->add_option("--out", options->out, "folder for tables, pictures and reports")
-        ->capture_default_str();
+    add_out_option(*command, options->out, "folder for tables, pictures and reports");
     command->callback([options] { run(*options); });
 }
 

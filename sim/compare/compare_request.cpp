@@ -92,9 +92,9 @@ int position(const std::string& text, const std::string& whole) {
     const char* const end = text.data() + text.size();
     const auto [rest, error] = std::from_chars(text.data(), end, value);
     if (error != std::errc() || rest != end || value < 0) {
-        throw InputError("--cameras is '" + whole +
+        throw InputError("--camera is '" + whole +
                          "', but must be 'all' or positions in the scene's list of cameras, from 0 "
-                         "and separated by commas.");
+                         "and separated by commas; a file of cameras is named by --camera-file.");
     }
     return value;
 }

@@ -24,6 +24,7 @@ struct ImageSize {
 struct CompareRequest {
     std::vector<NamedConfig> configs; ///< the others are compared with the first
     std::vector<std::string> scenes;
+    std::string camera_file;                 ///< empty: the scenes' own
     std::optional<std::vector<int>> cameras; ///< positions in each scene's list; empty: all
     std::vector<ImageSize> sizes{ImageSize{}};
     PathRequest path;

@@ -10,7 +10,8 @@
 
 #include "scene/camera_path.hpp"
 #include "sim/compare/comparison_output.hpp"
-#include "sim/report.hpp"
+#include "sim/compare/shared_view.hpp"
+#include "sim/interruption.hpp"
 #include "sim/stopwatch.hpp"
 
 namespace degs::sim {
@@ -21,18 +22,15 @@ using nlohmann::ordered_json;
 constexpr const char* kSlots = "slots.svg";
 constexpr const char* kUtilization = "utilization.svg";
 
-/// Fit for the name of a file on any system.
+/// Fit for the name of a file on any system; the numbers in front of names keep them apart.
 std::string file_name(const std::string& text) {
-    std::string name = text;
+    constexpr std::size_t kLongest = 80; // systems hold 255 bytes, and files get endings
+    std::string name = text.substr(0, kLongest);
     std::replace_if(
         name.begin(), name.end(),
         [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_' && c != '.'; },
         '_');
     return name;
-}
-
-std::string bytes_of(const RunResult& result) {
-    return report(result).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 /// What frames depend on: format of the projection (empty for fp64, whose frames are the
@@ -54,96 +52,97 @@ std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedC
 
 } // namespace
 
-struct CompareSession::Shared {
-    std::size_t number = 0; ///< of the view
-    std::string words;      ///< for people
-    std::string folder;     ///< of its reports, below the output folder
+/// A run whose child has been started.
+struct CompareSession::Started {
+    std::size_t view = 0;
+    std::size_t config = 0; ///< position in the request
+    bool path = false;
     int camera = 0;
-    SceneFacts scene;
-    const GaussianCloud* cloud = nullptr;
-    std::vector<Camera> cameras; ///< of the path, the view's own first
-    double load_s = 0, workload_s = 0;
-    std::vector<FrameWorkload> frames;  ///< of the present group
-    std::optional<Reference> reference; ///< of `reference_tiles`
-    std::pair<int, TileMode> reference_tiles;
-
-    /// With exact tiles the image does not depend on their size.
-    void render_reference(TileMode mode) {
-        const std::pair<int, TileMode> tiles{mode == TileMode::Exact ? 0 : frames.front().tile_size,
-                                             mode};
-        if (!reference || reference_tiles != tiles) {
-            reference = make_reference(*cloud, frames.front(), workload_s);
-            reference_tiles = tiles;
-        }
-    }
-
-    /// In the child: the whole path or its first frame alone, which is compared with the reference.
-    std::string run(const RunRequest& request, bool path) const {
-        const Stopwatch wall;
-        Progress::silence();
-        std::vector<const FrameWorkload*> wanted;
-        for (const FrameWorkload& frame : frames) {
-            if (path || wanted.empty()) {
-                wanted.push_back(&frame);
-            }
-        }
-        RunResult result = run_frames(request, wanted);
-        result.scene = scene;
-        if (request.reference && !path) {
-            judge(result, *reference);
-        }
-        result.host.load_s = load_s;
-        result.host.workload_s = workload_s;
-        result.host.wall_s = wall.seconds();
-        return bytes_of(result);
-    }
+    std::string words, folder; ///< of the view
+    std::string name;          ///< of the run
+    Stopwatch clock{};
 };
 
 std::vector<std::string> comparison_files() {
     return {"compare.json", "compare.csv", kSlots, kUtilization};
 }
 
+CompareSession::CompareSession(const CompareRequest& request, const OutputFolder& out)
+    : request_(request), out_(out),
+      pool_(request.jobs,
+            {[this](std::size_t run, ChildOutcome&& outcome) { end(run, std::move(outcome)); },
+             [this](std::size_t, const std::vector<std::size_t>& running) { show(running); }}) {}
+
+CompareSession::~CompareSession() = default;
+
 Comparison CompareSession::run() {
-    for (const std::string& spec : request_.scenes) {
-        if (!interrupted_) {
-            run_scene(spec);
-        }
+    const std::size_t scenes = request_.scenes.size();
+    if (request_.cameras) {
+        progress_.plan(scenes * request_.cameras->size() * runs_per_camera());
+    }
+    for (std::size_t s = 0; s < scenes && !interrupted_; ++s) {
+        progress_.set_unknown_scenes(request_.cameras ? 0 : scenes - s - 1);
+        run_scene(request_.scenes[s]);
+    }
+    interrupted_ = interrupted_ || !pool_.finish();
+    if (!runs_.empty()) {
+        write(); // with failures that came after the last run
     }
     return comparison();
 }
 
+std::size_t CompareSession::runs_per_view() const {
+    return request_.configs.size() * (request_.path.frames > 1 ? 2 : 1);
+}
+
+std::size_t CompareSession::runs_per_camera() const {
+    return request_.sizes.size() * runs_per_view();
+}
+
+Scene CompareSession::load(const std::string& spec, double& seconds) const {
+    const Progress progress("loading " + spec);
+    const Stopwatch clock;
+    Scene scene = load_scene(spec, request_.camera_file);
+    seconds = clock.seconds();
+    return scene;
+}
+
 void CompareSession::run_scene(const std::string& spec) {
+    if (!pool_.make_room()) {
+        interrupted_ = true;
+        return;
+    }
+    Scene scene;
+    double load_s = 0;
     try {
-        const Stopwatch clock;
-        Scene scene;
-        {
-            const Progress progress("loading " + spec);
-            scene = load_scene(spec);
-        }
-        const double load_s = clock.seconds();
-        std::vector<int> cameras = request_.cameras.value_or(std::vector<int>{});
-        for (int c = 0; !request_.cameras && c < static_cast<int>(scene.cameras.size()); ++c) {
-            cameras.push_back(c);
-        }
-        for (int camera : cameras) {
-            for (const ImageSize& size : request_.sizes) {
-                if (!interrupted_) {
-                    run_view(scene, camera, size, load_s);
-                }
-            }
-        }
+        scene = load(spec, load_s);
     } catch (...) {
         fail("", spec, failure_of(std::current_exception()));
+        progress_.drop(request_.cameras ? request_.cameras->size() * runs_per_camera() : 0);
+        return;
+    }
+    std::vector<int> cameras = request_.cameras.value_or(std::vector<int>{});
+    for (int c = 0; !request_.cameras && c < static_cast<int>(scene.cameras.size()); ++c) {
+        cameras.push_back(c);
+        progress_.plan(runs_per_camera());
+    }
+    for (int camera : cameras) {
+        for (const ImageSize& size : request_.sizes) {
+            if (!interrupted_) {
+                run_view(scene, camera, size, load_s);
+            }
+        }
     }
 }
 
 void CompareSession::run_view(const Scene& scene, int camera, const ImageSize& size,
                               double load_s) {
     std::string words = scene.name + " · camera " + std::to_string(camera);
+    const std::size_t before = started_.size();
     try {
         const Camera first = resize(select_camera(scene, camera), size.width, size.height);
         words += " · " + std::to_string(first.width) + "×" + std::to_string(first.height);
-        Shared shared;
+        SharedView shared;
         shared.number = views_++;
         shared.words = words;
         shared.folder = std::to_string(shared.number + 1) + "-" + file_name(scene.name) +
@@ -162,71 +161,89 @@ void CompareSession::run_view(const Scene& scene, int camera, const ImageSize& s
         }
     } catch (...) {
         fail("", words, failure_of(std::current_exception()));
+        progress_.drop(runs_per_view() - (started_.size() - before));
     }
 }
 
-void CompareSession::run_group(Shared& shared, const Configs& configs) {
+void CompareSession::run_group(SharedView& shared, const Configs& configs) {
+    if (!pool_.make_room()) { // making frames is work, too
+        interrupted_ = true;
+        return;
+    }
     const AcceleratorConfig& wish = request_.configs[configs.front()].config.accelerator();
-    shared.frames.clear(); // before the next are made
+    shared.frames.clear(); // before the next are made; children have copies of their own
     shared.workload_s = 0;
     shared.frames = make_workloads(*shared.cloud, shared.cameras, wish, shared.workload_s);
     if (request_.reference) {
         shared.render_reference(wish.tile_mode());
     }
-    const std::vector<ChildJob> jobs = jobs_of(shared, configs);
-    const std::size_t per_config = jobs.size() / configs.size();
-    StatusLine line;
-    const Stopwatch clock;
-    ChildWatcher watcher;
-    watcher.ended = [&](std::size_t job, ChildOutcome&& outcome) {
-        take(shared, configs[job / per_config], job % per_config != 0, std::move(outcome));
-        ++ended_;
-    };
-    watcher.tick = [&](std::size_t, const std::vector<std::size_t>& running) {
-        if (!running.empty()) {
-            line.show(std::to_string(ended_) + " runs done · " +
-                      std::to_string(static_cast<long>(clock.seconds())) + " s · running " +
-                      jobs[running.front()].name);
-        }
-    };
-    interrupted_ = !run_children(jobs, request_.jobs, watcher);
-    write();
-}
-
-std::vector<ChildJob> CompareSession::jobs_of(const Shared& shared, const Configs& configs) const {
-    std::vector<ChildJob> jobs;
-    for (std::size_t c : configs) {
-        RunRequest request;
-        request.config = request_.configs[c].config;
-        request.build.array_only = request_.array_only;
-        request.reference = request_.reference;
-        const std::string name = request_.configs[c].name + ", " + shared.words;
-        jobs.push_back({name, [request, &shared] { return shared.run(request, false); }});
+    for (std::size_t config : configs) {
+        start(shared, config, false);
         if (shared.frames.size() > 1) {
-            request.reference = false;
-            jobs.push_back({name + ", " + std::to_string(shared.frames.size()) + " frames",
-                            [request, &shared] { return shared.run(request, true); }});
+            start(shared, config, true);
         }
     }
-    return jobs;
 }
 
-void CompareSession::take(const Shared& shared, std::size_t config, bool path,
-                          ChildOutcome&& outcome) {
-    const std::string& name = request_.configs[config].name;
+void CompareSession::start(const SharedView& shared, std::size_t config, bool path) {
+    if (interrupted_ || !pool_.make_room()) {
+        interrupted_ = true;
+        return;
+    }
+    RunRequest request;
+    request.config = request_.configs[config].config;
+    request.build.array_only = request_.array_only;
+    request.reference = request_.reference && !path;
+    std::string name = request_.configs[config].name + ", " + shared.words;
+    if (path) {
+        name += ", " + std::to_string(shared.frames.size()) + " frames";
+    }
+    started_.push_back(
+        {shared.number, config, path, shared.camera, shared.words, shared.folder, name});
+    interrupted_ =
+        !pool_.start({name, [&request, &shared, path] { return shared.run(request, path); }});
+}
+
+void CompareSession::end(std::size_t number, ChildOutcome&& outcome) {
+    const Started& run = started_[number];
+    const bool good = !outcome.failure;
+    try {
+        take(run, std::move(outcome));
+        if (!runs_.empty()) {
+            write();
+        }
+    } catch (...) {
+        fail(request_.configs[run.config].name, run.words, failure_of(std::current_exception()));
+    }
+    progress_.ended(run.name, run.clock.seconds(), good);
+    set_interruption_sentence(interruption().sentence);
+}
+
+void CompareSession::show(const std::vector<std::size_t>& running) {
+    std::vector<std::string> names;
+    for (std::size_t run : running) {
+        names.push_back(started_[run].name);
+    }
+    if (!names.empty()) {
+        progress_.show(names);
+    }
+}
+
+void CompareSession::take(const Started& started, ChildOutcome&& outcome) {
+    const std::string& name = request_.configs[started.config].name;
     if (outcome.failure) {
-        fail(name, shared.words, *outcome.failure);
+        fail(name, started.words, *outcome.failure);
         return;
     }
     ordered_json report = ordered_json::parse(outcome.output);
-    const OutputFolder folder(out_.path("reports/" + shared.folder), {});
-    folder.write_json(std::to_string(config + 1) + "-" + file_name(name) +
-                          (path ? "-path.json" : ".json"),
+    const OutputFolder folder(out_.path("reports/" + started.folder), {});
+    folder.write_json(std::to_string(started.config + 1) + "-" + file_name(name) +
+                          (started.path ? "-path.json" : ".json"),
                       report);
-    ComparedRun& run = runs_[{shared.number, config}];
+    ComparedRun& run = runs_[{started.view, started.config}];
     run.config = name;
-    run.camera = shared.camera;
-    (path ? run.path : run.frame) = std::move(report);
+    run.camera = started.camera;
+    (started.path ? run.path : run.frame) = std::move(report);
 }
 
 void CompareSession::fail(const std::string& config, const std::string& view,
@@ -269,10 +286,15 @@ void CompareSession::write() const {
     }
 }
 
+Failure CompareSession::interruption() const {
+    return {kInterrupted,
+            "Interrupted after " + progress_.words() +
+                (runs_.empty() ? "." : "; what they found is in '" + out_.path("") + "'.")};
+}
+
 std::optional<Failure> CompareSession::failure() const {
     if (interrupted_) {
-        return Failure{kInterrupted, "Interrupted after " + std::to_string(ended_) +
-                                         " runs; what they found is in '" + out_.path("") + "'."};
+        return interruption();
     }
     if (failures_.empty()) {
         return {};

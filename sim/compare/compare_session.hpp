@@ -11,22 +11,27 @@
 #include "sim/child_process.hpp"
 #include "sim/compare/compare_request.hpp"
 #include "sim/compare/comparison.hpp"
+#include "sim/compare/run_progress.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/simulation.hpp"
-#include "sim/text/progress.hpp"
 
 namespace degs::sim {
+
+struct SharedView;
 
 /// Names of what a comparison writes into its folder.
 std::vector<std::string> comparison_files();
 
-/// Runs all configurations on all views, each run in a process of its own. Frames, reference images
-/// and scenes are made once and shared by all runs that want them. What has been found so far is on
-/// disk after every group of runs.
+/// Runs all configurations on all views, each run in a process of its own, as many at a time as the
+/// request allows; what this process makes for them counts as one. Frames, reference images and
+/// scenes are made once and shared by all runs that want them. What has been found so far is on
+/// disk after every run.
 class CompareSession {
 public:
-    CompareSession(const CompareRequest& request, const OutputFolder& out)
-        : request_(request), out_(out) {}
+    CompareSession(const CompareRequest& request, const OutputFolder& out);
+    ~CompareSession();
+    CompareSession(const CompareSession&) = delete;
+    CompareSession& operator=(const CompareSession&) = delete;
 
     /// Returns when all is done or Ctrl-C has come. A mistake in one scene, camera or configuration
     /// costs the views or runs concerned; the comparison and failure() tell of it.
@@ -35,16 +40,22 @@ public:
     std::optional<Failure> failure() const;
 
 private:
-    /// One view while it is compared.
-    struct Shared;
+    struct Started;
     using Configs = std::vector<std::size_t>;
 
+    std::size_t runs_per_view() const;
+    std::size_t runs_per_camera() const;
+
+    Scene load(const std::string& spec, double& seconds) const;
     void run_scene(const std::string& spec);
     void run_view(const Scene& scene, int camera, const ImageSize& size, double load_s);
-    void run_group(Shared& shared, const Configs& configs);
-    std::vector<ChildJob> jobs_of(const Shared& shared, const Configs& configs) const;
-    void take(const Shared& shared, std::size_t config, bool path, ChildOutcome&& outcome);
+    void run_group(SharedView& shared, const Configs& configs);
+    void start(const SharedView& shared, std::size_t config, bool path);
+    void end(std::size_t number, ChildOutcome&& outcome);
+    void show(const std::vector<std::size_t>& running);
+    void take(const Started& started, ChildOutcome&& outcome);
     void fail(const std::string& config, const std::string& view, const Failure& failure);
+    Failure interruption() const;
     Comparison comparison() const;
     void write() const;
 
@@ -54,8 +65,10 @@ private:
     std::map<std::pair<std::size_t, std::size_t>, ComparedRun> runs_; ///< by view and configuration
     std::vector<FailedRun> failed_;
     std::vector<Failure> failures_; ///< the same with their codes
-    std::size_t ended_ = 0;
+    std::vector<Started> started_;  ///< by number of the run
+    RunProgress progress_;
     bool interrupted_ = false;
+    ChildPool pool_; ///< the last, because it calls back
 };
 
 } // namespace degs::sim

@@ -12,6 +12,7 @@
 #include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/view_options.hpp"
 
 namespace degs::sim {
 namespace {
@@ -117,6 +118,7 @@ void add_memory_command(CLI::App& program) {
     CLI::App* command = program.add_subcommand(
         "memory", "measure bandwidth and latency of a memory under synthetic traffic");
     command->add_option("config", options->config, "configuration file of a memory (YAML)")
+        ->type_name("FILE")
         ->required();
     add_traffic_options(*command, options->shape);
     command
@@ -127,8 +129,7 @@ void add_memory_command(CLI::App& program) {
         ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40U))
         ->capture_default_str();
     command->add_flag("--no-curve", options->no_curve, "do not measure latency over load");
-    command->add_option("--out", options->out, "folder for memory.json and latency.svg")
-        ->capture_default_str();
+    add_out_option(*command, options->out, "folder for memory.json and latency.svg");
     add_overrides_option(*command, options->overrides);
     command->callback([options] { run(*options); });
 }

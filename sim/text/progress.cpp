@@ -87,6 +87,12 @@ void StatusLine::show(const std::string& words) {
     }
 }
 
+void StatusLine::note(const std::string& words) const {
+    if (!terminal_) {
+        std::cerr << visible(words) << std::endl;
+    }
+}
+
 void Progress::watch() {
     const Stopwatch clock;
     bool shown = false;

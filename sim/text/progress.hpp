@@ -38,6 +38,7 @@ private:
 };
 
 /// A line on stderr that its owner keeps up to date, on a terminal only; gone when it is destroyed.
+/// Where there is no terminal, lines of their own can be noted.
 class StatusLine {
 public:
     StatusLine();
@@ -45,6 +46,7 @@ public:
     StatusLine(const StatusLine&) = delete;
     StatusLine& operator=(const StatusLine&) = delete;
     void show(const std::string& words);
+    void note(const std::string& words) const;
 
 private:
     bool terminal_;

@@ -95,6 +95,16 @@ inline void expect_mistake(const Outcome& outcome, const std::string& words) {
     EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
 }
 
+/// What `degs compare` printed on stderr without the lines of finished runs.
+inline std::string without_progress(const std::string& text) {
+    std::string rest;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        rest += line.find(" done · ") == std::string::npos ? line + "\n" : "";
+    }
+    return rest;
+}
+
 inline void expect_success(const Outcome& outcome) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");

@@ -140,6 +140,27 @@ TEST(ChildProcess, RunsAsManyAtOnceAsAllowed) {
     EXPECT_EQ(most, 3U);
 }
 
+TEST(ChildPool, AJobMayLoseItsDataAsSoonAsItHasStarted) {
+    std::map<std::size_t, std::string> outputs;
+    ChildPool pool(2, {[&outputs](std::size_t job, ChildOutcome&& outcome) {
+                           outputs[job] = std::move(outcome.output);
+                       },
+                       {}});
+    for (int i = 0; i < 5; ++i) {
+        std::string data = "data " + std::to_string(i);
+        EXPECT_TRUE(pool.make_room());
+        EXPECT_TRUE(pool.start({"job", [&data] {
+                                    ::usleep(20000);
+                                    return data;
+                                }}));
+        data = "gone";
+    }
+    EXPECT_TRUE(pool.finish());
+    ASSERT_EQ(outputs.size(), 5U);
+    EXPECT_EQ(outputs[0], "data 0");
+    EXPECT_EQ(outputs[4], "data 4");
+}
+
 /// Written when static objects are destroyed, which happens in the parent alone.
 struct AtExit {
     ~AtExit() { std::cout << "the parent's end\n"; }

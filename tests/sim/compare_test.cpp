@@ -22,7 +22,9 @@ Outcome compare(std::vector<std::string> configs, const std::string& out,
     arguments.insert(arguments.end(), configs.begin(), configs.end());
     arguments.insert(arguments.end(), {"--scene", scene, "--out", out});
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return degs(arguments);
+    Outcome outcome = degs(arguments);
+    outcome.err = without_progress(outcome.err);
+    return outcome;
 }
 
 std::size_t lines_of(const std::string& text) {
@@ -252,7 +254,7 @@ TEST(CompareCommand, ARunThatBreaksCostsOnlyItself) {
     const int status = end_of(program);
     EXPECT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 1);
-    const std::string message = read_file(folder / "err");
+    const std::string message = without_progress(read_file(folder / "err"));
     EXPECT_EQ(message.rfind("degs: a, object · camera 0 · 1920×1440: The process was ended", 0), 0U)
         << message;
     EXPECT_EQ(lines_of(message), 1U) << message;
@@ -280,6 +282,8 @@ TEST(CompareCommand, AnInterruptKeepsWhatIsFinished) {
     const int status = end_of(program);
     EXPECT_TRUE(WIFSIGNALED(status) ? WTERMSIG(status) == SIGINT : WEXITSTATUS(status) == 130)
         << status;
+    EXPECT_EQ(without_progress(read_file(folder / "err")),
+              "degs: Interrupted after 1 of 2 runs; what they found is in '" + out + "/'.\n");
     EXPECT_EQ(comparison_in(out)["runs"].size(), 1U);
 }
 

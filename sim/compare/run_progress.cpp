@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/compare/run_progress.hpp"
+
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+
+void RunProgress::ended(const std::string& name, double seconds, bool good) {
+    ++ended_;
+    line_.note(words() + " done · " + name + (good ? " · " : " failed · ") + three_digits(seconds) +
+               " s");
+}
+
+void RunProgress::show(const std::vector<std::string>& running) {
+    const std::size_t more = running.size() - 1;
+    line_.show(words() + " done · " + std::to_string(static_cast<long>(clock_.seconds())) +
+               " s · running " + running.front() +
+               (more == 0 ? "" : " and " + std::to_string(more) + " more"));
+}
+
+std::string RunProgress::words() const {
+    return std::to_string(ended_) + (unknown_scenes_ == 0 ? " of " : " of at least ") +
+           std::to_string(planned_) + (planned_ == 1 ? " run" : " runs");
+}
+
+} // namespace degs::sim

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/compare/shared_view.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "sim/report.hpp"
+#include "sim/stopwatch.hpp"
+#include "sim/text/progress.hpp"
+
+namespace degs::sim {
+namespace {
+
+std::string bytes_of(const RunResult& result) {
+    return report(result).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+} // namespace
+
+void SharedView::render_reference(TileMode mode) {
+    const std::pair<int, TileMode> tiles{mode == TileMode::Exact ? 0 : frames.front().tile_size,
+                                         mode};
+    if (!reference || reference_tiles != tiles) {
+        reference = make_reference(*cloud, frames.front(), workload_s);
+        reference_tiles = tiles;
+    }
+}
+
+std::string SharedView::run(const RunRequest& request, bool path) const {
+    const Stopwatch wall;
+    Progress::silence();
+    std::vector<const FrameWorkload*> wanted;
+    for (const FrameWorkload& frame : frames) {
+        if (path || wanted.empty()) {
+            wanted.push_back(&frame);
+        }
+    }
+    RunResult result = run_frames(request, wanted);
+    result.scene = scene;
+    if (request.reference && !path) {
+        judge(result, *reference);
+    }
+    result.host.load_s = load_s;
+    result.host.workload_s = workload_s;
+    result.host.wall_s = wall.seconds();
+    return bytes_of(result);
+}
+
+} // namespace degs::sim

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/simulation.hpp"
+
+namespace degs::sim {
+
+/// One view while it is compared: what its runs have in common, made once.
+struct SharedView {
+    std::size_t number = 0; ///< of the view
+    std::string words;      ///< for people
+    std::string folder;     ///< of its reports, below the output folder
+    int camera = 0;
+    SceneFacts scene;
+    const GaussianCloud* cloud = nullptr;
+    std::vector<Camera> cameras; ///< of the path, the view's own first
+    double load_s = 0, workload_s = 0;
+    std::vector<FrameWorkload> frames;  ///< of the present group
+    std::optional<Reference> reference; ///< of `reference_tiles`
+    std::pair<int, TileMode> reference_tiles;
+
+    /// With exact tiles the image does not depend on their size.
+    void render_reference(TileMode mode);
+
+    /// In the child: the report of the whole path, or of its first frame alone, which is compared
+    /// with the reference.
+    std::string run(const RunRequest& request, bool path) const;
+};
+
+} // namespace degs::sim

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/interruption.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstring>
+
+#include <unistd.h>
+
+#include "config/visible_text.hpp"
+
+namespace degs::sim {
+namespace {
+
+constexpr std::array<int, 2> kSignals{SIGINT, SIGTERM};
+constexpr std::size_t kLongest = 512;
+
+/// Two, so that a signal finds one whole while the other is written.
+std::array<std::array<char, kLongest>, 2> sentences{{{"degs: Interrupted.\n"}, {}}};
+std::atomic<const char*> sentence{sentences[0].data()};
+const char* before = ""; ///< clears the line of a terminal that shows how far the program is
+
+void write_text(const char* text) {
+    const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
+    (void)written; // nobody is left to be told
+}
+
+/// Calls only what a signal handler may. SA_RESETHAND has put the default back, which acts when
+/// this returns.
+void speak(int signal) {
+    write_text(before);
+    write_text(sentence.load());
+    std::raise(signal);
+}
+
+} // namespace
+
+void announce_interruption() {
+    before = ::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "";
+    for (const int signal : kSignals) {
+        struct sigaction action {};
+        ::sigaction(signal, nullptr, &action);
+        if (action.sa_handler != SIG_IGN) {
+            action.sa_handler = speak;
+            action.sa_flags = static_cast<int>(SA_RESETHAND);
+            ::sigaction(signal, &action, nullptr);
+        }
+    }
+}
+
+void set_interruption_sentence(const std::string& text) {
+    auto& next = sentence.load() == sentences[0].data() ? sentences[1] : sentences[0];
+    const std::string shown = "degs: " + visible(text);
+    const std::size_t size = std::min(shown.size(), kLongest - 2);
+    shown.copy(next.data(), size);
+    next[size] = '\n';
+    next[size + 1] = '\0';
+    sentence = next.data();
+}
+
+void keep_interruption_quiet() {
+    for (const int signal : kSignals) {
+        struct sigaction action {};
+        ::sigaction(signal, nullptr, &action);
+        if (action.sa_handler == speak) {
+            std::signal(signal, SIG_DFL);
+        }
+    }
+}
+
+} // namespace degs::sim
