@@ -17,6 +17,8 @@ void add_memory_command(CLI::App& program);
 void add_soc_command(CLI::App& program);
 void add_config_command(CLI::App& program);
 void add_accuracy_command(CLI::App& program);
+/// Describes what the other functions have added.
+void add_help_command(CLI::App& program);
 
 /// `--set`, for commands that take one configuration file.
 void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides);

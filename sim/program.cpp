@@ -9,8 +9,11 @@
 
 #include "config/visible_text.hpp"
 #include "sim/command_line/decimal_numbers.hpp"
+#include "sim/command_line/help_text.hpp"
+#include "sim/command_line/suggestion.hpp"
 #include "sim/commands.hpp"
 #include "sim/failure.hpp"
+#include "sim/interruption.hpp"
 #include "sim/text/standard_output.hpp"
 
 namespace degs::sim {
@@ -24,8 +27,14 @@ int fail(int code, const std::string& sentence) {
 
 /// --help and --version.
 std::string answer(const CLI::App& program, const CLI::Success& question) {
-    const bool help = dynamic_cast<const CLI::CallForHelp*>(&question) != nullptr;
-    return help ? program.help() : question.what() + std::string("\n");
+    if (dynamic_cast<const CLI::CallForHelp*>(&question) == nullptr) {
+        return question.what() + std::string("\n");
+    }
+    const CLI::App* command = &program;
+    while (!command->get_subcommands().empty()) {
+        command = command->get_subcommands().back();
+    }
+    return help_text(*command);
 }
 
 /// Runs the command that the arguments ask for.
@@ -35,19 +44,6 @@ void parse(CLI::App& program, int argc, char* argv[]) {
     } catch (const CLI::Success& question) {
         print(answer(program, question));
     }
-}
-
-int fail_parse(const CLI::App& program, const CLI::ParseError& error) {
-    std::string reason = error.what();
-    // CLI11 misses the command before it looks at what stands in its place.
-    if (const auto extras = program.remaining(true); !extras.empty()) {
-        reason = "'" + extras.front() + "' is not expected here";
-    }
-    while (!reason.empty() && (reason.back() == '.' || reason.back() == '\n')) {
-        reason.pop_back();
-    }
-    return fail(kUserError, reason + "; 'degs --help' and 'degs COMMAND --help' tell what is "
-                                     "allowed.");
 }
 
 /// The kernel reports errors as exceptions and is silent otherwise.
@@ -70,6 +66,7 @@ void add_commands(CLI::App& program) {
     add_soc_command(program);
     add_config_command(program);
     add_accuracy_command(program);
+    add_help_command(program);
     require_decimal_numbers(program);
 }
 
@@ -79,6 +76,7 @@ void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides
     command
         .add_option("--set", overrides,
                     "path.to.key=value in place of what the file says; may be repeated")
+        ->type_name("KEY=VALUE")
         ->take_all()
         ->expected(1);
 }
@@ -86,12 +84,13 @@ void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides
 int run_program(int argc, char* argv[]) {
     CLI::App program("SystemC/TLM model of the DeGS accelerator for 3D Gaussian Splatting", "degs");
     try {
+        announce_interruption();
         quieten_kernel();
         add_commands(program);
         parse(program, argc, argv);
         return kSuccess;
     } catch (const CLI::ParseError& error) {
-        return fail_parse(program, error);
+        return fail(kUserError, explain_mistake(program, error));
     } catch (...) {
         const Failure failure = failure_of(std::current_exception());
         return fail(failure.code, failure.sentence);

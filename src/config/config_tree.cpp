@@ -10,6 +10,7 @@
 #include "config/config_words.hpp"
 #include "config/config_yaml.hpp"
 #include "config/error.hpp"
+#include "config/nearby_file.hpp"
 
 namespace degs {
 namespace {
@@ -27,7 +28,9 @@ std::string read_bytes(const fs::path& path, const std::string& place) {
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     if (!file) {
-        throw InputError(name + " cannot be read: " + std::strerror(errno) + ".");
+        const int reason = errno;
+        throw InputError(name + " cannot be read: " + std::strerror(reason) +
+                         (reason == ENOENT ? nearby_file(path) : "") + ".");
     }
     // One byte more than allowed: tells a file that is too long from one that just fits, and ends
     // the reading of an endless one.

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "config/error.hpp"
+#include "config/nearby_file.hpp"
 
 namespace degs {
 namespace {
@@ -12,7 +13,7 @@ std::uint64_t checked_size(const std::string& path) {
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (status.type() == std::filesystem::file_type::not_found) {
-        fail_file(path, "there is no such file.");
+        fail_file(path, "there is no such file" + nearby_file(path) + ".");
     }
     if (std::filesystem::is_directory(status)) {
         fail_file(path, "this is a folder, and a file is needed.");

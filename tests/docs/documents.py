@@ -182,11 +182,11 @@ def helps(program):
     """The options of every command of the program, from its --help."""
     def text(*words):
         return subprocess.run([program, *words, "--help"], capture_output=True, text=True).stdout
-    commands = re.findall(r"^  ([a-z]+) ", text().split("Subcommands:")[-1], re.MULTILINE)
+    commands = re.findall(r"^  ([a-z]+) ", text().split("Commands:")[-1], re.MULTILINE)
     found = {}
     for command in commands:
         below = text(command)
-        nested = re.findall(r"^  ([a-z]+) ", "".join(below.split("Subcommands:")[1:]), re.MULTILINE)
+        nested = re.findall(r"^  ([a-z]+) ", "".join(below.split("Commands:")[1:]), re.MULTILINE)
         found[command] = set(re.findall(r"--[a-z][a-z-]*", below + "".join(text(command, each) for each in nested)))
     return found
 

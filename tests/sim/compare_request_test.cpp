@@ -106,7 +106,7 @@ TEST(HostileParseCameras, Mistakes) {
     for (const char* text :
          {"", ",", "1,", "-1", "1.5", "one", "1 ", "99999999999", "ALL", "0,all", "cameras.json"}) {
         EXPECT_THAT(mistake([&] { parse_cameras(text); }),
-                    HasSubstr("--cameras is '" + std::string(text) + "'"));
+                    HasSubstr("--camera is '" + std::string(text) + "'"));
     }
     EXPECT_THAT(mistake([] { parse_cameras("1,2,1"); }), HasSubstr("Camera 1 is given twice"));
 }
