@@ -12,6 +12,7 @@
 #include "sim/text/standard_output.hpp"
 #include "sim/text/terminal.hpp"
 #include "sim/view_options.hpp"
+#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {
@@ -42,6 +43,7 @@ void run(const RunOptions& options) {
     write_exr(result.accelerator.images.front(), out.path("image.exr"));
     write_png(result.accelerator.images.front(), out.path("image.png"));
     out.write_json("report.json", report(result));
+    print_warnings(result.warnings);
     print(summary(result, out.path("image.exr")) + (options.explain ? explanation(result) : ""));
 }
 

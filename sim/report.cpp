@@ -259,6 +259,7 @@ ordered_json report(const RunResult& result) {
     json["energy"] = unavailable("this version has no energy model");
     json["area"] = area_json(result.config.accelerator().area);
     json["image"] = image_json(result);
+    json["warnings"] = result.warnings;
     json["host"] = host_json(result);
     return json;
 }

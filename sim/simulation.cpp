@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include "sim/stopwatch.hpp"
+#include "sim/warnings.hpp"
 
 namespace degs::sim {
 SceneFacts facts_of(const Scene& scene) {
@@ -81,6 +82,8 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
     result.config = request.config;
     result.camera = frames.front()->camera;
     result.workload = facts_of(*frames.front());
+    result.warnings =
+        saturation_warnings(request.config.accelerator().data_path(), *frames.front());
     Progress progress("simulation");
     result.accelerator = run_accelerator(request.config.accelerator(), frames, request.fidelity,
                                          request.build, progress);

@@ -55,7 +55,8 @@ struct RunResult {
     RunConfig config;
     WorkloadFacts workload; ///< of the first frame
     AcceleratorResult accelerator;
-    std::optional<ImageError> error; ///< first frame against the reference
+    std::vector<std::string> warnings; ///< sentences; see warnings.hpp
+    std::optional<ImageError> error;   ///< first frame against the reference
     HostFacts host;
 };
 

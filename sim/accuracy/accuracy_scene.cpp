@@ -7,6 +7,7 @@
 #include "sim/accuracy/accuracy_numbers.hpp"
 #include "sim/simulation.hpp"
 #include "sim/text/progress.hpp"
+#include "sim/warnings.hpp"
 #include "splat/data_path_renderer.hpp"
 #include "splat/images/flip.hpp"
 #include "splat/images/image_difference.hpp"
@@ -86,11 +87,12 @@ AccuracyRow compare(Frame& frame, const Image& image, const NumberSet& set) {
 }
 
 Image render(Frame& frame, const AccuracyNumbers& numbers, const std::string& name) {
+    const FrameWorkload& own = frame.in(numbers.set);
+    print_warnings(saturation_warnings(numbers.path, own));
     Progress progress(name + " at " + frame.row.resolution + " in " + numbers.set.name);
     DataPathRender options;
     options.numbers = numbers.path;
     options.progress = [&progress](double share) { progress.done(share); };
-    const FrameWorkload& own = frame.in(numbers.set);
     return DataPathRenderer(own, options).render(all_tiles(own));
 }
 

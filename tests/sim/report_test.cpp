@@ -79,8 +79,9 @@ void expect_laws(const json& report) {
 
 TEST(SmallRunReport, HasEveryKeyOfTheContract) {
     const json report = reported_run({}).report;
-    expect_keys(report, {"tool", "schema", "scene", "camera", "config", "workload", "timing",
-                         "stages", "slots", "dram", "buffers", "energy", "area", "image", "host"});
+    expect_keys(report,
+                {"tool", "schema", "scene", "camera", "config", "workload", "timing", "stages",
+                 "slots", "dram", "buffers", "energy", "area", "image", "host", "warnings"});
     EXPECT_EQ(report["schema"]["version"], 1);
     expect_keys(report["workload"], {"gaussians", "visible", "tile_pairs", "fragments", "culled",
                                      "dropped", "projection"});

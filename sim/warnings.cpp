@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/warnings.hpp"
+
+#include <iostream>
+
+#include "sim/text/words.hpp"
+#include "splat/numbers/saturation.hpp"
+
+namespace degs::sim {
+
+std::vector<std::string> saturation_warnings(const DataPathOptions& options,
+                                             const FrameWorkload& frame) {
+    std::vector<std::string> warnings;
+    for (const Saturation& found : saturated_stages(options, frame)) {
+        const double share =
+            static_cast<double>(found.splats) / static_cast<double>(frame.splats.size());
+        warnings.push_back("Stage " + found.stage + " saturates: " + grouped(found.splats) +
+                           " of " + grouped(frame.splats.size()) + " splats (" +
+                           three_digits(100 * share) + " %) lie beyond " +
+                           three_digits(found.limit) + ", the largest value of " + found.format +
+                           "; pipeline.formats." + found.stage + " sets another format.");
+    }
+    return warnings;
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) {
+        std::cerr << "degs: warning: " << warning << '\n';
+    }
+}
+
+} // namespace degs::sim

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "splat/data_path.hpp"
+
+namespace degs::sim {
+
+/// One sentence for each number format of the data path that splats of `frame` leave.
+std::vector<std::string> saturation_warnings(const DataPathOptions& options,
+                                             const FrameWorkload& frame);
+/// Prints them on stderr.
+void print_warnings(const std::vector<std::string>& warnings);
+
+} // namespace degs::sim
