@@ -52,19 +52,16 @@ void put_memory(ConfigNode& tree, const std::string& file) {
 RunConfig load_run_config(const std::string& file, const std::vector<std::string>& overrides,
                           const std::string& memory_file) {
     if (memory_file.empty()) {
-        return load_run_config(ConfigSource::from_file(file, overrides), file);
+        return load_run_config(ConfigSource::from_file(file, overrides));
     }
     ConfigNode tree = ConfigSource::from_file(file).tree();
     put_memory(tree, memory_file);
-    return load_run_config(ConfigSource::from_tree(std::move(tree), overrides), file);
+    return load_run_config(ConfigSource::from_tree(std::move(tree), overrides));
 }
 
-RunConfig load_run_config(const ConfigSource& source, const std::string& where) {
+RunConfig load_run_config(const ConfigSource& source) {
     RunConfig config;
     source.load(config);
-    if (const std::string problem = config.problem(); !problem.empty()) {
-        throw InputError(where + ": " + problem + ".");
-    }
     return config;
 }
 

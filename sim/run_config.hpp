@@ -26,7 +26,7 @@ public:
     const AcceleratorConfig& accelerator() const { return *model_; }
 
     void describe(ConfigVisitor& visitor);
-    /// What single ranges cannot check; one sentence or empty.
+    /// See AcceleratorConfig::problem.
     std::string problem() const { return model_->problem(); }
 
 private:
@@ -38,7 +38,7 @@ private:
 /// named. Throws InputError.
 RunConfig load_run_config(const std::string& file, const std::vector<std::string>& overrides,
                           const std::string& memory_file = "");
-/// The same for what is read already; `where` stands for it in messages.
-RunConfig load_run_config(const ConfigSource& source, const std::string& where);
+/// The same for what is read already.
+RunConfig load_run_config(const ConfigSource& source);
 
 } // namespace degs::sim

@@ -18,7 +18,7 @@ struct Named {
 
 /// A configuration before overrides.
 struct Draft {
-    std::string name, where;
+    std::string name;
     ConfigNode tree;
 };
 
@@ -38,7 +38,7 @@ void add_drafts(std::vector<Draft>& drafts, const std::string& word) {
     const ConfigNode tree = ConfigSource::from_file(file.file).tree();
     const ConfigNode* points = tree.find("points");
     if (points == nullptr) {
-        drafts.push_back({file.name, file.file, tree});
+        drafts.push_back({file.name, tree});
         return;
     }
     for (const ConfigNode& key : tree.children) {
@@ -52,7 +52,7 @@ void add_drafts(std::vector<Draft>& drafts, const std::string& word) {
         if (name == nullptr) {
             throw InputError(point.place + ": a point of a study needs a key 'name'.");
         }
-        drafts.push_back({name->text, name->place, point});
+        drafts.push_back({name->text, point});
     }
 }
 
@@ -143,10 +143,8 @@ std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
     std::vector<NamedConfig> configs;
     configs.reserve(drafts.size());
     for (const Draft& draft : drafts) {
-        configs.push_back(
-            {draft.name, load_run_config(ConfigSource::from_tree(
-                                             draft.tree, overrides_of(draft.name, overrides)),
-                                         draft.where)});
+        configs.push_back({draft.name, load_run_config(ConfigSource::from_tree(
+                                           draft.tree, overrides_of(draft.name, overrides)))});
     }
     return configs;
 }

@@ -54,28 +54,26 @@ void GbuConfig::describe(ConfigVisitor& visitor) {
     visitor.section("pixel_buffer", pixel_buffer, "tiles in flight");
     visitor.section("monitor", monitor, "cancellation of finished tiles");
     visitor.section("memory", memory, "off-chip memory");
+    require_sizes(visitor);
 }
 
-std::string GbuConfig::problem() const {
-    const auto need = [](const std::string& what, int has, int least) {
-        return what + " holds " + std::to_string(has) + ", but at least " + std::to_string(least) +
-               " must fit";
-    };
-    if (engines.row_pes > tile_size) {
-        return "engines.row_pes = " + std::to_string(engines.row_pes) +
-               " must not be above tile_size = " + std::to_string(tile_size);
-    }
-    if (const std::string why = pixel_buffer.problem(tile_size, engines.count); !why.empty()) {
-        return why;
-    }
-    if (sort_capacity() < sorting.chunk) {
-        return need("list_buffer.bytes per sorting unit in list entries", sort_capacity(),
-                    sorting.chunk);
-    }
-    if (reuse_cache.bytes != 0 && cache_records() < 1) {
-        return need("reuse_cache.bytes per engine in splat records", cache_records(), 1);
-    }
-    return "";
+void GbuConfig::require_sizes(ConfigVisitor& visitor) const {
+    visitor.require(engines.row_pes <= tile_size, {"engines.row_pes",
+                                                   "must not be above tile_size",
+                                                   std::to_string(tile_size),
+                                                   {"tile_size"}});
+    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_size, engines.count,
+                               {"tile_size", "engines.count"});
+    visitor.require_at_least("list_buffer.bytes", list_buffer.bytes,
+                             std::int64_t{sorting.chunk} * traffic.list_entry_bytes * sorting.count,
+                             "to hold a chunk of list entries for every sorting unit",
+                             {"sorting.chunk", "sorting.count", "traffic.list_entry_bytes"});
+    const std::int64_t records = std::int64_t{engines.count} * traffic.splat_bytes;
+    visitor.require(reuse_cache.bytes == 0 || reuse_cache.bytes >= records,
+                    {"reuse_cache.bytes",
+                     "must be 0 or hold a splat record for every engine",
+                     std::to_string(records),
+                     {"engines.count", "traffic.splat_bytes"}});
 }
 
 } // namespace degs

@@ -53,7 +53,6 @@ struct GbuConfig : AcceleratorConfig {
         return std::make_unique<GbuConfig>(*this);
     }
     void describe(ConfigVisitor& visitor) override;
-    std::string problem() const override;
     int tile_size_px() const override { return tile_size; }
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
@@ -87,6 +86,9 @@ struct GbuConfig : AcceleratorConfig {
         return std::int64_t{list_buffer.bytes} + splat_buffer_bytes() + reuse_cache.bytes +
                queue_bytes() + pixel_buffer.bytes;
     }
+
+private:
+    void require_sizes(ConfigVisitor& visitor) const;
 };
 
 } // namespace degs

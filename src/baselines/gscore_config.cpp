@@ -34,40 +34,21 @@ void GscoreConfig::describe(ConfigVisitor& visitor) {
     visitor.section("pixel_buffer", pixel_buffer, "tiles in flight, part of buffer.bytes");
     visitor.section("monitor", monitor, "cancellation of finished tiles");
     visitor.section("memory", memory, "off-chip memory");
+    require_sizes(visitor);
 }
 
-int GscoreConfig::splat_chunks() const {
-    const double share =
-        (1.0 - buffer.sort_share) * (buffer.bytes - pixel_buffer.bytes) / sorting.count;
-    return static_cast<int>(share) / (traffic.splat_bytes * fetching.chunk);
-}
-
-int GscoreConfig::sort_capacity() const {
-    const double share = buffer.sort_share * (buffer.bytes - pixel_buffer.bytes) / sorting.count;
-    return static_cast<int>(share) / traffic.list_entry_bytes;
-}
-
-std::string GscoreConfig::problem() const {
-    const auto need = [](const std::string& what, int has, int least) {
-        return what + " holds " + std::to_string(has) + ", but at least " + std::to_string(least) +
-               " must fit";
-    };
-    if (const std::string why = pixel_buffer.problem(tile_size_px()); !why.empty()) {
-        return why;
-    }
-    if (pixel_buffer.bytes > buffer.bytes) {
-        return "pixel_buffer.bytes = " + std::to_string(pixel_buffer.bytes) +
-               " is part of buffer.bytes = " + std::to_string(buffer.bytes) + " and cannot be more";
-    }
-    if (splat_chunks() < 1) {
-        return need("buffer.bytes per sorting unit in chunks of fetching.chunk splats",
-                    splat_chunks(), 1);
-    }
-    if (sort_capacity() < sorting.chunk) {
-        return need("buffer.bytes x sort_share per sorting unit in list entries", sort_capacity(),
-                    sorting.chunk);
-    }
-    return "";
+void GscoreConfig::require_sizes(ConfigVisitor& visitor) const {
+    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_size_px(), 1, {"array.lanes"});
+    const int lists = sorting.chunk * traffic.list_entry_bytes;
+    visitor.require_at_least(
+        "buffer.bytes", buffer.bytes,
+        pixel_buffer.bytes + splat_share().least_buffer(chunk_bytes()),
+        "to hold the tiles and a chunk of splats for every sorting unit",
+        {"pixel_buffer.bytes", "buffer.sort_share", "sorting.count", "fetching.chunk"});
+    visitor.require_at_least(
+        "buffer.bytes", buffer.bytes, pixel_buffer.bytes + sort_share().least_buffer(lists),
+        "to hold the tiles and a chunk of list entries for every sorting unit",
+        {"pixel_buffer.bytes", "buffer.sort_share", "sorting.count", "sorting.chunk"});
 }
 
 } // namespace degs

@@ -5,6 +5,7 @@
 
 #include "baselines/lockstep_array.hpp"
 #include "modules/array/pixel_buffer.hpp"
+#include "modules/buffer_share.hpp"
 #include "modules/front_end/hierarchical_sorter.hpp"
 #include "modules/front_end/projection_unit.hpp"
 #include "modules/front_end/splat_fetcher.hpp"
@@ -44,7 +45,6 @@ struct GscoreConfig : AcceleratorConfig {
         return std::make_unique<GscoreConfig>(*this);
     }
     void describe(ConfigVisitor& visitor) override;
-    std::string problem() const override;
     int pes() const override { return array.lanes; }
     int tile_size_px() const override { return array.tile_size(); }
     TileMode tile_mode() const override { return pipeline.tiles; }
@@ -59,9 +59,18 @@ struct GscoreConfig : AcceleratorConfig {
                                         const BuildOptions& options) const override;
 
     /// Splat chunks that a fetcher's share of the buffer holds.
-    int splat_chunks() const;
+    int splat_chunks() const { return splat_share().bytes_of(shared_bytes()) / chunk_bytes(); }
     /// Keys that a sorter's share of the buffer holds.
-    int sort_capacity() const;
+    int sort_capacity() const {
+        return sort_share().bytes_of(shared_bytes()) / traffic.list_entry_bytes;
+    }
+
+private:
+    BufferShare splat_share() const { return {1.0 - buffer.sort_share, sorting.count}; }
+    BufferShare sort_share() const { return {buffer.sort_share, sorting.count}; }
+    int shared_bytes() const { return buffer.bytes - pixel_buffer.bytes; }
+    int chunk_bytes() const { return traffic.splat_bytes * fetching.chunk; }
+    void require_sizes(ConfigVisitor& visitor) const;
 };
 
 } // namespace degs

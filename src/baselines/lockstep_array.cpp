@@ -7,8 +7,8 @@ namespace degs {
 
 void LockstepArray::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("lanes", lanes, 16, 1024, "pixel lanes; GSCore has 64, a square of 8 x 8 px");
-    visitor.require(lanes == side() * side() && 32 % side() == 0, "lanes",
-                    "must be 16, 64, 256 or 1024, a square of 4, 8, 16 or 32 px");
+    visitor.require(lanes == side() * side() && 32 % side() == 0,
+                    {"lanes", "must be a square of 4, 8, 16 or 32 px", "16, 64, 256 or 1024"});
     visitor.choice("subtile_skip", subtile_skip, {"obb", "exact", "none"},
                    "which sub-tiles a splat's bitmap names: those its oriented box meets (GSCore), "
                    "those with a pixel inside the ellipse, or all");
@@ -16,7 +16,7 @@ void LockstepArray::Config::describe(ConfigVisitor& visitor) {
                     "groups of lanes with a place in the list of their own; a group owns the "
                     "sub-tiles s = c mod clusters and takes `clusters` cycles for one; 1 keeps one "
                     "region per cycle, as the paper says (Sec. II-B)");
-    visitor.require(clusters != 3, "clusters", "must divide the lanes: 1, 2 or 4");
+    visitor.require(clusters != 3, {"clusters", "must divide the lanes", "1, 2 or 4"});
     visitor.integer("termination_cycles", termination_cycles, 1, 1024,
                     "cycles; 1: the check of cycle T guides cycle T + 1 (paper, Sec. II-B)");
     visitor.integer("pipeline_cycles", pipeline_cycles, 1, 4096,

@@ -11,6 +11,15 @@
 
 namespace degs {
 
+/// A rule between keys, which no range can say. Keys are relative to the section that requires it
+/// and may name one further down ("span.count").
+struct ConfigRule {
+    const char* key;                      ///< whose value is to change
+    std::string rule;                     ///< what it has to fulfil: "must divide span.count"
+    std::string remedy;                   ///< a value that would do; empty if `rule` names it
+    std::vector<const char*> others = {}; ///< the other keys that decide
+};
+
 /// Walks the fields of a configuration struct. A struct describes itself once,
 ///     void describe(ConfigVisitor& v) { v.integer("rows", rows, 1, 64, "rows per cycle"); }
 /// and reading, validating, printing and documenting all use that one description. `describe` may
@@ -35,10 +44,24 @@ public:
     /// `value` is an index into `names`.
     virtual void choice(const char* key, int& value, const std::vector<const char*>& names,
                         const char* doc) = 0;
-    /// A rule that no range can say, e.g. require(tile % banks == 0, "banks", "must divide tile").
-    /// Stands after the keys it looks at; `key` is the one to blame, of the same section.
-    virtual void require(bool holds, const char* key, const char* rule) {
-        (void)holds, (void)key, (void)rule;
+    /// Stands after the keys that the rule looks at. A reader refuses what does not hold, once
+    /// every single value is known to be right.
+    virtual void require(bool holds, const ConfigRule& rule) { (void)holds, (void)rule; }
+    /// The rule that the integer `key` must be at least `least`; `reason` follows the number: "to
+    /// hold one tile".
+    void require_at_least(const char* key, std::int64_t value, std::int64_t least,
+                          const std::string& reason, const std::vector<const char*>& others) {
+        require(value >= least,
+                {key, "must be at least " + std::to_string(least) + " " + reason, "", others});
+    }
+
+    /// The rule that the integer `key`, above 0, must be a power of two.
+    void require_power_of_two(const char* key, int value) {
+        int below = 1;
+        while (below <= value / 2) {
+            below *= 2;
+        }
+        require(value == below, {key, "must be a power of two", std::to_string(below)});
     }
 
     void integer(const char* key, int& value, int low, int high, const char* doc) {

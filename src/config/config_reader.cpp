@@ -14,6 +14,8 @@ using config_words::join_path;
 using config_words::quote;
 using Kind = ConfigNode::Kind;
 
+constexpr const char* kDefault = "default"; // the place of what no source names
+
 } // namespace
 
 ConfigReader::ConfigReader(const ConfigSource& source) : source_(source) {
@@ -30,6 +32,10 @@ std::string ConfigReader::declare(const char* key) {
     }
     keys.emplace_back(key);
     return join_path(section, key);
+}
+
+std::string ConfigReader::path_of(const char* key) const {
+    return join_path(open_.back().path, key);
 }
 
 template <class Parse>
@@ -52,8 +58,8 @@ template <class Number>
 void ConfigReader::check_standing(const std::string& path, Number value, Number low,
                                   Number high) const {
     if (!(value >= low && value <= high)) {
-        throw InputError("default: key " + quote(path) + " is " +
-                         config_words::number(static_cast<double>(value)) + ", but must be " +
+        throw InputError(std::string(kDefault) + ": key " + quote(path) + " is " +
+                         config_words::number(value) + ", but must be " +
                          config_words::range(low, high) + ".");
     }
 }
@@ -79,8 +85,9 @@ void ConfigReader::integer(const char* key, std::int64_t& value, std::int64_t lo
         value = config_scalar::integer(node, path, low, high);
     });
     if (!given) {
-        check_standing(join_path(open_.back().path, key), value, low, high);
+        check_standing(path_of(key), value, low, high);
     }
+    values_[path_of(key)] = config_words::number(value);
 }
 
 void ConfigReader::real(const char* key, double& value, double low, double high, const char*) {
@@ -88,20 +95,23 @@ void ConfigReader::real(const char* key, double& value, double low, double high,
         value = config_scalar::real(node, path, low, high);
     });
     if (!given) {
-        check_standing(join_path(open_.back().path, key), value, low, high);
+        check_standing(path_of(key), value, low, high);
     }
+    values_[path_of(key)] = config_words::number(value);
 }
 
 void ConfigReader::boolean(const char* key, bool& value, const char*) {
     each_value(key, [&](const ConfigNode& node, const std::string& path) {
         value = config_scalar::boolean(node, path);
     });
+    values_[path_of(key)] = value ? "true" : "false";
 }
 
 void ConfigReader::text(const char* key, std::string& value, const char*) {
     each_value(key, [&](const ConfigNode& node, const std::string& path) {
         value = config_scalar::text(node, path);
     });
+    values_[path_of(key)] = quote(value);
 }
 
 void ConfigReader::choice(const char* key, int& value, const std::vector<const char*>& names,
@@ -111,22 +121,45 @@ void ConfigReader::choice(const char* key, int& value, const std::vector<const c
     });
     if (!given) {
         const auto last = static_cast<std::int64_t>(names.size()) - 1;
-        check_standing(join_path(open_.back().path, key), std::int64_t{value}, std::int64_t{0},
-                       last);
+        check_standing(path_of(key), std::int64_t{value}, std::int64_t{0}, last);
+    }
+    values_[path_of(key)] = names[static_cast<std::size_t>(value)];
+}
+
+void ConfigReader::require(bool holds, const ConfigRule& rule) {
+    if (!holds && broken_rule_.empty()) {
+        broken_rule_ = sentence_of(rule);
     }
 }
 
-void ConfigReader::require(bool holds, const char* key, const char* rule) {
-    if (!holds) {
-        const std::string path = join_path(open_.back().path, key);
-        throw InputError(source_.place(path) + ": key " + quote(path) + " " + rule + ".");
+/// "<place>: key '<key>' is <value>, but <rule>; <remedy> would do (<other> is <value> at
+/// <place>)." The place is that of the key, or of the first of the others that a source names.
+std::string ConfigReader::sentence_of(const ConfigRule& rule) const {
+    const std::string path = path_of(rule.key);
+    const std::string own = source_.place(path);
+    std::string lead = own;
+    std::string others;
+    for (const char* key : rule.others) {
+        const std::string place = source_.place(path_of(key));
+        lead = lead == kDefault ? place : lead;
+        if (place != kDefault) {
+            others += (others.empty() ? "" : ", ") + path_of(key) + " is " +
+                      values_.at(path_of(key)) + (place == lead ? "" : " at " + place);
+        }
     }
+    return lead + ": key " + quote(path) + " is " + values_.at(path) +
+           (own == lead ? "" : " by default") + ", but " + rule.rule +
+           (rule.remedy.empty() ? "" : "; " + rule.remedy + " would do") +
+           (others.empty() ? "" : " (" + others + ")") + ".";
 }
 
 void ConfigReader::finish() const {
     reject_unknown(source_.root_, "");
     for (const auto& override : source_.overrides_) {
         reject_unknown(override.path, override.value.place);
+    }
+    if (!broken_rule_.empty()) {
+        throw InputError(broken_rule_);
     }
 }
 

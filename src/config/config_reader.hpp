@@ -27,8 +27,9 @@ public:
     void text(const char* key, std::string& value, const char* doc) override;
     void choice(const char* key, int& value, const std::vector<const char*>& names,
                 const char* doc) override;
-    void require(bool holds, const char* key, const char* rule) override;
+    void require(bool holds, const ConfigRule& rule) override;
 
+    /// Rejects keys that nobody asked for, then the first rule that does not hold.
     void finish() const;
 
 private:
@@ -38,6 +39,8 @@ private:
     };
 
     std::string declare(const char* key);
+    std::string path_of(const char* key) const;
+    std::string sentence_of(const ConfigRule& rule) const;
     /// Calls `parse(node)` for the file's value, then for the override's; both must be right.
     template <class Parse>
     bool each_value(const char* key, const Parse& parse);
@@ -52,6 +55,8 @@ private:
     const ConfigSource& source_;
     std::vector<Section> open_;
     std::map<std::string, std::vector<std::string>> known_; // keys by path of their section
+    std::map<std::string, std::string> values_;             // as text, by path
+    std::string broken_rule_;                               // the sentence; empty while all hold
 };
 
 } // namespace degs

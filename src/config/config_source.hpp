@@ -44,6 +44,9 @@ public:
         config = loaded;
     }
 
+    /// The same for any function that describes: values are read into what it visits.
+    void read(const std::function<void(ConfigVisitor&)>& describe) const;
+
     /// "file:line" or "--set path=value" of what decides a key, "default" if nothing names it.
     std::string place(const std::string& path) const;
     /// The files as one tree, before overrides: for callers with lists, which structs do not have.
@@ -57,7 +60,6 @@ private:
     };
 
     ConfigSource(ConfigNode root, const std::vector<std::string>& overrides);
-    void read(const std::function<void(ConfigVisitor&)>& describe) const;
     const Override* override_of(const std::string& path) const;
 
     ConfigNode root_;

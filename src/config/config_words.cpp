@@ -48,6 +48,10 @@ std::string number(double value) {
     return {buffer.data(), end};
 }
 
+std::string number(std::int64_t value) {
+    return std::to_string(value);
+}
+
 std::string join_path(const std::string& section, const std::string& key) {
     return section.empty() || key.empty() ? section + key : section + "." + key;
 }

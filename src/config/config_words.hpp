@@ -10,6 +10,7 @@ namespace degs::config_words {
 
 /// Shortest decimal text that reads back as the same double.
 std::string number(double value);
+std::string number(std::int64_t value);
 /// "memory" + "latency_ns" = "memory.latency_ns"; the root section has the empty path.
 std::string join_path(const std::string& section, const std::string& key);
 std::string list(const std::vector<std::string>& words);

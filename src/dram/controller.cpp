@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dram/controller.hpp"
 
+#include "config/config_words.hpp"
 #include "dram/queue.hpp"
 
 namespace degs::dram {
@@ -38,7 +39,10 @@ void ControllerConfig::describe(ConfigVisitor& visitor) {
                  "share of the write queue; from here on writes go first, about 80 % is usual");
     visitor.real("write_low", write_low, 0.0, 1.0,
                  "share of the write queue; down to here if a read waits, about 20 % is usual");
-    visitor.require(write_low <= write_high, "write_low", "must not be above write_high");
+    visitor.require(write_low <= write_high, {"write_low",
+                                              "must not be above write_high",
+                                              config_words::number(write_high),
+                                              {"write_high"}});
     visitor.choice("scheduler", scheduler, names_of(schedulers()),
                    "frfcfs: row hits first, then the oldest; bank_fcfs: in order within a bank; "
                    "fcfs: in order");

@@ -30,19 +30,13 @@ unsigned folded(std::uint64_t value, unsigned width) {
     return result;
 }
 
-[[noreturn]] void reject(const std::string& order, const std::string& why) {
-    throw InputError("The key 'order' of the address mapping is " + config_words::quote(order) +
-                     ", but " + why + ".");
-}
-
 } // namespace
 
 void Mapping::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("interleave_bytes", interleave_bytes, 64, 2048,
                     "bytes, a power of two; neighbours of this size are in different channels. 256 "
                     "keeps a record of 256 B in one row: one activation instead of four");
-    visitor.require((interleave_bytes & (interleave_bytes - 1)) == 0, "interleave_bytes",
-                    "must be a power of two");
+    visitor.require_power_of_two("interleave_bytes", interleave_bytes);
     visitor.text("order", order,
                  "fields from low to high: column, group, bank, row; column:2 takes two bits, a "
                  "field without a number all that are left. Groups low: a stream alternates them");
@@ -53,20 +47,33 @@ void Mapping::Config::describe(ConfigVisitor& visitor) {
                     "that meet in one bank");
 }
 
-Mapping::Mapping(const Config& config, const Timing& timing, unsigned channels)
-    : fold_channel_(config.fold_channel), fold_bank_(config.fold_bank),
-      capacity_(std::uint64_t{channels} * kBanks * kPageBytes *
-                static_cast<std::uint64_t>(timing.rows)) {
+Mapping::Mapping(const Config& config, const Timing& timing, unsigned channels) {
+    const std::string problem = build(config, timing, channels);
+    if (!problem.empty()) {
+        throw InputError("The order " + config_words::quote(config.order) +
+                         " of an address mapping " + problem + ".");
+    }
+}
+
+std::string Mapping::problem(const Config& config, const Timing& timing, int channels) {
+    return Mapping().build(config, timing, static_cast<unsigned>(channels));
+}
+
+std::string Mapping::build(const Config& config, const Timing& timing, unsigned channels) {
+    fold_channel_ = config.fold_channel;
+    fold_bank_ = config.fold_bank;
+    const auto rows = static_cast<std::uint64_t>(timing.rows);
+    capacity_ = channels * rows * kBanks * kPageBytes;
     const unsigned group_bits = log2_of(timing.groups());
     bits_ = {static_cast<std::uint8_t>(log2_of(kPageBytes / kAccessBytes)),
              static_cast<std::uint8_t>(group_bits),
              static_cast<std::uint8_t>(log2_of(kBanks) - group_bits),
-             static_cast<std::uint8_t>(log2_of(static_cast<std::uint64_t>(timing.rows))),
+             static_cast<std::uint8_t>(log2_of(rows)),
              static_cast<std::uint8_t>(log2_of(channels))};
-    read_order(config.order, log2_of(static_cast<std::uint64_t>(config.interleave_bytes)));
+    return read_order(config.order, log2_of(static_cast<std::uint64_t>(config.interleave_bytes)));
 }
 
-void Mapping::read_order(const std::string& order, unsigned grain_bits) {
+std::string Mapping::read_order(const std::string& order, unsigned grain_bits) {
     std::istringstream words(order);
     for (std::string word; words >> word;) {
         const std::size_t colon = word.find(':');
@@ -75,31 +82,35 @@ void Mapping::read_order(const std::string& order, unsigned grain_bits) {
             ++field;
         }
         if (field == kChannel) {
-            reject(order, "must consist of column, group, bank and row");
+            return "must consist of column, group, bank and row";
         }
         unsigned bits = bits_[field] - taken_[field];
         if (colon != std::string::npos) {
-            bits = std::min(bits, read_count(order, word.substr(colon + 1), field));
+            const std::string count = word.substr(colon + 1);
+            if (std::string problem = count_problem(count, field); !problem.empty()) {
+                return problem;
+            }
+            bits = std::min(bits, static_cast<unsigned>(count[0] - '0'));
         }
         place_field(field, bits, grain_bits);
     }
     for (unsigned field = 0; field < kChannel; ++field) {
         if (taken_[field] != bits_[field]) {
-            reject(order, std::string("must name every bit of the ") + kFieldNames[field]);
+            return std::string("must name every bit of the ") + kFieldNames[field];
         }
     }
+    return "";
 }
 
-unsigned Mapping::read_count(const std::string& order, const std::string& count,
-                             unsigned field) const {
+std::string Mapping::count_problem(const std::string& count, unsigned field) const {
     if (count.size() != 1 || count[0] < '1' || count[0] > '9') {
-        reject(order, "a number of bits must be 1 to 9");
+        return "must have numbers of bits from 1 to 9";
     }
     const auto wanted = static_cast<unsigned>(count[0] - '0');
     if (bits_[field] != 0 && wanted + taken_[field] > bits_[field]) {
-        reject(order, std::string("there are not that many bits of ") + kFieldNames[field]);
+        return std::string("must not name more bits than there are of the ") + kFieldNames[field];
     }
-    return wanted;
+    return "";
 }
 
 // The channel comes where the grain ends.

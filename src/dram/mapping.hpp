@@ -34,6 +34,8 @@ public:
 
     /// `channels` is a power of two. Throws InputError if `order` does not name every bit once.
     Mapping(const Config& config, const Timing& timing, unsigned channels);
+    /// What `order` must be instead ("must ..."); empty if it names every bit once.
+    static std::string problem(const Config& config, const Timing& timing, int channels);
 
     /// Of the access that holds `address`, which is below capacity().
     Place place(std::uint64_t address) const;
@@ -48,19 +50,21 @@ private:
         std::uint8_t field, shift, bits, field_shift;
     };
     using Values = std::array<unsigned, kFields>;
-    void read_order(const std::string& order, unsigned grain_bits);
-    unsigned read_count(const std::string& order, const std::string& count, unsigned field) const;
+    Mapping() = default;
+    std::string build(const Config& config, const Timing& timing, unsigned channels);
+    std::string read_order(const std::string& order, unsigned grain_bits);
+    std::string count_problem(const std::string& count, unsigned field) const;
     void place_field(unsigned field, unsigned bits, unsigned grain_bits);
     void append(unsigned field, unsigned bits);
     /// Its own inverse, because it depends on nothing that it changes.
     void fold(Values& values) const;
 
-    bool fold_channel_, fold_bank_;
+    bool fold_channel_ = false, fold_bank_ = false;
     std::array<std::uint8_t, kFields> bits_{}; // of each field
     std::array<std::uint8_t, kFields> taken_{};
     unsigned address_bits_ = 6;
     std::vector<Piece> pieces_; // from low to high
-    std::uint64_t capacity_;
+    std::uint64_t capacity_ = 0;
 };
 
 } // namespace degs::dram

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dram/timing.hpp"
 
+#include <algorithm>
+
 namespace degs::dram {
 namespace {
 
@@ -81,18 +83,26 @@ void describe_organisation(Timing& t, ConfigVisitor& v) {
              "bg: 4 groups of 4 banks, needed above 3200 MT/s; 16b: 16 banks without groups");
     v.integer("burst_length", t.burst_length, 16, 32,
               "beats of a column command: 16 = 32 B; 32 = 64 B, in 16b mode only here");
-    v.require(t.burst_length == 16 || t.burst_length == 32, "burst_length", "must be 16 or 32");
-    v.require(t.burst_length == 16 || t.bank_mode == Timing::BankMode::Banks16, "burst_length",
-              "must be 16 in bank mode bg: a burst in two halves is not modelled");
+    v.require(t.burst_length == 16 || t.burst_length == 32,
+              {"burst_length", "must be 16 or 32", ""});
+    v.require(t.burst_length == 16 || t.bank_mode == Timing::BankMode::Banks16,
+              {"burst_length",
+               "must be 16 in bank mode bg, where a burst in two halves is not modelled",
+               "",
+               {"bank_mode"}});
     v.integer("rows", t.rows, 1024, 262144,
               "per bank, a power of two; 32768 = 8 Gb per x16 channel, 65536 = 16 Gb");
-    v.require((t.rows & (t.rows - 1)) == 0, "rows", "must be a power of two");
+    v.require_power_of_two("rows", t.rows);
 }
 
 void describe_access(Timing& t, ConfigVisitor& v) {
     v.integer("rl", t.rl, 1, 200, "CK; RD to first beat, set by a mode register");
     v.integer("wl", t.wl, 1, 200, "CK; WR to first beat, set A of the mode register");
-    v.require(t.rl + t.burst_length / 8 + 2 > t.wl, "wl", "must be below rl + BL/n + 2");
+    const int read_end = t.rl + t.burst_length / 8 + 2;
+    v.require(t.wl < read_end, {"wl",
+                                "must be below rl + burst_length / 8 + 2",
+                                std::to_string(std::min(read_end - 1, 200)),
+                                {"rl", "burst_length"}});
     v.integer("rcd", t.rcd, 1, 200, "CK; ACT-1 to RD or WR, max(2 CK, 18 ns)");
     v.integer("rp_pb", t.rp_pb, 1, 200, "CK; PRE of a bank to ACT-1, max(2 CK, 18 ns)");
     v.integer("rp_ab", t.rp_ab, 1, 200, "CK; PRE of all banks to ACT-1, max(2 CK, 21 ns)");
@@ -117,10 +127,12 @@ void describe_refresh(Timing& t, ConfigVisitor& v) {
     v.integer("rfc_pb", t.rfc_pb, 1, 4000, "CK; per-bank refresh: 120 ns at 8 Gb, 140 at 16 Gb");
     v.integer("pbr2pbr", t.pbr2pbr, 1, 4000, "CK; per-bank refresh to the next, 90 ns");
     v.integer("pbr2act", t.pbr2act, 1, 1000, "CK; per-bank refresh to ACT-1 elsewhere, 7.5 ns");
-    v.require(t.rfc_ab + t.rp_ab + t.ras + t.wl + t.wr < t.refi, "refi",
-              "must leave time between two refreshes of rfc_ab");
-    v.require(t.pbr2pbr < t.refi / static_cast<int>(kRefreshSteps), "pbr2pbr",
-              "must be below refi / 8");
+    v.require_at_least("refi", t.refi, t.rfc_ab + t.rp_ab + t.ras + t.wl + t.wr + 1,
+                       "to leave time between two refreshes",
+                       {"rfc_ab", "rp_ab", "ras", "wl", "wr"});
+    const int step = t.refi / static_cast<int>(kRefreshSteps);
+    v.require(t.pbr2pbr < step,
+              {"pbr2pbr", "must be below refi / 8", std::to_string(step - 1), {"refi"}});
 }
 
 } // namespace

@@ -14,7 +14,7 @@ void DegsConfig::Pipeline::describe(ConfigVisitor& visitor) {
         "fp32 and fp64); a number set's own ends do not count");
     visitor.integer(
         "span_delta", span_delta, 0, 16,
-        "px added at both ends unless they are exact; the paper gives no value, 0 is its least");
+        "px added at both ends unless they are exact; the paper gives no value, 0 is the minimum");
 }
 
 void DegsConfig::GaussianBuffer::describe(ConfigVisitor& visitor) {
@@ -109,63 +109,64 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
     visitor.section("pixel_buffer", pixel_buffer, "tiles in flight");
     visitor.section("monitor", monitor, "cancellation of finished tiles");
     visitor.section("memory", memory, "off-chip memory");
+    require_counts(visitor);
+    require_sizes(visitor);
+    require_packing(visitor);
 }
 
-int DegsConfig::gaussian_chunks() const {
-    const double share = (1.0 - gaussian_buffer.sort_share) * gaussian_buffer.bytes / sorting.count;
-    return static_cast<int>(share) / (traffic.splat_bytes * fetching.chunk);
+void DegsConfig::require_sizes(ConfigVisitor& visitor) const {
+    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_size, 1, {"tile_size"});
+    visitor.require_at_least(
+        "span_buffer.bytes", span_buffer.bytes, std::int64_t{span_buffer.row_bytes} * span.count,
+        "to hold a row for every Span Unit", {"span_buffer.row_bytes", "span.count"});
+    visitor.require_at_least(
+        "gaussian_buffer.bytes", gaussian_buffer.bytes, splat_share().least_buffer(chunk_bytes()),
+        "to hold a chunk of splats for every Sorting Unit",
+        {"gaussian_buffer.sort_share", "sorting.count", "fetching.chunk", "traffic.splat_bytes"});
+    visitor.require_at_least(
+        "gaussian_buffer.bytes", gaussian_buffer.bytes,
+        sort_share().least_buffer(2 * traffic.list_entry_bytes),
+        "to hold two list entries for every Sorting Unit",
+        {"gaussian_buffer.sort_share", "sorting.count", "traffic.list_entry_bytes"});
+    const int entry = feature_buffer.entry_bytes * scheduler.banks;
+    visitor.require_at_least("feature_buffer.bytes", feature_buffer.bytes, entry,
+                             "to hold a splat for every bank",
+                             {"feature_buffer.entry_bytes", "scheduler.banks"});
+    constexpr int kMostEntries = 65535; // their numbers have 16 bits
+    visitor.require(feature_entries() <= kMostEntries,
+                    {"feature_buffer.bytes",
+                     "must not hold more than 65535 splats per bank",
+                     std::to_string(std::int64_t{entry} * kMostEntries),
+                     {"feature_buffer.entry_bytes", "scheduler.banks"}});
 }
 
-int DegsConfig::sort_capacity() const {
-    const double share = gaussian_buffer.sort_share * gaussian_buffer.bytes / sorting.count;
-    return static_cast<int>(share) / traffic.list_entry_bytes;
-}
-
-std::string DegsConfig::problem() const {
-    const auto need = [](const std::string& what, int has, int least) {
-        return what + " holds " + std::to_string(has) + ", but at least " + std::to_string(least) +
-               " must fit";
-    };
-    if (span.count % slicing.count != 0) {
-        return "slicing.count = " + std::to_string(slicing.count) +
-               " must divide span.count = " + std::to_string(span.count);
-    }
-    if (scheduler.reuse_cycles < array.writeback_cycles) {
-        return "scheduler.reuse_cycles = " + std::to_string(scheduler.reuse_cycles) +
-               " must not be below array.writeback_cycles = " +
-               std::to_string(array.writeback_cycles);
-    }
-    if (const std::string why = pixel_buffer.problem(tile_size); !why.empty()) {
-        return why;
-    }
-    if (span_lane_depth() < 1) {
-        return need("span_buffer.bytes / span_buffer.row_bytes per Span Unit", span_lane_depth(),
-                    1);
-    }
+void DegsConfig::require_packing(ConfigVisitor& visitor) const {
     // A segment of s pixels can straddle one packet more than it fills.
     const int packets =
         (scheduler.segment_length + array.pes_per_bank - 1) / array.pes_per_bank + 1;
-    if (packing.lead_packets < packets) {
-        return need("packing.lead_packets", packing.lead_packets, packets);
+    visitor.require_at_least("packing.lead_packets", packing.lead_packets, packets,
+                             "because a segment may lie in that many packets",
+                             {"scheduler.segment_length", "array.pes_per_bank"});
+    const std::int64_t bank = std::int64_t{queue_depth()} * scheduler.segment_bytes +
+                              std::int64_t{packets} * packing.task_bytes * array.pes_per_bank;
+    visitor.require_at_least("packing.bytes", packing.bytes, bank * scheduler.banks,
+                             "to hold the waiting segments and " + std::to_string(packets) +
+                                 " packets of every bank",
+                             {"scheduler.banks", "array.pes_per_bank",
+                              "scheduler.queue_segments_per_pe", "scheduler.segment_length"});
+}
+
+void DegsConfig::require_counts(ConfigVisitor& visitor) const {
+    int divisor = slicing.count;
+    while (divisor > 1 && span.count % divisor != 0) {
+        --divisor;
     }
-    if (packing_depth() < packets) {
-        return need("packing.bytes per bank, less the segment queue, in packets", packing_depth(),
-                    packets);
-    }
-    if (feature_entries() < 1 || feature_entries() > 65535) {
-        return need("feature_buffer.bytes / feature_buffer.entry_bytes per bank", feature_entries(),
-                    1) +
-               " and at most 65535";
-    }
-    if (gaussian_chunks() < 1) {
-        return need("gaussian_buffer.bytes per Sorting Unit in chunks of fetching.chunk splats",
-                    gaussian_chunks(), 1);
-    }
-    if (sort_capacity() < 2) {
-        return need("gaussian_buffer.bytes x sort_share per Sorting Unit in list entries",
-                    sort_capacity(), 2);
-    }
-    return "";
+    visitor.require(
+        divisor == slicing.count,
+        {"slicing.count", "must divide span.count", std::to_string(divisor), {"span.count"}});
+    visitor.require_at_least("scheduler.reuse_cycles", scheduler.reuse_cycles,
+                             array.writeback_cycles, "to cover array.writeback_cycles",
+                             {"array.writeback_cycles"});
 }
 
 } // namespace degs

@@ -6,6 +6,7 @@
 
 #include "modules/array/blending_array.hpp"
 #include "modules/array/pixel_buffer.hpp"
+#include "modules/buffer_share.hpp"
 #include "modules/front_end/projection_unit.hpp"
 #include "modules/front_end/sorting_unit.hpp"
 #include "modules/front_end/splat_fetcher.hpp"
@@ -97,7 +98,6 @@ struct DegsConfig : AcceleratorConfig {
         return std::make_unique<DegsConfig>(*this);
     }
     void describe(ConfigVisitor& visitor) override;
-    std::string problem() const override;
     int tile_size_px() const override { return tile_size; }
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
@@ -130,10 +130,23 @@ struct DegsConfig : AcceleratorConfig {
     int feature_entries() const {
         return feature_buffer.bytes / feature_buffer.entry_bytes / scheduler.banks;
     }
+    /// What a Sorting Unit has of the Gaussian Buffer: for sorted splats, and for lists.
+    BufferShare splat_share() const { return {1.0 - gaussian_buffer.sort_share, sorting.count}; }
+    BufferShare sort_share() const { return {gaussian_buffer.sort_share, sorting.count}; }
     /// Splat chunks that a Sorting Unit's share of the Gaussian Buffer holds.
-    int gaussian_chunks() const;
+    int gaussian_chunks() const {
+        return splat_share().bytes_of(gaussian_buffer.bytes) / chunk_bytes();
+    }
     /// Keys that a Sorting Unit's share of the Gaussian Buffer holds.
-    int sort_capacity() const;
+    int sort_capacity() const {
+        return sort_share().bytes_of(gaussian_buffer.bytes) / traffic.list_entry_bytes;
+    }
+
+private:
+    int chunk_bytes() const { return traffic.splat_bytes * fetching.chunk; }
+    void require_counts(ConfigVisitor& visitor) const;
+    void require_sizes(ConfigVisitor& visitor) const;
+    void require_packing(ConfigVisitor& visitor) const;
 };
 
 } // namespace degs

@@ -43,7 +43,7 @@ void FormatsConfig::describe(ConfigVisitor& visitor) {
         NumberSet probe;
         const std::string rule =
             values_[i] == kUnchanged ? "" : override_number(probe, key.name, values_[i]);
-        visitor.require(rule.empty(), place.key.c_str(), rule.c_str());
+        visitor.require(rule.empty(), {place.key.c_str(), rule, ""});
     }
     enter("");
 }

@@ -22,10 +22,10 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
     try {
         (void)data_path();
     } catch (const InputError& error) {
-        problem = std::string("cannot be computed: ") + error.what();
+        problem = std::string("with these formats cannot be computed: ") + error.what();
         problem.pop_back(); // its full stop
     }
-    visitor.require(problem.empty(), "formats", problem.c_str());
+    visitor.require(problem.empty(), {"numbers", problem, ""});
 }
 
 DataPathOptions PipelineConfig::options(SpanEnds ends, int delta) const {

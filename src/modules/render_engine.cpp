@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/render_engine.hpp"
 
+#include "config/config_source.hpp"
+
 namespace degs {
 
 void AreaConfig::describe(ConfigVisitor& visitor) {
@@ -18,6 +20,17 @@ void AcceleratorConfig::describe_common(ConfigVisitor& visitor) {
                     "frames being preprocessed or rendered at a time; 2: lists are double-buffered "
                     "and preprocessing of a frame overlaps rendering of the one before [assumed]");
     visitor.section("frame_end", frame_end, "background pixels, and who waits for a frame");
+}
+
+std::string AcceleratorConfig::problem() const {
+    const std::unique_ptr<AcceleratorConfig> copy = clone();
+    try {
+        ConfigSource::from_overrides().read(
+            [&](ConfigVisitor& visitor) { copy->describe(visitor); });
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
 }
 
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,

@@ -65,8 +65,9 @@ struct AcceleratorConfig {
 
     virtual std::unique_ptr<AcceleratorConfig> clone() const = 0;
     virtual void describe(ConfigVisitor& visitor) = 0;
-    /// Checks what single ranges cannot; one sentence that names the keys, or empty.
-    virtual std::string problem() const = 0;
+    /// What is wrong with a configuration that a program has filled: the first range or rule of
+    /// describe() that does not hold, as one sentence; empty if all do.
+    std::string problem() const;
 
     virtual int pes() const = 0;
     /// Side of the square of pixels whose list is one unit of work, px.

@@ -201,7 +201,7 @@ TEST(HostileGbuConfig, ProblemsAreOneSentenceThatNamesTheKeys) {
         return config.problem();
     };
     EXPECT_EQ(problem([](GbuConfig&) {}), "");
-    EXPECT_NE(problem([](GbuConfig& c) { c.engines.row_pes = 33; }).find("engines.row_pes = 33"),
+    EXPECT_NE(problem([](GbuConfig& c) { c.engines.row_pes = 33; }).find("engines.row_pes"),
               std::string::npos);
     EXPECT_NE(problem([](GbuConfig& c) { c.pixel_buffer.bytes = 1; }).find("pixel_buffer.bytes"),
               std::string::npos);

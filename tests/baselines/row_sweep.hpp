@@ -126,9 +126,7 @@ struct RowSweepConfig : AcceleratorConfig {
         visitor.integer("tile_size", tile_size, 4, 32, "px, and lanes");
         visitor.section("pixel_buffer", parts.pixel_buffer, "tiles in flight");
         visitor.section("memory", parts.memory, "off-chip memory");
-    }
-    std::string problem() const override {
-        return tile_contexts() > 0 ? "" : "pixel_buffer.bytes holds no tile of tile_size";
+        parts.pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_size, 1, {"tile_size"});
     }
     int pes() const override { return tile_size; }
     int tile_size_px() const override { return tile_size; }

@@ -38,7 +38,9 @@ struct Keys {
         v.choice("order", order, {"row-major", "morton", "hilbert"}, "of the tiles");
         v.text("title", title, "for the report");
         v.section("memory", memory, "the memory behind the accelerator");
-        v.require(seed != 13, "seed", "must not be 13 with this many banks");
+        v.require(seed % banks != 5, {"seed", "must not leave 5 by banks", "12", {"banks"}});
+        v.require_at_least("banks", banks, memory.access_bytes / 64, "to keep up",
+                           {"memory.access_bytes", "memory.latency_ns"});
     }
 };
 

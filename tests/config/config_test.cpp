@@ -155,10 +155,36 @@ TEST(ConfigSection, RejectsAScalarOrAListInItsPlace) {
 }
 
 TEST(ConfigRequire, BlamesTheKeyWhereItWasSet) {
-    EXPECT_EQ(error_of("banks: 2\nseed: 13"),
-              "a.yaml:2: key 'seed' must not be 13 with this many banks.");
+    EXPECT_EQ(error_of("seed: 13"),
+              "a.yaml:1: key 'seed' is 13, but must not leave 5 by banks; 12 would do.");
     EXPECT_EQ(error_of("seed: 2", {"seed=13"}),
-              "--set seed=13: key 'seed' must not be 13 with this many banks.");
+              "--set seed=13: key 'seed' is 13, but must not leave 5 by banks; 12 would do.");
+}
+
+TEST(ConfigRequire, NamesTheLinesOfAllKeysThatDecide) {
+    EXPECT_EQ(error_of("banks: 6\nseed: 11"),
+              "a.yaml:2: key 'seed' is 11, but must not leave 5 by banks; 12 would do (banks is 6 "
+              "at a.yaml:1).");
+    EXPECT_EQ(error_of("banks: 4\nmemory:\n  access_bytes: 512\n", {"memory.latency_ns=7"}),
+              "a.yaml:1: key 'banks' is 4, but must be at least 8 to keep up "
+              "(memory.access_bytes is 512 at a.yaml:3, memory.latency_ns is 7 at --set "
+              "memory.latency_ns=7).");
+    EXPECT_EQ(error_of("memory:\n  access_bytes: 640\n"),
+              "a.yaml:2: key 'banks' is 8 by default, but must be at least 10 to keep up "
+              "(memory.access_bytes is 640).");
+}
+
+// A rule that fails because of a misspelt key is not what the user has to hear of.
+TEST(ConfigRequire, ComesAfterSingleKeys) {
+    EXPECT_NE(error_of("seed: 13\nbankz: 3").find("key 'bankz' is unknown"), std::string::npos);
+    EXPECT_NE(error_of("seed: 13\nmemory: {refresh: 3}").find("true or false"), std::string::npos);
+}
+
+TEST(ConfigRequire, ChecksWhatAProgramFilled) {
+    Keys keys;
+    keys.seed = 13;
+    EXPECT_EQ(sentence_of([&] { ConfigSource::from_overrides().load(keys); }),
+              "default: key 'seed' is 13, but must not leave 5 by banks; 12 would do.");
 }
 
 TEST(ConfigDefaults, AreHeldToTheSameRanges) {

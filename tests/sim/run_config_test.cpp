@@ -180,16 +180,5 @@ TEST(Configs, GbuHasTheAreaAndTheMemoryOfTableI) {
     }
 }
 
-TEST(Configs, ProblemsNameTheFile) {
-    const std::string file = std::string(DEGS_CONFIGS) + "/degs-64.yaml";
-    try {
-        load_run_config(file, {"packing.bytes=16"});
-        FAIL() << "a Packing Buffer of one task was accepted";
-    } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
-        EXPECT_NE(std::string(error.what()).find("packing.bytes"), std::string::npos);
-    }
-}
-
 } // namespace
 } // namespace degs::sim

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/gcc/config.hpp"
 
+#include "tlm/ceil_div.hpp"
+
 namespace degs::gcc {
 
 Config::Config() {
@@ -30,38 +32,27 @@ void Config::describe(ConfigVisitor& visitor) {
     visitor.section("image_buffer", image_buffer, "pixels of the views in flight");
     visitor.section("monitor", monitor, "cancellation of finished views");
     visitor.section("memory", memory, "off-chip memory");
+    require_sizes(visitor);
 }
 
-std::string Config::problem() const {
-    if (tile_contexts() < 1) {
-        return "image_buffer.bytes / image_buffer.state_bytes holds " +
-               std::to_string(image_buffer.bytes / image_buffer.state_bytes) +
-               " pixels, but a view of view_size = " + std::to_string(view_size) + " has " +
-               std::to_string(view_size * view_size);
-    }
+void Config::require_sizes(ConfigVisitor& visitor) const {
+    image_buffer.require_tiles(visitor, "image_buffer", view_size, 1, {"view_size"});
     constexpr int kMostViews = 4096;
-    if (tile_contexts() > kMostViews) {
-        return "image_buffer.bytes holds " + std::to_string(tile_contexts()) +
-               " views of view_size = " + std::to_string(view_size) + "; at most " +
-               std::to_string(kMostViews) + " are supported";
-    }
-    if (array.window * Footprint::kMaxWindows < view_size) {
-        return "array.window = " + std::to_string(array.window) +
-               " is too small for view_size = " + std::to_string(view_size) + ": at most " +
-               std::to_string(Footprint::kMaxWindows) + " windows may lie side by side";
-    }
-    if (colour.block * BlockMask::kMaxBlocks < view_size) {
-        return "colour.block = " + std::to_string(colour.block) +
-               " is too small for view_size = " + std::to_string(view_size) + ": at most " +
-               std::to_string(BlockMask::kMaxBlocks) + " blocks may lie side by side";
-    }
-    if (group_bytes() > group_buffer_bytes) {
-        return "group_buffer_bytes = " + std::to_string(group_buffer_bytes) +
-               " does not hold projection.groups_ahead x projection.group Gaussians between all "
-               "stages: " +
-               std::to_string(group_bytes()) + " bytes";
-    }
-    return "";
+    const std::int64_t view = std::int64_t{image_buffer.state_bytes} * view_size * view_size;
+    visitor.require(tile_contexts() <= kMostViews, {"image_buffer.bytes",
+                                                    "must not hold more than 4096 views",
+                                                    std::to_string(view * kMostViews),
+                                                    {"image_buffer.state_bytes", "view_size"}});
+    visitor.require_at_least(
+        "array.window", array.window, ceil_div(view_size, Footprint::kMaxWindows),
+        "so that at most 64 windows lie side by side in a view", {"view_size"});
+    visitor.require_at_least("colour.block", colour.block,
+                             ceil_div(view_size, BlockMask::kMaxBlocks),
+                             "so that at most 64 blocks lie side by side in a view", {"view_size"});
+    visitor.require_at_least(
+        "group_buffer_bytes", group_buffer_bytes, group_bytes(),
+        "to hold projection.groups_ahead groups between all stages",
+        {"projection.groups_ahead", "projection.group", "splat_bytes", "traffic.list_entry_bytes"});
 }
 
 } // namespace degs::gcc

@@ -34,7 +34,6 @@ struct Config : AcceleratorConfig {
         return std::make_unique<Config>(*this);
     }
     void describe(ConfigVisitor& visitor) override;
-    std::string problem() const override;
     int pes() const override { return array.pes(); }
     int tile_size_px() const override { return view_size; }
     TileMode tile_mode() const override { return pipeline.tiles; }
@@ -58,6 +57,9 @@ struct Config : AcceleratorConfig {
     int group_bytes() const {
         return listed_gaussians() * (traffic.list_entry_bytes + 4 * splat_bytes);
     }
+
+private:
+    void require_sizes(ConfigVisitor& visitor) const;
 };
 
 } // namespace degs::gcc

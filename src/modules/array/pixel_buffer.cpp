@@ -41,22 +41,22 @@ void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
                     "pixels per cycle when a finished tile is read out; one per PE [assumed]");
 }
 
-std::string PixelBuffer::Config::problem(int tile_size, int least) const {
-    const std::int64_t tile_bytes = std::int64_t{state_bytes} * tile_size * tile_size;
-    const int held = contexts(tile_size);
-    const std::string what = "pixel_buffer.bytes = " + std::to_string(bytes) + " holds " +
-                             std::to_string(held) + " tiles of " + std::to_string(tile_size) +
-                             " x " + std::to_string(tile_size) +
-                             " px at pixel_buffer.state_bytes = " + std::to_string(state_bytes);
-    if (held < least) {
-        return what + ", but at least " + std::to_string(least) +
-               " must fit: " + std::to_string(tile_bytes * least) + " bytes";
-    }
-    if (held > kMostContexts) {
-        return what + ", but at most " + std::to_string(kMostContexts) +
-               " are supported: " + std::to_string(tile_bytes * (kMostContexts + 1) - 1) + " bytes";
-    }
-    return "";
+void PixelBuffer::Config::require_tiles(ConfigVisitor& visitor, const std::string& section,
+                                        int tile_size, int tiles,
+                                        std::vector<const char*> others) const {
+    const std::string state_key = section + ".state_bytes";
+    others.insert(others.begin(), state_key.c_str());
+    const std::string key = section + ".bytes";
+    const std::string side = std::to_string(tile_size);
+    const std::string of = " of " + side + " x " + side + " px";
+    const std::int64_t tile = std::int64_t{state_bytes} * tile_size * tile_size;
+    visitor.require_at_least(
+        key.c_str(), bytes, tiles * tile,
+        "to hold " + std::to_string(tiles) + (tiles == 1 ? " tile" : " tiles") + of, others);
+    visitor.require(contexts(tile_size) <= kMostContexts,
+                    {key.c_str(),
+                     "must not hold more than " + std::to_string(kMostContexts) + " tiles" + of,
+                     std::to_string(tile * kMostContexts), others});
 }
 
 PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& config,

@@ -33,10 +33,12 @@ public:
         int writes_in_flight = 4; ///< tile writes not yet acknowledged
         ContextRelease release = ContextRelease::Tile;
         void describe(ConfigVisitor& visitor);
+        /// Requires room for `tiles` contexts, and for no more than kMostContexts; `section` is
+        /// where these keys stand, `others` decide the size of a tile.
+        void require_tiles(ConfigVisitor& visitor, const std::string& section, int tile_size,
+                           int tiles, std::vector<const char*> others) const;
         /// Tile contexts that fit; 0 if not even one does.
         int contexts(int tile_size) const { return bytes / (state_bytes * tile_size * tile_size); }
-        /// One sentence if fewer than `least` contexts fit, or more than kMostContexts; else empty.
-        std::string problem(int tile_size, int least = 1) const;
     };
     struct Stats {
         Cycle readout_busy = 0;

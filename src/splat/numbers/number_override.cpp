@@ -191,8 +191,7 @@ std::string override_number(NumberSet& set, const std::string& name, const std::
                 set.name.append(" ").append(name).append("=").append(value);
                 return "";
             }
-            std::string rule = "must be ";
-            return rule.append(allowed).append(", not '").append(value).append("'");
+            return "must be " + allowed;
         }
         names.append(names.empty() ? "" : ", ").append(part.key.name);
     }

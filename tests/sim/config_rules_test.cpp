@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rules between keys: each is broken once, and what its sentence proposes must mend it.
+#include <algorithm>
+#include <regex>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "config/error.hpp"
+#include "sim/run_config.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct Broken {
+    std::string design;
+    std::vector<std::string> overrides;
+    std::string key; ///< to change
+};
+
+std::ostream& operator<<(std::ostream& out, const Broken& broken) {
+    return out << broken.design << " " << broken.key << " " << broken.overrides.front();
+}
+
+const std::vector<Broken>& broken_rules() {
+    static const std::string lpddr5 = "memory.lpddr5.";
+    static const std::vector<Broken> all = {
+        {"degs-64", {"slicing.count=3"}, "slicing.count"},
+        {"degs-64", {"span.count=7"}, "slicing.count"},
+        {"degs-64", {"scheduler.reuse_cycles=2"}, "scheduler.reuse_cycles"},
+        {"degs-64", {"pixel_buffer.bytes=16383"}, "pixel_buffer.bytes"},
+        {"degs-64", {"span_buffer.bytes=63"}, "span_buffer.bytes"},
+        {"degs-64",
+         {"gaussian_buffer.sort_share=0.95", "fetching.chunk=256"},
+         "gaussian_buffer.bytes"},
+        {"degs-64",
+         {"gaussian_buffer.bytes=300", "gaussian_buffer.sort_share=0.05", "fetching.chunk=1"},
+         "gaussian_buffer.bytes"},
+        {"degs-64", {"feature_buffer.bytes=100"}, "feature_buffer.bytes"},
+        {"degs-64", {"feature_buffer.bytes=1073741824"}, "feature_buffer.bytes"},
+        {"degs-64", {"packing.lead_packets=2"}, "packing.lead_packets"},
+        {"degs-64", {"packing.bytes=4096"}, "packing.bytes"},
+        {"degs-64", {"scheduler.banks=64"}, "packing.bytes"},
+        {"gscore-64", {"array.lanes=100"}, "array.lanes"},
+        {"gscore-64", {"array.clusters=3"}, "array.clusters"},
+        {"gscore-64", {"pixel_buffer.bytes=15"}, "pixel_buffer.bytes"},
+        {"gscore-64", {"pixel_buffer.bytes=300000"}, "buffer.bytes"},
+        {"gscore-64", {"buffer.bytes=8500", "buffer.sort_share=0.9"}, "buffer.bytes"},
+        {"gscore-64", {"buffer.bytes=16000", "buffer.sort_share=0.05"}, "buffer.bytes"},
+        {"gbu-64", {"engines.row_pes=33"}, "engines.row_pes"},
+        {"gbu-64", {"pixel_buffer.bytes=8192"}, "pixel_buffer.bytes"},
+        {"gbu-64", {"list_buffer.bytes=16"}, "list_buffer.bytes"},
+        {"gbu-64", {"reuse_cache.bytes=63"}, "reuse_cache.bytes"},
+        {"gcc-64", {"image_buffer.bytes=1000"}, "image_buffer.bytes"},
+        {"gcc-64", {"view_size=4", "image_buffer.bytes=1073741824"}, "image_buffer.bytes"},
+        {"gcc-64", {"array.window=1"}, "array.window"},
+        {"gcc-64", {"colour.block=1"}, "colour.block"},
+        {"gcc-64", {"projection.group=4096"}, "group_buffer_bytes"},
+        {"degs-64", {lpddr5 + "channels=3"}, lpddr5 + "channels"},
+        {"degs-64", {lpddr5 + "timing.burst_length=24"}, lpddr5 + "timing.burst_length"},
+        {"degs-64", {lpddr5 + "timing.burst_length=32"}, lpddr5 + "timing.burst_length"},
+        {"degs-64", {lpddr5 + "timing.rows=1025"}, lpddr5 + "timing.rows"},
+        {"degs-64", {lpddr5 + "timing.wl=200"}, lpddr5 + "timing.wl"},
+        {"degs-64", {lpddr5 + "timing.refi=100"}, lpddr5 + "timing.refi"},
+        {"degs-64", {lpddr5 + "timing.pbr2pbr=4000"}, lpddr5 + "timing.pbr2pbr"},
+        {"degs-64", {lpddr5 + "mapping.interleave_bytes=100"}, lpddr5 + "mapping.interleave_bytes"},
+        {"degs-64", {lpddr5 + "mapping.order=row"}, lpddr5 + "mapping.order"},
+        {"degs-64", {lpddr5 + "controller.write_low=0.9"}, lpddr5 + "controller.write_low"},
+    };
+    return all;
+}
+
+std::string sentence_of(const std::string& design, const std::vector<std::string>& overrides) {
+    try {
+        load_run_config(std::string(DEGS_CONFIGS) + "/" + design + ".yaml", overrides);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+/// The value that a sentence proposes.
+std::string proposal(const std::string& sentence) {
+    for (const char* form : {"; ([^;]*?)(?:, | or [0-9].*)? would do", "must be at least ([0-9]+)",
+                             "but must be ([0-9]+)"}) {
+        std::smatch found;
+        if (std::regex_search(sentence, found, std::regex(form))) {
+            return found[1];
+        }
+    }
+    return "";
+}
+
+class ConfigRules : public testing::TestWithParam<Broken> {};
+
+TEST_P(ConfigRules, AreMendedByWhatTheirSentenceProposes) {
+    Broken broken = GetParam();
+    const std::string sentence = sentence_of(broken.design, broken.overrides);
+    EXPECT_NE(sentence.find(": key '" + broken.key + "' is "), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find(", but must "), std::string::npos) << sentence;
+    EXPECT_LE(sentence.size(), 400U) << sentence;
+    const std::string value = proposal(sentence);
+    ASSERT_FALSE(value.empty()) << sentence;
+    broken.overrides.push_back(broken.key + "=" + value);
+    EXPECT_EQ(sentence_of(broken.design, broken.overrides), "") << sentence;
+}
+INSTANTIATE_TEST_SUITE_P(All, ConfigRules, testing::ValuesIn(broken_rules()));
+
+TEST(ConfigRuleSentences, NameBothLines) {
+    const std::string file = std::string(DEGS_CONFIGS) + "/degs-64.yaml";
+    const std::string sentence = sentence_of("degs-64", {"slicing.count=3"});
+    EXPECT_EQ(sentence.find("--set slicing.count=3: key 'slicing.count' is 3, but must divide "
+                            "span.count; 2 would do (span.count is 8 at " +
+                            file + ":"),
+              0U)
+        << sentence;
+}
+
+/// Notes the keys that rules stand at.
+class RuleKeys : public ConfigVisitor {
+public:
+    void begin_section(const char* key, const char*) override {
+        path_.push_back(path_.back() + key + ".");
+    }
+    void end_section() override { path_.pop_back(); }
+    void integer(const char*, std::int64_t&, std::int64_t, std::int64_t, const char*) override {}
+    void real(const char*, double&, double, double, const char*) override {}
+    void boolean(const char*, bool&, const char*) override {}
+    void text(const char*, std::string&, const char*) override {}
+    void choice(const char*, int&, const std::vector<const char*>&, const char*) override {}
+    void require(bool, const ConfigRule& rule) override { keys.insert(path_.back() + rule.key); }
+    std::set<std::string> keys;
+
+private:
+    std::vector<std::string> path_{""};
+};
+
+// Rules of number formats have tests of their own (tests/splat/number_set_test.cpp).
+TEST(ConfigRuleSentences, EveryRuleIsInTheListAbove) {
+    for (const char* design : {"degs-64", "gscore-64", "gbu-64", "gcc-64"}) {
+        RunConfig config = load_run_config(std::string(DEGS_CONFIGS) + "/" + design + ".yaml", {});
+        RuleKeys rules;
+        config.describe(rules);
+        EXPECT_GT(rules.keys.size(), 8U);
+        for (const std::string& key : rules.keys) {
+            const auto& list = broken_rules();
+            const bool tested = std::any_of(
+                list.begin(), list.end(), [&](const Broken& broken) { return broken.key == key; });
+            EXPECT_TRUE(tested || key.rfind("pipeline.", 0) == 0) << design << " " << key;
+        }
+    }
+}
+
+} // namespace
+} // namespace degs::sim
