@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "config/error.hpp"
-#include "splat/numbers/number_override.hpp"
+#include "splat/numbers/number_set.hpp"
 
 namespace degs::sim {
 

@@ -10,6 +10,7 @@
 namespace degs {
 namespace {
 
+using config_scalar::value_of;
 using config_words::join_path;
 using config_words::quote;
 using Kind = ConfigNode::Kind;
@@ -82,7 +83,7 @@ void ConfigReader::end_section() {
 void ConfigReader::integer(const char* key, std::int64_t& value, std::int64_t low,
                            std::int64_t high, const char*) {
     const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
-        value = config_scalar::integer(node, path, low, high);
+        value = value_of(config_scalar::Integer{low, high}, node, path);
     });
     if (!given) {
         check_standing(path_of(key), value, low, high);
@@ -92,7 +93,7 @@ void ConfigReader::integer(const char* key, std::int64_t& value, std::int64_t lo
 
 void ConfigReader::real(const char* key, double& value, double low, double high, const char*) {
     const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
-        value = config_scalar::real(node, path, low, high);
+        value = value_of(config_scalar::Real{low, high}, node, path);
     });
     if (!given) {
         check_standing(path_of(key), value, low, high);
@@ -102,14 +103,14 @@ void ConfigReader::real(const char* key, double& value, double low, double high,
 
 void ConfigReader::boolean(const char* key, bool& value, const char*) {
     each_value(key, [&](const ConfigNode& node, const std::string& path) {
-        value = config_scalar::boolean(node, path);
+        value = value_of(config_scalar::Boolean{}, node, path);
     });
     values_[path_of(key)] = value ? "true" : "false";
 }
 
 void ConfigReader::text(const char* key, std::string& value, const char*) {
     each_value(key, [&](const ConfigNode& node, const std::string& path) {
-        value = config_scalar::text(node, path);
+        value = value_of(config_scalar::Text{}, node, path);
     });
     values_[path_of(key)] = quote(value);
 }
@@ -117,7 +118,7 @@ void ConfigReader::text(const char* key, std::string& value, const char*) {
 void ConfigReader::choice(const char* key, int& value, const std::vector<const char*>& names,
                           const char*) {
     const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
-        value = config_scalar::choice(node, path, names);
+        value = value_of(config_scalar::Choice{names}, node, path);
     });
     if (!given) {
         const auto last = static_cast<std::int64_t>(names.size()) - 1;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/config_scalar.hpp"
 
-#include <algorithm>
+#include <cctype>
 #include <charconv>
-#include <optional>
 
 #include "config/config_words.hpp"
 #include "config/error.hpp"
@@ -32,20 +31,24 @@ bool is_plain(const ConfigNode& node) {
     return node.kind == Kind::kScalar && !node.quoted;
 }
 
-/// from_chars alone would take "1" of "1e3" and words such as inf and nan.
+/// 010 means ten to YAML 1.2 and eight to YAML 1.1.
+bool has_leading_zero(const std::string& text) {
+    const std::size_t first = text.find_first_not_of('-');
+    return first != std::string::npos && text[first] == '0' && first + 1 < text.size() &&
+           std::isdigit(static_cast<unsigned char>(text[first + 1])) != 0;
+}
+
+/// All of a plain scalar as a number. from_chars alone would take "1" of "1e3" and words such as
+/// inf and nan.
 template <class Number>
-std::optional<Number> parse_all(const std::string& text, const char* letters) {
+std::optional<Number> number_of(const ConfigNode& node, const char* letters) {
+    const std::string& text = node.text;
     Number value{};
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
-    const bool clean = text.find_first_not_of(letters) == std::string::npos;
+    const bool clean = is_plain(node) && !has_leading_zero(text) &&
+                       text.find_first_not_of(letters) == std::string::npos;
     return clean && stop == end && error == std::errc() ? std::optional(value) : std::nullopt;
-}
-
-/// 010 means ten to YAML 1.2 and eight to YAML 1.1.
-bool has_leading_zero(const std::string& text) {
-    const std::size_t first = text.front() == '-' ? 1 : 0;
-    return text.size() > first + 1 && text[first] == '0';
 }
 
 } // namespace
@@ -55,56 +58,59 @@ void reject(const ConfigNode& node, const std::string& path, const std::string& 
                      allowed + ".");
 }
 
-std::int64_t integer(const ConfigNode& node, const std::string& path, std::int64_t low,
-                     std::int64_t high) {
-    const std::string range = config_words::range(low, high);
-    const std::string allowed =
-        "an integer in decimal digits, " + (range == "any" ? "64 bits" : range);
-    if (!is_plain(node) || node.text.empty() || has_leading_zero(node.text)) {
-        reject(node, path, allowed);
-    }
-    const auto value = parse_all<std::int64_t>(node.text, "-0123456789");
-    if (!value || *value < low || *value > high) {
-        reject(node, path, allowed);
-    }
-    return *value;
+std::optional<std::int64_t> Integer::read(const ConfigNode& node) const {
+    const auto value = number_of<std::int64_t>(node, "-0123456789");
+    return value && *value >= low && *value <= high ? value : std::nullopt;
 }
 
-double real(const ConfigNode& node, const std::string& path, double low, double high) {
-    const std::string range = config_words::range(low, high);
-    const std::string allowed = "a finite number" + (range == "any" ? "" : ", " + range);
-    const auto value =
-        is_plain(node) ? parse_all<double>(node.text, "+-.0123456789eE") : std::optional<double>();
-    if (!value || *value < low || *value > high) {
-        reject(node, path, allowed);
-    }
-    return *value;
+std::string Integer::values() const {
+    return config_words::range(low, high);
 }
 
-bool boolean(const ConfigNode& node, const std::string& path) {
+std::string Integer::allowed(const ConfigNode&) const {
+    return "an integer in decimal digits, " + (values() == "any" ? "64 bits" : values());
+}
+
+std::optional<double> Real::read(const ConfigNode& node) const {
+    const auto value = number_of<double>(node, "+-.0123456789eE");
+    return value && *value >= low && *value <= high ? value : std::nullopt;
+}
+
+std::string Real::values() const {
+    return config_words::range(low, high);
+}
+
+std::string Real::allowed(const ConfigNode&) const {
+    return "a finite decimal number" + (values() == "any" ? "" : ", " + values());
+}
+
+std::optional<bool> Boolean::read(const ConfigNode& node) const {
     if (!is_plain(node) || (node.text != "true" && node.text != "false")) {
-        reject(node, path, "true or false");
+        return std::nullopt;
     }
     return node.text == "true";
 }
 
-const std::string& text(const ConfigNode& node, const std::string& path) {
-    if (node.kind != Kind::kScalar) {
-        reject(node, path, "a text (\"\" for an empty one)");
-    }
-    return node.text;
+std::optional<std::string> Text::read(const ConfigNode& node) const {
+    return node.kind == Kind::kScalar ? std::optional(node.text) : std::nullopt;
 }
 
-int choice(const ConfigNode& node, const std::string& path, const std::vector<const char*>& names) {
-    const auto found = std::find(names.begin(), names.end(), node.text);
-    if (node.kind == Kind::kScalar && found != names.end()) {
-        return static_cast<int>(found - names.begin());
+std::optional<int> Choice::read(const ConfigNode& node) const {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (node.kind == Kind::kScalar && node.text == names[i]) {
+            return static_cast<int>(i);
+        }
     }
-    const std::vector<std::string> words(names.begin(), names.end());
-    const std::string near = config_words::nearest(node.text, words);
-    reject(node, path,
-           "one of " + config_words::list(words) +
-               (near.empty() ? "" : " (did you mean " + quote(near) + "?)"));
+    return std::nullopt;
+}
+
+std::string Choice::values() const {
+    return config_words::list({names.begin(), names.end()});
+}
+
+std::string Choice::allowed(const ConfigNode& node) const {
+    const std::string near = config_words::nearest(node.text, {names.begin(), names.end()});
+    return "one of " + values() + (near.empty() ? "" : " (did you mean " + quote(near) + "?)");
 }
 
 } // namespace degs::config_scalar

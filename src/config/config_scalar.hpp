@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text of a configuration into values, strictly. Each function throws InputError with the sentence
-// "<place>: key '<path>' is '<value>', but must be <what is allowed>."
+// Text of a configuration into values, strictly. A kind says what is allowed and reads it.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,16 +11,54 @@
 
 namespace degs::config_scalar {
 
-std::int64_t integer(const ConfigNode& node, const std::string& path, std::int64_t low,
-                     std::int64_t high);
-double real(const ConfigNode& node, const std::string& path, double low, double high);
-bool boolean(const ConfigNode& node, const std::string& path);
-const std::string& text(const ConfigNode& node, const std::string& path);
-/// The index of the name.
-int choice(const ConfigNode& node, const std::string& path, const std::vector<const char*>& names);
+// Each kind has: read(), empty if the node is not of the kind; values(), the range or the choices
+// for documentation; allowed(), the same for the sentence "..., but must be <allowed>".
 
-/// The error of a value that is not `allowed`; also used where a section is expected.
+struct Integer {
+    std::int64_t low, high;
+    std::optional<std::int64_t> read(const ConfigNode& node) const;
+    std::string values() const;
+    std::string allowed(const ConfigNode& node) const;
+};
+
+struct Real {
+    double low, high;
+    std::optional<double> read(const ConfigNode& node) const;
+    std::string values() const;
+    std::string allowed(const ConfigNode& node) const;
+};
+
+struct Boolean {
+    std::optional<bool> read(const ConfigNode& node) const;
+    std::string values() const { return "true, false"; }
+    std::string allowed(const ConfigNode&) const { return "true or false"; }
+};
+
+struct Text {
+    std::optional<std::string> read(const ConfigNode& node) const;
+    std::string values() const { return "any"; }
+    std::string allowed(const ConfigNode&) const { return "a text (\"\" for an empty one)"; }
+};
+
+/// The value is the index of the name.
+struct Choice {
+    const std::vector<const char*>& names;
+    std::optional<int> read(const ConfigNode& node) const;
+    std::string values() const;
+    std::string allowed(const ConfigNode& node) const;
+};
+
+/// Throws InputError with "<place>: key '<path>' is '<value>', but must be <allowed>."
 [[noreturn]] void reject(const ConfigNode& node, const std::string& path,
                          const std::string& allowed);
+
+template <class Kind>
+auto value_of(const Kind& kind, const ConfigNode& node, const std::string& path) {
+    const auto value = kind.read(node);
+    if (!value) {
+        reject(node, path, kind.allowed(node));
+    }
+    return *value;
+}
 
 } // namespace degs::config_scalar

@@ -18,13 +18,13 @@ ConfigNode empty_root() {
 }
 
 /// The path of `path.to.key=value`, or a InputError.
-std::string path_of(const std::string& setting) {
+std::string path_of(const std::string& setting, const std::string& option) {
     const std::size_t equals = setting.find('=');
     std::string path = setting.substr(0, equals);
     const bool hollow = path.empty() || path.front() == '.' || path.back() == '.' ||
                         path.find("..") != std::string::npos;
     if (equals == std::string::npos || hollow) {
-        throw InputError("--set " + quote(setting) +
+        throw InputError(option + " " + quote(setting) +
                          ": this is not an override; path.to.key=value is expected.");
     }
     return path;
@@ -32,14 +32,15 @@ std::string path_of(const std::string& setting) {
 
 } // namespace
 
-ConfigSource::ConfigSource(ConfigNode root, const std::vector<std::string>& overrides)
+ConfigSource::ConfigSource(ConfigNode root, const std::vector<std::string>& overrides,
+                           const std::string& option)
     : root_(std::move(root)) {
     for (const std::string& setting : overrides) {
         Override override;
-        override.path = path_of(setting);
+        override.path = path_of(setting, option);
         override.value.kind = ConfigNode::Kind::kScalar;
         override.value.text = setting.substr(override.path.size() + 1);
-        override.value.place = "--set " + setting;
+        override.value.place = option + " " + setting;
         overrides_.push_back(std::move(override));
     }
 }
@@ -54,8 +55,9 @@ ConfigSource ConfigSource::from_text(const std::string& name, const std::string&
     return {read_config_text(name, yaml), overrides};
 }
 
-ConfigSource ConfigSource::from_overrides(const std::vector<std::string>& overrides) {
-    return {empty_root(), overrides};
+ConfigSource ConfigSource::from_overrides(const std::vector<std::string>& overrides,
+                                          const std::string& option) {
+    return {empty_root(), overrides, option};
 }
 
 void ConfigSource::read(const std::function<void(ConfigVisitor&)>& describe) const {

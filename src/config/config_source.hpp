@@ -32,9 +32,10 @@ public:
     static ConfigSource from_tree(ConfigNode tree, const std::vector<std::string>& overrides = {}) {
         return {std::move(tree), overrides};
     }
-    /// Defaults and overrides only. load() then also checks a struct that a program has filled
-    /// itself.
-    static ConfigSource from_overrides(const std::vector<std::string>& overrides = {});
+    /// Defaults and overrides only; messages call them by `option`. load() then also checks a
+    /// struct that a program has filled itself.
+    static ConfigSource from_overrides(const std::vector<std::string>& overrides = {},
+                                       const std::string& option = "--set");
 
     /// Fills any struct with `void describe(ConfigVisitor&)`; leaves it untouched when it throws.
     template <class Config>
@@ -59,7 +60,8 @@ private:
         ConfigNode value;
     };
 
-    ConfigSource(ConfigNode root, const std::vector<std::string>& overrides);
+    ConfigSource(ConfigNode root, const std::vector<std::string>& overrides,
+                 const std::string& option = "--set");
     const Override* override_of(const std::string& path) const;
 
     ConfigNode root_;

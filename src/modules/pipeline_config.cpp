@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/pipeline_config.hpp"
 
-#include "config/error.hpp"
-
 namespace degs {
 
 void PipelineConfig::describe(ConfigVisitor& visitor) {
@@ -16,16 +14,11 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
         "after: it is, then the pixel ends (paper, Sec. II-A)");
     visitor.choice("tiles", tiles, {"exact", "ref"},
                    "tile lists: the ellipse's tiles, or the 3-sigma square's");
-    visitor.section("formats", formats,
-                    "single parts of `numbers` in other formats; set: as they are there");
-    std::string problem;
-    try {
-        (void)data_path();
-    } catch (const InputError& error) {
-        problem = std::string("with these formats cannot be computed: ") + error.what();
-        problem.pop_back(); // its full stop
-    }
-    visitor.require(problem.empty(), {"numbers", problem, ""});
+    NumberSet set = set_of(numbers);
+    visitor.begin_section("formats",
+                          "single parts of `numbers` in other formats; set: as they are there");
+    formats.describe(visitor, set);
+    visitor.end_section();
 }
 
 DataPathOptions PipelineConfig::options(SpanEnds ends, int delta) const {

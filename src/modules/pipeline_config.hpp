@@ -2,7 +2,7 @@
 #pragma once
 
 #include "config/config.hpp"
-#include "modules/formats_config.hpp"
+#include "config/config_changes.hpp"
 #include "splat/data_path.hpp"
 #include "splat/frame_workload.hpp"
 
@@ -13,13 +13,13 @@ struct PipelineConfig {
     Arithmetic numbers = Arithmetic::Fp32;
     StopRule stop_rule = StopRule::Refuse;
     TileMode tiles = TileMode::Exact;
-    FormatsConfig formats;
+    ConfigChanges formats; ///< of the number set that `numbers` names
     void describe(ConfigVisitor& visitor);
     /// Exact span ends: the pixels inside the ellipse.
     DataPathOptions data_path() const { return options(SpanEnds::Exact, 0); }
 
 protected:
-    /// `numbers` with the changes of `formats`. InputError if the parts do not fit together.
+    /// `numbers` with the changes of `formats`.
     DataPathOptions options(SpanEnds ends, int delta) const;
 };
 

@@ -33,11 +33,13 @@ struct DataPathOptions {
     NumberFormat projection = {};
 };
 
+/// The number set of an arithmetic; that of Fp64 is `ideal`.
+NumberSet set_of(Arithmetic arithmetic);
 /// The numbers of that name (Arithmetic) with the span ends and the projection that their set
 /// has; fp64 is exact.
 /// InputError lists the names for any other.
 DataPathOptions named_numbers(const std::string& name);
-/// The same with parts changed ("part=value", see number_override.hpp). fp32 and fp64 stay the
+/// The same with parts changed ("key=value" of NumberSet::describe). fp32 and fp64 stay the
 /// machine's own operations if the projection alone is.
 DataPathOptions named_numbers(const std::string& name, const std::vector<std::string>& assignments);
 /// The formats, span ends and projection of any set.

@@ -2,9 +2,10 @@
 // Numbers of a data path by name.
 #include <algorithm>
 
+#include "config/config_words.hpp"
 #include "config/error.hpp"
 #include "splat/data_path.hpp"
-#include "splat/numbers/number_override.hpp"
+#include "splat/numbers/number_set.hpp"
 
 namespace degs {
 
@@ -12,6 +13,20 @@ const std::vector<const char*>& arithmetic_names() {
     static const std::vector<const char*> names{"fp32", "fp64", "ideal", "fp16", "paper", "tuned"};
     return names;
 }
+
+namespace {
+
+Arithmetic arithmetic_of(const std::string& name) {
+    const std::vector<const char*>& names = arithmetic_names();
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end()) {
+        throw InputError("There are no numbers '" + name + "'; there are " +
+                         config_words::list({names.begin(), names.end()}) + ".");
+    }
+    return static_cast<Arithmetic>(at - names.begin());
+}
+
+} // namespace
 
 DataPathOptions options_of(const NumberSet& set) {
     DataPathOptions options;
@@ -22,34 +37,29 @@ DataPathOptions options_of(const NumberSet& set) {
     return options;
 }
 
+NumberSet set_of(Arithmetic arithmetic) {
+    return number_set(arithmetic == Arithmetic::Fp64
+                          ? "ideal"
+                          : arithmetic_names().at(static_cast<std::size_t>(arithmetic)));
+}
+
 DataPathOptions named_numbers(const std::string& name) {
-    const std::vector<const char*>& names = arithmetic_names();
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end()) {
-        std::string known;
-        for (const char* each : names) {
-            known += (known.empty() ? "" : ", ") + std::string(each);
-        }
-        throw InputError("There are no numbers '" + name + "'; there are " + known + ".");
-    }
-    DataPathOptions options = options_of(number_set(name == "fp64" ? "ideal" : name));
-    options.set.reset();
-    options.numbers = static_cast<Arithmetic>(at - names.begin());
-    return options;
+    return named_numbers(name, {});
 }
 
 DataPathOptions named_numbers(const std::string& name,
                               const std::vector<std::string>& assignments) {
-    DataPathOptions options = named_numbers(name);
-    const NumberSet set = number_set(name == "fp64" ? "ideal" : name, assignments);
+    const Arithmetic arithmetic = arithmetic_of(name);
+    const NumberSet set = number_set(set_of(arithmetic).name, assignments);
+    DataPathOptions options = options_of(set);
     const bool same =
         std::all_of(assignments.begin(), assignments.end(), [](const std::string& assignment) {
             return assignment.rfind("projection=", 0) == 0;
         });
-    if (!same) {
-        return options_of(set);
+    if (same) {
+        options.set.reset();
+        options.numbers = arithmetic;
     }
-    options.projection = set.projection;
     return options;
 }
 

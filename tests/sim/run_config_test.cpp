@@ -104,22 +104,43 @@ void expect_refused(const std::vector<std::string>& assignments, const std::stri
     }
 }
 
+// The section `formats` has the keys of NumberSet::describe, all unchanged.
+TEST(Configs, FormatsHaveEveryPartOfANumberSet) {
+    const std::vector<KeyDoc> parts = document(number_set("tuned"));
+    std::map<std::string, KeyDoc> keys;
+    for (const KeyDoc& key : document(RunConfig{})) {
+        keys[key.path] = key;
+    }
+    for (const KeyDoc& part : parts) {
+        ASSERT_EQ(keys.count("pipeline.formats." + part.path), 1U) << part.path;
+        const KeyDoc& key = keys["pipeline.formats." + part.path];
+        EXPECT_NE(key.doc.find(part.doc), std::string::npos);
+        EXPECT_EQ(key.default_value, part.type == "section" ? "" : "\"set\"");
+    }
+}
+
 TEST(Configs, WrongFormatsAreNamed) {
     expect_refused({"pipeline.formats.alpha=q99"},
-                   "--set pipeline.formats.alpha=q99: key 'pipeline.formats.alpha' must be fp64, "
-                   "fp32, fp16, bf16, [u]eEmM[bB]");
-    expect_refused({"pipeline.formats.exp.entries=0"},
-                   "key 'pipeline.formats.exp.entries' must be 1 to 4096, not '0'.");
+                   "--set pipeline.formats.alpha=q99: key 'pipeline.formats.alpha' is 'q99', but "
+                   "must be fp64, fp32, fp16, bf16, [u]eEmM[bB]");
+    expect_refused({"pipeline.formats.exp.entries=5000"},
+                   "key 'pipeline.formats.exp.entries' is '5000', but must be an integer in "
+                   "decimal digits, 0 to 4096, or set.");
     expect_refused({"pipeline.formats.base=middle"},
-                   "key 'pipeline.formats.base' must be start or vertex, not 'middle'.");
+                   "key 'pipeline.formats.base' is 'middle', but must be one of start, vertex");
     expect_refused({"pipeline.formats.aplha=fp16"}, "did you mean 'pipeline.formats.alpha'?");
     expect_refused({"pipeline.formats.exp=fp16"}, "'pipeline.formats.exp'");
     expect_refused({"pipeline.numbers=tuned", "pipeline.formats.distance=uq18.12"},
-                   "key 'pipeline.formats' cannot be computed: The number format uq18.12 of "
-                   "distance has no sign, but its values may be negative.");
-    expect_refused({"pipeline.numbers=tuned", "pipeline.formats.q=uq2.14"}, "must reach beyond");
+                   "--set pipeline.formats.distance=uq18.12: key 'pipeline.formats.distance' is "
+                   "'uq18.12', but must have a sign; q18.12 would do.");
+    expect_refused({"pipeline.numbers=tuned", "pipeline.formats.exponent=natural"},
+                   "--set pipeline.formats.exponent=natural: key 'pipeline.formats.q' is 'set' by "
+                   "default, but must reach beyond 11.08");
+    expect_refused({"pipeline.numbers=tuned", "pipeline.formats.exponent=natural"},
+                   "where alpha is 1/255 (set is uq3.13); fp16 would do");
     expect_refused({"pipeline.numbers=fp32", "pipeline.formats.exp.interpolation=linear"},
-                   "1 to 4096 entries");
+                   "key 'pipeline.formats.exp.entries' is 'set' by default, but must be at least 1 "
+                   "where there is a table (pipeline.formats.exp.interpolation is 'linear').");
 }
 
 TEST(Configs, Degs64IsTheDefaultButForItsNumbers) {

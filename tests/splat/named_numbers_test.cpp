@@ -2,6 +2,7 @@
 // Numbers by name, and splats that no format holds.
 #include <cmath>
 
+#include "config/config_document.hpp"
 #include "config/error.hpp"
 #include "tests/splat/quantized_fixture.hpp"
 
@@ -75,16 +76,30 @@ TEST(NamedNumbers, PartsGoByName) {
     EXPECT_EQ(set.alpha, parse_format("uq0.12"));
     EXPECT_EQ(set.exp.function, TableFunction::ExpHalf); // what the exponent asks for
     EXPECT_EQ(set.q, parse_format("uq4.12"));
-    for (const NumberKey& key : number_keys()) {
-        EXPECT_FALSE(key.meaning.empty());
-        expect_refused({key.name + "=?"}, "In '" + key.name + "=?', '" + key.name + "' must be ");
+    for (const KeyDoc& key : document(set)) {
+        EXPECT_FALSE(key.doc.empty()) << key.path;
+        if (key.type != "section") {
+            expect_refused({key.path + "=?"}, "--numbers " + key.path + "=?: key '" + key.path +
+                                                  "' is '?', but must be ");
+        }
     }
-    expect_refused({"colour"}, "In 'colour', 'colour' must be fp64");
-    expect_refused({"color=fp16"}, "In 'color=fp16', 'color' is no part of a number set; there are "
-                                   "projection, mean, slope, ");
-    expect_refused({"projection=ue8m20"}, "The number format ue8m20 of projection has no sign");
-    expect_refused({"d0=ue4m12"}, "The number format ue4m12 of d0 has no sign");
-    expect_refused({"ratio=uq0.18"}, "The number format uq0.18 of ratio must reach beyond 1");
+}
+
+TEST(NamedNumbers, MistakesAreNamed) {
+    expect_refused({"colour"}, "--numbers 'colour': this is not an override");
+    expect_refused({"color=fp16"}, "--numbers color=fp16: key 'color' is unknown, did you mean "
+                                   "'colour'? (allowed at the top: projection, mean, slope, ");
+    expect_refused({"projection=ue8m20"}, "--numbers projection=ue8m20: key 'projection' is "
+                                          "'ue8m20', but must have a sign; e8m20 would do.");
+    expect_refused({"d0=ue4m12"},
+                   "--numbers d0=ue4m12: key 'd0' is 'ue4m12', but must have a sign");
+    expect_refused({"ratio=uq0.18"}, "--numbers ratio=uq0.18: key 'ratio' is 'uq0.18', but must "
+                                     "reach beyond 1, where a row misses the ellipse; fp16");
+    expect_refused({"exponent=natural"},
+                   "--numbers exponent=natural: key 'q' is 'uq3.13' by default, but must reach "
+                   "beyond 11.08");
+    expect_refused({"sqrt.entries=0"}, "--numbers sqrt.entries=0: key 'sqrt.entries' is 0, but "
+                                       "must be at least 1 where there is a table.");
 }
 
 // fp32 and fp64 keep the machine's own operations if splats alone come from elsewhere.

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "config/config_document.hpp"
 #include "config/error.hpp"
 
 namespace degs {
@@ -71,6 +72,48 @@ TEST(NumberSets, RangesFitTheirQuantities) {
     EXPECT_GT(tuned.q_threshold.max(), std::log2(255.0));
     // sigma of 16 000 px keeps all bits of A.
     EXPECT_LT(tuned.conic.min_normal(), half_log2e / (13000.0 * 13000.0));
+}
+
+std::string value_of(const NumberSet& set, const std::string& key) {
+    return resolved(set).at(nlohmann::ordered_json::json_pointer("/" + key));
+}
+
+// Whatever describe() names as a format is what uniform sets fill, what changes by name change, and
+// what a record or a cost model charges for.
+TEST(NumberSets, EveryStageIsInEveryUse) {
+    const NumberSet half = number_set("fp16");
+    int stages = 0;
+    for (const KeyDoc& key : document(half)) {
+        if (key.doc.rfind("format: ", 0) != 0 || key.path.find('.') != std::string::npos) {
+            continue;
+        }
+        SCOPED_TRACE(key.path);
+        ++stages;
+        EXPECT_EQ(value_of(half, key.path), key.path == "projection" ? "fp32" : "fp16");
+        const NumberSet changed = number_set("fp16", {key.path + "=e7m12"});
+        EXPECT_EQ(value_of(changed, key.path), "e7m12");
+        EXPECT_EQ(changed.name, "fp16 " + key.path + "=e7m12");
+        EXPECT_NE(cost_keys(changed), cost_keys(half));
+    }
+    EXPECT_EQ(stages, 22);
+    for (const char* table : {"sqrt.values", "exp.values"}) {
+        EXPECT_NE(cost_keys(number_set("fp16", {std::string(table) + "=e7m12"})), cost_keys(half));
+    }
+}
+
+// Formats that are the same in every set are those nobody fills.
+TEST(NumberSets, EveryFormatOfTheStructIsAStage) {
+    NumberSet set;
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(&set);
+    std::set<std::ptrdiff_t> places;
+    for (const NumberStage& stage : number_stages()) {
+        places.insert(reinterpret_cast<const unsigned char*>(&(set.*stage.format)) - bytes);
+    }
+    const auto first = reinterpret_cast<const unsigned char*>(&set.projection) - bytes;
+    const auto last = reinterpret_cast<const unsigned char*>(&set.sum) - bytes;
+    EXPECT_EQ(*places.begin(), first);
+    EXPECT_EQ(*places.rbegin(), last);
+    EXPECT_EQ(places.size(), static_cast<std::size_t>(last - first) / sizeof(NumberFormat) + 1);
 }
 
 TEST(NumberSets, EveryStageHasACostKey) {

@@ -2,7 +2,7 @@
 // Splats, spans and tasks for the data paths of number sets.
 #pragma once
 
-#include "splat/numbers/number_override.hpp"
+#include "splat/numbers/number_set.hpp"
 #include "tests/splat/data_path_fixture.hpp"
 
 namespace degs::test {

@@ -64,6 +64,22 @@ double chord_distance(const Curve& curve, double a, double b) {
 
 } // namespace
 
+void TableSpec::describe(ConfigVisitor& visitor) {
+    visitor.choice("interpolation", interpolation, {"exact", "nearest", "linear"},
+                   "no table, or what a cell holds");
+    visitor.choice("reduction", reduction, {"none", "binary"},
+                   "argument as it is, or reduced to a power of two");
+    visitor.integer("entries", entries, 0, 4096, "cells of the table; 0: no table");
+    visitor.require_at_least("entries", entries, interpolation == Interpolation::Exact ? 0 : 1,
+                             "where there is a table", {"interpolation"});
+    visitor.real("range", range, 1e-3, 1e3, "of the argument, if it is not reduced");
+    describe_format(visitor, "values", values, "entries and results");
+    if (function != TableFunction::SqrtOneMinus) {
+        describe_format(visitor, "argument", argument,
+                        "q log2(e) / 2, in front of the table of a natural exponent");
+    }
+}
+
 std::string TableSpec::cost_key() const {
     const std::string key = std::string("lut.") + function_name(function);
     if (interpolation == Interpolation::Exact) {

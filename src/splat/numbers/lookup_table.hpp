@@ -33,16 +33,22 @@ struct TableSpec {
     TableFunction function = TableFunction::SqrtOneMinus;
     Interpolation interpolation = Interpolation::Exact;
     Reduction reduction = Reduction::None;
-    int entries = 0;     ///< cells, 1 .. 4096
+    int entries = 0;     ///< cells, 1 .. 4096; 0 if there is no table
     double range = 1;    ///< of x with Reduction::None; beyond it the last cell counts
     NumberFormat values; ///< of entries, of the product in Linear, and of their difference
     /// Of x log2(e) / 2, which ExpHalf forms for Reduction::Binary; the constant is that of a fixed
     /// multiplier in front of a table, without a table it has this format, too.
     NumberFormat argument;
 
+    void describe(ConfigVisitor& visitor);
     /// What a cost model charges for, e.g. "lut.exp2.linear.16x32".
     std::string cost_key() const;
 };
+inline TableSpec table_of(TableFunction function) {
+    TableSpec spec;
+    spec.function = function;
+    return spec;
+}
 
 /// One table, evaluated the way a unit of the hardware would: every product and sum rounded to
 /// `values`.

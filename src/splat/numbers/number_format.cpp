@@ -24,6 +24,10 @@ constexpr int usual_bias(int exponent_bits) {
     return (1 << (exponent_bits - 1)) - 1;
 }
 
+constexpr const char* kFormatWords =
+    "fp64, fp32, fp16, bf16, [u]eEmM[bB] (E 2 to 8, M 1 to 23 bits, values within fp32's range) or "
+    "[u]qI.F (2 to 32 bits)";
+
 /// Reads the words of a format name from left to right.
 class FormatReader {
 public:
@@ -48,9 +52,7 @@ public:
     }
     bool over() const { return at_ == name_.size(); }
     [[noreturn]] void fail() const {
-        throw InputError("The number format '" + name_ +
-                         "' is not one of fp64, fp32, fp16, bf16, [u]eEmM[bB] with E 2 to 8, M 1 "
-                         "to 23 and values within fp32's range, [u]qI.F of 2 to 32 bits.");
+        throw InputError("The number format '" + name_ + "' must be " + kFormatWords + ".");
     }
 
 private:
@@ -188,6 +190,17 @@ NumberFormat parse_format(const std::string& name) {
         reader.fail();
     }
     return format;
+}
+
+void describe_format(ConfigVisitor& visitor, const char* key, NumberFormat& format,
+                     const std::string& meaning) {
+    std::string name = format.name();
+    visitor.text(key, name, ("format: " + meaning).c_str());
+    try {
+        format = parse_format(name);
+    } catch (const InputError&) {
+        visitor.require(false, {key, std::string("must be ") + kFormatWords, "fp16"});
+    }
 }
 
 Rounder::Rounder(const NumberFormat& format)

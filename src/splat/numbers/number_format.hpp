@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "config/config.hpp"
+
 namespace degs {
 
 /// The values that a register, a record field or a result of the data path can take.
@@ -49,6 +51,9 @@ inline bool operator!=(const NumberFormat& a, const NumberFormat& b) {
 /// bias (2^(E-1) - 1 if not given), u without sign; "q4.12", "uq0.16": integer bits (sign included)
 /// and fraction bits. InputError tells what is allowed.
 NumberFormat parse_format(const std::string& name);
+/// A key of a configuration that holds the name of a format.
+void describe_format(ConfigVisitor& visitor, const char* key, NumberFormat& format,
+                     const std::string& meaning);
 
 /// Rounds doubles to a format; the constants are worked out once.
 class Rounder {

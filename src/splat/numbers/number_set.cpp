@@ -3,173 +3,130 @@
 
 #include <cmath>
 
+#include "config/config_words.hpp"
 #include "config/error.hpp"
 
 namespace degs {
 namespace {
 
-/// Every stage in one format, both functions exact.
-NumberSet uniform(const std::string& name, const std::string& format) {
-    NumberSet set;
-    set.name = name;
-    const NumberFormat value = parse_format(format);
-    for (NumberFormat* stage : {&set.projection,
-                                &set.mean,
-                                &set.slope,
-                                &set.c_prime,
-                                &set.radius,
-                                &set.inverse_radius2,
-                                &set.conic,
-                                &set.q_threshold,
-                                &set.colour,
-                                &set.distance,
-                                &set.square,
-                                &set.ratio,
-                                &set.edge,
-                                &set.level,
-                                &set.g0,
-                                &set.d0,
-                                &set.term,
-                                &set.q,
-                                &set.alpha,
-                                &set.transmittance,
-                                &set.weight,
-                                &set.sum,
-                                &set.sqrt.values,
-                                &set.exp.values,
-                                &set.sqrt.argument,
-                                &set.exp.argument}) {
-        *stage = value;
+using S = NumberSet;
+constexpr bool kSigned = true;
+constexpr bool kUnsigned = false;
+
+NumberFormat with_sign(NumberFormat format) {
+    format.has_sign = true;
+    return format;
+}
+
+void require_ranges(const NumberSet& set, ConfigVisitor& visitor) {
+    for (const NumberStage& stage : number_stages()) {
+        const NumberFormat& format = set.*stage.format;
+        visitor.require(!stage.is_signed || format.has_sign,
+                        {stage.key, "must have a sign", with_sign(format).name()});
     }
-    set.exp.function = TableFunction::ExpHalf;
-    return set;
+    visitor.require(set.ratio.max() > 1,
+                    {"ratio", "must reach beyond 1, where a row misses the ellipse", "fp16"});
+    const Rounder q(set.q);
+    const double limit = set.q_limit();
+    visitor.require(q(2 * limit) > q(limit),
+                    {"q",
+                     "must reach beyond " + config_words::number(limit) + ", where alpha is 1/255",
+                     "fp16",
+                     {"exponent"}});
 }
-
-NumberSet ideal_set() {
-    NumberSet set = uniform("ideal", "fp64");
-    set.meaning = "double precision, exact span ends";
-    return set;
-}
-
-NumberSet fp32_set() {
-    NumberSet set = uniform("fp32", "fp32");
-    set.meaning = "single precision, exact span ends; splats from double";
-    set.projection = NumberFormat(); // fp32 would swap splats of nearly equal depth
-    set.mean_form = Mean::PixelAndOffset;
-    return set;
-}
-
-NumberSet fp16_set() {
-    NumberSet set = uniform("fp16", "fp16");
-    set.meaning = "every value and operation of the paper's equations in FP16, projected in FP32";
-    set.projection = parse_format("fp32"); // determinants leave FP16 at 256 px^2
-    set.derivation = Derivation::Literal;
-    set.vertical = Vertical::Squared;
-    set.ends = SpanEnds::Outward;
-    set.exp.reduction = Reduction::Binary; // FP16 units compute 2^x
-    return set;
-}
-
-NumberSet paper_set() {
-    NumberSet set = uniform("paper", "fp16");
-    set.projection = parse_format("fp32");
-    set.meaning =
-        "FP16 and tables; screen coordinates in fixed point, six exponent bits where large "
-        "splats need them";
-    set.mean = set.distance = set.edge = parse_format("q16.8");
-    set.c_prime = set.inverse_radius2 = set.conic = parse_format("e6m9");
-    set.square = parse_format("e6m10");
-    set.ends = SpanEnds::Slope;
-    set.multiplier = IntegerMultiplier::HalfLookup;
-    set.sqrt.interpolation = Interpolation::Nearest;
-    set.sqrt.entries = 256;
-    set.exp.interpolation = Interpolation::Linear;
-    set.exp.reduction = Reduction::Binary;
-    set.exp.entries = 16;
-    return set;
-}
-
-void set_tuned_tables(NumberSet& set) {
-    set.sqrt.interpolation = Interpolation::Linear;
-    set.sqrt.reduction = Reduction::Binary;
-    set.sqrt.entries = 32;
-    set.sqrt.values = parse_format("uq1.15");
-    set.exp.function = TableFunction::Exp2;
-    set.exp.interpolation = Interpolation::Linear;
-    set.exp.reduction = Reduction::Binary;
-    set.exp.entries = 16;
-    set.exp.values = parse_format("uq1.15");
-}
-
-NumberSet tuned_set() {
-    NumberSet set;
-    set.name = "tuned";
-    set.projection = parse_format("fp32");
-    set.meaning = "the record and PE words of paper, spent on fixed point and exponents that fit";
-    set.mean = set.distance = set.edge = parse_format("q18.12");
-    set.slope = parse_format("e6m17");
-    set.radius = parse_format("ue5m15b14");          // up to 131 000 px
-    set.inverse_radius2 = parse_format("ue6m14b50"); // 16 384 down to 10^-15
-    set.conic = parse_format("ue5m11b29");           // 4 down to 4e-9 with all its bits
-    set.q_threshold = parse_format("uq3.17");
-    set.colour = parse_format("ue4m12b8"); // up to 128
-    set.square = parse_format("e6m12");
-    set.ratio = parse_format("uq1.18");
-    set.level = parse_format("uq4.16");
-    set.g0 = set.q = parse_format("uq3.13"); // log2 255 < 8
-    set.d0 = parse_format("e4m11b11");
-    set.term = parse_format("q5.13");
-    set.alpha = parse_format("uq0.16");
-    // Finer than the sums: where T does not fall any more, colours must not be added any more.
-    set.transmittance = parse_format("uq0.18");
-    set.weight = set.sum = parse_format("uq6.16");
-    set_tuned_tables(set);
-    set.vertical = Vertical::FromRatio;
-    set.base = Base::Vertex;
-    set.multiplier = IntegerMultiplier::HalfLookup;
-    set.exponent = Exponent::Binary;
-    return set;
-}
-
-struct NamedSet {
-    const char* name;
-    NumberSet (*make)();
-};
-constexpr NamedSet kNamedSets[] = {{"ideal", &ideal_set},
-                                   {"fp32", &fp32_set},
-                                   {"fp16", &fp16_set},
-                                   {"paper", &paper_set},
-                                   {"tuned", &tuned_set}};
 
 } // namespace
+
+const std::vector<NumberStage>& number_stages() {
+    static const std::vector<NumberStage> stages = {
+        {"projection", &S::projection, kSigned, "projection", "multiply-add.",
+         "all that makes splats out of Gaussians; fp64 shares the reference's"},
+        // Splat record.
+        {"mean", &S::mean, kSigned, "", "", "mu_x, mu_y in the record, px", {"mu_x", "mu_y"}},
+        {"slope", &S::slope, kSigned, "", "", "m in the record", {"m"}},
+        {"c_prime", &S::c_prime, kUnsigned, "", "", "C' in the record", {}, "C'"},
+        {"radius", &S::radius, kUnsigned, "", "", "r_x in the record, px", {"r_x"}},
+        {"inverse_radius2",
+         &S::inverse_radius2,
+         kUnsigned,
+         "",
+         "",
+         "1 / r_y^2 in the record",
+         {"1/r_y^2"}},
+        {"conic", &S::conic, kUnsigned, "", "", "A in the record and the PE", {"A"}, "B"},
+        {"q_threshold", &S::q_threshold, kUnsigned, "", "", "Q_th in the record", {"Q_th"}},
+        {"colour",
+         &S::colour,
+         kUnsigned,
+         "",
+         "",
+         "red, green, blue in the record and the PE",
+         {"red", "green", "blue"}},
+        // Span Unit.
+        {"distance", &S::distance, kSigned, "span.distance", "add.", "dy and x - x_c, px"},
+        {"square", &S::square, kSigned, "span.square", "multiply.", "products in the Span Unit"},
+        {"ratio", &S::ratio, kUnsigned, "span.ratio", "multiply.", "x = dy^2 / r_y^2 and 1 - x"},
+        {"edge", &S::edge, kSigned, "span.edge", "multiply-add.", "m dy, x_c, w and the ends, px"},
+        {"level", &S::level, kUnsigned, "span.level", "multiply-add.", "terms of g0"},
+        {"g0", &S::g0, kUnsigned, "span_vector.g0", "register.", "g0 in the Span Vector"},
+        {"d0", &S::d0, kSigned, "span_vector.d0", "register.", "d0 in the Span Vector"},
+        // Blending PE and Pixel Buffer.
+        {"term", &S::term, kSigned, "pe.term", "multiply.", "n d0 and A n(n-1)"},
+        {"q", &S::q, kUnsigned, "pe.q", "add.", "q of a pixel"},
+        {"alpha", &S::alpha, kUnsigned, "pe.alpha", "register.", "alpha"},
+        {"transmittance", &S::transmittance, kUnsigned, "pe.transmittance", "multiply.",
+         "T and 1 - alpha"},
+        {"weight", &S::weight, kUnsigned, "pe.weight", "multiply.",
+         "alpha T and its products with the colour"},
+        {"sum", &S::sum, kUnsigned, "pe.sum", "add.", "accumulated colour"}};
+    return stages;
+}
+
+void NumberSet::describe(ConfigVisitor& visitor) {
+    for (const NumberStage& stage : number_stages()) {
+        describe_format(visitor, stage.key, this->*stage.format, stage.meaning);
+    }
+    visitor.choice("derivation", derivation, {"reference", "literal"},
+                   "descriptor in double, or in its own formats");
+    visitor.choice("vertical", vertical, {"squared", "stepwise", "ratio"},
+                   "(dy^2) k, (dy k) dy, or C' dy^2 from x");
+    visitor.choice("mean_form", mean_form, {"coordinate", "offset"},
+                   "the mean as it is, or as pixel and offset");
+    visitor.choice("base", base, {"start", "vertex"},
+                   "pixel of n = 0: the span's first, or the nearest to x_c");
+    visitor.choice("multiplier", multiplier, {"whole", "half_lookup"}, "of integers n and n(n-1)");
+    visitor.choice("exponent", exponent, {"natural", "binary"},
+                   "q counts nats of exp(-q/2), or orders of 2^-q");
+    exp.function = exponent == Exponent::Natural ? TableFunction::ExpHalf : TableFunction::Exp2;
+    visitor.boolean("q_mask", q_mask, "do PEs drop pixels outside the ellipse?");
+    visitor.real("guard", guard, 0.0, 16.0,
+                 "px by which exact ends move outwards before ceil and floor");
+    visitor.section("sqrt", sqrt, "table of sqrt(1 - x)");
+    visitor.section("exp", exp, "table of the exponential");
+    require_ranges(*this, visitor);
+}
 
 double NumberSet::q_limit() const {
     return exponent == Exponent::Natural ? 2 * std::log(255.0) : std::log2(255.0);
 }
 
 std::vector<RecordField> splat_record(const NumberSet& set) {
-    const int mean = set.mean.storage_bits();
-    const int colour = set.colour.storage_bits();
-    std::vector<RecordField> fields = {{"mu_x", mean},
-                                       {"mu_y", mean},
-                                       {"m", set.slope.storage_bits()},
-                                       {"r_x", set.radius.storage_bits()},
-                                       {"1/r_y^2", set.inverse_radius2.storage_bits()},
-                                       {"A", set.conic.storage_bits()},
-                                       {"Q_th", set.q_threshold.storage_bits()},
-                                       {"red", colour},
-                                       {"green", colour},
-                                       {"blue", colour},
-                                       {"depth", 16},
-                                       {"id", 32}};
+    std::vector<RecordField> fields;
+    for (const NumberStage& stage : number_stages()) {
+        const int bits = (set.*stage.format).storage_bits();
+        for (const char* field : stage.fields) {
+            fields.push_back({field, bits});
+        }
+        if (stage.direct_field != nullptr && set.vertical != Vertical::FromRatio) {
+            fields.push_back({stage.direct_field, bits});
+        }
+    }
     if (set.mean_form == Mean::PixelAndOffset) {
         fields.push_back({"pixel_x", 32});
         fields.push_back({"pixel_y", 32});
     }
-    if (set.vertical != Vertical::FromRatio) {
-        fields.push_back({"C'", set.c_prime.storage_bits()});
-        fields.push_back({"B", set.conic.storage_bits()});
-    }
+    fields.push_back({"depth", 16});
+    fields.push_back({"id", 32});
     return fields;
 }
 
@@ -182,47 +139,20 @@ int record_bits(const NumberSet& set) {
 }
 
 std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set) {
-    const char* const multiplier =
-        set.multiplier == IntegerMultiplier::HalfLookup ? "half-lookup." : "multiply.";
-    const auto key = [](const char* operation, const NumberFormat& format) {
-        return operation + format.name();
-    };
-    return {{"record", "bits." + std::to_string(record_bits(set))},
-            {"projection", key("multiply-add.", set.projection)},
-            {"span.distance", key("add.", set.distance)},
-            {"span.square", key("multiply.", set.square)},
-            {"span.ratio", key("multiply.", set.ratio)},
-            {"span.edge", key("multiply-add.", set.edge)},
-            {"span.level", key("multiply-add.", set.level)},
-            {"span.sqrt", set.sqrt.cost_key()},
-            {"span_vector.g0", key("register.", set.g0)},
-            {"span_vector.d0", key("register.", set.d0)},
-            {"pe.term", key(multiplier, set.term)},
-            {"pe.q", key("add.", set.q)},
-            {"pe.exp", set.exp.cost_key()},
-            {"pe.alpha", key("register.", set.alpha)},
-            {"pe.transmittance", key("multiply.", set.transmittance)},
-            {"pe.weight", key("multiply.", set.weight)},
-            {"pe.sum", key("add.", set.sum)}};
-}
-
-std::vector<std::string> number_set_names() {
-    std::vector<std::string> names;
-    for (const NamedSet& each : kNamedSets) {
-        names.emplace_back(each.name);
-    }
-    return names;
-}
-
-NumberSet number_set(const std::string& name) {
-    std::string known;
-    for (const NamedSet& each : kNamedSets) {
-        if (name == each.name) {
-            return each.make();
+    std::vector<std::pair<std::string, std::string>> keys = {
+        {"record", "bits." + std::to_string(record_bits(set))},
+        {"span.sqrt", set.sqrt.cost_key()},
+        {"pe.exp", set.exp.cost_key()}};
+    for (const NumberStage& stage : number_stages()) {
+        const std::string unit = stage.unit;
+        const bool halves =
+            set.multiplier == IntegerMultiplier::HalfLookup && stage.format == &S::term;
+        const std::string operation = halves ? "half-lookup." : stage.operation;
+        if (!unit.empty()) {
+            keys.emplace_back(unit, operation + (set.*stage.format).name());
         }
-        known += std::string(known.empty() ? "" : ", ") + each.name;
     }
-    throw InputError("There is no number set '" + name + "'; there are " + known + ".");
+    return keys;
 }
 
 } // namespace degs

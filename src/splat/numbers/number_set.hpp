@@ -71,7 +71,8 @@ struct NumberSet {
     NumberFormat weight;        ///< alpha T, and its products with the colour
     NumberFormat sum;           ///< accumulated colour
 
-    TableSpec sqrt, exp;
+    TableSpec sqrt;
+    TableSpec exp = table_of(TableFunction::ExpHalf);
 
     Derivation derivation = Derivation::Reference;
     Vertical vertical = Vertical::Stepwise;
@@ -86,7 +87,25 @@ struct NumberSet {
 
     /// q' at which alpha is 1/255: 2 ln 255 or log2 255.
     double q_limit() const;
+    /// Every part that a configuration may change: stages, orders of operations, tables; `ends` and
+    /// `delta` are for a run to choose. Also makes the function of `exp` that of `exponent`.
+    void describe(ConfigVisitor& visitor);
 };
+
+/// What there is to say about a stage, in one place.
+struct NumberStage {
+    const char* key; ///< in configurations
+    NumberFormat NumberSet::*format;
+    bool is_signed;        ///< its values may be negative
+    const char* unit;      ///< for a cost model; empty if it is stored only
+    const char* operation; ///< that makes its values, for a cost model: "multiply."
+    const char* meaning;
+    std::vector<const char*> fields = {}; ///< of the splat record in this format
+    const char* direct_field = nullptr;   ///< one more, unless C' dy^2 is taken from x
+};
+/// In the order of the data path. describe(), uniform sets, records, costs and the checks of ranges
+/// go through this list.
+const std::vector<NumberStage>& number_stages();
 
 /// A field of the splat record in memory.
 struct RecordField {
@@ -98,12 +117,15 @@ std::vector<RecordField> splat_record(const NumberSet& set);
 /// Bits of the record without padding.
 int record_bits(const NumberSet& set);
 
-/// What each stage costs, for a cost model: stage name and key, e.g. {"pe.q", "add.uq3.13"}.
+/// What each unit costs, for a cost model: unit and key, e.g. {"pe.q", "add.uq3.13"}.
 std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set);
 
 /// "ideal", "fp32", "fp16", "paper", "tuned".
 std::vector<std::string> number_set_names();
 /// InputError lists the names for any other.
 NumberSet number_set(const std::string& name);
+/// The same with parts changed by "key=value" of NumberSet::describe, as `--numbers` has them.
+/// Throws InputError that names the key.
+NumberSet number_set(const std::string& name, const std::vector<std::string>& assignments);
 
 } // namespace degs

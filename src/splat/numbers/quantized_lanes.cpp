@@ -129,8 +129,12 @@ bool is_power_of_two(double value) {
 
 /// The formats that PEs round to; the first are those of operands, which they only read.
 std::vector<NumberFormat> pe_results(const NumberSet& set) {
-    std::vector<NumberFormat> results = {set.term,   set.q,   set.alpha,     set.transmittance,
-                                         set.weight, set.sum, set.exp.values};
+    std::vector<NumberFormat> results = {set.exp.values};
+    for (const NumberStage& stage : number_stages()) {
+        if (std::strncmp(stage.unit, "pe.", 3) == 0) {
+            results.push_back(set.*stage.format);
+        }
+    }
     if (set.exp.function == TableFunction::ExpHalf && set.exp.reduction == Reduction::Binary) {
         results.push_back(set.exp.argument);
     }
