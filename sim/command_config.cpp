@@ -11,6 +11,7 @@ namespace degs::sim {
 namespace {
 
 struct ConfigOptions {
+    bool has_config = false; // else the defaults
     std::string config;
     std::vector<std::string> overrides;
     std::string format = "text";
@@ -33,7 +34,7 @@ std::string text(const std::vector<KeyDoc>& keys) {
 
 void run(const ConfigOptions& options) {
     const RunConfig config =
-        options.config.empty() ? RunConfig{} : load_run_config(options.config, options.overrides);
+        options.has_config ? load_run_config(options.config, options.overrides) : RunConfig{};
     if (options.format == "markdown") {
         print(markdown_table(document(config)));
     } else if (options.format == "yaml") {
@@ -63,7 +64,10 @@ void add_config_command(CLI::App& program) {
                      "text, markdown, or yaml: a complete file that can be run")
         ->check(CLI::IsMember({"text", "markdown", "yaml"}))
         ->capture_default_str();
-    command->callback([options] { run(*options); });
+    command->callback([options, file] {
+        options->has_config = file->count() != 0; // "" is a name, too
+        run(*options);
+    });
 }
 
 } // namespace degs::sim

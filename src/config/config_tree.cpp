@@ -20,6 +20,9 @@ using config_words::quote;
 using Kind = ConfigNode::Kind;
 
 std::string read_bytes(const fs::path& path, const std::string& place) {
+    if (path.empty()) {
+        throw InputError(place + "the name of the configuration file is empty.");
+    }
     const std::string name = place + "configuration file " + quote(path.string());
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/config_yaml.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include <yaml-cpp/eventhandler.h>
@@ -21,7 +22,9 @@ using Kind = ConfigNode::Kind;
 /// loops and shared branches, and forgets duplicate keys.
 class TreeBuilder : public YAML::EventHandler {
 public:
-    explicit TreeBuilder(std::string file) : file_(std::move(file)) { root_.place = file_; }
+    TreeBuilder(std::string file, const std::string& yaml) : file_(std::move(file)), yaml_(yaml) {
+        root_.place = file_;
+    }
 
     ConfigNode take() { return std::move(root_); }
 
@@ -37,6 +40,7 @@ public:
     void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { place(mark, Kind::kNull, "?"); }
     void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
                   const std::string& value) override {
+        require_closed(mark);
         if (expects_key()) {
             return take_key(mark, value);
         }
@@ -68,17 +72,40 @@ private:
     bool expects_key() const {
         return !open_.empty() && open_.back()->kind == Kind::kSection && !has_key_;
     }
+    void require_closed(const YAML::Mark& mark);
     void take_key(const YAML::Mark& mark, const std::string& name);
     ConfigNode& place(const YAML::Mark& mark, Kind kind, const std::string& tag);
     void close();
 
     std::string file_;
+    const std::string& yaml_;
+    int line_ = 0;               // of the latest scalar
+    std::size_t line_begin_ = 0; // in yaml_
     ConfigNode root_;
     std::vector<ConfigNode*> open_; // a node's siblings grow only after it is closed
     std::string path_;              // of the innermost open section
     std::string key_, key_place_;
     bool has_key_ = false;
 };
+
+/// Behind a quote that is never closed, all keys up to the next quote or the end would be text.
+void TreeBuilder::require_closed(const YAML::Mark& mark) {
+    for (; line_ < mark.line; ++line_) {
+        line_begin_ = yaml_.find('\n', line_begin_) + 1;
+    }
+    const std::size_t end = std::min(yaml_.find('\n', line_begin_), yaml_.size());
+    std::size_t at = line_begin_ + static_cast<std::size_t>(mark.column);
+    const char quote = at < end ? yaml_[at] : '\0';
+    if (quote != '"' && quote != '\'') {
+        return;
+    }
+    for (++at; at < end && yaml_[at] != quote; ++at) {
+        at += quote == '"' && yaml_[at] == '\\' ? 1 : 0;
+    }
+    if (at >= end) {
+        fail(mark, std::string("the quote ") + quote + " is not closed on its line");
+    }
+}
 
 void TreeBuilder::take_key(const YAML::Mark& mark, const std::string& name) {
     key_ = name;
@@ -128,15 +155,17 @@ void TreeBuilder::close() {
 
 } // namespace
 
-ConfigNode parse_config_yaml(const std::string& name, const std::string& yaml) {
+ConfigNode parse_config_yaml(const std::string& name, const std::string& text) {
+    constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
+    const std::string yaml = text.rfind(kByteOrderMark, 0) == 0 ? text.substr(3) : text;
     try {
         std::istringstream stream(yaml);
         YAML::Parser parser(stream);
-        TreeBuilder builder(name);
+        TreeBuilder builder(name, yaml);
         if (!parser.HandleNextDocument(builder)) {
             throw InputError(name + ": the file is empty; a section of keys is expected.");
         }
-        TreeBuilder second(name);
+        TreeBuilder second(name, yaml);
         if (parser.HandleNextDocument(second)) {
             throw InputError(name +
                              ": the file holds more than one YAML document; one is allowed.");

@@ -8,6 +8,6 @@
 namespace degs {
 
 /// One YAML document without following its includes. Throws InputError.
-ConfigNode parse_config_yaml(const std::string& name, const std::string& yaml);
+ConfigNode parse_config_yaml(const std::string& name, const std::string& text);
 
 } // namespace degs

@@ -91,6 +91,26 @@ TEST_F(ConfigFile, WindowsLineEndsAndByteOrderMarkAreRead) {
     EXPECT_EQ(error_of("banks: 4\r\nsed: 3\r\n").rfind(here(2) + "key 'sed' is unknown", 0), 0U);
 }
 
+// YAML would take everything up to the next quote, or to the end, for the text.
+TEST_F(ConfigFile, QuotesAreClosedOnTheirLine) {
+    EXPECT_EQ(error_of("title: \"mine\nbanks: 4\n# the users\"\n"),
+              here(1) + "key 'title': the quote \" is not closed on its line.");
+    EXPECT_EQ(error_of("banks: 4\ntitle: 'mine\nseed: 3\n"),
+              here(2) + "key 'title': the quote ' is not closed on its line.");
+    EXPECT_EQ(error_of("memory: {\n  latency_ns: 3, refresh: \"true }\n"),
+              here(2) + "key 'memory.refresh': the quote \" is not closed on its line.");
+    EXPECT_EQ(loaded("title: 'it''s'\nbanks: 4\n").title, "it's");
+    EXPECT_EQ(loaded("\xEF\xBB\xBF\"title\": \"a \\\" b\" # don't\nbanks: 4\n").title, "a \" b");
+    EXPECT_EQ(loaded("title: a 'quoted word\nbanks: 4\n").banks, 4);
+    EXPECT_EQ(loaded("title: |\n  'two\n  lines\nbanks: 4\n").title, "'two\nlines\n");
+}
+
+TEST_F(ConfigFile, JsonIsReadAndItsKeysStandOnce) {
+    EXPECT_EQ(loaded("{\"banks\": 4, \"memory\": {\"refresh\": false}}").banks, 4);
+    EXPECT_EQ(error_of("{\"banks\": 4,\n \"banks\": 5}"),
+              here(2) + "key 'banks': is given twice, first at " + at("a.yaml") + ":1.");
+}
+
 TEST_F(ConfigInclude, OwnKeysWinAndPlacesAreKept) {
     write("memory/fast.yaml", "latency_ns: 10\naccess_bytes: 128\n");
     const std::string path =

@@ -112,15 +112,17 @@ TEST(ConfigInteger, CatchesOverflowOfEitherWidth) {
 }
 
 TEST(ConfigReal, RejectsWhatIsNotFiniteOrOutOfRange) {
-    for (const char* bad : {"-0.1", "1000000.1", ".nan", ".inf", "-.inf", "nan", "inf", "infinity",
-                            "1e999", "1e-999", "0x1p3", "1,5", "12ns", "1.2.3", "fast", "true"}) {
+    for (const char* bad : {"-0.1",     "1000000.1", ".nan",   ".inf",  "-.inf", "nan",  "inf",
+                            "infinity", "1e999",     "1e-999", "0x1p3", "0x20",  "032",  "00.5",
+                            "-07",      "+5",        "1,5",    "12ns",  "1.2.3", "fast", "true"}) {
         EXPECT_EQ(error_of(std::string("memory:\n  latency_ns: ") + bad),
                   std::string("a.yaml:2: key 'memory.latency_ns' is '") + bad +
-                      "', but must be a finite number, 0 to 1e+06.");
+                      "', but must be a finite decimal number, 0 to 1e+06.");
     }
     EXPECT_EQ(error_of("memory: {latency_ns: \"5\"}"),
               "a.yaml:1: key 'memory.latency_ns' is the quoted text '5', but must be a finite "
-              "number, 0 to 1e+06.");
+              "decimal number, 0 to 1e+06.");
+    EXPECT_EQ(loaded("memory: {latency_ns: 0.5}").memory.latency_ns, 0.5);
 }
 
 TEST(ConfigBoolean, TakesTrueAndFalseOnly) {
@@ -224,6 +226,20 @@ TEST(ConfigSet, NamesItselfInsteadOfALine) {
     EXPECT_EQ(error_of("banks: 4", {"memry.refresh=true"}),
               "--set memry.refresh=true: key 'memry.refresh' is unknown, did you mean "
               "'memory.refresh'? (allowed at the top: banks, seed, order, title, memory).");
+}
+
+// What is strict in a file is strict in --set.
+TEST(ConfigSet, TakesPlainDecimalNumbersOnly) {
+    for (const char* bad : {"032", "0x20", "-4", "+4", "4.0", "1e1", "nan", "inf", " 4", "4 "}) {
+        EXPECT_EQ(error_of("seed: 1", {std::string("banks=") + bad}),
+                  std::string("--set banks=") + bad + ": key 'banks' is '" + bad +
+                      "', but must be an integer in decimal digits, 1 to 64.");
+    }
+    for (const char* bad : {"032", "0x20", "-4", "+4", "nan", "-inf", ".5e", ""}) {
+        EXPECT_EQ(error_of("seed: 1", {std::string("memory.latency_ns=") + bad}),
+                  std::string("--set memory.latency_ns=") + bad + ": key 'memory.latency_ns' is '" +
+                      bad + "', but must be a finite decimal number, 0 to 1e+06.");
+    }
 }
 
 TEST(ConfigSet, TellsSectionsFromValues) {

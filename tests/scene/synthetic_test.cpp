@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "config/error.hpp"
 #include "scene/synthetic/synthetic_random.hpp"
 #include "splat/projection.hpp"
 #include "tests/scene/scene_fixture.hpp"
@@ -117,6 +118,18 @@ TEST(SyntheticScenes, AreTheSameBytesEverywhereForTheSameSeed) {
         const SyntheticSpec spec = parse_synthetic(profile);
         const SyntheticSpec small{profile, std::min<std::uint64_t>(spec.gaussians, 3000), 42};
         EXPECT_EQ(hash_of(make_synthetic(small)), hash) << profile;
+    }
+}
+
+TEST(SyntheticScenes, TakeEachSettingOnce) {
+    EXPECT_EQ(parse_synthetic("object,seed=3,gaussians=5").seed, 3U);
+    for (const char* text : {"object,seed=1,seed=2", "object,gaussians=7,seed=1,gaussians=7"}) {
+        try {
+            parse_synthetic(text);
+            ADD_FAILURE() << text;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find("twice"), std::string::npos) << error.what();
+        }
     }
 }
 

@@ -173,6 +173,17 @@ TEST(HostileConfig, UnknownAccelerator) {
     expect_mistake(degs({"run", folder / "c.yaml", "--scene", kSingleScene}), "abacus");
 }
 
+TEST(HostileConfig, EmptyName) {
+    expect_mistake(degs({"config", ""}), "name");
+    expect_mistake(degs({"run", "", "--scene", kSingleScene}), "name");
+}
+
+TEST(HostileConfig, UnclosedQuote) {
+    const Folder folder;
+    std::ofstream(folder / "c.yaml") << "name: \"x\nscheduler:\n  banks: 16\n# the users\"\n";
+    expect_mistake(degs({"config", folder / "c.yaml"}), "c.yaml:1");
+}
+
 TEST(HostileConfig, MissingFile) {
     const Folder folder;
     expect_mistake(degs({"run", folder / "absent.yaml", "--scene", kSingleScene}), "absent.yaml");
@@ -188,6 +199,8 @@ TEST(HostileConfig, BadOverrides) {
     // In range, but does not fit together.
     expect_mistake(run_scene(kSingleScene, folder, {"--set", "array.writeback_cycles=9"}),
                    "reuse_cycles");
+    expect_mistake(run_scene(kSingleScene, folder, {"--set", "packing.bytes=4096"}),
+                   "must be at least ");
 }
 
 TEST(HostileOutput, UnwritableFolder) {

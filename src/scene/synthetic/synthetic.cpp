@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <set>
 
 #include "config/error.hpp"
 #include "scene/synthetic/synthetic_build.hpp"
@@ -87,10 +88,17 @@ SyntheticSpec parse_synthetic(const std::string& text) {
     std::size_t end = std::min(text.find(','), text.size());
     const Profile& profile = profile_named(text.substr(0, end));
     SyntheticSpec spec{profile.name, profile.default_gaussians, 1};
+    std::set<std::string> keys;
     while (end < text.size()) {
         const std::size_t begin = end + 1;
         end = std::min(text.find(',', begin), text.size());
-        parse_setting(text.substr(begin, end - begin), profile, spec);
+        const std::string setting = text.substr(begin, end - begin);
+        parse_setting(setting, profile, spec);
+        const std::string key = setting.substr(0, setting.find('='));
+        if (!keys.insert(key).second) {
+            throw InputError("The synthetic scene '" + text + "' gives '" + key +
+                             "' twice; each setting may stand once.");
+        }
     }
     return spec;
 }
