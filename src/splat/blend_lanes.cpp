@@ -2,15 +2,17 @@
 #include "splat/blend_lanes.hpp"
 
 #include <cmath>
+#include <cstring>
 
-#if defined(__x86_64__)
+#include "splat/instruction_set.hpp"
+
+#ifdef DEGS_HAS_WIDE_LANES
 #include <immintrin.h>
-#define DEGS_HAS_WIDE_LANES 1
 #endif
 
 namespace degs {
 namespace narrow {
-constexpr int kLanes = 4; // SSE2 and its like; every 64-bit machine has them
+constexpr int kLanes = 4;
 #include "splat/blend_kernel.inc"
 } // namespace narrow
 
@@ -22,28 +24,22 @@ namespace wide {
 constexpr int kLanes = 8;
 #include "splat/blend_kernel.inc"
 } // namespace wide
+#undef DEGS_WIDE_MOVEMASK
 #pragma GCC pop_options
-#endif
-
-namespace {
-
-bool has_wide_lanes() {
-#ifdef DEGS_HAS_WIDE_LANES
-    return __builtin_cpu_supports("avx2") != 0;
 #else
-    return false;
+namespace wide = narrow;
 #endif
+
+std::vector<BlendFunction<float>> blend_variants() {
+    return runnable<BlendFunction<float>>({&narrow::blend_float, &wide::blend_float});
 }
 
-} // namespace
+std::vector<TestFunction<float>> test_variants() {
+    return runnable<TestFunction<float>>({&narrow::test_float, &wide::test_float});
+}
 
 BlendFunction<float> blend_function(float /*type*/) {
-#ifdef DEGS_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        return &wide::blend_float;
-    }
-#endif
-    return &narrow::blend_float;
+    return blend_variants().back();
 }
 
 BlendFunction<double> blend_function(double /*type*/) {
@@ -51,36 +47,11 @@ BlendFunction<double> blend_function(double /*type*/) {
 }
 
 TestFunction<float> test_function(float /*type*/) {
-#ifdef DEGS_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        return &wide::test_float;
-    }
-#endif
-    return &narrow::test_float;
+    return test_variants().back();
 }
 
 TestFunction<double> test_function(double /*type*/) {
     return &narrow::test_double;
-}
-
-std::vector<BlendFunction<float>> blend_variants() {
-    std::vector<BlendFunction<float>> variants{&narrow::blend_float};
-#ifdef DEGS_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        variants.push_back(&wide::blend_float);
-    }
-#endif
-    return variants;
-}
-
-std::vector<TestFunction<float>> test_variants() {
-    std::vector<TestFunction<float>> variants{&narrow::test_float};
-#ifdef DEGS_HAS_WIDE_LANES
-    if (has_wide_lanes()) {
-        variants.push_back(&wide::test_float);
-    }
-#endif
-    return variants;
 }
 
 float lane_exp(float x) {

@@ -7,11 +7,10 @@
 #include <limits>
 
 #include "config/error.hpp"
+#include "splat/instruction_set.hpp"
 
-#if defined(__x86_64__)
-#include <cpuid.h>
+#ifdef DEGS_HAS_WIDE_LANES
 #include <immintrin.h>
-#define DEGS_HAS_WIDE_LANES 1
 #endif
 
 namespace degs {
@@ -22,8 +21,9 @@ constexpr int kFewCells = 16;
 
 namespace narrow_numbers {
 constexpr int kLanes = 4;
-using Value = float __attribute__((vector_size(16)));
-using Bits = std::int32_t __attribute__((vector_size(16)));
+#include "splat/numbers/rounding.inc"
+using Value = FloatLanes;
+using Bits = IntLanes;
 inline Value floor_lanes(const Value& x) {
     const Value cut = __builtin_convertvector(__builtin_convertvector(x, Bits), Value);
     return cut > x ? cut - 1.0F : cut;
@@ -31,7 +31,6 @@ inline Value floor_lanes(const Value& x) {
 inline Value look_up(const float* table, const Bits& cell, bool /*few*/) {
     return Value{table[cell[0]], table[cell[1]], table[cell[2]], table[cell[3]]};
 }
-#include "splat/numbers/rounding.inc"
 inline Value round_half(const Value& x, const LaneRounding& to) {
     return round_lanes<Value, Bits>(x, to);
 }
@@ -44,9 +43,9 @@ inline Value round_half(const Value& x, const LaneRounding& to) {
 #define DEGS_WIDE_MOVEMASK
 namespace wide_numbers {
 constexpr int kLanes = 8;
-using Value = float __attribute__((vector_size(32)));
-using Bits = std::int32_t __attribute__((vector_size(32)));
 #include "splat/numbers/rounding.inc"
+using Value = FloatLanes;
+using Bits = IntLanes;
 inline Value floor_lanes(const Value& x) {
     return same_bits<Value>(_mm256_floor_ps(same_bits<__m256>(x)));
 }
@@ -74,11 +73,11 @@ inline Value round_half(const Value& x, const LaneRounding& /*fp16*/) {
 #define DEGS_WIDEST_MOVEMASK
 namespace widest_numbers {
 constexpr int kLanes = 16;
-using Value = float __attribute__((vector_size(64)));
-using Bits = std::int32_t __attribute__((vector_size(64)));
+#include "splat/numbers/rounding.inc"
+using Value = FloatLanes;
+using Bits = IntLanes;
 // The forms that zero what a mask leaves out: g++ 12 takes those without a mask for uninitialised.
 constexpr __mmask16 kAllLanes = 0xFFFF;
-#include "splat/numbers/rounding.inc"
 inline Value floor_lanes(const Value& x) {
     return same_bits<Value>(_mm512_maskz_roundscale_ps(kAllLanes, same_bits<__m512>(x),
                                                        _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC));
@@ -96,31 +95,15 @@ inline Value round_half(const Value& x, const LaneRounding& /*fp16*/) {
 }
 #include "splat/numbers/quantized_kernel.inc"
 } // namespace widest_numbers
+#undef DEGS_WIDEST_MOVEMASK
+#undef DEGS_WIDE_MOVEMASK
 #pragma GCC pop_options
+#else
+namespace wide_numbers = narrow_numbers;
+namespace widest_numbers = narrow_numbers;
 #endif
 
 namespace {
-
-bool has_wide_numbers() {
-#ifdef DEGS_HAS_WIDE_LANES
-    constexpr unsigned kF16c = 1U << 29; // not all compilers know the name
-    unsigned eax = 0;
-    unsigned ebx = 0;
-    unsigned ecx = 0;
-    unsigned edx = 0;
-    return __builtin_cpu_supports("avx2") != 0 && __get_cpuid(1, &eax, &ebx, &ecx, &edx) != 0 &&
-           (ecx & kF16c) != 0;
-#else
-    return false;
-#endif
-}
-
-#ifdef DEGS_HAS_WIDE_LANES
-bool has_widest_numbers() {
-    return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
-           __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512vl") != 0;
-}
-#endif
 
 bool is_power_of_two(double value) {
     int exponent = 0;
@@ -164,17 +147,10 @@ struct Variant {
 
 template <LaneFamily family>
 std::vector<Variant> variants_of() {
-    std::vector<Variant> variants{
-        {&narrow_numbers::blend_run<family>, &narrow_numbers::test_run<family>}};
-#ifdef DEGS_HAS_WIDE_LANES
-    if (has_wide_numbers()) {
-        variants.push_back({&wide_numbers::blend_run<family>, &wide_numbers::test_run<family>});
-    }
-    if (has_widest_numbers()) {
-        variants.push_back({&widest_numbers::blend_run<family>, &widest_numbers::test_run<family>});
-    }
-#endif
-    return variants;
+    return runnable<Variant>(
+        {{&narrow_numbers::blend_run<family>, &narrow_numbers::test_run<family>},
+         {&wide_numbers::blend_run<family>, &wide_numbers::test_run<family>},
+         {&widest_numbers::blend_run<family>, &widest_numbers::test_run<family>}});
 }
 
 std::vector<Variant> variants(LaneFamily family) {
