@@ -42,7 +42,7 @@ public:
     }
     void choice(const char* key, int& value, const std::vector<const char*>& names,
                 const char* doc) override {
-        const std::string name = names.at(static_cast<std::size_t>(value));
+        const std::string name = names.at(value);
         leaf(key, {"", "choice", name, config_words::list(words(names)), doc}, name);
     }
 

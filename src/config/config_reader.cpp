@@ -121,10 +121,10 @@ void ConfigReader::choice(const char* key, int& value, const std::vector<const c
         value = value_of(config_scalar::Choice{names}, node, path);
     });
     if (!given) {
-        const auto last = static_cast<std::int64_t>(names.size()) - 1;
+        const std::int64_t last = names.size() - 1;
         check_standing(path_of(key), std::int64_t{value}, std::int64_t{0}, last);
     }
-    values_[path_of(key)] = names[static_cast<std::size_t>(value)];
+    values_[path_of(key)] = names[value];
 }
 
 void ConfigReader::require(bool holds, const ConfigRule& rule) {

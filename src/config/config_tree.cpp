@@ -38,8 +38,8 @@ std::string read_bytes(const fs::path& path, const std::string& place) {
     // One byte more than allowed: tells a file that is too long from one that just fits, and ends
     // the reading of an endless one.
     std::string bytes(kLargestConfigBytes + 1, '\0');
-    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    file.read(bytes.data(), bytes.size());
+    bytes.resize(file.gcount());
     if (bytes.size() > kLargestConfigBytes) {
         throw InputError(name + " is longer than " + std::to_string(kLargestConfigBytes) +
                          " bytes, the most that is allowed.");

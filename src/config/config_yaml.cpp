@@ -94,7 +94,7 @@ void TreeBuilder::require_closed(const YAML::Mark& mark) {
         line_begin_ = yaml_.find('\n', line_begin_) + 1;
     }
     const std::size_t end = std::min(yaml_.find('\n', line_begin_), yaml_.size());
-    std::size_t at = line_begin_ + static_cast<std::size_t>(mark.column);
+    std::size_t at = line_begin_ + mark.column;
     const char quote = at < end ? yaml_[at] : '\0';
     if (quote != '"' && quote != '\'') {
         return;

@@ -146,11 +146,11 @@ double LookupTable::look_up(double reduced) const {
     const double last = spec_.entries - 1;
     const auto i = static_cast<std::int32_t>(within(at, 0, last));
     const double cell = i;
-    const double value = values_[static_cast<std::size_t>(i)];
+    const double value = values_[i];
     if (spec_.interpolation == Interpolation::Nearest) {
         return value;
     }
-    const double part = round_(falls_[static_cast<std::size_t>(i)] * within(at - cell, 0, 1));
+    const double part = round_(falls_[i] * within(at - cell, 0, 1));
     const bool rises =
         spec_.reduction == Reduction::Binary && spec_.function == TableFunction::SqrtOneMinus;
     return round_(rises ? value + part : value - part);

@@ -35,7 +35,7 @@ public:
 
     bool take(char c) {
         const bool there = at_ < name_.size() && name_[at_] == c;
-        at_ += static_cast<std::size_t>(there);
+        at_ += there ? 1 : 0;
         return there;
     }
     /// A number of up to three digits in low .. high; anything else fails.
@@ -117,12 +117,12 @@ std::int32_t bits_of(double value) {
 
 int NumberFormat::storage_bits() const {
     return kind == Kind::Fixed ? integer_bits + fraction_bits
-                               : static_cast<int>(has_sign) + exponent_bits + fraction_bits;
+                               : sign_bits() + exponent_bits + fraction_bits;
 }
 
 double NumberFormat::max() const {
     if (kind == Kind::Fixed) {
-        const int whole = integer_bits - static_cast<int>(has_sign);
+        const int whole = integer_bits - sign_bits();
         return std::ldexp(1.0, whole) - quantum();
     }
     return std::ldexp(2.0 - std::ldexp(1.0, -fraction_bits), highest_exponent(*this));
@@ -139,7 +139,7 @@ double NumberFormat::min_normal() const {
 
 bool NumberFormat::fits_float() const {
     if (kind == Kind::Fixed) {
-        return storage_bits() - static_cast<int>(has_sign) <= 23;
+        return magnitude_bits() <= 23;
     }
     return fraction_bits <= 23 && lowest_exponent(*this) >= -126 && highest_exponent(*this) <= 127;
 }
@@ -217,7 +217,7 @@ Rounder::Rounder(const NumberFormat& format)
     shift_ = 52 - format.fraction_bits;
     half_less_one_ = (std::uint64_t{1} << (shift_ - 1)) - 1;
     keep_ = ~((std::uint64_t{1} << shift_) - 1);
-    magnitude_ = ~std::uint64_t{0} >> static_cast<int>(format.has_sign);
+    magnitude_ = ~std::uint64_t{0} >> format.sign_bits();
     low_ = pattern_of(format.min_normal());
     range_ = pattern_of(max_) + half_less_one_ - low_; // what still rounds down to the largest
 }
@@ -251,7 +251,7 @@ LaneRounding::LaneRounding(const NumberFormat& format) {
     if (fixed) {
         min_normal = INT32_MAX;
         // Magnitudes of 23 bits would leave the binade of 1.5 * 2^23.
-        const bool both_signs = format.storage_bits() - static_cast<int>(format.has_sign) <= 22;
+        const bool both_signs = format.magnitude_bits() <= 22;
         magic = static_cast<float>(std::ldexp(format.quantum(), 23) * (both_signs ? 1.5 : 1.0));
         high = static_cast<float>(format.max());
         low = format.has_sign ? -high : 0.0F;

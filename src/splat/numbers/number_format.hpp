@@ -27,7 +27,10 @@ struct NumberFormat {
     int integer_bits = 0;   ///< Fixed: the sign included, as in Q notation
     int fraction_bits = 52; ///< Float: of the mantissa, as stored
 
+    int sign_bits() const { return has_sign ? 1 : 0; }
     int storage_bits() const;
+    /// The same without the sign.
+    int magnitude_bits() const { return storage_bits() - sign_bits(); }
     /// Largest finite value.
     double max() const;
     /// Smallest positive value; of a fixed format the distance of all neighbours.

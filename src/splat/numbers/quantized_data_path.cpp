@@ -133,7 +133,7 @@ public:
         }
         const std::size_t first = rows_.first_pixel(context, row);
         for (int i = 0; i < count; ++i) {
-            pixels[i] = pixels_->read(first + static_cast<std::size_t>(i));
+            pixels[i] = pixels_->read(first + i);
         }
     }
 
@@ -142,7 +142,7 @@ private:
         if (!rows_.placed(context, row)) {
             pixels_->clear(rows_.place(context, row), rows_.stride());
         }
-        return rows_.first_pixel(context, row) + static_cast<std::size_t>(column);
+        return rows_.first_pixel(context, row) + column;
     }
 
     QuantizedRow row_;

@@ -130,8 +130,7 @@ LaneFamily family_of(const NumberSet& set) {
     bool halves = true;
     for (const NumberFormat& format : pe_results(set)) {
         halves = halves && format == half;
-        fixed = fixed && format.kind == NumberFormat::Kind::Fixed &&
-                format.storage_bits() - static_cast<int>(format.has_sign) <= 22;
+        fixed = fixed && format.kind == NumberFormat::Kind::Fixed && format.magnitude_bits() <= 22;
     }
     fixed =
         fixed && set.term.has_sign && set.weight.max() > 0.995 && set.exp.values.max() >= 1 &&
@@ -205,7 +204,7 @@ LaneNumbers::LaneNumbers(const NumberSet& set)
     const LookupTable cells(set.exp);
     values = cells.lane_values();
     falls = cells.lane_falls();
-    values.resize(std::max(values.size(), static_cast<std::size_t>(kFewCells)));
+    values.resize(std::max<std::size_t>(values.size(), kFewCells));
     falls.resize(values.size());
 }
 

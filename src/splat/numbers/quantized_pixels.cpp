@@ -72,7 +72,7 @@ public:
 private:
     void update(const QuantizedSplat& splat, double q, bool drawn, bool refuse, std::size_t first,
                 int i, BlendOutcome& outcome) {
-        const std::size_t at = first + static_cast<std::size_t>(i);
+        const std::size_t at = first + i;
         const std::uint32_t bit = 1U << i;
         bool blended = false;
         if (drawn && pixels_.live[at] != 0) {
