@@ -17,6 +17,14 @@ using Kind = ConfigNode::Kind;
 
 constexpr const char* kDefault = "default"; // the place of what no source names
 
+/// "file:line", or "line" where `before` is in the same file.
+std::string short_place(const std::string& place, const std::string& before) {
+    const std::size_t colon = place.rfind(':');
+    return colon != std::string::npos && place.compare(0, colon + 1, before, 0, colon + 1) == 0
+               ? "line " + place.substr(colon + 1)
+               : place;
+}
+
 } // namespace
 
 ConfigReader::ConfigReader(const ConfigSource& source) : source_(source) {
@@ -140,12 +148,15 @@ std::string ConfigReader::sentence_of(const ConfigRule& rule) const {
     const std::string own = source_.place(path);
     std::string lead = own;
     std::string others;
+    std::string latest = own;
     for (const char* key : rule.others) {
         const std::string place = source_.place(path_of(key));
         lead = lead == kDefault ? place : lead;
         if (place != kDefault) {
             others += (others.empty() ? "" : ", ") + path_of(key) + " is " +
-                      values_.at(path_of(key)) + (place == lead ? "" : " at " + place);
+                      values_.at(path_of(key)) +
+                      (place == lead ? "" : " at " + short_place(place, latest));
+            latest = place;
         }
     }
     return lead + ": key " + quote(path) + " is " + values_.at(path) +

@@ -166,10 +166,10 @@ TEST(ConfigRequire, BlamesTheKeyWhereItWasSet) {
 TEST(ConfigRequire, NamesTheLinesOfAllKeysThatDecide) {
     EXPECT_EQ(error_of("banks: 6\nseed: 11"),
               "a.yaml:2: key 'seed' is 11, but must not leave 5 by banks; 12 would do (banks is 6 "
-              "at a.yaml:1).");
+              "at line 1).");
     EXPECT_EQ(error_of("banks: 4\nmemory:\n  access_bytes: 512\n", {"memory.latency_ns=7"}),
               "a.yaml:1: key 'banks' is 4, but must be at least 8 to keep up "
-              "(memory.access_bytes is 512 at a.yaml:3, memory.latency_ns is 7 at --set "
+              "(memory.access_bytes is 512 at line 3, memory.latency_ns is 7 at --set "
               "memory.latency_ns=7).");
     EXPECT_EQ(error_of("memory:\n  access_bytes: 640\n"),
               "a.yaml:2: key 'banks' is 8 by default, but must be at least 10 to keep up "
