@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/gscore_config.hpp"
 
+#include <algorithm>
+
 namespace degs {
 
 void GscoreConfig::Buffer::describe(ConfigVisitor& visitor) {
@@ -42,13 +44,11 @@ void GscoreConfig::require_sizes(ConfigVisitor& visitor) const {
     const int lists = sorting.chunk * traffic.list_entry_bytes;
     visitor.require_at_least(
         "buffer.bytes", buffer.bytes,
-        pixel_buffer.bytes + splat_share().least_buffer(chunk_bytes()),
-        "to hold the tiles and a chunk of splats for every sorting unit",
-        {"pixel_buffer.bytes", "buffer.sort_share", "sorting.count", "fetching.chunk"});
-    visitor.require_at_least(
-        "buffer.bytes", buffer.bytes, pixel_buffer.bytes + sort_share().least_buffer(lists),
-        "to hold the tiles and a chunk of list entries for every sorting unit",
-        {"pixel_buffer.bytes", "buffer.sort_share", "sorting.count", "sorting.chunk"});
+        pixel_buffer.bytes +
+            std::max(splat_share().least_buffer(chunk_bytes()), sort_share().least_buffer(lists)),
+        "to hold the tiles, and a chunk of splats and one of list entries for every sorting unit",
+        {"pixel_buffer.bytes", "buffer.sort_share", "sorting.count", "fetching.chunk",
+         "sorting.chunk"});
 }
 
 } // namespace degs

@@ -17,12 +17,14 @@ using Kind = ConfigNode::Kind;
 
 constexpr const char* kDefault = "default"; // the place of what no source names
 
-/// "file:line", or "line" where `before` is in the same file.
+/// " at file:line", " at line N" where the file is that of `before`, " by --set" of an option.
 std::string short_place(const std::string& place, const std::string& before) {
-    const std::size_t colon = place.rfind(':');
-    return colon != std::string::npos && place.compare(0, colon + 1, before, 0, colon + 1) == 0
-               ? "line " + place.substr(colon + 1)
-               : place;
+    if (place.rfind("--", 0) == 0) {
+        return " by " + place.substr(0, place.find(' '));
+    }
+    const std::size_t colon = place.rfind(':') + 1;
+    const bool same = place.compare(0, colon, before, 0, colon) == 0;
+    return " at " + (same ? "line " + place.substr(colon) : place);
 }
 
 } // namespace
@@ -154,9 +156,8 @@ std::string ConfigReader::sentence_of(const ConfigRule& rule) const {
         lead = lead == kDefault ? place : lead;
         if (place != kDefault) {
             others += (others.empty() ? "" : ", ") + path_of(key) + " is " +
-                      values_.at(path_of(key)) +
-                      (place == lead ? "" : " at " + short_place(place, latest));
-            latest = place;
+                      values_.at(path_of(key)) + (place == lead ? "" : short_place(place, latest));
+            latest = place.rfind("--", 0) == 0 ? latest : place;
         }
     }
     return lead + ": key " + quote(path) + " is " + values_.at(path) +

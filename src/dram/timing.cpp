@@ -127,12 +127,12 @@ void describe_refresh(Timing& t, ConfigVisitor& v) {
     v.integer("rfc_pb", t.rfc_pb, 1, 4000, "CK; per-bank refresh: 120 ns at 8 Gb, 140 at 16 Gb");
     v.integer("pbr2pbr", t.pbr2pbr, 1, 4000, "CK; per-bank refresh to the next, 90 ns");
     v.integer("pbr2act", t.pbr2act, 1, 1000, "CK; per-bank refresh to ACT-1 elsewhere, 7.5 ns");
-    v.require_at_least("refi", t.refi, t.rfc_ab + t.rp_ab + t.ras + t.wl + t.wr + 1,
-                       "to leave time between two refreshes",
-                       {"rfc_ab", "rp_ab", "ras", "wl", "wr"});
-    const int step = t.refi / static_cast<int>(kRefreshSteps);
-    v.require(t.pbr2pbr < step,
-              {"pbr2pbr", "must be below refi / 8", std::to_string(step - 1), {"refi"}});
+    const int steps = kRefreshSteps;
+    v.require_at_least(
+        "refi", t.refi,
+        std::max(t.rfc_ab + t.rp_ab + t.ras + t.wl + t.wr + 1, steps * (t.pbr2pbr + 1)),
+        "to leave time between two refreshes, all-bank and per-bank",
+        {"rfc_ab", "rp_ab", "ras", "wl", "wr", "pbr2pbr"});
 }
 
 } // namespace

@@ -120,14 +120,11 @@ void DegsConfig::require_sizes(ConfigVisitor& visitor) const {
         "span_buffer.bytes", span_buffer.bytes, std::int64_t{span_buffer.row_bytes} * span.count,
         "to hold a row for every Span Unit", {"span_buffer.row_bytes", "span.count"});
     visitor.require_at_least(
-        "gaussian_buffer.bytes", gaussian_buffer.bytes, splat_share().least_buffer(chunk_bytes()),
-        "to hold a chunk of splats for every Sorting Unit",
-        {"gaussian_buffer.sort_share", "sorting.count", "fetching.chunk", "traffic.splat_bytes"});
-    visitor.require_at_least(
         "gaussian_buffer.bytes", gaussian_buffer.bytes,
-        sort_share().least_buffer(2 * traffic.list_entry_bytes),
-        "to hold two list entries for every Sorting Unit",
-        {"gaussian_buffer.sort_share", "sorting.count", "traffic.list_entry_bytes"});
+        std::max(splat_share().least_buffer(chunk_bytes()),
+                 sort_share().least_buffer(2 * traffic.list_entry_bytes)),
+        "to hold a chunk of splats and two list entries for every Sorting Unit",
+        {"gaussian_buffer.sort_share", "sorting.count", "fetching.chunk", "traffic.splat_bytes"});
     const int entry = feature_buffer.entry_bytes * scheduler.banks;
     visitor.require_at_least("feature_buffer.bytes", feature_buffer.bytes, entry,
                              "to hold a splat for every bank",

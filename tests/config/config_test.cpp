@@ -169,8 +169,7 @@ TEST(ConfigRequire, NamesTheLinesOfAllKeysThatDecide) {
               "at line 1).");
     EXPECT_EQ(error_of("banks: 4\nmemory:\n  access_bytes: 512\n", {"memory.latency_ns=7"}),
               "a.yaml:1: key 'banks' is 4, but must be at least 8 to keep up "
-              "(memory.access_bytes is 512 at line 3, memory.latency_ns is 7 at --set "
-              "memory.latency_ns=7).");
+              "(memory.access_bytes is 512 at line 3, memory.latency_ns is 7 by --set).");
     EXPECT_EQ(error_of("memory:\n  access_bytes: 640\n"),
               "a.yaml:2: key 'banks' is 8 by default, but must be at least 10 to keep up "
               "(memory.access_bytes is 640).");

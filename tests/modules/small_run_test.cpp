@@ -69,12 +69,11 @@ TEST(SmallRun, MoreContextsThanAreNumberedAreRefused) {
     config.pixel_buffer.bytes = 16 * (kMostContexts + 1) - 1;
     EXPECT_EQ(config.problem(), "");
     config.pixel_buffer.bytes = 16 * (kMostContexts + 1);
-    EXPECT_EQ(config.problem(),
-              "pixel_buffer.bytes = 524288 holds 32768 tiles of 4 x 4 px at "
-              "pixel_buffer.state_bytes = 1, but at most 32767 are supported: 524287 bytes");
+    EXPECT_EQ(config.problem(), "default: key 'pixel_buffer.bytes' is 524288, but must not hold "
+                                "more than 32767 tiles of 4 x 4 px; 524272 would do.");
     config.pixel_buffer.bytes = 15;
-    EXPECT_EQ(config.problem(), "pixel_buffer.bytes = 15 holds 0 tiles of 4 x 4 px at "
-                                "pixel_buffer.state_bytes = 1, but at least 1 must fit: 16 bytes");
+    EXPECT_EQ(config.problem(), "default: key 'pixel_buffer.bytes' is 15, but must be at least 16 "
+                                "to hold 1 tile of 4 x 4 px.");
 }
 
 TEST(SmallRun, GaussiansThatNobodySees) {

@@ -29,6 +29,9 @@ const std::vector<Broken>& broken_rules() {
         {"degs-64", {"span.count=7"}, "slicing.count"},
         {"degs-64", {"scheduler.reuse_cycles=2"}, "scheduler.reuse_cycles"},
         {"degs-64", {"pixel_buffer.bytes=16383"}, "pixel_buffer.bytes"},
+        {"degs-64",
+         {"tile_size=4", "pixel_buffer.state_bytes=1", "pixel_buffer.bytes=1073741824"},
+         "pixel_buffer.bytes"},
         {"degs-64", {"span_buffer.bytes=63"}, "span_buffer.bytes"},
         {"degs-64",
          {"gaussian_buffer.sort_share=0.95", "fetching.chunk=256"},
@@ -62,7 +65,7 @@ const std::vector<Broken>& broken_rules() {
         {"degs-64", {lpddr5 + "timing.rows=1025"}, lpddr5 + "timing.rows"},
         {"degs-64", {lpddr5 + "timing.wl=200"}, lpddr5 + "timing.wl"},
         {"degs-64", {lpddr5 + "timing.refi=100"}, lpddr5 + "timing.refi"},
-        {"degs-64", {lpddr5 + "timing.pbr2pbr=4000"}, lpddr5 + "timing.pbr2pbr"},
+        {"degs-64", {lpddr5 + "timing.pbr2pbr=4000"}, lpddr5 + "timing.refi"},
         {"degs-64", {lpddr5 + "mapping.interleave_bytes=100"}, lpddr5 + "mapping.interleave_bytes"},
         {"degs-64", {lpddr5 + "mapping.order=row"}, lpddr5 + "mapping.order"},
         {"degs-64", {lpddr5 + "controller.write_low=0.9"}, lpddr5 + "controller.write_low"},
@@ -81,7 +84,7 @@ std::string sentence_of(const std::string& design, const std::vector<std::string
 
 /// The value that a sentence proposes.
 std::string proposal(const std::string& sentence) {
-    for (const char* form : {"; ([^;]*?)(?:, | or [0-9].*)? would do", "must be at least ([0-9]+)",
+    for (const char* form : {"; ([^;,]*?)(?:(?:,| or ).*)? would do", "must be at least ([0-9]+)",
                              "but must be ([0-9]+)"}) {
         std::smatch found;
         if (std::regex_search(sentence, found, std::regex(form))) {
