@@ -36,13 +36,8 @@ void Config::describe(ConfigVisitor& visitor) {
 }
 
 void Config::require_sizes(ConfigVisitor& visitor) const {
-    image_buffer.require_tiles(visitor, "image_buffer", view_size, 1, {"view_size"});
     constexpr int kMostViews = 4096;
-    const std::int64_t view = std::int64_t{image_buffer.state_bytes} * view_size * view_size;
-    visitor.require(tile_contexts() <= kMostViews, {"image_buffer.bytes",
-                                                    "must not hold more than 4096 views",
-                                                    std::to_string(view * kMostViews),
-                                                    {"image_buffer.state_bytes", "view_size"}});
+    image_buffer.require_tiles(visitor, "image_buffer", view_size, 1, {"view_size"}, kMostViews);
     visitor.require_at_least(
         "array.window", array.window, ceil_div(view_size, Footprint::kMaxWindows),
         "so that at most 64 windows lie side by side in a view", {"view_size"});

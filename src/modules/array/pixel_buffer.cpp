@@ -42,8 +42,8 @@ void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
 }
 
 void PixelBuffer::Config::require_tiles(ConfigVisitor& visitor, const std::string& section,
-                                        int tile_size, int tiles,
-                                        std::vector<const char*> others) const {
+                                        int tile_size, int tiles, std::vector<const char*> others,
+                                        int most) const {
     const std::string state_key = section + ".state_bytes";
     others.insert(others.begin(), state_key.c_str());
     const std::string key = section + ".bytes";
@@ -53,10 +53,9 @@ void PixelBuffer::Config::require_tiles(ConfigVisitor& visitor, const std::strin
     visitor.require_at_least(
         key.c_str(), bytes, tiles * tile,
         "to hold " + std::to_string(tiles) + (tiles == 1 ? " tile" : " tiles") + of, others);
-    visitor.require(contexts(tile_size) <= kMostContexts,
-                    {key.c_str(),
-                     "must not hold more than " + std::to_string(kMostContexts) + " tiles" + of,
-                     std::to_string(tile * kMostContexts), others});
+    visitor.require(contexts(tile_size) <= most,
+                    {key.c_str(), "must not hold more than " + std::to_string(most) + " tiles" + of,
+                     std::to_string(tile * most), others});
 }
 
 PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& config,

@@ -33,10 +33,11 @@ public:
         int writes_in_flight = 4; ///< tile writes not yet acknowledged
         ContextRelease release = ContextRelease::Tile;
         void describe(ConfigVisitor& visitor);
-        /// Requires room for `tiles` contexts, and for no more than kMostContexts; `section` is
-        /// where these keys stand, `others` decide the size of a tile.
+        /// Requires room for `tiles` contexts, and for no more than `most`; `section` is where
+        /// these keys stand, `others` decide the size of a tile.
         void require_tiles(ConfigVisitor& visitor, const std::string& section, int tile_size,
-                           int tiles, std::vector<const char*> others) const;
+                           int tiles, std::vector<const char*> others,
+                           int most = kMostContexts) const;
         /// Tile contexts that fit; 0 if not even one does.
         int contexts(int tile_size) const { return bytes / (state_bytes * tile_size * tile_size); }
     };
