@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/accelerator_run.hpp"
 
-#include <algorithm>
 #include <iterator>
 #include <stdexcept>
 
@@ -74,25 +73,6 @@ void check_result(const AcceleratorResult& result) {
     }
     require_equal("the slots must fill PEs x window", result.slots.total(),
                   static_cast<std::uint64_t>(result.pes) * result.window.cycles());
-}
-
-std::optional<double> steady_fps(const AcceleratorResult& result) {
-    const auto& frames = result.frames;
-    if (frames.size() < 2 || frames.back().finished == frames.front().finished) {
-        return {};
-    }
-    const auto cycles = static_cast<double>(frames.back().finished - frames.front().finished);
-    return static_cast<double>(frames.size() - 1) * result.clock_ghz * 1e9 / cycles;
-}
-
-std::string limiting_stage(const AcceleratorResult& result) {
-    const auto busiest =
-        std::max_element(result.stages.begin(), result.stages.end(),
-                         [](const StageUse& a, const StageUse& b) { return a.busy < b.busy; });
-    if (busiest == result.stages.end() || result.memory_utilization > busiest->busy) {
-        return "memory";
-    }
-    return busiest->name;
 }
 
 } // namespace degs::sim

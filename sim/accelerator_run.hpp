@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "modules/render_engine.hpp"
@@ -21,12 +19,5 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
 /// Throws std::logic_error unless all tiles are done (else the model is deadlocked), every law
 /// holds and the slots fill PEs x window.
 void check_result(const AcceleratorResult& result);
-
-/// Frames per second once the pipeline is full: of all frames but the first, which starts alone.
-/// Empty for fewer than two frames.
-std::optional<double> steady_fps(const AcceleratorResult& result);
-
-/// Name of the stage (or the memory) with the largest busy share of the run.
-std::string limiting_stage(const AcceleratorResult& result);
 
 } // namespace degs::sim

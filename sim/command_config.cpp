@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs config: what a configuration file may say.
+#include <filesystem>
 #include <memory>
 
 #include "config/config_document.hpp"
+#include "config/error.hpp"
 #include "sim/commands.hpp"
 #include "sim/run_config.hpp"
+#include "sim/statistics_list.hpp"
 #include "sim/text/standard_output.hpp"
 
 namespace degs::sim {
@@ -15,6 +18,8 @@ struct ConfigOptions {
     std::string config;
     std::vector<std::string> overrides;
     std::string format = "text";
+    bool stats = false;
+    std::string section; ///< of the statistics
 };
 
 /// path = value
@@ -32,10 +37,33 @@ std::string text(const std::vector<KeyDoc>& keys) {
     return lines;
 }
 
+/// A file, or the defaults of an accelerator by name.
+RunConfig config_of(const ConfigOptions& options) {
+    if (!options.has_config) {
+        return RunConfig{};
+    }
+    std::error_code ignored;
+    if (is_accelerator(options.config) && !std::filesystem::exists(options.config, ignored)) {
+        return default_run_config(options.config, options.overrides);
+    }
+    return load_run_config(options.config, options.overrides);
+}
+
+std::string statistics(const RunConfig& config, const ConfigOptions& options) {
+    if (options.format == "yaml") {
+        throw InputError(
+            "--stats has the formats text and markdown; 'yaml' is for configurations.");
+    }
+    const std::vector<Statistic> list = statistics_in(statistics_of(config), options.section);
+    return options.format == "markdown" ? statistics_markdown(list, options.section)
+                                        : statistics_text(list);
+}
+
 void run(const ConfigOptions& options) {
-    const RunConfig config =
-        options.has_config ? load_run_config(options.config, options.overrides) : RunConfig{};
-    if (options.format == "markdown") {
+    const RunConfig config = config_of(options);
+    if (options.stats) {
+        print(statistics(config, options));
+    } else if (options.format == "markdown") {
         print(markdown_table(document(config)));
     } else if (options.format == "yaml") {
         print(resolved_yaml(config));
@@ -49,11 +77,14 @@ void run(const ConfigOptions& options) {
 void add_config_command(CLI::App& program) {
     auto options = std::make_shared<ConfigOptions>();
     CLI::App* command = program.add_subcommand(
-        "config", "explain every configuration key with its default, or with a file's value");
-    CLI::Option* file = command
-                            ->add_option("config", options->config,
-                                         "configuration file (YAML); without it, the defaults")
-                            ->type_name("FILE");
+        "config", "explain every configuration key with its default, or with a file's value; with "
+                  "--stats, every statistic that a run reports");
+    CLI::Option* file =
+        command
+            ->add_option("config", options->config,
+                         "configuration file (YAML), or the name of an accelerator for its "
+                         "defaults; without it, those of degs")
+            ->type_name("FILE");
     command->add_option("--set", options->overrides, "path.to.key=value; may be repeated")
         ->type_name("KEY=VALUE")
         ->take_all()
@@ -64,6 +95,13 @@ void add_config_command(CLI::App& program) {
                      "text, markdown, or yaml: a complete file that can be run")
         ->check(CLI::IsMember({"text", "markdown", "yaml"}))
         ->capture_default_str();
+    CLI::Option* stats =
+        command->add_flag("--stats", options->stats,
+                          "what a run on this accelerator reports, with units and meanings");
+    command
+        ->add_option("--section", options->section,
+                     "a part of the statistics: stages, stages.span or timing.cycles")
+        ->needs(stats);
     command->callback([options, file] {
         options->has_config = file->count() != 0; // "" is a name, too
         run(*options);

@@ -13,6 +13,10 @@ constexpr int kReportVersion = 1;
 
 nlohmann::ordered_json report(const RunResult& result);
 
+/// The numbers of a report, with their units and what they mean: sections workload to buffers, then
+/// energy to host.
+void describe(const RunResult& result, StatsVisitor& visitor);
+
 // Parts that other commands report too.
 nlohmann::ordered_json tool_json();
 nlohmann::ordered_json scene_json(const SceneFacts& scene);

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/run_config.hpp"
 
+#include <algorithm>
+
 #include "baselines/accelerators.hpp"
 #include "config/config_source.hpp"
 
 namespace degs::sim {
 
 RunConfig::RunConfig() : model_(accelerator_kinds().front().make()) {}
+
+std::string RunConfig::kind() const {
+    return accelerator_kinds()[kind_].name;
+}
 
 void RunConfig::describe(ConfigVisitor& visitor) {
     std::vector<const char*> names;
@@ -56,6 +62,21 @@ RunConfig load_run_config(const std::string& file, const std::vector<std::string
     }
     ConfigNode tree = ConfigSource::from_file(file).tree();
     put_memory(tree, memory_file);
+    return load_run_config(ConfigSource::from_tree(std::move(tree), overrides));
+}
+
+bool is_accelerator(const std::string& kind) {
+    const std::vector<AcceleratorKind>& kinds = accelerator_kinds();
+    return std::any_of(kinds.begin(), kinds.end(),
+                       [&kind](const AcceleratorKind& known) { return known.name == kind; });
+}
+
+RunConfig default_run_config(const std::string& kind, const std::vector<std::string>& overrides) {
+    ConfigNode tree;
+    tree.kind = ConfigNode::Kind::kSection;
+    ConfigNode& accelerator = section_of(tree, "accelerator", kind);
+    accelerator.kind = ConfigNode::Kind::kScalar;
+    accelerator.text = kind;
     return load_run_config(ConfigSource::from_tree(std::move(tree), overrides));
 }
 

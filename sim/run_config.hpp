@@ -24,6 +24,8 @@ public:
     ~RunConfig() = default;
 
     const AcceleratorConfig& accelerator() const { return *model_; }
+    /// What a file calls this kind of accelerator, "degs".
+    std::string kind() const;
 
     void describe(ConfigVisitor& visitor);
     /// See AcceleratorConfig::problem.
@@ -40,5 +42,10 @@ RunConfig load_run_config(const std::string& file, const std::vector<std::string
                           const std::string& memory_file = "");
 /// The same for what is read already.
 RunConfig load_run_config(const ConfigSource& source);
+
+/// Whether a file may name this kind of accelerator.
+bool is_accelerator(const std::string& kind);
+/// The defaults of a kind of accelerator, with overrides. Throws ConfigError.
+RunConfig default_run_config(const std::string& kind, const std::vector<std::string>& overrides);
 
 } // namespace degs::sim

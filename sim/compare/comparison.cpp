@@ -77,7 +77,7 @@ std::optional<double> quotient(const std::optional<double>& part,
 void read_slots(const ordered_json& report, Measures& measures) {
     const std::optional<double> total = number_at(report, "/slots/total");
     for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
-        const std::string place = std::string("/slots/") + kSlotClasses[c].key;
+        const std::string place = std::string("/slots/") + kSlotClasses[c].name;
         measures[static_cast<Measure>(static_cast<std::size_t>(Measure::Useful) + c)] =
             quotient(number_at(report, place.c_str()), total);
     }

@@ -83,7 +83,7 @@ std::string time_table(const Comparison& comparison, std::size_t view) {
 std::string slots_table(const Comparison& comparison, std::size_t view) {
     std::vector<std::string> headings{"PE-cycles, %"};
     for (const SlotClass& slot : kSlotClasses) {
-        headings.emplace_back(slot.key);
+        headings.emplace_back(slot.name);
     }
     headings.emplace_back("useful of the frame");
     TextTable table(headings);

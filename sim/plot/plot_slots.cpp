@@ -64,8 +64,8 @@ void draw_bar(Svg& svg, const Columns& columns, double y, const SlotBar& bar) {
         const double width = bar.shares[c] * (columns.right - columns.left);
         if (width > 0) {
             // A hair of white keeps neighbours apart without colour.
-            svg.rectangle(x, y, std::max(width - 0.75, width / 2), kBar, kSlotClasses[c].colour);
-            draw_share(svg, x, base, width, bar.shares[c], kSlotClasses[c].colour);
+            svg.rectangle(x, y, std::max(width - 0.75, width / 2), kBar, kSlotColours[c]);
+            draw_share(svg, x, base, width, bar.shares[c], kSlotColours[c]);
         }
         x += width;
     }
@@ -76,14 +76,15 @@ void draw_bar(Svg& svg, const Columns& columns, double y, const SlotBar& bar) {
 /// Returns the y below it.
 double draw_slot_legend(Svg& svg, double y) {
     double x = kPlotMargin;
-    for (const SlotClass& slot : kSlotClasses) {
-        const double width = 18 + text_width(slot.key, kSmallText) + 16;
+    for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
+        const char* name = kSlotClasses[c].name;
+        const double width = 18 + text_width(name, kSmallText) + 16;
         if (x + width > kPlotWidth - kPlotMargin + 16) {
             x = kPlotMargin;
             y += 20;
         }
-        svg.rectangle(x, y - 11, 13, 13, slot.colour);
-        svg.text(x + 18, y, slot.key, {kSmallText, kInk, "start", false});
+        svg.rectangle(x, y - 11, 13, 13, kSlotColours[c]);
+        svg.text(x + 18, y, name, {kSmallText, kInk, "start", false});
         x += width;
     }
     return y + 14;

@@ -8,28 +8,19 @@
 #include <utility>
 #include <vector>
 
+#include "modules/array/slot_account.hpp"
+
 namespace degs::sim {
 
-/// One class of slots: its key in reports and its colour in every picture.
-struct SlotClass {
-    const char* key;
-    const char* colour;
-};
-/// In the order of all reports and pictures.
-constexpr std::array<SlotClass, 7> kSlotClasses{{
-    {"useful", "#009e73"},
-    {"boundary", "#e69f00"},
-    {"terminated", "#d55e00"},
-    {"conflict", "#cc79a7"},
-    {"starved", "#56b4e9"},
-    {"blocked", "#0072b2"},
-    {"drain", "#999999"},
-}};
+/// One colour for each of kSlotClasses, in every picture.
+constexpr std::array<const char*, kSlotClasses.size()> kSlotColours{
+    "#009e73", "#e69f00", "#d55e00", "#cc79a7", "#56b4e9", "#0072b2", "#999999"};
 
 struct SlotBar {
-    std::string label;            ///< left of the bar
-    std::string note;             ///< right of it
-    std::array<double, 7> shares; ///< by class, sum 1
+    std::string label; ///< left of the bar
+    std::string note;  ///< right of it
+    /// By class, sum 1.
+    std::array<double, kSlotClasses.size()> shares;
 };
 
 struct SlotGroup {

@@ -67,13 +67,12 @@ std::string slots_line(const AcceleratorResult& run) {
     if (total == 0) {
         return "none, there was nothing to blend";
     }
-    const auto share = [total](std::uint64_t part) {
-        return percent(static_cast<double>(part) / total);
-    };
-    return "useful " + share(s.useful) + " %  boundary " + share(s.boundary) + "  terminated " +
-           share(s.terminated) + "  conflict " + share(s.conflict) + "  starved " +
-           share(s.starved) + "  blocked " + share(s.blocked) + "  drain " + share(s.drain) +
-           (run.hazards == 0 ? "" : "  HAZARDS " + grouped(run.hazards));
+    std::string line;
+    for (const SlotClass& slot : kSlotClasses) {
+        line += (line.empty() ? "" : "  ") + std::string(slot.name) + " " +
+                percent(static_cast<double>(s.*slot.slots) / total) + (line.empty() ? " %" : "");
+    }
+    return line + (run.hazards == 0 ? "" : "  HAZARDS " + grouped(run.hazards));
 }
 
 std::string stages_line(const AcceleratorResult& run) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The counters of GBU in the terms that all accelerators share.
+#include <utility>
+
 #include "baselines/gbu.hpp"
 #include "config/grouped_number.hpp"
 
@@ -25,62 +27,45 @@ void Gbu::collect_slots(AcceleratorResult& result) const {
 
 void Gbu::collect_stages(AcceleratorResult& result) const {
     front_end_->collect(result);
-    using D = TileDispatcher::Stats;
-    const D& dispatched = dispatcher_->stats();
-    add_stage(result, "dispatch", 1, dispatched.tiles,
-              {{"tiles", dispatched.tiles},
-               {"list_wait_cycles", dispatched.list_wait},
-               {"request_wait_cycles", dispatched.request_wait}});
-    using F = SplatFetcher::Stats;
-    add_stage(result, "fetching", fetchers_.size(), sum_of(fetchers_, &F::busy),
-              {{"records", sum_of(fetchers_, &F::records)},
-               {"records_cancelled", sum_of(fetchers_, &F::records_cancelled)}});
-    using E = TileEngine::Stats;
-    add_stage(result, "row_generation", engines_.size(), sum_of(engines_, &E::splats),
-              {{"splats", sum_of(engines_, &E::splats)},
-               {"splats_abandoned", sum_of(engines_, &E::splats_abandoned)},
-               {"rows_skipped", sum_of(engines_, &E::rows_skipped)},
-               {"queue_wait_cycles", sum_of(engines_, &E::queue_wait)},
-               {"input_wait_cycles", sum_of(engines_, &E::input_wait)}});
+    const TileDispatcher::Stats& dispatched = dispatcher_->stats();
+    add_stage(result, {"dispatch", "The Tile Dispatcher, a cycle for each tile."}, 1,
+              dispatched.tiles, counters_of(dispatched));
+    add_stage(result, kFetching, fetchers_.size(), sum_of(fetchers_, &SplatFetcher::Stats::busy),
+              Counters().add(fetchers_));
+    Counters generation;
+    Counters row_pes;
+    for (const auto& engine : engines_) {
+        engine->stats().describe_generation(generation);
+        engine->stats().describe_row_pes(row_pes);
+    }
+    add_stage(result, {"row_generation", "Row Generation of the tile engines."}, engines_.size(),
+              sum_of(engines_, &TileEngine::Stats::splats), std::move(generation));
     const SlotAccount& s = result.slots;
-    add_stage(result, "row_pes", static_cast<std::size_t>(config_.pes()),
-              s.useful + s.boundary + s.terminated,
-              {{"entries", sum_of(engines_, &E::entries)},
-               {"entries_dropped", sum_of(engines_, &E::entries_dropped)},
-               {"pixels", sum_of(engines_, &E::pixels)},
-               {"pixels_ended", sum_of(engines_, &E::pixels_ended)},
-               {"drain_slots", sum_of(engines_, &E::drain_slots)}});
+    add_stage(result, {"row_pes", "Row PEs of the tile engines."},
+              static_cast<std::size_t>(config_.pes()), s.useful + s.boundary + s.terminated,
+              std::move(row_pes));
 }
 
 void Gbu::collect_buffers(AcceleratorResult& result) const {
-    BufferUse lists;
-    lists.name = "list_buffer";
-    lists.bytes = config_.list_buffer.bytes;
-    lists.counts = {{"keys_per_unit", static_cast<std::uint64_t>(config_.sort_capacity())}};
-    result.buffers.push_back(lists);
-    add_buffer(result, "splat_buffer", config_.splat_buffer_bytes(), config_.list_buffer.chunks,
-               splat_buffer());
-    BufferUse queues;
-    queues.name = "row_queues";
-    queues.bytes = config_.queue_bytes();
-    queues.counts = {
-        {"queues", static_cast<std::uint64_t>(config_.pes())},
-        {"entries_per_queue", static_cast<std::uint64_t>(config_.engines.queue_depth)}};
-    result.buffers.push_back(queues);
+    add_buffer(result, {"list_buffer", "Lists of the Sorting Units."}, config_.list_buffer.bytes)
+        .counters.count("keys_per_unit", static_cast<std::uint64_t>(config_.sort_capacity()),
+                        "keys", "List entries that one Sorting Unit holds.");
+    add_buffer(result, {"splat_buffer", "Chunks of splats on their way to the tile engines."},
+               config_.splat_buffer_bytes(), config_.list_buffer.chunks, splat_buffer());
+    Counters& queues = add_buffer(result, {"row_queues", "Row entries that wait for their Row PE."},
+                                  config_.queue_bytes())
+                           .counters;
+    queues.count("queues", static_cast<std::uint64_t>(config_.pes()), "queues",
+                 "One for each Row PE.");
+    queues.count("entries_per_queue", static_cast<std::uint64_t>(config_.engines.queue_depth),
+                 "rows", "Row entries that one queue holds.");
     if (!caches_.empty()) {
-        std::uint64_t hits = 0;
-        std::uint64_t misses = 0;
-        for (const auto& cache : caches_) {
-            hits += cache->stats().hits;
-            misses += cache->stats().misses;
-        }
-        BufferUse use;
-        use.name = "reuse_cache";
-        use.bytes = config_.reuse_cache.bytes;
-        use.counts = {{"records_per_engine", static_cast<std::uint64_t>(config_.cache_records())},
-                      {"hits", hits},
-                      {"misses", misses}};
-        result.buffers.push_back(use);
+        Counters& caches = add_buffer(result, {"reuse_cache", "Splat records that come again."},
+                                      config_.reuse_cache.bytes)
+                               .counters;
+        caches.count("records_per_engine", static_cast<std::uint64_t>(config_.cache_records()),
+                     "records", "Splat records that the cache of one engine holds.");
+        caches.add(caches_);
     }
     add_pixel_buffer(result, config_.pixel_buffer.bytes, config_.tile_contexts(), pixel_buffers_);
 }

@@ -46,14 +46,10 @@ void Gscore::collect_array(AcceleratorResult& result) const {
     const LockstepArray::Stats& array = array_.stats();
     result.slots = array.slots;
     result.window = array.window;
-    add_stage(result, "blending", static_cast<std::size_t>(config_.array.clusters),
+    add_stage(result, {"blending", "Clusters of the Lockstep Array."},
+              static_cast<std::size_t>(config_.array.clusters),
               array.passes * static_cast<std::uint64_t>(config_.array.clusters),
-              {{"passes", array.passes},
-               {"splats", array.splats},
-               {"splats_skipped", array.splats_skipped},
-               {"splats_discarded", array.splats_discarded},
-               {"tiles_stopped", array.tiles_stopped},
-               {"pixels_ended", array.pixels_ended}});
+              counters_of(array));
     collect_laws(result);
     result.left_out.push_back(
         grouped(array.splats_skipped) +

@@ -7,6 +7,7 @@
 
 #include "baselines/chunk_inputs.hpp"
 #include "config/config.hpp"
+#include "config/statistics.hpp"
 #include "modules/array/slot_account.hpp"
 #include "modules/render_job.hpp"
 #include "splat/subtile_cover.hpp"
@@ -41,12 +42,20 @@ public:
     struct Stats {
         SlotAccount slots; ///< of all lanes over the window
         ActiveWindow window;
-        std::uint64_t passes = 0;           ///< sub-tiles evaluated, each takes all lanes once
-        std::uint64_t splats = 0;           ///< taken in their turn
-        std::uint64_t splats_skipped = 0;   ///< of these, took no slot
-        std::uint64_t splats_discarded = 0; ///< came when their tile had stopped
-        std::uint64_t pixels_ended = 0;
-        std::uint64_t tiles_stopped = 0; ///< before the end of their list
+        std::uint64_t passes = 0, splats = 0, splats_skipped = 0, splats_discarded = 0;
+        std::uint64_t pixels_ended = 0, tiles_stopped = 0;
+        void describe(StatsVisitor& v) const { // slots are described by the result
+            v.count("passes", passes, "passes", "Sub-tiles evaluated; each takes all lanes once.");
+            v.count("splats", splats, "splats", "Splats taken in.");
+            v.count("splats_skipped", splats_skipped, "splats",
+                    "Splats taken in that needed no slot.");
+            v.count("splats_discarded", splats_discarded, "splats",
+                    "Splats that came when their tile had stopped.");
+            v.count("tiles_stopped", tiles_stopped, "tiles",
+                    "Tiles that stopped before the end of their list.");
+            v.count("pixels_ended", pixels_ended, "pixels",
+                    "Pixels that ended before the end of their list.");
+        }
     };
 
     sc_core::sc_vector<FifoPort<SplatChunk>> in; ///< tile t arrives on port t mod their number

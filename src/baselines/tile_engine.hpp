@@ -6,6 +6,7 @@
 #include <systemc>
 
 #include "config/config.hpp"
+#include "config/statistics.hpp"
 #include "modules/array/slot_account.hpp"
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
@@ -42,15 +43,31 @@ public:
         SlotAccount slots;   ///< of the window; the rest of the frame is not this engine's
         ActiveWindow window; ///< first to last slot of a Row PE
         std::uint64_t tiles = 0;
-        std::uint64_t splats = 0;              ///< taken by generation, a cycle each
-        std::uint64_t splats_abandoned = 0;    ///< arrived after their tile had ended
-        std::uint64_t entries = 0, pixels = 0; ///< executed rows and the pixels of their intervals
-        std::uint64_t entries_dropped = 0;     ///< waiting or refused when their row ended
-        std::uint64_t rows_skipped = 0;        ///< not solved, because the row had ended
-        std::uint64_t pixels_ended = 0;
-        Cycle queue_wait = 0;          ///< generation held a splat whose row had no room
-        Cycle input_wait = 0;          ///< generation had no splat while it worked on a tile
-        std::uint64_t drain_slots = 0; ///< PE-cycles between generation's end and the tile's
+        std::uint64_t splats = 0, splats_abandoned = 0, rows_skipped = 0;
+        Cycle queue_wait = 0, input_wait = 0;
+        std::uint64_t entries = 0, entries_dropped = 0, pixels = 0, pixels_ended = 0;
+        std::uint64_t drain_slots = 0;
+        void describe_generation(StatsVisitor& v) const {
+            v.count("splats", splats, "splats", "Splats taken in, one in each busy cycle.");
+            v.count("splats_abandoned", splats_abandoned, "splats",
+                    "Splats that came when their tile had ended.");
+            v.count("rows_skipped", rows_skipped, "rows",
+                    "Rows of splats not solved because all their pixels had ended.");
+            v.count("queue_wait_cycles", queue_wait, "cycles",
+                    "Waiting with a splat whose row queue had no room.");
+            v.count("input_wait_cycles", input_wait, "cycles",
+                    "Waiting for the next splat of a tile.");
+        }
+        void describe_row_pes(StatsVisitor& v) const { // slots are described by the result
+            v.count("entries", entries, "rows", "Row entries executed.");
+            v.count("entries_dropped", entries_dropped, "rows",
+                    "Row entries dropped because all pixels of the row had ended.");
+            v.count("pixels", pixels, "pixels", "Pixels in the intervals of executed entries.");
+            v.count("pixels_ended", pixels_ended, "pixels",
+                    "Pixels that ended before the end of their list.");
+            v.count("drain_slots", drain_slots, "PE-cycles",
+                    "Idle PE-cycles from the last splat of a tile to the tile's end.");
+        }
     };
 
     FifoPort<SplatChunk> in;           ///< tiles in the order granted, then kNoTile

@@ -103,15 +103,8 @@ private:
     std::vector<std::string> path_{""};
 };
 
-std::string cell(std::string text) {
-    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
-        text.insert(at, 1, '\\');
-    }
-    return text;
-}
-
 std::string code(const std::string& text) {
-    return text.empty() ? "" : "`" + cell(text) + "`";
+    return text.empty() ? "" : "`" + config_words::markdown_cell(text) + "`";
 }
 
 } // namespace
@@ -138,7 +131,8 @@ std::string markdown_table(const std::vector<KeyDoc>& keys) {
     std::string table = "| Key | Type | Default | Allowed | Meaning |\n|---|---|---|---|---|\n";
     for (const KeyDoc& key : keys) {
         table += "| " + code(key.path) + " | " + key.type + " | " + code(key.default_value) +
-                 " | " + cell(key.allowed) + " | " + cell(key.doc) + " |\n";
+                 " | " + config_words::markdown_cell(key.allowed) + " | " +
+                 config_words::markdown_cell(key.doc) + " |\n";
     }
     return table;
 }

@@ -69,6 +69,13 @@ std::string quote(const std::string& text) {
     return "'" + visible(text.substr(0, kLongest)) + (text.size() > kLongest ? "..." : "") + "'";
 }
 
+std::string markdown_cell(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) {
+        text.insert(at, 1, '\\');
+    }
+    return text;
+}
+
 std::string range(std::int64_t low, std::int64_t high) {
     using Limits = std::numeric_limits<std::int64_t>;
     using Narrow = std::numeric_limits<int>;

@@ -17,6 +17,9 @@ std::string list(const std::vector<std::string>& words);
 /// 'text' on one line and of bounded length, whatever a file may contain.
 std::string quote(const std::string& text);
 
+/// `text` as it is written between the bars of a Markdown table.
+std::string markdown_cell(std::string text);
+
 /// "1 to 64", "at least 1", "at most 64" or "any": a bound at the end of its type is no bound.
 std::string range(std::int64_t low, std::int64_t high);
 std::string range(double low, double high);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "config/config.hpp"
+#include "config/statistics.hpp"
 #include "dram/channel.hpp"
 
 namespace degs::dram {
@@ -11,6 +12,15 @@ struct Energy {
     double activate_nj = 0, read_nj = 0, write_nj = 0, refresh_nj = 0, background_nj = 0;
     double total_nj() const {
         return activate_nj + read_nj + write_nj + refresh_nj + background_nj;
+    }
+
+    void describe(StatsVisitor& v) const {
+        v.real("activate", activate_nj, "nJ", "Opening and closing rows.");
+        v.real("read", read_nj, "nJ", "Read bursts.");
+        v.real("write", write_nj, "nJ", "Write bursts.");
+        v.real("refresh", refresh_nj, "nJ", "Refreshes.");
+        v.real("background", background_nj, "nJ", "Standby, whatever happens.");
+        v.real("total", total_nj(), "nJ", "The sum.");
     }
 
     Energy operator-(const Energy& earlier) const {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "config/statistics.hpp"
 #include "dram/energy.hpp"
 #include "modules/array/slot_account.hpp"
 #include "splat/images/image.hpp"
@@ -15,33 +15,36 @@
 
 namespace degs {
 
-using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
-
 /// How busy one kind of unit was.
 struct StageUse {
-    std::string name;
+    std::string name;     ///< key in results
+    std::string sentence; ///< which units these are
     int units = 0;
-    double busy_cycles = 0; ///< sum over the units
-    double busy = 0;        ///< busy_cycles / (units x cycles of the run)
-    Counts counts;
+    double busy_cycles = 0;
+    double busy = 0;
+    Counters counters; ///< of the units
+    void describe(StatsVisitor& visitor) const;
 };
 
 /// One buffer or ring; fields that a kind of buffer does not have stay 0 and are not reported.
 struct BufferUse {
-    std::string name;
-    std::int64_t bytes = 0;       ///< configured capacity, 0 if the configuration counts cells
+    std::string name;             ///< key in results
+    std::string sentence;         ///< what it holds
+    std::int64_t bytes = 0;       ///< 0 if the configuration counts cells
     std::uint64_t rings = 0;      ///< parts of the buffer, one per reader
     std::uint64_t depth = 0;      ///< cells per ring
-    std::uint64_t high_water = 0; ///< most cells filled in any ring
-    double mean_fill = 0;         ///< share of all cells, mean over the run
+    std::uint64_t high_water = 0; ///< cells
+    double mean_fill = 0;
     Cycle full_cycles = 0, empty_cycles = 0;
-    Counts counts;
+    Counters counters; ///< of its own kind
+    void describe(StatsVisitor& visitor) const;
 };
 
 struct StreamUse {
     std::string name;
     std::uint64_t bytes_read = 0, bytes_written = 0, requests = 0;
     LatencyHistogram read_latency; ///< date of a request to its last byte; empty on a plain bus
+    void describe(StatsVisitor& visitor) const;
 };
 
 /// A law that must hold between two counters of a run.
@@ -84,6 +87,16 @@ struct AcceleratorResult {
     std::vector<std::string> left_out; ///< sentences for --explain
     std::vector<Image> images;         ///< one per frame
     double elaborate_s = 0, sim_s = 0; ///< host; sim_s is sc_start() alone
+
+    /// The sections timing, stages, slots, dram and buffers of a report.
+    void describe(StatsVisitor& visitor) const;
 };
+
+/// Frames per second once the pipeline is full: of all frames but the first, which starts alone.
+/// Empty for fewer than two frames.
+std::optional<double> steady_fps(const AcceleratorResult& result);
+
+/// Name of the stage (or the memory) with the largest busy share of the run.
+std::string limiting_stage(const AcceleratorResult& result);
 
 } // namespace degs

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/collect.hpp"
 
+#include <utility>
+
 #include "config/grouped_number.hpp"
 
 namespace degs {
@@ -32,16 +34,52 @@ void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
     }
 }
 
+void add_stage(AcceleratorResult& result, const Title& title, std::size_t units,
+               std::uint64_t busy_cycles, Counters counters) {
+    if (units == 0) {
+        return;
+    }
+    StageUse stage;
+    stage.name = title.name;
+    stage.sentence = title.sentence;
+    stage.units = static_cast<int>(units);
+    stage.busy_cycles = static_cast<double>(busy_cycles);
+    if (result.cycles != 0) {
+        stage.busy = stage.busy_cycles / (stage.units * static_cast<double>(result.cycles));
+    }
+    stage.counters = std::move(counters);
+    result.stages.push_back(std::move(stage));
+}
+
+BufferUse& add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes) {
+    BufferUse buffer;
+    buffer.name = title.name;
+    buffer.sentence = title.sentence;
+    buffer.bytes = bytes;
+    return result.buffers.emplace_back(std::move(buffer));
+}
+
+void add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes, int depth,
+                const RingUse& use) {
+    BufferUse& buffer = add_buffer(result, title, bytes);
+    buffer.depth = static_cast<std::uint64_t>(depth);
+    buffer.rings = use.depth / buffer.depth;
+    buffer.high_water = use.high_water;
+    if (result.cycles != 0 && use.depth != 0) {
+        buffer.mean_fill = static_cast<double>(use.occupied_cycles) /
+                           (static_cast<double>(use.depth) * static_cast<double>(result.cycles));
+    }
+    buffer.full_cycles = use.full_cycles;
+    buffer.empty_cycles = use.empty_cycles;
+}
+
 void add_pixel_buffer(AcceleratorResult& result, int bytes, int contexts,
                       const PixelBuffers& buffers) {
-    using P = PixelBuffer::Stats;
-    BufferUse use;
-    use.name = "pixel_buffer";
-    use.bytes = bytes;
-    use.counts = {{"contexts", static_cast<std::uint64_t>(contexts)},
-                  {"readout_cycles", sum_of(buffers, &P::readout_busy)},
-                  {"write_wait_cycles", sum_of(buffers, &P::write_wait)}};
-    result.buffers.push_back(use);
+    BufferUse& use =
+        add_buffer(result, {"pixel_buffer", "State of the pixels of the tiles in flight."}, bytes);
+    use.counters.count("contexts", static_cast<std::uint64_t>(contexts), "tiles",
+                       "Tiles that it holds at once.");
+    use.counters.add(buffers);
 }
 
 void explain_tiles(AcceleratorResult& result, std::uint64_t records_cancelled) {

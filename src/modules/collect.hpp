@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "modules/accelerator_result.hpp"
@@ -25,23 +24,15 @@ std::uint64_t sum_of(const Units& units, std::uint64_t Stats::*counter) {
     return sum;
 }
 
+/// A stage or a buffer in results: its key and what it is.
+struct Title {
+    const char* name;
+    const char* sentence;
+};
+
 /// Adds a stage; the cycles of `result` must be known. None if there are no units.
-inline void add_stage(AcceleratorResult& result, const char* name, std::size_t units,
-                      std::uint64_t busy_cycles, Counts counts) {
-    if (units == 0) {
-        return;
-    }
-    StageUse stage;
-    stage.name = name;
-    stage.units = static_cast<int>(units);
-    stage.busy_cycles = static_cast<double>(busy_cycles);
-    if (result.cycles != 0) {
-        stage.busy =
-            stage.busy_cycles / (static_cast<double>(units) * static_cast<double>(result.cycles));
-    }
-    stage.counts = std::move(counts);
-    result.stages.push_back(std::move(stage));
-}
+void add_stage(AcceleratorResult& result, const Title& title, std::size_t units,
+               std::uint64_t busy_cycles, Counters counters);
 
 /// Statistics of the rings that stand for one buffer.
 struct RingUse {
@@ -64,23 +55,14 @@ RingUse use_of(const std::vector<std::unique_ptr<DatedFifo<T>>>& rings) {
     return use;
 }
 
-/// Adds a buffer of `bytes` made of rings of `depth` cells each.
-inline void add_buffer(AcceleratorResult& result, const char* name, std::int64_t bytes, int depth,
-                       const RingUse& use) {
-    BufferUse buffer;
-    buffer.name = name;
-    buffer.bytes = bytes;
-    buffer.depth = depth;
-    buffer.rings = use.depth / buffer.depth;
-    buffer.high_water = use.high_water;
-    if (result.cycles != 0 && use.depth != 0) {
-        buffer.mean_fill = static_cast<double>(use.occupied_cycles) /
-                           (static_cast<double>(use.depth) * static_cast<double>(result.cycles));
-    }
-    buffer.full_cycles = use.full_cycles;
-    buffer.empty_cycles = use.empty_cycles;
-    result.buffers.push_back(buffer);
-}
+/// A buffer of `bytes` without rings; its counters follow.
+BufferUse& add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes);
+/// A buffer of `bytes` made of rings of `depth` cells each.
+void add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes, int depth,
+                const RingUse& use);
+
+/// The Splat Fetchers of any accelerator.
+inline constexpr Title kFetching{"fetching", "Splat Fetchers, busy when they ask for records."};
 
 using PixelBuffers = std::vector<std::unique_ptr<PixelBuffer>>;
 

@@ -30,54 +30,41 @@ void Degs::collect_slots(AcceleratorResult& result) const {
 
 void Degs::collect_stages(AcceleratorResult& result) const {
     front_end_->collect(result);
-    using F = SplatFetcher::Stats;
-    add_stage(result, "fetching", fetchers_.size(), sum_of(fetchers_, &F::busy),
-              {{"records", sum_of(fetchers_, &F::records)},
-               {"records_cancelled", sum_of(fetchers_, &F::records_cancelled)}});
-    using G = GaussianSlicingUnit::Stats;
-    add_stage(result, "slicing", slicing_.size(), sum_of(slicing_, &G::busy),
-              {{"splats", sum_of(slicing_, &G::splats)},
-               {"splats_cancelled", sum_of(slicing_, &G::splats_cancelled)},
-               {"rows", sum_of(slicing_, &G::rows)}});
-    using U = SpanUnit::Stats;
-    add_stage(result, "span", spans_.size(), sum_of(spans_, &U::busy),
-              {{"rows", sum_of(spans_, &U::rows)},
-               {"empty_rows", sum_of(spans_, &U::empty_rows)},
-               {"spans", sum_of(spans_, &U::spans)},
-               {"tasks", sum_of(spans_, &U::tasks)}});
-    using B = IssueBank::Stats;
-    add_stage(result, "packing", banks_.size(), sum_of(banks_, &B::busy),
-              {{"tasks_in", sum_of(banks_, &B::tasks_in)},
-               {"tasks_issued", sum_of(banks_, &B::tasks_issued)},
-               {"tasks_dropped", sum_of(banks_, &B::tasks_dropped)},
-               {"segments_issued", sum_of(banks_, &B::segments_issued)},
-               {"segments_dropped", sum_of(banks_, &B::segments_dropped)},
-               {"packets", sum_of(packing_, &PackingUnit::Stats::packets)}});
-    using A = ArraySlice::Stats;
-    add_stage(result, "blending", slices_.size(), sum_of(slices_, &A::packets),
-              {{"packets", sum_of(slices_, &A::packets)},
-               {"pixels_ended", sum_of(slices_, &A::pixels_ended)}});
+    add_stage(result, kFetching, fetchers_.size(), sum_of(fetchers_, &SplatFetcher::Stats::busy),
+              Counters().add(fetchers_));
+    add_stage(result, {"slicing", "Gaussian Slicing Units, without their waiting."},
+              slicing_.size(), sum_of(slicing_, &GaussianSlicingUnit::Stats::busy),
+              Counters().add(slicing_));
+    add_stage(result, {"span", "Span Units, without their waiting."}, spans_.size(),
+              sum_of(spans_, &SpanUnit::Stats::busy), Counters().add(spans_));
+    add_stage(result, {"packing", "Issue Banks with their Packing Units, busy when they issue."},
+              banks_.size(), sum_of(banks_, &IssueBank::Stats::busy),
+              Counters().add(banks_).add(packing_));
+    add_stage(result, {"blending", "Array slices, busy when they execute a packet."},
+              slices_.size(), sum_of(slices_, &ArraySlice::Stats::packets),
+              Counters().add(slices_));
 }
 
 void Degs::collect_buffers(AcceleratorResult& result) const {
     const DegsConfig& c = config_;
-    add_buffer(result, "gaussian_buffer", c.gaussian_buffer.bytes, c.gaussian_chunks(),
-               gaussian_buffer());
-    add_buffer(result, "span_buffer", c.span_buffer.bytes, c.span_lane_depth(), span_buffer());
-    add_buffer(result, "crossbar", 0, c.span.crossbar_depth, crossbar());
+    add_buffer(result, {"gaussian_buffer", "Chunks of splats, once for each Slicing Unit."},
+               c.gaussian_buffer.bytes, c.gaussian_chunks(), gaussian_buffer());
+    add_buffer(result, {"span_buffer", "Rows of splats on their way to the Span Units."},
+               c.span_buffer.bytes, c.span_lane_depth(), span_buffer());
+    add_buffer(result, {"crossbar", "Span Vectors; Table I of the paper does not count them."}, 0,
+               c.span.crossbar_depth, crossbar());
     // Four cells more than the buffer has: tile ends travel in them, see build_array().
-    add_buffer(result, "packing_buffer", c.packing.bytes, c.packing_depth() + 4, packing_buffer());
-    std::uint64_t waits = 0;
+    add_buffer(result, {"packing_buffer", "Packets, and four cells for tile ends."},
+               c.packing.bytes, c.packing_depth() + 4, packing_buffer());
+    Counters& feature = add_buffer(result, {"feature_buffer", "Parameters of splats in the banks."},
+                                   c.feature_buffer.bytes)
+                            .counters;
+    feature.count("banks", banks_.size(), "banks", "Parts of it, one for each Issue Bank.");
+    feature.count("entries_per_bank", static_cast<std::uint64_t>(c.feature_entries()), "splats",
+                  "Splats that one part holds.");
     for (const auto& bank : banks_) {
-        waits += bank->feature_waits();
+        bank->features().stats().describe(feature);
     }
-    BufferUse feature;
-    feature.name = "feature_buffer";
-    feature.bytes = c.feature_buffer.bytes;
-    feature.counts = {{"banks", banks_.size()},
-                      {"entries_per_bank", static_cast<std::uint64_t>(c.feature_entries())},
-                      {"waits", waits}};
-    result.buffers.push_back(feature);
     add_pixel_buffer(result, c.pixel_buffer.bytes, c.contexts(), pixel_buffers_);
 }
 

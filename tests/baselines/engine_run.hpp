@@ -58,20 +58,20 @@ inline std::string EngineRun::words() const {
     for (const FrameDates& frame : r.frames) {
         out << "frame " << frame.preprocessed << ' ' << frame.finished << '\n';
     }
-    const auto counts = [&out](const Counts& list) {
-        for (const auto& [name, value] : list) {
-            out << ' ' << name << ' ' << value;
+    const auto counts = [&out](const Counters& counters) {
+        for (const Counters::Counter& counter : counters) {
+            out << ' ' << counter.doc.name << ' ' << counter.value;
         }
         out << '\n';
     };
     for (const StageUse& stage : r.stages) {
         out << stage.name << ' ' << stage.busy_cycles;
-        counts(stage.counts);
+        counts(stage.counters);
     }
     for (const BufferUse& buffer : r.buffers) {
         out << buffer.name << ' ' << buffer.high_water << ' ' << buffer.mean_fill << ' '
             << buffer.full_cycles << ' ' << buffer.empty_cycles;
-        counts(buffer.counts);
+        counts(buffer.counters);
     }
     for (const StreamUse& stream : r.streams) {
         out << stream.name << ' ' << stream.bytes_read << ' ' << stream.bytes_written << ' '

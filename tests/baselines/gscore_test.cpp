@@ -99,9 +99,9 @@ INSTANTIATE_TEST_SUITE_P(Random, SmallRunGscore, ::testing::Range(0U, 60U));
 std::uint64_t count_of(const AcceleratorResult& result, const std::string& stage,
                        const std::string& name) {
     for (const StageUse& use : result.stages) {
-        for (const auto& [key, value] : use.counts) {
-            if (use.name == stage && key == name) {
-                return value;
+        for (const Counters::Counter& counter : use.counters) {
+            if (use.name == stage && counter.doc.name == name) {
+                return counter.value;
             }
         }
     }

@@ -107,7 +107,10 @@ private:
     void collect_array(AcceleratorResult& result) const override {
         result.slots = array_.slots;
         result.window = array_.window;
-        add_stage(result, "blending", 1, array_.window.cycles(), {{"splats", array_.splats}});
+        Counters counters;
+        counters.count("splats", array_.splats, "splats", "Splats swept over.");
+        add_stage(result, {"blending", "Rows of splats, one after the other."}, 1,
+                  array_.window.cycles(), std::move(counters));
         result.conservation.push_back({"records = splats", records_fetched(), array_.splats});
     }
     RowSweepArray array_;

@@ -15,7 +15,7 @@ TEST(FeatureBuffer, OneEntryForAllRowsOfASplat) {
     EXPECT_EQ(buffer.current(), entry);
     ASSERT_TRUE(buffer.admit(1, 7, 6)); // the same splat in another tile is another entry
     EXPECT_NE(buffer.current(), entry);
-    EXPECT_EQ(buffer.waits(), 0U);
+    EXPECT_EQ(buffer.stats().waits, 0U);
 }
 
 // Needed until the write-back of the last task: not free at t - 1, free at t.
@@ -33,7 +33,7 @@ TEST(FeatureBuffer, AnEntryIsFreeFromTheDateOfItsLastTask) {
     EXPECT_FALSE(buffer.admit(0, 2, 29));
     EXPECT_TRUE(buffer.admit(0, 2, 30));
     EXPECT_EQ(buffer.next_free(), kNever);
-    EXPECT_EQ(buffer.waits(), 1U); // one wait, asked twice
+    EXPECT_EQ(buffer.stats().waits, 1U); // one wait, asked twice
 }
 
 TEST(FeatureBuffer, ASplatWithoutTasksLeavesAtOnce) {

@@ -118,7 +118,7 @@ inline Signature DegsRun::signature() const {
         words.add("idle slots", unit->idle());
     }
     for (const auto& bank : degs().banks()) {
-        words.add("feature waits", bank->feature_waits());
+        words.add("feature waits", bank->features().stats().waits);
     }
     words.add_streams(degs().streams());
     words.add("gaussian buffer", degs().gaussian_buffer());

@@ -104,7 +104,7 @@ TEST(SteadyFps, IsOfAllFramesButTheFirst) {
 
 TEST(LimitingStage, IsTheBusiestOne) {
     AcceleratorResult result;
-    result.stages = {{"span", 8, 0, 0.7, {}}, {"blending", 8, 0, 0.9, {}}};
+    result.stages = {{"span", "", 8, 0, 0.7, {}}, {"blending", "", 8, 0, 0.9, {}}};
     result.memory_utilization = 0.8;
     EXPECT_EQ(limiting_stage(result), "blending");
     result.memory_utilization = 0.95;

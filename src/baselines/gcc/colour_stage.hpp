@@ -8,6 +8,7 @@
 #include "baselines/gcc/block_mask.hpp"
 #include "baselines/gcc/messages.hpp"
 #include "baselines/gcc/traffic.hpp"
+#include "config/statistics.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
@@ -33,9 +34,14 @@ public:
     };
     struct Stats {
         Cycle colour_busy = 0, sort_busy = 0;
-        std::uint64_t coloured = 0;  ///< SH read, colour computed, sorted
-        std::uint64_t masked = 0;    ///< dropped, because all they can reach has ended
-        std::uint64_t cancelled = 0; ///< dropped, because their view has ended
+        std::uint64_t coloured = 0, masked = 0, cancelled = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("coloured", coloured, "Gaussians", "Gaussians coloured and sorted.");
+            v.count("masked", masked, "Gaussians",
+                    "Gaussians dropped because every block they can reach had ended.");
+            v.count("cancelled", cancelled, "Gaussians",
+                    "Gaussians dropped because their view had ended.");
+        }
     };
 
     FifoPort<SplatChunk> in;                              ///< groups

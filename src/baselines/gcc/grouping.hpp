@@ -6,6 +6,7 @@
 #include <systemc>
 
 #include "baselines/gcc/traffic.hpp"
+#include "config/statistics.hpp"
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
@@ -34,9 +35,14 @@ public:
     };
     struct Stats {
         Cycle busy = 0;
-        std::uint64_t gaussians = 0;       ///< means read
-        std::uint64_t entries_written = 0; ///< of all lists
-        std::uint64_t view_entries = 0;    ///< of these, Stage II may read
+        std::uint64_t gaussians = 0, entries_written = 0, view_entries = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("gaussians", gaussians, "Gaussians", "Gaussians whose mean was read.");
+            v.count("entries_written", entries_written, "entries",
+                    "Entries written to the lists of groups.");
+            v.count("view_entries", view_entries, "entries",
+                    "Entries of lists that belong to a view.");
+        }
     };
 
     FifoPort<std::uint32_t> out; ///< frames whose lists are complete

@@ -4,6 +4,7 @@
 #include <systemc>
 
 #include "baselines/gcc/traffic.hpp"
+#include "config/statistics.hpp"
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
@@ -27,11 +28,17 @@ public:
     };
     struct Stats {
         Cycle busy = 0;
-        std::uint64_t groups = 0;            ///< lists read
-        std::uint64_t entries = 0;           ///< of these lists
-        std::uint64_t entries_cancelled = 0; ///< never read
-        std::uint64_t shapes = 0;            ///< Gaussians read and projected
-        std::uint64_t shapes_cancelled = 0;  ///< entries whose Gaussian was not read
+        std::uint64_t groups = 0, entries = 0, entries_cancelled = 0;
+        std::uint64_t shapes = 0, shapes_cancelled = 0; ///< Gaussians
+        void describe(StatsVisitor& v) const {
+            v.count("groups", groups, "groups", "Lists of groups read.");
+            v.count("entries", entries, "entries", "Entries of these lists.");
+            v.count("entries_cancelled", entries_cancelled, "entries",
+                    "Entries not read because their view had ended.");
+            v.count("gaussians", shapes, "Gaussians", "Gaussians read and projected.");
+            v.count("gaussians_cancelled", shapes_cancelled, "Gaussians",
+                    "Entries read whose Gaussian was not, because their view had ended.");
+        }
     };
 
     FifoPort<std::uint32_t> start;                   ///< frames whose lists are complete

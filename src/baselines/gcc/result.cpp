@@ -20,8 +20,8 @@ void Engine::collect(AcceleratorResult& result) const {
     }
     collect_stages(result);
     // Of the groups on their way the ring in front of the array is looked at.
-    add_buffer(result, "group_buffer", config_.group_buffer_bytes, config_.chunks_ahead(),
-               use_of(splat_rings_));
+    add_buffer(result, {"group_buffer", "Groups of splats in front of the array."},
+               config_.group_buffer_bytes, config_.chunks_ahead(), use_of(splat_rings_));
     add_pixel_buffer(result, config_.image_buffer.bytes, config_.tile_contexts(), image_buffers_);
     streams_.collect(result);
     collect_laws(result);
@@ -31,29 +31,15 @@ void Engine::collect(AcceleratorResult& result) const {
 void Engine::collect_stages(AcceleratorResult& result) const {
     if (grouping_) {
         const Grouping::Stats& g = grouping_->stats();
-        add_stage(result, "grouping", 1, g.busy,
-                  {{"gaussians", g.gaussians}, {"entries_written", g.entries_written}});
+        add_stage(result, {"grouping", "Stage I: groups by depth."}, 1, g.busy, counters_of(g));
         const ProjectionStage::Stats& p = projection_->stats();
-        add_stage(result, "projection", 1, p.busy,
-                  {{"groups", p.groups},
-                   {"entries", p.entries},
-                   {"entries_cancelled", p.entries_cancelled},
-                   {"gaussians", p.shapes},
-                   {"gaussians_cancelled", p.shapes_cancelled}});
-        // Colours and sorting overlap: the stage is as busy as the busier of the two.
+        add_stage(result, {"projection", "Stage II: shapes."}, 1, p.busy, counters_of(p));
         const ColourStage::Stats& c = colour_->stats();
-        add_stage(result, "colour", 1, std::max(c.colour_busy, c.sort_busy),
-                  {{"coloured", c.coloured}, {"masked", c.masked}, {"cancelled", c.cancelled}});
+        add_stage(result, {"colour", "Stage III: colours and sorting overlap, the busier counts."},
+                  1, std::max(c.colour_busy, c.sort_busy), counters_of(c));
     }
     const WindowArray::Stats& a = array_->stats();
-    add_stage(result, "blending", 1, a.windows,
-              {{"windows", a.windows},
-               {"windows_empty", a.windows_empty},
-               {"windows_ended", a.windows_ended},
-               {"splats", a.splats},
-               {"splats_dropped", a.splats_dropped},
-               {"extra_seeds", a.extra_seeds},
-               {"pixels_ended", a.pixels_ended}});
+    add_stage(result, {"blending", "Stage IV: the window array."}, 1, a.windows, counters_of(a));
 }
 
 void Engine::collect_laws(AcceleratorResult& result) const {

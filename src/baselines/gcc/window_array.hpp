@@ -8,6 +8,7 @@
 #include "baselines/gcc/messages.hpp"
 #include "baselines/gcc/traversal.hpp"
 #include "config/config.hpp"
+#include "config/statistics.hpp"
 #include "modules/array/slot_account.hpp"
 #include "tlm/dated_fifo.hpp"
 
@@ -41,15 +42,27 @@ public:
     struct Stats {
         SlotAccount slots;
         ActiveWindow window;
-        std::uint64_t windows = 0;        ///< evaluated, a slot each
-        std::uint64_t windows_empty = 0;  ///< of these, without a valid pixel
-        std::uint64_t windows_ended = 0;  ///< passed: all their pixels had ended
-        std::uint64_t skip_cycles = 0;    ///< spent on those, inside the window of activity
-        std::uint64_t splats = 0;         ///< traversed
-        std::uint64_t splats_dropped = 0; ///< came when all pixels of their view had ended
-        std::uint64_t extra_seeds = 0;
-        std::uint64_t valid_pixels = 0; ///< of evaluated windows
-        std::uint64_t pixels_ended = 0;
+        std::uint64_t windows = 0, windows_empty = 0, windows_ended = 0;
+        std::uint64_t skip_cycles = 0, valid_pixels = 0, extra_seeds = 0;
+        std::uint64_t splats = 0, splats_dropped = 0, pixels_ended = 0;
+        void describe(StatsVisitor& v) const { // slots are described by the result
+            v.count("windows", windows, "windows", "Windows evaluated, one in each busy cycle.");
+            v.count("windows_empty", windows_empty, "windows",
+                    "Evaluated windows without a valid pixel.");
+            v.count("windows_ended", windows_ended, "windows",
+                    "Windows passed without evaluation: all their pixels had ended.");
+            v.count("splats", splats, "splats", "Splats traversed.");
+            v.count("splats_dropped", splats_dropped, "splats",
+                    "Splats that came when all pixels of their view had ended.");
+            v.count("extra_seeds", extra_seeds, "windows",
+                    "Further windows from which the traversal of a splat began.");
+            v.count("pixels_ended", pixels_ended, "pixels",
+                    "Pixels that ended before the end of their list.");
+            v.count("valid_pixels", valid_pixels, "pixels",
+                    "Pixels inside the ellipse in evaluated windows.");
+            v.count("skip_cycles", skip_cycles, "cycles",
+                    "Passing ended windows, between the first slot and the last.");
+        }
     };
 
     sc_core::sc_vector<FifoPort<SplatChunk>> in; ///< tile t arrives on port t mod their number

@@ -3,6 +3,7 @@
 
 #include <systemc>
 
+#include "config/statistics.hpp"
 #include "modules/array/slot_account.hpp"
 #include "modules/render_job.hpp"
 #include "modules/scheduler/issue_bank.hpp"
@@ -28,6 +29,11 @@ public:
         std::uint64_t packets = 0;
         std::uint64_t hazards = 0; ///< pixels updated again before their write-back: must be 0
         std::uint64_t pixels_ended = 0;
+        void describe(StatsVisitor& v) const { // slots and hazards are described by the result
+            v.count("packets", packets, "packets", "Packets executed, one in each busy cycle.");
+            v.count("pixels_ended", pixels_ended, "pixels",
+                    "Pixels that ended before the end of their list.");
+        }
     };
 
     FifoPort<TaskPacket> in;

@@ -14,7 +14,7 @@ FeatureBuffer::FeatureBuffer(int entries) : entries_(entries), free_count_(entri
 bool FeatureBuffer::enter(std::uint64_t splat, Cycle now) {
     close(now);
     if (next_free() > now) {
-        waits_ += waiting_ ? 0 : 1;
+        stats_.waits += waiting_ ? 0 : 1;
         waiting_ = true;
         return false;
     }

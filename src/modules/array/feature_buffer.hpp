@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "config/statistics.hpp"
 #include "modules/messages.hpp"
 #include "tlm/clock_domain.hpp"
 
@@ -16,6 +17,13 @@ namespace degs {
 /// own read port [assumed].
 class FeatureBuffer {
 public:
+    struct Stats {
+        std::uint64_t waits = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("waits", waits, "splats", "Splats that found no free entry and waited.");
+        }
+    };
+
     explicit FeatureBuffer(int entries);
 
     /// Makes (tile, splat) the splat that enters; false if no entry is free at `now`.
@@ -37,8 +45,7 @@ public:
     void close(Cycle now);
     /// Date at which the next entry becomes free; kNever if none is on its way.
     Cycle next_free() const { return free_count_ == 0 ? kNever : free_[first_free_].date; }
-    /// Times that the bank had to wait for an entry, however often it asked meanwhile.
-    std::uint64_t waits() const { return waits_; }
+    const Stats& stats() const { return stats_; }
 
 private:
     struct Entry {
@@ -64,7 +71,7 @@ private:
     std::uint64_t current_key_ = kNobody; // key() of the current splat
     std::uint16_t current_ = 0;
     bool waiting_ = false;
-    std::uint64_t waits_ = 0;
+    Stats stats_;
 };
 
 } // namespace degs

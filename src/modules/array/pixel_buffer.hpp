@@ -6,6 +6,7 @@
 #include <systemc>
 
 #include "config/config.hpp"
+#include "config/statistics.hpp"
 #include "modules/render_job.hpp"
 #include "modules/traffic.hpp"
 #include "tlm/dated_fifo.hpp"
@@ -43,9 +44,14 @@ public:
     };
     struct Stats {
         Cycle readout_busy = 0;
-        Cycle write_wait = 0; ///< ready to read out, but too many writes were in flight
-        Cycle finished = 0;   ///< date at which the last pixel was in memory
+        Cycle write_wait = 0;
+        Cycle finished = 0; ///< date at which the last pixel was in memory
         std::uint64_t tiles = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("readout_cycles", readout_busy, "cycles", "Reading out finished tiles.");
+            v.count("write_wait_cycles", write_wait, "cycles",
+                    "Finished tiles waiting because too many writes were in flight.");
+        }
     };
     /// Which pixels are this instance's, and where it keeps them.
     struct Share {

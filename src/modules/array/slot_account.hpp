@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
+#include "config/statistics.hpp"
 #include "tlm/clock_domain.hpp"
 
 namespace degs {
@@ -13,13 +15,8 @@ enum class Idle { Conflict, Starved, Blocked };
 
 /// PE-cycles by class. Every PE-cycle of the blending window falls in exactly one.
 struct SlotAccount {
-    std::uint64_t useful = 0;     ///< inside the ellipse, pixel live, blended
-    std::uint64_t boundary = 0;   ///< alpha < 1/255, or outside the image
-    std::uint64_t terminated = 0; ///< the pixel has ended or refuses the splat
-    std::uint64_t conflict = 0;   ///< work there, but within the reuse distance
-    std::uint64_t starved = 0;    ///< no work there
-    std::uint64_t blocked = 0;    ///< work there, but no room: a Pixel Buffer context, a packet
-    std::uint64_t drain = 0;      ///< this slice is done with the frame, others are not
+    std::uint64_t useful = 0, boundary = 0, terminated = 0;
+    std::uint64_t conflict = 0, starved = 0, blocked = 0, drain = 0;
 
     void idle(Idle cause, std::uint64_t slots) {
         (cause == Idle::Conflict ? conflict : cause == Idle::Starved ? starved : blocked) += slots;
@@ -37,7 +34,36 @@ struct SlotAccount {
         drain += o.drain;
         return *this;
     }
+    void describe(StatsVisitor& visitor) const;
 };
+
+/// One class of PE-cycles and what it means.
+struct SlotClass {
+    const char* name; ///< in results
+    std::uint64_t SlotAccount::*slots;
+    const char* sentence;
+};
+/// In the order of all results and pictures.
+inline constexpr std::array<SlotClass, 7> kSlotClasses{{
+    {"useful", &SlotAccount::useful, "A task inside the ellipse was blended."},
+    {"boundary", &SlotAccount::boundary,
+     "The task was outside the ellipse (alpha < 1/255) or outside the image."},
+    {"terminated", &SlotAccount::terminated,
+     "The task was inside, but its pixel had ended or refused the splat."},
+    {"conflict", &SlotAccount::conflict,
+     "No task: all that waited were within the reuse distance."},
+    {"starved", &SlotAccount::starved,
+     "No task: none waited, or the issue width let no more through."},
+    {"blocked", &SlotAccount::blocked,
+     "No task: those that waited had no room: no Pixel Buffer context, or no packet."},
+    {"drain", &SlotAccount::drain, "No task: this part of the array had finished, others had not."},
+}};
+
+inline void SlotAccount::describe(StatsVisitor& visitor) const {
+    for (const SlotClass& slot : kSlotClasses) {
+        visitor.count(slot.name, this->*slot.slots, "PE-cycles", slot.sentence);
+    }
+}
 
 /// First and last cycle in which an array slice executed tasks.
 struct ActiveWindow {

@@ -71,11 +71,10 @@ void TileArrayEngine::collect(AcceleratorResult& result) const {
     result.tiles_cancelled = monitor_->stats().tiles_cancelled;
     front_end_->collect(result);
     using F = SplatFetcher::Stats;
-    add_stage(result, "fetching", fetchers_.size(), sum_of(fetchers_, &F::busy),
-              {{"records", records_fetched()},
-               {"records_cancelled", sum_of(fetchers_, &F::records_cancelled)}});
-    add_buffer(result, "gaussian_buffer", parts_.buffer_bytes, parts_.splat_chunks,
-               use_of(splat_rings_));
+    add_stage(result, kFetching, fetchers_.size(), sum_of(fetchers_, &F::busy),
+              Counters().add(fetchers_));
+    add_buffer(result, {"gaussian_buffer", "Chunks of splats on their way to the array."},
+               parts_.buffer_bytes, parts_.splat_chunks, use_of(splat_rings_));
     add_pixel_buffer(result, parts_.pixel_buffer.bytes, parts_.contexts, pixel_buffers_);
     streams_.collect(result);
     explain_tiles(result, sum_of(fetchers_, &F::records_cancelled));

@@ -4,6 +4,7 @@
 #include <systemc>
 
 #include "config/config.hpp"
+#include "config/statistics.hpp"
 #include "modules/front_end/list_loader.hpp"
 
 namespace degs {
@@ -27,9 +28,18 @@ public:
     };
     struct Stats {
         Cycle coarse_busy = 0, fine_busy = 0;
-        std::uint64_t keys = 0; ///< partitioned
-        std::uint64_t keys_sorted = 0, keys_cancelled = 0;
+        std::uint64_t keys = 0, keys_sorted = 0, keys_cancelled = 0;
         std::uint64_t memory_levels = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("keys", keys, "keys", "List entries partitioned by the coarse step.");
+            v.count("keys_sorted", keys_sorted, "keys", "List entries sorted by the exact step.");
+            v.count("keys_cancelled", keys_cancelled, "keys",
+                    "List entries not sorted because their tile was finished.");
+            v.count("coarse_cycles", coarse_busy, "cycles", "Cycles of the coarse step.");
+            v.count("fine_cycles", fine_busy, "cycles", "Cycles of the exact step.");
+            v.count("memory_levels", memory_levels, "levels",
+                    "Coarse levels that went through memory.");
+        }
     };
 
     FifoPort<std::uint32_t> start; ///< frame tokens from the binner

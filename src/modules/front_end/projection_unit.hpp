@@ -5,6 +5,7 @@
 
 #include <systemc>
 
+#include "config/statistics.hpp"
 #include "modules/render_job.hpp"
 #include "modules/traffic.hpp"
 #include "tlm/dated_fifo.hpp"
@@ -31,6 +32,10 @@ public:
     struct Stats {
         Cycle project_busy = 0, shade_busy = 0;
         std::uint64_t gaussians = 0, visible = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("gaussians", gaussians, "Gaussians", "Gaussians whose geometry was read.");
+            v.count("visible", visible, "Gaussians", "Gaussians that at least one tile lists.");
+        }
     };
 
     MemoryPort geometry;

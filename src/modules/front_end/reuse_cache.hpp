@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/statistics.hpp"
 #include "modules/render_job.hpp"
 
 namespace degs {
@@ -55,6 +56,10 @@ class ReuseCache {
 public:
     struct Stats {
         std::uint64_t hits = 0, misses = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("hits", hits, "records", "Splat records found in the caches.");
+            v.count("misses", misses, "records", "Splat records read from memory.");
+        }
     };
 
     /// Both outlive the cache. `records`: capacity, >= 1.

@@ -3,6 +3,7 @@
 
 #include <systemc>
 
+#include "config/statistics.hpp"
 #include "modules/front_end/list_loader.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
@@ -24,6 +25,11 @@ public:
     struct Stats {
         Cycle sort_busy = 0;
         std::uint64_t keys = 0, memory_passes = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("keys", keys, "keys", "List entries sorted.");
+            v.count("memory_passes", memory_passes, "passes",
+                    "Merge passes through memory, of lists too long for the buffer.");
+        }
     };
 
     FifoPort<std::uint32_t> start; ///< frame tokens from the binner

@@ -3,6 +3,7 @@
 
 #include <systemc>
 
+#include "config/statistics.hpp"
 #include "modules/front_end/reuse_cache.hpp"
 #include "modules/render_job.hpp"
 #include "modules/traffic.hpp"
@@ -24,6 +25,11 @@ public:
     struct Stats {
         Cycle busy = 0;
         std::uint64_t records = 0, records_cancelled = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("records", records, "records", "Splat records fetched.");
+            v.count("records_cancelled", records_cancelled, "records",
+                    "Splat records not fetched because their tile was finished.");
+        }
     };
 
     FifoPort<SortedRun> sorted;                   ///< until kNoTile

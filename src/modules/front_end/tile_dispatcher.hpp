@@ -5,6 +5,7 @@
 
 #include <systemc>
 
+#include "config/statistics.hpp"
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
 
@@ -17,8 +18,14 @@ class TileDispatcher : public sc_core::sc_module {
 public:
     struct Stats {
         std::uint64_t tiles = 0;
-        Cycle list_wait = 0;    ///< an engine may have asked, but the next list was not sorted
-        Cycle request_wait = 0; ///< the next list was there, but no engine had asked
+        Cycle list_wait = 0, request_wait = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("tiles", tiles, "tiles", "Tiles granted to an engine.");
+            v.count("list_wait_cycles", list_wait, "cycles",
+                    "Waiting for the next list to be sorted; an engine may have asked.");
+            v.count("request_wait_cycles", request_wait, "cycles",
+                    "Waiting for an engine to ask; the next list was sorted.");
+        }
     };
 
     /// Complete lists, from List Collectors; tile t from port t modulo their number.

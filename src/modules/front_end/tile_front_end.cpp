@@ -106,26 +106,21 @@ void TileFrontEnd::collect(AcceleratorResult& result) const {
         result.frames[f].preprocessed = binner_->frames_binned()[f];
     }
     using P = ProjectionUnit::Stats;
-    // Projecting and shading overlap: the unit is as busy as the busier of the two.
-    add_stage(result, "projection", projection_.size(),
-              std::max(sum_of(projection_, &P::project_busy), sum_of(projection_, &P::shade_busy)),
-              {{"gaussians", sum_of(projection_, &P::gaussians)},
-               {"visible", sum_of(projection_, &P::visible)}});
-    using S = SortingUnit::Stats;
-    add_stage(result, "sorting", sorting_.size(), sum_of(sorting_, &S::sort_busy),
-              {{"keys", sum_of(sorting_, &S::keys)},
-               {"memory_passes", sum_of(sorting_, &S::memory_passes)}});
-    using H = HierarchicalSorter::Stats;
-    // The two steps overlap: the unit is as busy as the busier of them.
     add_stage(
-        result, "sorting", hierarchical_.size(),
+        result,
+        {"projection", "Projection Units; projecting and shading overlap, the busier counts."},
+        projection_.size(),
+        std::max(sum_of(projection_, &P::project_busy), sum_of(projection_, &P::shade_busy)),
+        Counters().add(projection_));
+    add_stage(result, {"sorting", "Sorting Units; waiting for memory is not busy."},
+              sorting_.size(), sum_of(sorting_, &SortingUnit::Stats::sort_busy),
+              Counters().add(sorting_));
+    using H = HierarchicalSorter::Stats;
+    add_stage(
+        result, {"sorting", "Hierarchical Sorters; the two steps overlap, the busier counts."},
+        hierarchical_.size(),
         std::max(sum_of(hierarchical_, &H::coarse_busy), sum_of(hierarchical_, &H::fine_busy)),
-        {{"keys", sum_of(hierarchical_, &H::keys)},
-         {"keys_sorted", sum_of(hierarchical_, &H::keys_sorted)},
-         {"keys_cancelled", sum_of(hierarchical_, &H::keys_cancelled)},
-         {"coarse_cycles", sum_of(hierarchical_, &H::coarse_busy)},
-         {"fine_cycles", sum_of(hierarchical_, &H::fine_busy)},
-         {"memory_levels", sum_of(hierarchical_, &H::memory_levels)}});
+        Counters().add(hierarchical_));
 }
 
 } // namespace degs

@@ -6,6 +6,7 @@
 #include <systemc>
 
 #include "config/config.hpp"
+#include "config/statistics.hpp"
 #include "modules/array/feature_buffer.hpp"
 #include "modules/render_job.hpp"
 #include "modules/scheduler/packing_unit.hpp"
@@ -42,9 +43,20 @@ public:
     struct Stats {
         std::uint64_t spans = 0, tasks_in = 0;
         std::uint64_t segments_issued = 0, tasks_issued = 0;
-        std::uint64_t segments_dropped = 0, tasks_dropped = 0; ///< of terminated pixels
-        Cycle busy = 0;                                        ///< cycles with an issue
+        std::uint64_t segments_dropped = 0, tasks_dropped = 0;
+        Cycle busy = 0; ///< cycles with an issue
         std::uint64_t queue_high_water = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("tasks_in", tasks_in, "tasks", "Tasks taken in from the Span Units.");
+            v.count("tasks_issued", tasks_issued, "tasks", "Tasks issued to the Packing Units.");
+            v.count("tasks_dropped", tasks_dropped, "tasks",
+                    "Tasks dropped because their pixel had ended.");
+            v.count("segments_issued", segments_issued, "segments", "Segments issued.");
+            v.count("segments_dropped", segments_dropped, "segments",
+                    "Segments dropped because all their pixels had ended.");
+            v.peak("queue_high_water", queue_high_water, "segments",
+                   "Most segments that waited in one Issue Bank.");
+        }
     };
 
     sc_core::sc_vector<FifoPort<SpanItem>> in; ///< one per Span Unit that reaches this bank
@@ -56,7 +68,7 @@ public:
               const RenderJob& job, int index, std::size_t inputs, int contexts);
 
     const Stats& stats() const { return stats_; }
-    std::uint64_t feature_waits() const { return features_.waits(); }
+    const FeatureBuffer& features() const { return features_; }
 
 private:
     static constexpr std::uint32_t kAllPixels = ~0U;

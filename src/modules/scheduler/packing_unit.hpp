@@ -6,6 +6,7 @@
 #include <systemc>
 
 #include "config/config.hpp"
+#include "config/statistics.hpp"
 #include "modules/array/slot_account.hpp"
 #include "modules/messages.hpp"
 #include "tlm/dated_fifo.hpp"
@@ -30,6 +31,9 @@ public:
     };
     struct Stats {
         std::uint64_t packets = 0, tasks = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("packets", packets, "packets", "Packets handed to the array slices.");
+        }
     };
 
     FifoPort<TaskPacket> out;

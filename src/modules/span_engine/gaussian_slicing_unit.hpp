@@ -4,6 +4,7 @@
 #include <systemc>
 
 #include "config/config.hpp"
+#include "config/statistics.hpp"
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
 
@@ -32,6 +33,14 @@ public:
     struct Stats {
         Cycle busy = 0;
         std::uint64_t splats = 0, rows = 0, rows_skipped = 0, splats_cancelled = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("splats", splats, "splats", "Splats taken in, by every unit that reads them.");
+            v.count("splats_cancelled", splats_cancelled, "splats",
+                    "Splats dropped because their tile was finished.");
+            v.count("rows", rows, "rows", "Rows of splats sent to the Span Units.");
+            v.count("rows_skipped", rows_skipped, "rows",
+                    "Rows not sent because all their pixels had ended (skip_dead_rows).");
+        }
     };
 
     sc_core::sc_vector<FifoPort<SplatChunk>> in; ///< Gaussian Buffer, one per Sorting Unit

@@ -4,6 +4,7 @@
 #include <systemc>
 
 #include "config/config.hpp"
+#include "config/statistics.hpp"
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
 
@@ -24,6 +25,13 @@ public:
     struct Stats {
         Cycle busy = 0;
         std::uint64_t rows = 0, spans = 0, empty_rows = 0, tasks = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("rows", rows, "rows", "Rows of splats solved.");
+            v.count("empty_rows", empty_rows, "rows",
+                    "Solved rows that cover no pixel of their tile.");
+            v.count("spans", spans, "spans", "Span Vectors found.");
+            v.count("tasks", tasks, "tasks", "Pixels in these spans.");
+        }
     };
 
     FifoPort<RowItem> in;
