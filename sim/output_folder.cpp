@@ -57,8 +57,11 @@ void OutputFolder::write_text(const std::string& file, const std::string& text) 
 }
 
 void OutputFolder::write_json(const std::string& file, const nlohmann::ordered_json& value) const {
-    write_text(file,
-               value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    write_text(file, json_text(value));
+}
+
+std::string json_text(const nlohmann::ordered_json& value) {
+    return value.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 } // namespace degs::sim

@@ -18,11 +18,14 @@ public:
     std::string path(const std::string& file) const;
     /// Whole or not at all.
     void write_text(const std::string& file, const std::string& text) const;
-    /// Likewise; bytes that are no UTF-8 become U+FFFD.
+    /// Likewise, as json_text().
     void write_json(const std::string& file, const nlohmann::ordered_json& value) const;
 
 private:
     std::string folder_;
 };
+
+/// A document as it is written to a file; bytes that are not UTF-8 become U+FFFD.
+std::string json_text(const nlohmann::ordered_json& value);
 
 } // namespace degs::sim

@@ -17,8 +17,6 @@
 namespace degs::sim {
 namespace {
 
-using nlohmann::ordered_json;
-
 constexpr const char* kSlots = "slots.svg";
 constexpr const char* kUtilization = "utilization.svg";
 
@@ -85,7 +83,7 @@ Comparison CompareSession::run() {
         run_scene(request_.scenes[s]);
     }
     interrupted_ = interrupted_ || !pool_.finish();
-    if (!runs_.empty()) {
+    if (!found_.empty()) {
         write(); // with failures that came after the last run
     }
     return comparison();
@@ -209,7 +207,7 @@ void CompareSession::end(std::size_t number, ChildOutcome&& outcome) {
     const bool good = !outcome.failure;
     try {
         take(run, std::move(outcome));
-        if (!runs_.empty()) {
+        if (!found_.empty()) {
             write();
         }
     } catch (...) {
@@ -235,15 +233,14 @@ void CompareSession::take(const Started& started, ChildOutcome&& outcome) {
         fail(name, started.words, *outcome.failure);
         return;
     }
-    ordered_json report = ordered_json::parse(outcome.output);
+    RunSummary summary = summary_from(outcome.output);
     const OutputFolder folder(out_.path("reports/" + started.folder), {});
-    folder.write_json(std::to_string(started.config + 1) + "-" + file_name(name) +
+    folder.write_text(std::to_string(started.config + 1) + "-" + file_name(name) +
                           (started.path ? "-path.json" : ".json"),
-                      report);
-    ComparedRun& run = runs_[{started.view, started.config}];
-    run.config = name;
-    run.camera = started.camera;
-    (started.path ? run.path : run.frame) = std::move(report);
+                      summary.report);
+    summary.report.clear();
+    Found& found = found_[{started.view, started.config}];
+    (started.path ? found.path : found.frame) = std::move(summary);
 }
 
 void CompareSession::fail(const std::string& config, const std::string& view,
@@ -258,9 +255,9 @@ Comparison CompareSession::comparison() const {
         names.push_back(config.name);
     }
     std::vector<ComparedRun> runs;
-    for (const auto& [place, run] : runs_) {
-        if (!run.frame.is_null()) { // a path alone has no latency to compare
-            runs.push_back(run);
+    for (const auto& [place, found] : found_) {
+        if (found.frame) { // a path alone has no latency to compare
+            runs.push_back({names[place.second], *found.frame, found.path});
         }
     }
     Comparison result = compare(names, runs);
@@ -289,7 +286,7 @@ void CompareSession::write() const {
 Failure CompareSession::interruption() const {
     return {kInterrupted,
             "Interrupted after " + progress_.words() +
-                (runs_.empty() ? "." : "; what they found is in '" + out_.path("") + "'.")};
+                (found_.empty() ? "." : "; what they found is in '" + out_.path("") + "'.")};
 }
 
 std::optional<Failure> CompareSession::failure() const {

@@ -41,6 +41,10 @@ public:
 
 private:
     struct Started;
+    /// One configuration on one view: what its runs have found so far.
+    struct Found {
+        std::optional<RunSummary> frame, path;
+    };
     using Configs = std::vector<std::size_t>;
 
     std::size_t runs_per_view() const;
@@ -61,8 +65,8 @@ private:
 
     const CompareRequest& request_;
     const OutputFolder& out_;
-    std::size_t views_ = 0;                                           ///< begun
-    std::map<std::pair<std::size_t, std::size_t>, ComparedRun> runs_; ///< by view and configuration
+    std::size_t views_ = 0;                                      ///< begun
+    std::map<std::pair<std::size_t, std::size_t>, Found> found_; ///< by view and configuration
     std::vector<FailedRun> failed_;
     std::vector<Failure> failures_; ///< the same with their codes
     std::vector<Started> started_;  ///< by number of the run

@@ -2,81 +2,26 @@
 // Several accelerators on the same views, made comparable. docs/compare.md is the manual.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include "sim/compare/run_summary.hpp"
 
 namespace degs::sim {
 
-/// What is compared. A ratio is above 1 for what is better than the first configuration.
-enum class Measure {
-    Cycles,
-    LatencyMs,
-    Fps,
-    ThroughputFps, ///< of the camera path
-    Useful,        ///< this and the next six: shares of the slots, in the order of reports
-    Boundary,
-    Terminated,
-    Conflict,
-    Starved,
-    Blocked,
-    Drain,
-    Utilization,
-    FrameUtilization,
-    DramRead,    ///< bytes
-    DramWritten, ///< bytes
-    DramUtilization,
-    AreaMm2,
-    LatencyRatio,           ///< latency of the first / latency
-    ThroughputRatio,        ///< throughput / throughput of the first
-    LatencyRatioPerArea,    ///< the same with latency x area
-    ThroughputRatioPerArea, ///< the same with throughput / area
-    PsnrDb,
-    Ssim,
-    MaxAbsError,
-    SimS, ///< host seconds of the run of one frame
-    Count
-};
-
-/// A number for each measure; one that does not exist is empty, never 0.
-class Measures {
-public:
-    std::optional<double>& operator[](Measure m) { return values_[static_cast<std::size_t>(m)]; }
-    const std::optional<double>& operator[](Measure m) const {
-        return values_[static_cast<std::size_t>(m)];
-    }
-
-private:
-    std::array<std::optional<double>, static_cast<std::size_t>(Measure::Count)> values_;
-};
-
-/// Where a measure stands in compare.json, as a JSON pointer below its run, and in compare.csv,
-/// with dots: "/slots/useful" is the column "slots.useful".
-const char* place_of(Measure measure);
-
-/// One configuration on one view, as `degs run` reports it.
+/// What has become of one configuration on one view.
 struct ComparedRun {
-    std::string config;           ///< what the user calls it
-    int camera = 0;               ///< position in the scene's list
-    nlohmann::ordered_json frame; ///< report of one frame alone
-    nlohmann::ordered_json path;  ///< report of a camera path; null if there is none
+    std::string config;             ///< what the user calls it
+    RunSummary frame;               ///< one frame alone
+    std::optional<RunSummary> path; ///< the camera path, if there is one
 };
 
 struct FailedRun {
     std::string config;
     std::string view;
     std::string sentence;
-};
-
-struct ComparedView {
-    std::string scene, source, camera_name;
-    int camera = 0, width = 0, height = 0;
-    std::size_t gaussians = 0, visible = 0;
-    std::optional<std::size_t> fragments; ///< of the reference
 };
 
 struct ComparedConfig {

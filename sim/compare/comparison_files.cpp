@@ -29,11 +29,11 @@ ordered_json number_json(const std::optional<double>& value) {
     return value_or_null(value);
 }
 
-template <class Act>
-void for_each_measure(const Act& act) {
-    for (std::size_t m = 0; m < static_cast<std::size_t>(Measure::Count); ++m) {
-        act(static_cast<Measure>(m));
-    }
+/// Below a run of compare.json.
+ordered_json::json_pointer place_of(Measure measure) {
+    std::string place = "/" + name_of(measure);
+    std::replace(place.begin(), place.end(), '.', '/');
+    return ordered_json::json_pointer(place);
 }
 
 ordered_json row_json(const Comparison& comparison, const ComparisonRow& row) {
@@ -41,9 +41,7 @@ ordered_json row_json(const Comparison& comparison, const ComparisonRow& row) {
     if (row.view < comparison.views.size()) {
         json["view"] = row.view;
     }
-    for_each_measure([&](Measure m) {
-        json[ordered_json::json_pointer(place_of(m))] = number_json(row.measures[m]);
-    });
+    for_each_measure([&](Measure m) { json[place_of(m)] = number_json(row.measures[m]); });
     return json;
 }
 
@@ -85,12 +83,6 @@ std::string csv_number(const std::optional<double>& value) {
     return json.is_null() ? "" : json.is_string() ? json.get<std::string>() : json.dump();
 }
 
-std::string csv_column(Measure measure) {
-    std::string column = place_of(measure) + 1;
-    std::replace(column.begin(), column.end(), '/', '.');
-    return column;
-}
-
 } // namespace
 
 ordered_json comparison_json(const Comparison& comparison) {
@@ -125,7 +117,7 @@ ordered_json comparison_json(const Comparison& comparison) {
 
 std::string comparison_csv(const Comparison& comparison) {
     std::string text = "config,accelerator,pes,tile_size,scene,camera,width,height";
-    for_each_measure([&](Measure m) { text += "," + csv_column(m); });
+    for_each_measure([&](Measure m) { text += "," + name_of(m); });
     text += "\n";
     for (const ComparisonRow& row : comparison.rows) {
         const ComparedConfig& config = comparison.configs[row.config];

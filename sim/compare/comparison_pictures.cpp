@@ -18,8 +18,7 @@ SlotBar bar_of(const Comparison& comparison, const ComparisonRow& row) {
         bar.note += " · " + three_digits(*row.measures[Measure::Fps]) + " fps";
     }
     for (std::size_t c = 0; c < bar.shares.size(); ++c) {
-        const auto m = static_cast<Measure>(static_cast<std::size_t>(Measure::Useful) + c);
-        bar.shares[c] = row.measures[m].value_or(0);
+        bar.shares[c] = row.measures[slot_measure(c)].value_or(0);
     }
     return bar;
 }

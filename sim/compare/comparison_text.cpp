@@ -2,7 +2,6 @@
 #include "config/config_words.hpp"
 #include "config/visible_text.hpp"
 #include "sim/compare/comparison_output.hpp"
-#include "sim/plot/plot_svg.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
 
@@ -39,8 +38,7 @@ std::string megabytes(const Measures& m) {
 std::vector<std::string> slot_cells(const Measures& m) {
     std::vector<std::string> cells;
     for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
-        cells.push_back(
-            share(m[static_cast<Measure>(static_cast<std::size_t>(Measure::Useful) + c)]));
+        cells.push_back(share(m[slot_measure(c)]));
     }
     cells.push_back(share(m[Measure::FrameUtilization]));
     return cells;

@@ -3,18 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/compare/run_summary.hpp"
+#include "sim/output_folder.hpp"
 #include "sim/report.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
 
 namespace degs::sim {
-namespace {
-
-std::string bytes_of(const RunResult& result) {
-    return report(result).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
-
-} // namespace
 
 void SharedView::render_reference(TileMode mode) {
     const std::pair<int, TileMode> tiles{mode == TileMode::Exact ? 0 : frames.front().tile_size,
@@ -42,7 +37,9 @@ std::string SharedView::run(const RunRequest& request, bool path) const {
     result.host.load_s = load_s;
     result.host.workload_s = workload_s;
     result.host.wall_s = wall.seconds();
-    return bytes_of(result);
+    RunSummary summary = summary_of(result, camera);
+    summary.report = json_text(report(result));
+    return message_of(summary);
 }
 
 } // namespace degs::sim

@@ -27,8 +27,8 @@ struct SharedView {
     /// With exact tiles the image does not depend on their size.
     void render_reference(TileMode mode);
 
-    /// In the child: the report of the whole path, or of its first frame alone, which is compared
-    /// with the reference.
+    /// In the child: the summary, as a message, of a run of the whole path, or of its first frame
+    /// alone, which is compared with the reference.
     std::string run(const RunRequest& request, bool path) const;
 };
 

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/compare/measures.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "config/error.hpp"
+#include "config/statistics_document.hpp"
+#include "sim/report.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct MeasureRule {
+    const char* name;      ///< null: that of the class of slots
+    const char* statistic; ///< of a report; null: not one of them alone
+    bool mean;
+};
+
+constexpr std::array<MeasureRule, static_cast<std::size_t>(Measure::Count)> kRules{{
+    {"cycles", "timing.cycles", false},
+    {"latency_ms", "timing.latency_ms", true},
+    {"fps", "timing.fps", true},
+    {"throughput_fps", "timing.throughput_fps", true},
+    {nullptr, nullptr, false}, // seven classes of slots
+    {nullptr, nullptr, false},
+    {nullptr, nullptr, false},
+    {nullptr, nullptr, false},
+    {nullptr, nullptr, false},
+    {nullptr, nullptr, false},
+    {nullptr, nullptr, false},
+    {"slots.utilization", "slots.utilization", true},
+    {"slots.frame_utilization", "slots.frame_utilization", true},
+    {"dram.bytes_read", "dram.bytes_read", false},
+    {"dram.bytes_written", "dram.bytes_written", false},
+    {"dram.utilization", "dram.utilization", false},
+    {"area_mm2", nullptr, false},
+    {"ratio.latency", nullptr, true},
+    {"ratio.throughput", nullptr, true},
+    {"ratio.latency_per_mm2", nullptr, true},
+    {"ratio.throughput_per_mm2", nullptr, true},
+    {"image.psnr_db", "image.psnr_db", false},
+    {"image.ssim", "image.ssim", false},
+    {"image.max_abs_error", "image.max_abs_error", false},
+    {"host.sim_s", "host.sim_s", false},
+}};
+
+const MeasureRule& rule_of(Measure measure) {
+    return kRules[static_cast<std::size_t>(measure)];
+}
+
+/// Empty for what does not exist for this run.
+std::optional<double> number_of(const Statistic& statistic) {
+    if (std::holds_alternative<std::monostate>(statistic.value)) {
+        return {};
+    }
+    if (const auto* whole = std::get_if<std::uint64_t>(&statistic.value)) {
+        return static_cast<double>(*whole);
+    }
+    if (const auto* real = std::get_if<double>(&statistic.value)) {
+        return std::isnan(*real) ? std::nullopt : std::optional<double>(*real);
+    }
+    throw std::logic_error("the statistic '" + statistic.path + "' is not a number");
+}
+
+void read_statistics(const RunResult& result, Measures& measures) {
+    const std::vector<Statistic> list =
+        list_statistics([&result](StatsVisitor& visitor) { describe(result, visitor); });
+    for_each_measure([&](Measure m) {
+        if (const char* name = rule_of(m).statistic) {
+            measures[m] = number_of(find_statistic(list, name));
+        }
+    });
+}
+
+void read_slots(const SlotAccount& slots, Measures& measures) {
+    const auto total = static_cast<double>(slots.total());
+    for (std::size_t c = 0; total != 0 && c < kSlotClasses.size(); ++c) {
+        measures[slot_measure(c)] = static_cast<double>(slots.*kSlotClasses[c].slots) / total;
+    }
+}
+
+} // namespace
+
+std::string name_of(Measure measure) {
+    if (const char* name = rule_of(measure).name) {
+        return name;
+    }
+    const int slot_class = static_cast<int>(measure) - static_cast<int>(Measure::Useful);
+    return std::string("slots.") + kSlotClasses.at(slot_class).name;
+}
+
+bool has_mean(Measure measure) {
+    return rule_of(measure).mean;
+}
+
+Measures measures_of(const RunResult& result) {
+    Measures measures;
+    try {
+        read_statistics(result, measures);
+    } catch (const InputError& unknown) { // no user has named it
+        throw std::logic_error(unknown.what());
+    }
+    read_slots(result.accelerator.slots, measures);
+    if (result.accelerator.memory_gb_per_s <= 0) { // memory without limit: nothing is counted
+        for (Measure m : {Measure::DramRead, Measure::DramWritten, Measure::DramUtilization}) {
+            measures[m].reset();
+        }
+    }
+    if (const double area = result.config.accelerator().area.total(); area > 0) {
+        measures[Measure::AreaMm2] = area;
+    }
+    return measures;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The numbers by which accelerators are compared.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "sim/simulation.hpp"
+
+namespace degs::sim {
+
+/// What is compared. A ratio is above 1 for what is better than the first configuration.
+enum class Measure {
+    Cycles,
+    LatencyMs,
+    Fps,
+    ThroughputFps, ///< of the camera path
+    Useful,        ///< this and the next six: shares of the slots, in the order of kSlotClasses
+    Boundary,
+    Terminated,
+    Conflict,
+    Starved,
+    Blocked,
+    Drain,
+    Utilization,
+    FrameUtilization,
+    DramRead,    ///< bytes
+    DramWritten, ///< bytes
+    DramUtilization,
+    AreaMm2,
+    LatencyRatio,           ///< latency of the first / latency
+    ThroughputRatio,        ///< throughput / throughput of the first
+    LatencyRatioPerArea,    ///< the same with latency x area
+    ThroughputRatioPerArea, ///< the same with throughput / area
+    PsnrDb,
+    Ssim,
+    MaxAbsError,
+    SimS, ///< host seconds of the run of one frame
+    Count
+};
+
+template <class Act>
+void for_each_measure(const Act& act) {
+    for (int m = 0; m < static_cast<int>(Measure::Count); ++m) {
+        act(static_cast<Measure>(m));
+    }
+}
+
+/// The share of a class of slots; `slot_class` is a position in kSlotClasses.
+constexpr Measure slot_measure(std::size_t slot_class) {
+    return static_cast<Measure>(static_cast<std::size_t>(Measure::Useful) + slot_class);
+}
+
+/// A number for each measure; one that does not exist is empty, never 0.
+class Measures {
+public:
+    std::optional<double>& operator[](Measure m) { return values_[static_cast<std::size_t>(m)]; }
+    const std::optional<double>& operator[](Measure m) const {
+        return values_[static_cast<std::size_t>(m)];
+    }
+
+private:
+    std::array<std::optional<double>, static_cast<std::size_t>(Measure::Count)> values_;
+};
+
+/// Name of a measure: a column of compare.csv, and with '/' for '.' its place below a run of
+/// compare.json.
+std::string name_of(Measure measure);
+/// Whether its geometric mean over views says something.
+bool has_mean(Measure measure);
+
+/// Measures of a run by itself: all but the ratios. Throws std::logic_error if the description of
+/// the result lacks a statistic that a measure comes from.
+Measures measures_of(const RunResult& result);
+
+} // namespace degs::sim

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a comparison needs of a run, and how it comes back from the process that ran it.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "sim/compare/measures.hpp"
+
+namespace degs::sim {
+
+struct ComparedView {
+    std::string scene, source, camera_name;
+    int camera = 0; ///< position in the scene's list
+    int width = 0, height = 0;
+    std::size_t gaussians = 0, visible = 0;
+    std::optional<std::size_t> fragments; ///< of the reference
+};
+
+/// One configuration on one view.
+struct RunSummary {
+    std::string accelerator;
+    int pes = 0, tile_size = 0;
+    ComparedView view;
+    Measures measures;
+    std::string report; ///< report.json of the run; empty if nobody wants it
+};
+
+/// Without the report. `camera` is the view's position in the scene's list.
+RunSummary summary_of(const RunResult& result, int camera);
+
+/// Raised whenever a field of the message changes.
+constexpr int kSummaryVersion = 1;
+
+/// The summary as bytes for another process of this program.
+std::string message_of(const RunSummary& summary);
+/// Throws std::runtime_error, which names the field, if the message is of another version, if it is
+/// cut off, and if a field is missing, unknown or not of its type.
+RunSummary summary_from(const std::string& message);
+
+} // namespace degs::sim
