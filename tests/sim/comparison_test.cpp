@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/compare/comparison.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,43 +18,49 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A report with what a comparison reads.
-ordered_json report(double ms, double useful, int pes = 64) {
-    return {{"scene", {{"name", "toys"}, {"source", "toys.ply"}}},
-            {"camera", {{"img_name", "front"}, {"width", 640}, {"height", 480}}},
-            {"config", {{"accelerator", "degs"}}},
-            {"workload",
-             {{"gaussians", 1000}, {"visible", 900}, {"tile_size", 32}, {"fragments", 123456}}},
-            {"timing", {{"cycles", ms * 1e6}, {"latency_ms", ms}, {"fps", 1e3 / ms}}},
-            {"slots",
-             {{"pes", pes},
-              {"total", 1000},
-              {"useful", useful * 1000},
-              {"boundary", 1000 - useful * 1000},
-              {"terminated", 0},
-              {"conflict", 0},
-              {"starved", 0},
-              {"blocked", 0},
-              {"drain", 0},
-              {"utilization", useful},
-              {"frame_utilization", useful / 2}}},
-            {"dram",
-             {{"bytes_read", 3000000},
-              {"bytes_written", 1000000},
-              {"peak_gb_per_s", 204.8},
-              {"utilization", 0.25}}},
-            {"area", {{"available", false}, {"why", "unknown"}}},
-            {"image", {{"psnr_db", 60.5}, {"ssim", 0.99}, {"max_abs_error", 0.01}}},
-            {"host", {{"sim_s", 1.5}}}};
+/// What a run of one frame brings back.
+RunSummary run(double ms, double useful, int pes = 64) {
+    RunSummary summary;
+    summary.accelerator = "degs";
+    summary.pes = pes;
+    summary.tile_size = 32;
+    summary.view = {"toys", "toys.ply", "front", 0, 640, 480, 1000, 900, 123456};
+    Measures& m = summary.measures;
+    m[Measure::Cycles] = ms * 1e6;
+    m[Measure::LatencyMs] = ms;
+    m[Measure::Fps] = 1e3 / ms;
+    for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
+        m[slot_measure(c)] = 0;
+    }
+    m[Measure::Useful] = useful;
+    m[Measure::Boundary] = 1 - useful;
+    m[Measure::Utilization] = useful;
+    m[Measure::FrameUtilization] = useful / 2;
+    m[Measure::DramRead] = 3000000;
+    m[Measure::DramWritten] = 1000000;
+    m[Measure::DramUtilization] = 0.25;
+    m[Measure::PsnrDb] = 60.5;
+    m[Measure::Ssim] = 0.99;
+    m[Measure::MaxAbsError] = 0.01;
+    m[Measure::SimS] = 1.5;
+    return summary;
 }
 
-ordered_json with_area(ordered_json report, double mm2) {
-    report["area"] = {{"mm2", mm2}};
-    return report;
+RunSummary with_area(RunSummary summary, double mm2) {
+    summary.measures[Measure::AreaMm2] = mm2;
+    return summary;
 }
 
-ordered_json path(double fps) {
-    return {{"timing", {{"throughput_fps", fps}}}};
+RunSummary of_camera(int camera, RunSummary summary) {
+    summary.view.camera = camera;
+    return summary;
+}
+
+/// A run of a camera path; its latency is that of a frame that others follow.
+RunSummary path(double fps) {
+    RunSummary summary = run(99, 0.5);
+    summary.measures[Measure::ThroughputFps] = fps;
+    return summary;
 }
 
 double value(const Comparison& comparison, std::size_t row, Measure measure) {
@@ -61,9 +68,9 @@ double value(const Comparison& comparison, std::size_t row, Measure measure) {
 }
 
 TEST(Compare, RatiosAreAgainstTheFirst) {
-    const Comparison c =
-        compare({"degs-64", "other"}, {{"degs-64", 2, with_area(report(2, 0.8), 3), path(600)},
-                                       {"other", 2, with_area(report(5, 0.2), 6), path(150)}});
+    const Comparison c = compare({"degs-64", "other"},
+                                 {{"degs-64", of_camera(2, with_area(run(2, 0.8), 3)), path(600)},
+                                  {"other", of_camera(2, with_area(run(5, 0.2), 6)), path(150)}});
     EXPECT_EQ(value(c, 0, Measure::LatencyRatio), 1);
     EXPECT_EQ(value(c, 0, Measure::ThroughputRatioPerArea), 1);
     EXPECT_DOUBLE_EQ(value(c, 1, Measure::LatencyRatio), 0.4);
@@ -83,39 +90,37 @@ TEST(Compare, RatiosAreAgainstTheFirst) {
 }
 
 TEST(Compare, WhatDoesNotExistIsEmpty) {
-    ordered_json poor = report(2, 0.5);
-    poor["workload"]["fragments"] = nullptr;
-    poor["dram"]["peak_gb_per_s"] = nullptr; // memory without limit
-    poor["image"] = {{"psnr_db", nullptr}, {"ssim", nullptr}};
-    poor["slots"]["total"] = 0; // nothing was blended
-    poor["slots"]["utilization"] = nullptr;
-    const Comparison c = compare({"a", "b"}, {{"a", 0, poor, {}}, {"b", 0, report(1, 0.5), {}}});
+    RunSummary poor = run(2, 0.5);
+    poor.measures = {};
+    poor.measures[Measure::LatencyMs] = 2;
+    poor.view.fragments.reset();
+    const Comparison c = compare({"a", "b"}, {{"a", poor, {}}, {"b", run(1, 0.5), {}}});
     for (Measure m :
          {Measure::ThroughputFps, Measure::ThroughputRatio, Measure::AreaMm2,
           Measure::LatencyRatioPerArea, Measure::ThroughputRatioPerArea, Measure::DramRead,
           Measure::DramWritten, Measure::DramUtilization, Measure::PsnrDb, Measure::Ssim,
           Measure::MaxAbsError, Measure::Useful, Measure::Drain, Measure::Utilization}) {
-        EXPECT_FALSE(c.rows[0].measures[m]) << place_of(m);
+        EXPECT_FALSE(c.rows[0].measures[m]) << name_of(m);
     }
     EXPECT_FALSE(c.views[0].fragments);
     EXPECT_EQ(value(c, 1, Measure::LatencyRatio), 2);
     // Area of one alone gives no ratio.
-    const Comparison d = compare(
-        {"a", "b"}, {{"a", 0, report(1, 0.5), {}}, {"b", 0, with_area(report(1, 0.5), 2), {}}});
+    const Comparison d =
+        compare({"a", "b"}, {{"a", run(1, 0.5), {}}, {"b", with_area(run(1, 0.5), 2), {}}});
     EXPECT_FALSE(d.rows[1].measures[Measure::LatencyRatioPerArea]);
     // Without the first configuration there is nothing to compare with.
-    const Comparison e = compare({"a", "b"}, {{"b", 0, report(1, 0.5), {}}});
+    const Comparison e = compare({"a", "b"}, {{"b", run(1, 0.5), {}}});
     EXPECT_FALSE(e.rows[0].measures[Measure::LatencyRatio]);
     EXPECT_TRUE(e.configs[0].accelerator.empty());
     EXPECT_FALSE(e.configs[0].pes);
 }
 
 TEST(Compare, MeansAreGeometricAndOfAllViews) {
-    const Comparison c = compare({"a", "b"}, {{"a", 0, report(1, 0.5), path(10)},
-                                              {"b", 0, report(4, 0.2), path(5)},
-                                              {"a", 1, report(9, 0.5), path(10)},
-                                              {"b", 1, report(9, 0.8), {}},
-                                              {"a", 2, report(3, 0.5), path(10)}});
+    const Comparison c = compare({"a", "b"}, {{"a", run(1, 0.5), path(10)},
+                                              {"b", run(4, 0.2), path(5)},
+                                              {"a", of_camera(1, run(9, 0.5)), path(10)},
+                                              {"b", of_camera(1, run(9, 0.8)), {}},
+                                              {"a", of_camera(2, run(3, 0.5)), path(10)}});
     ASSERT_EQ(c.views.size(), 3U);
     ASSERT_EQ(c.means.size(), 2U);
     EXPECT_NEAR(c.means[0].measures[Measure::LatencyMs].value(), 3, 1e-12); // cube root of 27
@@ -123,28 +128,28 @@ TEST(Compare, MeansAreGeometricAndOfAllViews) {
     EXPECT_NEAR(c.means[0].measures[Measure::LatencyRatio].value(), 1, 1e-12);
     EXPECT_FALSE(c.means[0].measures[Measure::Cycles]);
     EXPECT_FALSE(c.means[1].measures[Measure::LatencyMs]); // b lacks the third view
-    const Comparison two = compare({"a", "b"}, {{"a", 0, report(1, 0.5), {}},
-                                                {"b", 0, report(4, 0.2), {}},
-                                                {"a", 1, report(9, 0.5), {}},
-                                                {"b", 1, report(9, 0.8), {}}});
+    const Comparison two = compare({"a", "b"}, {{"a", run(1, 0.5), {}},
+                                                {"b", run(4, 0.2), {}},
+                                                {"a", of_camera(1, run(9, 0.5)), {}},
+                                                {"b", of_camera(1, run(9, 0.8)), {}}});
     EXPECT_NEAR(two.means[1].measures[Measure::LatencyRatio].value(), 0.5, 1e-12);
     EXPECT_NEAR(two.means[1].measures[Measure::Utilization].value(), 0.4, 1e-12);
 }
 
 TEST(Compare, ViewsDifferBySceneCameraOrSize) {
-    ordered_json large = report(1, 0.5);
-    large["camera"]["width"] = 1280;
-    ordered_json other = report(1, 0.5);
-    other["scene"]["source"] = "else/toys.ply";
-    const Comparison c = compare({"a"}, {{"a", 0, report(1, 0.5), {}},
-                                         {"a", 1, report(1, 0.5), {}},
-                                         {"a", 0, large, {}},
-                                         {"a", 0, other, {}}});
+    RunSummary large = run(1, 0.5);
+    large.view.width = 1280;
+    RunSummary other = run(1, 0.5);
+    other.view.source = "else/toys.ply";
+    const Comparison c = compare({"a"}, {{"a", run(1, 0.5), {}},
+                                         {"a", of_camera(1, run(1, 0.5)), {}},
+                                         {"a", large, {}},
+                                         {"a", other, {}}});
     EXPECT_EQ(c.views.size(), 4U);
 }
 
 TEST(Compare, ARunOfNobodyIsAnError) {
-    EXPECT_THROW(compare({"a"}, {{"b", 0, report(1, 0.5), {}}}), std::logic_error);
+    EXPECT_THROW(compare({"a"}, {{"b", run(1, 0.5), {}}}), std::logic_error);
     EXPECT_TRUE(compare({"a"}, {}).rows.empty());
 }
 
@@ -165,10 +170,11 @@ TEST(Compare, FamiliesLeaveOutThePes) {
 }
 
 Comparison small_comparison() {
-    ordered_json exact = with_area(report(5, 0.2, 256), 6);
-    exact["image"]["psnr_db"] = "inf";
-    Comparison c = compare({"degs-64", "a,\"b\""},
-                           {{"degs-64", 2, report(2, 0.8), path(600)}, {"a,\"b\"", 2, exact, {}}});
+    RunSummary exact = with_area(run(5, 0.2, 256), 6);
+    exact.measures[Measure::PsnrDb] = std::numeric_limits<double>::infinity();
+    Comparison c =
+        compare({"degs-64", "a,\"b\""}, {{"degs-64", of_camera(2, run(2, 0.8)), path(600)},
+                                         {"a,\"b\"", of_camera(2, exact), {}}});
     c.frames = 4;
     c.path_step_degrees = 0.5;
     c.failed = {{"gcc-64", "toys · camera 2 · 640×480", "No."}};
@@ -182,12 +188,13 @@ TEST(ComparisonOutput, JsonHasEveryMeasureInEveryRun) {
     EXPECT_EQ(json["frames"], 4);
     EXPECT_EQ(json["path_step_degrees"], 0.5);
     ASSERT_EQ(json["runs"].size(), 2U);
-    for (const ordered_json& run : json["runs"]) {
-        for (std::size_t m = 0; m < static_cast<std::size_t>(Measure::Count); ++m) {
-            EXPECT_TRUE(run.contains(ordered_json::json_pointer(place_of(static_cast<Measure>(m)))))
-                << place_of(static_cast<Measure>(m));
-        }
-        EXPECT_EQ(run["view"], 0);
+    for (const ordered_json& row : json["runs"]) {
+        for_each_measure([&row](Measure m) {
+            std::string place = "/" + name_of(m);
+            std::replace(place.begin(), place.end(), '.', '/');
+            EXPECT_TRUE(row.contains(ordered_json::json_pointer(place))) << place;
+        });
+        EXPECT_EQ(row["view"], 0);
     }
     EXPECT_EQ(json["runs"][0]["cycles"].dump(), "2000000"); // a count, not 2000000.0
     EXPECT_TRUE(json["runs"][0]["area_mm2"].is_null());
@@ -241,7 +248,7 @@ TEST(ComparisonOutput, TextShowsWhatThereIs) {
     EXPECT_THAT(text, Not(HasSubstr("speed/mm²"))); // no ratio of areas exists
     EXPECT_EQ(comparison_text(compare({"a"}, {})), "");
     const Comparison two =
-        compare({"a"}, {{"a", 0, report(1, 0.5), {}}, {"a", 1, report(4, 0.5), {}}});
+        compare({"a"}, {{"a", run(1, 0.5), {}}, {"a", of_camera(1, run(4, 0.5)), {}}});
     EXPECT_THAT(comparison_text(two), HasSubstr("geometric means over 2 views"));
 }
 
@@ -251,7 +258,7 @@ TEST(ComparisonOutput, PicturesExistWhenTheyShowSomething) {
     EXPECT_THAT(slots_picture(c), HasSubstr("500 fps"));
     EXPECT_THAT(utilization_picture(c), HasSubstr(">256<"));
     const Comparison one_size =
-        compare({"a", "b"}, {{"a", 0, report(1, 0.5), {}}, {"b", 0, report(1, 0.6), {}}});
+        compare({"a", "b"}, {{"a", run(1, 0.5), {}}, {"b", run(1, 0.6), {}}});
     EXPECT_NE(slots_picture(one_size), "");
     EXPECT_EQ(utilization_picture(one_size), "");
     EXPECT_EQ(slots_picture(compare({"a"}, {})), "");

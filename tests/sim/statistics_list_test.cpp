@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs config --stats: what it lists is what runs report.
+#include <set>
+#include <sstream>
+
+#include "tests/sim/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+/// Paths of the numbers and texts that are listed for a design.
+std::set<std::string> listed(const std::string& config) {
+    const Outcome outcome = degs({"config", config, "--stats", "--format", "markdown"});
+    expect_success(outcome);
+    std::set<std::string> paths;
+    for (const std::string& line : lines_of(outcome.out)) {
+        if (line.rfind("| `", 0) == 0) {
+            paths.insert(line.substr(3, line.find('`', 3) - 3));
+        }
+    }
+    return paths;
+}
+
+/// "stages.*.busy" stands for "stages.span.busy".
+bool is_listed(const std::string& path, const std::set<std::string>& list) {
+    if (list.count(path) != 0) {
+        return true;
+    }
+    for (std::size_t at = path.find('.'); at != std::string::npos;) {
+        const std::size_t end = path.find('.', at + 1);
+        if (end != std::string::npos &&
+            list.count(path.substr(0, at) + ".*" + path.substr(end)) != 0) {
+            return true;
+        }
+        at = end;
+    }
+    return false;
+}
+
+void collect_paths(const json& value, const std::string& path, std::vector<std::string>& paths) {
+    if (!value.is_object()) {
+        paths.push_back(path);
+        return;
+    }
+    for (const auto& [key, child] : value.items()) {
+        collect_paths(child, path.empty() ? key : path + "." + key, paths);
+    }
+}
+
+class StatisticsOf : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(StatisticsOf, AReportAreListed) {
+    const std::set<std::string> list = listed(config(GetParam()));
+    EXPECT_GT(list.size(), 100U);
+    for (const char* memory : {"bus", "lpddr5"}) {
+        const Folder folder;
+        expect_success(degs({"run", config(GetParam()), "--scene", "synthetic:object,gaussians=300",
+                             "--width", "64", "--no-reference", "--out", folder / ".", "--set",
+                             std::string("memory.model=") + memory}));
+        json report = report_in(folder / ".");
+        for (const char* other : {"schema", "tool", "scene", "camera", "config", "conservation"}) {
+            report.erase(other);
+        }
+        std::vector<std::string> paths;
+        collect_paths(report, "", paths);
+        EXPECT_GT(paths.size(), 100U);
+        for (const std::string& path : paths) {
+            EXPECT_TRUE(is_listed(path, list)) << path << " with " << memory;
+        }
+    }
+}
+
+TEST_P(StatisticsOf, DesignsHaveSentencesAndFitATerminal) {
+    const Outcome outcome = degs({"config", config(GetParam()), "--stats"});
+    expect_success(outcome);
+    const std::vector<std::string> lines = lines_of(outcome.out);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        EXPECT_LE(lines[i].size(), 80U) << lines[i];
+        if (lines[i].find(" [") != std::string::npos && lines[i].front() != ' ') {
+            ASSERT_LT(i + 1, lines.size());
+            EXPECT_EQ(lines[i + 1].rfind("    ", 0), 0U) << lines[i] << " has no sentence";
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Designs, StatisticsOf,
+                         ::testing::Values("degs-64-tuned", "gscore-64", "gbu-64", "gcc-64"));
+
+TEST(StatisticsCommand, ShowsASectionOfAnAccelerator) {
+    const Outcome outcome = degs(
+        {"config", "--stats", "gscore", "--section", "stages.blending", "--format", "markdown"});
+    expect_success(outcome);
+    EXPECT_NE(outcome.out.find("| `passes` | passes | "), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find("busy"), std::string::npos) << "every stage has it";
+    const Outcome whole = degs({"config", "--stats"});
+    expect_success(whole);
+    EXPECT_NE(whole.out.find("\nstages.*.busy [share]\n"), std::string::npos) << whole.out;
+    const Outcome keys = degs({"config", "gbu"});
+    expect_success(keys);
+    EXPECT_EQ(keys.out.rfind("accelerator = gbu\n", 0), 0U);
+}
+
+TEST(HostileStatistics, Mistakes) {
+    expect_mistake(degs({"config", "--stats", "--section", "stages.spam"}),
+                   "did you mean 'stages.span'?");
+    expect_mistake(degs({"config", "--stats", "--section", std::string(5000, 'x')}), "xxx");
+    expect_mistake(degs({"config", "--stats", "--format", "yaml"}), "yaml");
+    expect_mistake(degs({"config", "--section", "stages"}), "--stats");
+    expect_mistake(degs({"config", "gpu", "--stats"}), "gpu");
+}
+
+} // namespace
+} // namespace degs::sim_test
