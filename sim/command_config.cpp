@@ -101,6 +101,7 @@ void add_config_command(CLI::App& program) {
     command
         ->add_option("--section", options->section,
                      "a part of the statistics: stages, stages.span or timing.cycles")
+        ->type_name("PATH")
         ->needs(stats);
     command->callback([options, file] {
         options->has_config = file->count() != 0; // "" is a name, too

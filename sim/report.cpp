@@ -43,7 +43,7 @@ void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, S
     describe_culled(workload.culled, v);
     v.text("projection", workload.projection,
            "Format in which the accelerator's splats were projected.");
-    v.count("tile_size", static_cast<std::uint64_t>(workload.tile_size), "px", "Side of a tile.");
+    v.count("tile_size", workload.tile_size, "px", "Side of a tile.");
     v.count("tiles", workload.tiles, "tiles", "Tiles of the image.");
     v.count("empty_tiles", workload.empty_tiles, "tiles", "Tiles that list no splat.");
     v.count("tile_pairs", workload.tile_pairs, "entries", "Entries of all tile lists.");

@@ -17,7 +17,7 @@ struct MeasureRule {
     bool mean;
 };
 
-constexpr std::array<MeasureRule, static_cast<std::size_t>(Measure::Count)> kRules{{
+constexpr std::array<MeasureRule, kMeasures> kRules{{
     {"cycles", "timing.cycles", false},
     {"latency_ms", "timing.latency_ms", true},
     {"fps", "timing.fps", true},
@@ -46,7 +46,7 @@ constexpr std::array<MeasureRule, static_cast<std::size_t>(Measure::Count)> kRul
 }};
 
 const MeasureRule& rule_of(Measure measure) {
-    return kRules[static_cast<std::size_t>(measure)];
+    return kRules[index_of(measure)];
 }
 
 /// Empty for what does not exist for this run.
@@ -86,7 +86,7 @@ std::string name_of(Measure measure) {
     if (const char* name = rule_of(measure).name) {
         return name;
     }
-    const int slot_class = static_cast<int>(measure) - static_cast<int>(Measure::Useful);
+    const int slot_class = index_of(measure) - index_of(Measure::Useful);
     return std::string("slots.") + kSlotClasses.at(slot_class).name;
 }
 

@@ -41,28 +41,31 @@ enum class Measure {
     Count
 };
 
+constexpr int index_of(Measure measure) {
+    return static_cast<int>(measure);
+}
+constexpr int kMeasures = index_of(Measure::Count);
+
 template <class Act>
 void for_each_measure(const Act& act) {
-    for (int m = 0; m < static_cast<int>(Measure::Count); ++m) {
+    for (int m = 0; m < kMeasures; ++m) {
         act(static_cast<Measure>(m));
     }
 }
 
 /// The share of a class of slots; `slot_class` is a position in kSlotClasses.
 constexpr Measure slot_measure(std::size_t slot_class) {
-    return static_cast<Measure>(static_cast<std::size_t>(Measure::Useful) + slot_class);
+    return static_cast<Measure>(index_of(Measure::Useful) + slot_class);
 }
 
 /// A number for each measure; one that does not exist is empty, never 0.
 class Measures {
 public:
-    std::optional<double>& operator[](Measure m) { return values_[static_cast<std::size_t>(m)]; }
-    const std::optional<double>& operator[](Measure m) const {
-        return values_[static_cast<std::size_t>(m)];
-    }
+    std::optional<double>& operator[](Measure m) { return values_[index_of(m)]; }
+    const std::optional<double>& operator[](Measure m) const { return values_[index_of(m)]; }
 
 private:
-    std::array<std::optional<double>, static_cast<std::size_t>(Measure::Count)> values_;
+    std::array<std::optional<double>, kMeasures> values_;
 };
 
 /// Name of a measure: a column of compare.csv, and with '/' for '.' its place below a run of

@@ -13,7 +13,7 @@ void Gbu::collect_slots(AcceleratorResult& result) const {
         result.slots += engine->stats().slots;
         result.window.include(engine->stats().window);
     }
-    const auto width = static_cast<std::uint64_t>(config_.engines.row_pes);
+    const std::uint64_t width = config_.engines.row_pes;
     for (const auto& engine : engines_) {
         const ActiveWindow& own = engine->stats().window;
         if (own.empty()) {
@@ -41,30 +41,28 @@ void Gbu::collect_stages(AcceleratorResult& result) const {
     add_stage(result, {"row_generation", "Row Generation of the tile engines."}, engines_.size(),
               sum_of(engines_, &TileEngine::Stats::splats), std::move(generation));
     const SlotAccount& s = result.slots;
-    add_stage(result, {"row_pes", "Row PEs of the tile engines."},
-              static_cast<std::size_t>(config_.pes()), s.useful + s.boundary + s.terminated,
-              std::move(row_pes));
+    add_stage(result, {"row_pes", "Row PEs of the tile engines."}, config_.pes(),
+              s.useful + s.boundary + s.terminated, std::move(row_pes));
 }
 
 void Gbu::collect_buffers(AcceleratorResult& result) const {
     add_buffer(result, {"list_buffer", "Lists of the Sorting Units."}, config_.list_buffer.bytes)
-        .counters.count("keys_per_unit", static_cast<std::uint64_t>(config_.sort_capacity()),
-                        "keys", "List entries that one Sorting Unit holds.");
+        .counters.count("keys_per_unit", config_.sort_capacity(), "keys",
+                        "List entries that one Sorting Unit holds.");
     add_buffer(result, {"splat_buffer", "Chunks of splats on their way to the tile engines."},
                config_.splat_buffer_bytes(), config_.list_buffer.chunks, splat_buffer());
     Counters& queues = add_buffer(result, {"row_queues", "Row entries that wait for their Row PE."},
                                   config_.queue_bytes())
                            .counters;
-    queues.count("queues", static_cast<std::uint64_t>(config_.pes()), "queues",
-                 "One for each Row PE.");
-    queues.count("entries_per_queue", static_cast<std::uint64_t>(config_.engines.queue_depth),
-                 "rows", "Row entries that one queue holds.");
+    queues.count("queues", config_.pes(), "queues", "One for each Row PE.");
+    queues.count("entries_per_queue", config_.engines.queue_depth, "rows",
+                 "Row entries that one queue holds.");
     if (!caches_.empty()) {
         Counters& caches = add_buffer(result, {"reuse_cache", "Splat records that come again."},
                                       config_.reuse_cache.bytes)
                                .counters;
-        caches.count("records_per_engine", static_cast<std::uint64_t>(config_.cache_records()),
-                     "records", "Splat records that the cache of one engine holds.");
+        caches.count("records_per_engine", config_.cache_records(), "records",
+                     "Splat records that the cache of one engine holds.");
         caches.add(caches_);
     }
     add_pixel_buffer(result, config_.pixel_buffer.bytes, config_.tile_contexts(), pixel_buffers_);

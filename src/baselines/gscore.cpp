@@ -13,7 +13,7 @@ TileArrayEngine::Parts parts_of(const GscoreConfig& config) {
     parts.front.hierarchical = config.sorting;
     parts.front.on_demand = true;
     parts.front.traffic = config.traffic;
-    parts.front.sort_capacity = static_cast<std::uint64_t>(config.sort_capacity());
+    parts.front.sort_capacity = config.sort_capacity();
     parts.front.frames_in_flight = config.frames_in_flight;
     parts.fetching = config.fetching;
     parts.pixel_buffer = config.pixel_buffer;
@@ -46,10 +46,8 @@ void Gscore::collect_array(AcceleratorResult& result) const {
     const LockstepArray::Stats& array = array_.stats();
     result.slots = array.slots;
     result.window = array.window;
-    add_stage(result, {"blending", "Clusters of the Lockstep Array."},
-              static_cast<std::size_t>(config_.array.clusters),
-              array.passes * static_cast<std::uint64_t>(config_.array.clusters),
-              counters_of(array));
+    add_stage(result, {"blending", "Clusters of the Lockstep Array."}, config_.array.clusters,
+              array.passes * config_.array.clusters, counters_of(array));
     collect_laws(result);
     result.left_out.push_back(
         grouped(array.splats_skipped) +
@@ -64,8 +62,7 @@ void Gscore::collect_laws(AcceleratorResult& result) const {
     auto& laws = result.conservation;
     laws.push_back({"records fetched = splats worked on + discarded", records_fetched(),
                     array.splats + array.splats_discarded});
-    laws.push_back({"lanes x passes = lanes evaluated",
-                    array.passes * static_cast<std::uint64_t>(config_.array.lanes),
+    laws.push_back({"lanes x passes = lanes evaluated", array.passes * config_.array.lanes,
                     s.useful + s.boundary + s.terminated});
     if (!front_end().hierarchical().empty()) {
         using H = HierarchicalSorter::Stats;

@@ -56,14 +56,13 @@ void describe_stages(const AcceleratorResult& run, StatsVisitor& v) {
 }
 
 void describe_slots(const AcceleratorResult& run, StatsVisitor& v) {
-    const auto pes = static_cast<std::uint64_t>(run.pes);
     const auto total = static_cast<double>(run.slots.total());
-    const auto whole_run = static_cast<double>(pes) * static_cast<double>(run.cycles);
+    const auto whole_run = run.pes * static_cast<double>(run.cycles);
     const auto date = [&run](Cycle cycle) {
         return run.window.empty() ? std::nullopt : std::optional<std::uint64_t>(cycle);
     };
     v.begin_section("slots", "Where the PE-cycles of the blending window went.");
-    v.count("pes", pes, "PEs", "Processing elements.");
+    v.count("pes", run.pes, "PEs", "Processing elements.");
     v.count("total", run.slots.total(), "PE-cycles",
             "PEs x timing.blending_cycles, and the sum of the next seven.");
     run.slots.describe(v);
@@ -117,7 +116,7 @@ void describe_dram(const AcceleratorResult& run, StatsVisitor& v) {
 } // namespace
 
 void StageUse::describe(StatsVisitor& visitor) const {
-    visitor.count("units", static_cast<std::uint64_t>(units), "units", "Units of this kind.");
+    visitor.count("units", units, "units", "Units of this kind.");
     visitor.real("busy_cycles", busy_cycles, "cycles",
                  "Cycles in which a unit worked, summed over the units.");
     visitor.real("busy", busy, "share",
@@ -127,8 +126,7 @@ void StageUse::describe(StatsVisitor& visitor) const {
 
 void BufferUse::describe(StatsVisitor& visitor) const {
     if (bytes != 0) {
-        visitor.count("bytes", static_cast<std::uint64_t>(bytes), "bytes",
-                      "Configured capacity of the whole buffer.");
+        visitor.count("bytes", bytes, "bytes", "Configured capacity of the whole buffer.");
     }
     if (depth != 0) {
         visitor.count("rings", rings, "rings", "Parts of the buffer, one for each reader.");

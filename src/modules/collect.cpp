@@ -62,7 +62,7 @@ BufferUse& add_buffer(AcceleratorResult& result, const Title& title, std::int64_
 void add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes, int depth,
                 const RingUse& use) {
     BufferUse& buffer = add_buffer(result, title, bytes);
-    buffer.depth = static_cast<std::uint64_t>(depth);
+    buffer.depth = depth;
     buffer.rings = use.depth / buffer.depth;
     buffer.high_water = use.high_water;
     if (result.cycles != 0 && use.depth != 0) {
@@ -77,8 +77,7 @@ void add_pixel_buffer(AcceleratorResult& result, int bytes, int contexts,
                       const PixelBuffers& buffers) {
     BufferUse& use =
         add_buffer(result, {"pixel_buffer", "State of the pixels of the tiles in flight."}, bytes);
-    use.counters.count("contexts", static_cast<std::uint64_t>(contexts), "tiles",
-                       "Tiles that it holds at once.");
+    use.counters.count("contexts", contexts, "tiles", "Tiles that it holds at once.");
     use.counters.add(buffers);
 }
 

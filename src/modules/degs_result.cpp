@@ -60,8 +60,7 @@ void Degs::collect_buffers(AcceleratorResult& result) const {
                                    c.feature_buffer.bytes)
                             .counters;
     feature.count("banks", banks_.size(), "banks", "Parts of it, one for each Issue Bank.");
-    feature.count("entries_per_bank", static_cast<std::uint64_t>(c.feature_entries()), "splats",
-                  "Splats that one part holds.");
+    feature.count("entries_per_bank", c.feature_entries(), "splats", "Splats that one part holds.");
     for (const auto& bank : banks_) {
         bank->features().stats().describe(feature);
     }

@@ -32,9 +32,9 @@ protected:
     }
     std::uint64_t count(const std::string& stage, const std::string& name) const {
         for (const StageUse& use : result.stages) {
-            for (const auto& [key, value] : use.counts) {
-                if (use.name == stage && key == name) {
-                    return value;
+            for (const Counters::Counter& counter : use.counters) {
+                if (use.name == stage && counter.doc.name == name) {
+                    return counter.value;
                 }
             }
         }

@@ -69,7 +69,8 @@ TEST_P(StatisticsOf, AReportAreListed) {
                              "--width", "64", "--no-reference", "--out", folder / ".", "--set",
                              std::string("memory.model=") + memory}));
         json report = report_in(folder / ".");
-        for (const char* other : {"schema", "tool", "scene", "camera", "config", "conservation"}) {
+        for (const char* other :
+             {"schema", "tool", "scene", "camera", "config", "conservation", "warnings"}) {
             report.erase(other);
         }
         std::vector<std::string> paths;
