@@ -4,6 +4,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "config/ratio.hpp"
 #include "sim/stopwatch.hpp"
 
 namespace degs::sim {
@@ -18,8 +19,7 @@ void run_kernel(const RenderEngine& engine, const ClockDomain& clock, std::size_
                 Progress& progress) {
     do {
         sc_core::sc_start(clock.at(kCyclesPerSlice));
-        const auto done = static_cast<double>(engine.finished_tiles());
-        progress.done(tiles == 0 ? 0.0 : done / static_cast<double>(tiles));
+        progress.done(ratio_of(engine.finished_tiles(), tiles));
     } while (sc_core::sc_pending_activity());
 }
 

@@ -37,7 +37,7 @@ void write_all(int file, const std::string& bytes) {
         if (written < 0 && errno != EINTR) {
             return; // the parent is gone, and with it the reader
         }
-        at += static_cast<std::size_t>(std::max<ssize_t>(written, 0));
+        at += std::max<ssize_t>(written, 0);
     }
 }
 
@@ -135,7 +135,7 @@ bool ChildPool::Child::read() {
     std::array<char, 65536> part;
     const ssize_t count = ::read(read_end_, part.data(), part.size());
     if (count > 0) {
-        message_.append(part.data(), static_cast<std::size_t>(count));
+        message_.append(part.data(), count);
     }
     return count == 0 || (count < 0 && errno != EINTR);
 }

@@ -22,7 +22,7 @@ void RunConfig::describe(ConfigVisitor& visitor) {
     const int before = kind_;
     visitor.choice("accelerator", kind_, names, "which accelerator the other keys mean");
     if (kind_ != before) {
-        model_ = accelerator_kinds()[static_cast<std::size_t>(kind_)].make();
+        model_ = accelerator_kinds()[kind_].make();
     }
     model_->describe(visitor);
 }

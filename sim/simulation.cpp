@@ -19,7 +19,7 @@ WorkloadFacts facts_of(const FrameWorkload& workload) {
     facts.culled = workload.culled;
     facts.projection = workload.projection.format.name();
     facts.tile_size = workload.tile_size;
-    facts.tiles = static_cast<std::uint64_t>(workload.tiles());
+    facts.tiles = workload.tiles();
     for (std::size_t t = 0; t < facts.tiles; ++t) {
         facts.empty_tiles += workload.tile_begin[t] == workload.tile_begin[t + 1] ? 1 : 0;
     }

@@ -75,7 +75,7 @@ int resolution_height(const std::string& name) {
 Camera resize(const Camera& camera, std::optional<int> width, std::optional<int> height) {
     check_positive("--width", width);
     check_positive("--height", height);
-    const double aspect = static_cast<double>(camera.width) / camera.height;
+    const double aspect = ratio_of(camera.width, camera.height);
     const double new_width = width ? *width : height ? std::round(*height * aspect) : camera.width;
     const double new_height = height ? *height : std::round(new_width / aspect);
     check_pixels(std::max(new_width, 1.0), std::max(new_height, 1.0));

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/ratio.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
 
@@ -48,8 +49,7 @@ std::string flip_words(const AccuracyRow& row) {
     if (row.gaussians == 0) {
         return "";
     }
-    const double share =
-        row.support > 0 ? static_cast<double>(row.flips) / static_cast<double>(row.support) : 0;
+    const double share = ratio_of(row.flips, row.support);
     return percent(share, 4);
 }
 

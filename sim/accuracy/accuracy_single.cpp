@@ -4,6 +4,7 @@
 #include <random>
 
 #include "config/error.hpp"
+#include "config/ratio.hpp"
 #include "sim/accuracy/accuracy.hpp"
 #include "sim/text/progress.hpp"
 #include "splat/frame_workload.hpp"
@@ -62,7 +63,7 @@ void measure_kind(const SingleGaussianRequest& request, const std::vector<Quanti
             candidates[k].error.add(truth, map);
             candidates[k].to_fp16.add(half, map);
         }
-        progress.done(static_cast<double>(i) / request.gaussians);
+        progress.done(ratio_of(i, request.gaussians));
     }
     for (const Candidate& candidate : candidates) {
         rows.push_back(row_of(kind, candidate));

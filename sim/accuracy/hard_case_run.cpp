@@ -6,6 +6,7 @@
 #include <map>
 
 #include "config/error.hpp"
+#include "config/ratio.hpp"
 #include "sim/accuracy/accuracy_numbers.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/words.hpp"
@@ -313,7 +314,7 @@ std::vector<HardResult> run_hard_cases(const HardCaseRequest& request, const std
             }
         }
         results.push_back(std::move(result));
-        progress.done(static_cast<double>(results.size()) / static_cast<double>(cases.size()));
+        progress.done(ratio_of(results.size(), cases.size()));
     }
     return results;
 }

@@ -65,7 +65,7 @@ void run(const MemoryOptions& options) {
         files.emplace_back("latency.svg");
     }
     const OutputFolder out(options.out, files);
-    dram::Lpddr5 memory("memory", config, Timebase(), static_cast<std::size_t>(config.channels));
+    dram::Lpddr5 memory("memory", config, Timebase(), config.channels);
     if (static_cast<std::uint64_t>(options.shape.request_bytes) * 4 >
         memory.channels().mapping().capacity()) {
         throw InputError("Requests of " + std::to_string(options.shape.request_bytes) +

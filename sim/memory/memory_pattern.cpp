@@ -21,14 +21,13 @@ const std::vector<std::string>& traffic_patterns() {
 TrafficDealer::TrafficDealer(const TrafficShape& shape, const dram::Mapping& mapping,
                              std::size_t channels)
     : mapping_(&mapping), shape_(shape),
-      kind_(static_cast<std::size_t>(
-          std::find(traffic_patterns().begin(), traffic_patterns().end(), shape.pattern) -
-          traffic_patterns().begin())),
+      kind_(std::find(traffic_patterns().begin(), traffic_patterns().end(), shape.pattern) -
+            traffic_patterns().begin()),
       random_(shape.seed), dealt_(channels) {}
 
 TrafficItem TrafficDealer::draw() {
-    const auto bytes = static_cast<std::uint64_t>(shape_.request_bytes);
-    const auto stride = static_cast<std::uint64_t>(shape_.stride_bytes);
+    const std::uint64_t bytes = shape_.request_bytes;
+    const std::uint64_t stride = shape_.stride_bytes;
     // Where a sequence ends it starts again; requests stay below the capacity.
     const std::uint64_t room = mapping_->capacity() - bytes;
     const std::uint64_t i = drawn_++;
@@ -47,7 +46,7 @@ TrafficItem TrafficDealer::draw() {
         item.address = random_() % (room / 64 + 1) * 64;
     }
     // By lot: taken in turn, reads and writes would go to different channels.
-    const auto reads = static_cast<std::uint64_t>(shape_.reads_per_write);
+    const std::uint64_t reads = shape_.reads_per_write;
     item.write = reads != 0 && random_() % (reads + 1) == 0;
     return item;
 }

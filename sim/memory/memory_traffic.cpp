@@ -23,12 +23,10 @@ int traffic_window(const dram::Config& config, int request_bytes) {
 
 MemoryTraffic::MemoryTraffic(const sc_core::sc_module_name& name, dram::Lpddr5& memory,
                              const dram::Config& config, const TrafficShape& shape)
-    : sc_core::sc_module(name), out("out", static_cast<std::size_t>(config.channels)),
-      memory_(&memory), shape_(shape), peak_gb_per_s_(config.peak_gb_per_s()),
-      window_(traffic_window(config, shape.request_bytes)),
-      dealer_(shape, memory.channels().mapping(), static_cast<std::size_t>(config.channels)),
-      lines_(static_cast<std::size_t>(config.channels)),
-      no_data_(static_cast<std::size_t>(shape.request_bytes)) {
+    : sc_core::sc_module(name), out("out", config.channels), memory_(&memory), shape_(shape),
+      peak_gb_per_s_(config.peak_gb_per_s()), window_(traffic_window(config, shape.request_bytes)),
+      dealer_(shape, memory.channels().mapping(), config.channels), lines_(config.channels),
+      no_data_(shape.request_bytes) {
     for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].register_nb_transport_bw(this, &MemoryTraffic::backward, static_cast<int>(i));
         out[i].bind(memory.in[i]);
@@ -134,7 +132,7 @@ bool MemoryTraffic::send(std::size_t line) {
 
 tlm::tlm_sync_enum MemoryTraffic::backward(int line, tlm::tlm_generic_payload& payload,
                                            tlm::tlm_phase& phase, sc_core::sc_time& /*delay*/) {
-    const auto own = static_cast<std::size_t>(line);
+    const std::size_t own = line;
     const bool response = phase == tlm::BEGIN_RESP;
     if (response) {
         --lines_[own].under_way;

@@ -48,9 +48,7 @@ void AddressBus::transport(int initiator, tlm::tlm_generic_payload& payload,
     }
     const std::uint64_t address = payload.get_address();
     payload.set_address(address - window->begin);
-    out[socket_of(static_cast<std::size_t>(window - windows_.data()),
-                  static_cast<std::size_t>(initiator))]
-        ->b_transport(payload, delay);
+    out[socket_of(window - windows_.data(), initiator)]->b_transport(payload, delay);
     payload.set_address(address);
 }
 
@@ -61,9 +59,8 @@ unsigned int AddressBus::debug(int initiator, tlm::tlm_generic_payload& payload)
     }
     const std::uint64_t address = payload.get_address();
     payload.set_address(address - window->begin);
-    const unsigned int moved = out[socket_of(static_cast<std::size_t>(window - windows_.data()),
-                                             static_cast<std::size_t>(initiator))]
-                                   ->transport_dbg(payload);
+    const unsigned int moved =
+        out[socket_of(window - windows_.data(), initiator)]->transport_dbg(payload);
     payload.set_address(address);
     return moved;
 }

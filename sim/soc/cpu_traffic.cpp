@@ -9,7 +9,7 @@ namespace degs::sim {
 
 CpuTraffic::CpuTraffic(const sc_core::sc_module_name& name, const Config& config)
     : sc_core::sc_module(name), out("out"), config_(config), random_(config.seed),
-      done_(static_cast<std::size_t>(config.lines_in_flight)), line_(kLineBytes) {
+      done_(config.lines_in_flight), line_(kLineBytes) {
     SC_HAS_PROCESS(CpuTraffic);
     SC_THREAD(run);
 }

@@ -113,21 +113,20 @@ void SocHost::load_scene(const GaussianCloud& cloud) {
     write_pair(Register::Geometry, geometry_at);
     write_pair(Register::Sh, sh_at);
     write(Register::Count, static_cast<std::uint32_t>(cloud.size()));
-    write(Register::ShDegree, static_cast<std::uint32_t>(cloud.sh_degree));
+    write(Register::ShDegree, cloud.sh_degree);
 }
 
 void SocHost::set_camera(const Camera& camera) {
     camera_ = camera;
-    write(Register::Width, static_cast<std::uint32_t>(camera.width));
-    write(Register::Height, static_cast<std::uint32_t>(camera.height));
+    write(Register::Width, camera.width);
+    write(Register::Height, camera.height);
     write_double(Register::FocalX, camera.fx);
     write_double(Register::FocalY, camera.fy);
     for (int axis = 0; axis < 3; ++axis) {
         for (int i = 0; i < 3; ++i) {
-            write_double(Register::Axes, camera.camera_to_world[axis][i],
-                         static_cast<std::uint32_t>(3 * axis + i));
+            write_double(Register::Axes, camera.camera_to_world[axis][i], 3 * axis + i);
         }
-        write_double(Register::Position, camera.position[axis], static_cast<std::uint32_t>(axis));
+        write_double(Register::Position, camera.position[axis], axis);
     }
 }
 

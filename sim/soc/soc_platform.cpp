@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/soc/soc_platform.hpp"
 
+#include "config/ratio.hpp"
+
 namespace degs::sim {
 namespace {
 
@@ -47,7 +49,7 @@ SocPlatform::SocPlatform(const sc_core::sc_module_name& name, const SocRequest& 
 
 // A region for each core, so that streams do not meet in one row by construction.
 void SocPlatform::add_cores(const SocRequest& request) {
-    const auto count = static_cast<std::uint64_t>(request.cores);
+    const std::uint64_t count = request.cores;
     const std::uint64_t share = capacity_ / 2 / count / 4096 * 4096;
     for (std::uint64_t i = 0; i < count; ++i) {
         CpuTraffic::Config core;
@@ -63,7 +65,7 @@ void SocPlatform::add_cores(const SocRequest& request) {
 
 void SocPlatform::set_load(double gb_per_s) {
     for (auto& core : cores_) {
-        core->set_rate(gb_per_s / static_cast<double>(cores_.size()));
+        core->set_rate(mean_of(gb_per_s, cores_.size()));
     }
 }
 

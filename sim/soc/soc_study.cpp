@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "config/ratio.hpp"
 #include "sim/soc/soc_platform.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
@@ -109,8 +110,7 @@ SocResult run_soc(const SocRequest& request, const View& view) {
         Progress progress("platform");
         while (!platform.host().finished()) {
             sc_core::sc_start(sc_core::sc_time(10, sc_core::SC_US));
-            progress.done(static_cast<double>(study.result.points.size()) /
-                          static_cast<double>(request.loads.size()));
+            progress.done(ratio_of(study.result.points.size(), request.loads.size()));
         }
     }
     study.judge();

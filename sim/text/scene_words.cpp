@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/text/scene_words.hpp"
 
+#include "config/ratio.hpp"
 #include "scene/scene_statistics.hpp"
 #include "sim/text/words.hpp"
 
@@ -52,9 +53,8 @@ std::string scene_info(const Scene& scene) {
 std::string view_info(const Scene& scene, const Camera& camera) {
     const Progress progress("measuring the view");
     const ViewStatistics v = measure_view(scene.cloud, camera);
-    const double visible = static_cast<double>(v.visible);
-    const auto per_splat = [visible](std::uint64_t count) {
-        return visible > 0 ? three_digits(static_cast<double>(count) / visible) : "-";
+    const auto per_splat = [&v](std::uint64_t count) {
+        return v.visible > 0 ? three_digits(ratio_of(count, v.visible)) : "-";
     };
     return "\n" +
            layout({

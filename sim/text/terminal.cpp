@@ -31,10 +31,10 @@ std::string scene_line(const RunResult& result) {
     const auto& reference = result.workload.reference;
     const std::uint64_t fragments =
         reference ? reference->fragments : result.accelerator.slots.useful;
-    const double pixels = static_cast<double>(result.camera.width) * result.camera.height;
+    const std::uint64_t pixels = std::uint64_t{1} * result.camera.width * result.camera.height;
     return scene_words(result.scene) + kDot + grouped(result.workload.visible) + " visible" + kDot +
-           scaled(fragments) + " fragments (" +
-           three_digits(static_cast<double>(fragments) / pixels) + " per pixel)";
+           scaled(fragments) + " fragments (" + three_digits(ratio_of(fragments, pixels)) +
+           " per pixel)";
 }
 
 std::string design_line(const RunResult& result) {
@@ -63,14 +63,14 @@ std::string frame_line(const RunResult& result) {
 
 std::string slots_line(const AcceleratorResult& run) {
     const SlotAccount& s = run.slots;
-    const auto total = static_cast<double>(s.total());
+    const std::uint64_t total = s.total();
     if (total == 0) {
         return "none, there was nothing to blend";
     }
     std::string line;
     for (const SlotClass& slot : kSlotClasses) {
         line += (line.empty() ? "" : "  ") + std::string(slot.name) + " " +
-                percent(static_cast<double>(s.*slot.slots) / total) + (line.empty() ? " %" : "");
+                percent(ratio_of(s.*slot.slots, total)) + (line.empty() ? " %" : "");
     }
     return line + (run.hazards == 0 ? "" : "  HAZARDS " + grouped(run.hazards));
 }

@@ -56,7 +56,7 @@ std::string percent(double share, int decimals) {
 }
 
 std::size_t characters(const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts_character));
+    return std::count_if(text.begin(), text.end(), starts_character);
 }
 
 } // namespace degs::sim

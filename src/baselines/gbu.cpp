@@ -33,13 +33,13 @@ void Gbu::build_front_end() {
     front.hierarchical = config_.sorting;
     front.on_demand = true;
     front.traffic = config_.traffic;
-    front.sort_capacity = static_cast<std::uint64_t>(config_.sort_capacity());
+    front.sort_capacity = config_.sort_capacity();
     front.frames_in_flight = config_.frames_in_flight;
     front.instant = options_.array_only;
     front_end_ = std::make_unique<TileFrontEnd>("front_end", front, time_, job_);
-    const auto sorters = static_cast<std::size_t>(config_.sorting.count);
-    dispatcher_ = std::make_unique<TileDispatcher>("dispatcher", time_, job_, sorters,
-                                                   static_cast<std::size_t>(config_.engines.count));
+    const std::size_t sorters = config_.sorting.count;
+    dispatcher_ =
+        std::make_unique<TileDispatcher>("dispatcher", time_, job_, sorters, config_.engines.count);
     for (std::size_t i = 0; i < sorters; ++i) {
         auto& lists = ring(sorted_rings_, "sorted", 1, 1);
         front_end_->sorted[i].bind(lists);
@@ -63,13 +63,12 @@ void Gbu::build_caches() {
         return;
     }
     for (int e = 0; e < config_.engines.count; ++e) {
-        caches_.push_back(std::make_unique<ReuseCache>(
-            job_, next_uses_, static_cast<std::size_t>(config_.cache_records())));
+        caches_.push_back(std::make_unique<ReuseCache>(job_, next_uses_, config_.cache_records()));
     }
 }
 
 void Gbu::build_engine(int index) {
-    const auto e = static_cast<std::size_t>(index);
+    const std::size_t e = index;
     fetchers_.push_back(std::make_unique<SplatFetcher>(
         numbered("fetcher", e).c_str(), config_.fetching, config_.traffic, time_, job_, 1,
         options_.array_only, true, caches_.empty() ? nullptr : caches_[e].get()));
@@ -99,7 +98,7 @@ void Gbu::build_engine(int index) {
 
 // An engine's share of the Pixel Buffer is read out at its share of the rate.
 void Gbu::build_pixel_buffer(int index) {
-    const auto e = static_cast<std::size_t>(index);
+    const std::size_t e = index;
     PixelBuffer::Config config = config_.pixel_buffer;
     config.readout_pixels = std::max(1, config.readout_pixels / config_.engines.count);
     PixelBuffer::Share share;

@@ -42,9 +42,7 @@ LockstepArray::LockstepArray(const sc_core::sc_module_name& name, const Config& 
     : sc_core::sc_module(name), in("in", inputs), context_free("context_free"),
       tile_done("tile_done"), tile_state("tile_state"), config_(config), job_(job),
       contexts_(contexts), self_(time), chunks_(self_, in), grid_(job.tile_size, config.side()),
-      clusters_(static_cast<std::size_t>(config.clusters)),
-      subtiles_(static_cast<std::size_t>(grid_.count())),
-      startable_(static_cast<TileNumber>(contexts)) {
+      clusters_(config.clusters), subtiles_(grid_.count()), startable_(contexts) {
     SC_HAS_PROCESS(LockstepArray);
     SC_THREAD(run);
 }
@@ -115,15 +113,14 @@ void LockstepArray::render_tile(TileNumber number) {
 
 void LockstepArray::start_tile(TileNumber number) {
     tile_ = &job_.tiles[number];
-    context_ = static_cast<int>(number % static_cast<TileNumber>(contexts_));
+    context_ = number % static_cast<TileNumber>(contexts_);
     inside_ = grid_.inside(tile_->width, tile_->height);
     live_subtiles_ = 0;
     for (int s = 0; s < grid_.count(); ++s) {
         const PixelBox box = pixels_of(s);
-        subtiles_[static_cast<std::size_t>(s)] = {};
+        subtiles_[s] = {};
         if (!box.empty()) {
-            subtiles_[static_cast<std::size_t>(s)].live =
-                (box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1);
+            subtiles_[s].live = (box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1);
             ++live_subtiles_;
         }
     }
@@ -204,7 +201,7 @@ bool LockstepArray::issue(std::uint32_t splat, SubtileMask mask, Cycle begin) {
     for (SubtileMask left = mask; left != 0; left &= left - 1) {
         const int s = __builtin_ctz(left);
         const Cycle at = std::max(begin, cluster_of(s).free);
-        if (at < subtiles_[static_cast<std::size_t>(s)].done_from) {
+        if (at < subtiles_[s].done_from) {
             pass(s, splat, at);
             issued = true;
         }
@@ -223,9 +220,9 @@ void LockstepArray::pass(int subtile, std::uint32_t splat, Cycle at) {
     cluster.free = end;
     const int ended = evaluate(subtile, splat);
     if (ended != 0) {
-        Subtile& state = subtiles_[static_cast<std::size_t>(subtile)];
+        Subtile& state = subtiles_[subtile];
         state.live -= ended;
-        stats_.pixels_ended += static_cast<std::uint64_t>(ended);
+        stats_.pixels_ended += ended;
         if (state.live == 0) {
             state.done_from = end - 1 + static_cast<Cycle>(config_.termination_cycles);
             --live_subtiles_;
@@ -252,9 +249,9 @@ int LockstepArray::evaluate(int subtile, std::uint32_t splat) {
         terminated += __builtin_popcount(outcome.terminated);
         ended += __builtin_popcount(outcome.ended);
     }
-    stats_.slots.useful += static_cast<std::uint64_t>(useful);
-    stats_.slots.terminated += static_cast<std::uint64_t>(terminated);
-    stats_.slots.boundary += static_cast<std::uint64_t>(config_.lanes - useful - terminated);
+    stats_.slots.useful += useful;
+    stats_.slots.terminated += terminated;
+    stats_.slots.boundary += config_.lanes - useful - terminated;
     return ended;
 }
 
@@ -264,7 +261,7 @@ void LockstepArray::account_wait(Cluster& cluster, Cycle at) {
     if (cluster.first != kNever && at > cluster.free) {
         const Cycle wait = at - cluster.free;
         const Cycle blocked = std::min(wait, blocked_ - cluster.blocked);
-        const auto width = static_cast<std::uint64_t>(config_.lanes / config_.clusters);
+        const std::uint64_t width = config_.lanes / config_.clusters;
         stats_.slots.blocked += blocked * width;
         stats_.slots.starved += (wait - blocked) * width;
     }
@@ -273,7 +270,7 @@ void LockstepArray::account_wait(Cluster& cluster, Cycle at) {
 
 /// A cluster that joins late or is over early does nothing for the rest of the window.
 void LockstepArray::close_window() {
-    const auto width = static_cast<std::uint64_t>(config_.lanes / config_.clusters);
+    const std::uint64_t width = config_.lanes / config_.clusters;
     for (const Cluster& cluster : clusters_) {
         if (stats_.window.empty()) {
             return;

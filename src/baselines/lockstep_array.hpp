@@ -99,9 +99,7 @@ private:
 
     /// Pixels of the tile in the image, relative to its corner; may be empty.
     PixelBox pixels_of(int subtile) const;
-    Cluster& cluster_of(int subtile) {
-        return clusters_[static_cast<std::size_t>(subtile % config_.clusters)];
-    }
+    Cluster& cluster_of(int subtile) { return clusters_[subtile % config_.clusters]; }
 
     Config config_;
     RenderJob& job_;

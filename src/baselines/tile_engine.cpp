@@ -36,9 +36,8 @@ TileEngine::TileEngine(const sc_core::sc_module_name& name, const Config& config
                        const Timebase& time, RenderJob& job, int first_context, int contexts)
     : sc_core::sc_module(name), in("in"), context_free("context_free"), tile_done("tile_done"),
       tile_state("tile_state"), config_(config), job_(job), first_context_(first_context),
-      contexts_(contexts), self_(time), pes_(static_cast<std::size_t>(config.row_pes)),
-      loaded_(pes_.size() * static_cast<std::size_t>(config.queue_depth), 0),
-      rows_(static_cast<std::size_t>(job.tile_size)) {
+      contexts_(contexts), self_(time), pes_(config.row_pes),
+      loaded_(pes_.size() * static_cast<std::size_t>(config.queue_depth), 0), rows_(job.tile_size) {
     for (std::size_t row = 0; row < rows_.size(); ++row) {
         pe_of_row_.push_back(row % pes_.size());
     }
@@ -90,7 +89,7 @@ void TileEngine::start_tile(TileNumber number) {
 }
 
 void TileEngine::take_context() {
-    const auto turn = static_cast<std::uint64_t>(contexts_);
+    const std::uint64_t turn = contexts_;
     context_ = first_context_ + static_cast<int>(stats_.tiles % turn);
     if (stats_.tiles >= turn) {
         const Cycle ready = self_.local();
@@ -132,7 +131,7 @@ void TileEngine::generate(std::uint32_t splat) {
     Cycle pushed = now;
     RowSpan span;
     for (int y = first; y <= last; ++y) {
-        if (rows_[static_cast<std::size_t>(y - tile_->y)].ended <= now) {
+        if (rows_[y - tile_->y].ended <= now) {
             stats_.rows_skipped++;
         } else if (job_.path->solve_row(splat, y, tile_->x, tile_->x + tile_->width, tile_->y,
                                         span)) {
@@ -149,10 +148,10 @@ void TileEngine::generate(std::uint32_t splat) {
 // The date at which generation is done with the entry: once the cell it takes has been loaded from,
 // or the row is known to have ended.
 Cycle TileEngine::push(const RowSpan& span, Cycle now) {
-    Row& row = rows_[static_cast<std::size_t>(span.y)];
-    const std::size_t index = pe_of_row_[static_cast<std::size_t>(span.y)];
+    Row& row = rows_[span.y];
+    const std::size_t index = pe_of_row_[span.y];
     RowPe& pe = pes_[index];
-    const auto depth = static_cast<std::size_t>(config_.queue_depth);
+    const std::size_t depth = config_.queue_depth;
     Cycle& cell = loaded_[index * depth + pe.next];
     const Cycle pushed = std::max(now, cell);
     if (row.ended <= pushed) {
@@ -171,7 +170,7 @@ Cycle TileEngine::push(const RowSpan& span, Cycle now) {
 
 // The slots that the entry takes from `load` on.
 Cycle TileEngine::execute(const RowSpan& span, Cycle load) {
-    Row& row = rows_[static_cast<std::size_t>(span.y)];
+    Row& row = rows_[span.y];
     PixelTest test;
     test.splat = span.splat;
     test.y = tile_->y + span.y;
@@ -183,12 +182,12 @@ Cycle TileEngine::execute(const RowSpan& span, Cycle load) {
         test.x = tile_->x + test.column;
         test.mask = first_bits(span.length - done);
         const BlendOutcome outcome = job_.path->test(test);
-        slots.useful += static_cast<std::uint64_t>(__builtin_popcount(outcome.useful));
-        slots.boundary += static_cast<std::uint64_t>(__builtin_popcount(outcome.boundary));
-        slots.terminated += static_cast<std::uint64_t>(__builtin_popcount(outcome.terminated));
+        slots.useful += __builtin_popcount(outcome.useful);
+        slots.boundary += __builtin_popcount(outcome.boundary);
+        slots.terminated += __builtin_popcount(outcome.terminated);
         if (outcome.ended != 0) {
             const int ended = __builtin_popcount(outcome.ended);
-            stats_.pixels_ended += static_cast<std::uint64_t>(ended);
+            stats_.pixels_ended += ended;
             row.live -= ended;
             if (row.live == 0) {
                 row_ended(row, load + static_cast<Cycle>(done + 31 - __builtin_clz(outcome.ended)));
@@ -196,7 +195,7 @@ Cycle TileEngine::execute(const RowSpan& span, Cycle load) {
         }
     }
     stats_.entries++;
-    stats_.pixels += static_cast<std::uint64_t>(span.length);
+    stats_.pixels += span.length;
     slots.boundary += config_.end_probe ? 1 : 0;
     const auto taken = static_cast<Cycle>(span.length) + (config_.end_probe ? 1 : 0);
     stats_.window.include(load);
@@ -205,7 +204,7 @@ Cycle TileEngine::execute(const RowSpan& span, Cycle load) {
 }
 
 void TileEngine::row_ended(Row& row, Cycle slot) {
-    const auto delay = static_cast<Cycle>(config_.termination_cycles);
+    const Cycle delay = config_.termination_cycles;
     row.ended = slot + delay;
     last_end_ = std::max(last_end_, slot);
     if (--live_rows_ == 0) {

@@ -39,13 +39,11 @@ void Channel::Stats::subtract(const Stats& earlier) {
 
 Channel::Channel(const Timing& timing, const RuleTable& rules, const ControllerConfig& config,
                  Ck phase)
-    : timing_(&timing), config_(config),
-      scheduler_(schedulers()[static_cast<std::size_t>(config.scheduler)]),
-      auto_precharge_(page_policies()[static_cast<std::size_t>(config.page_policy)].auto_precharge),
+    : timing_(&timing), config_(config), scheduler_(schedulers()[config.scheduler]),
+      auto_precharge_(page_policies()[config.page_policy].auto_precharge),
       write_high_(std::max(1U, entries(config.write_high, config.write_queue))),
       write_low_(entries(config.write_low, config.write_queue)), dates_(rules),
-      reads_(static_cast<unsigned>(config.read_queue)),
-      writes_(static_cast<unsigned>(config.write_queue)),
+      reads_(config.read_queue), writes_(config.write_queue),
       refresh_due_(config.refresh == Refresh::None
                        ? kNoDate
                        : refresh_period() - std::min(phase, refresh_period())) {
@@ -53,7 +51,7 @@ Channel::Channel(const Timing& timing, const RuleTable& rules, const ControllerC
 }
 
 Ck Channel::refresh_period() const {
-    const auto all_banks = static_cast<Ck>(timing_->refi);
+    const Ck all_banks = timing_->refi;
     return config_.refresh == Refresh::PerBank ? all_banks / kRefreshSteps : all_banks;
 }
 
@@ -256,7 +254,7 @@ void Channel::column(Outcome& outcome) {
     const bool first = entry.left == entry.access.bursts;
     const RowState found = first ? entry.outcome : RowState::Hit;
     ++stats_.bursts[static_cast<std::size_t>(found)];
-    entry.left &= static_cast<std::uint8_t>(entry.left - 1);
+    entry.left &= entry.left - 1;
     const bool last = entry.left == 0;
     if (last) {
         ++stats_.accesses[static_cast<std::size_t>(entry.outcome)];

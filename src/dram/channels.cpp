@@ -29,9 +29,9 @@ void Config::describe(ConfigVisitor& visitor) {
 
 Channels::Channels(const Config& config)
     : timing_(config.timing), rules_(config.timing),
-      mapping_(config.mapping, config.timing, static_cast<unsigned>(config.channels)),
+      mapping_(config.mapping, config.timing, config.channels),
       posted_writes_(config.controller.posted_writes) {
-    const auto count = static_cast<std::size_t>(config.channels);
+    const std::size_t count = config.channels;
     channels_.reserve(count);
     for (std::size_t c = 0; c < count; ++c) {
         const Ck phase =
@@ -166,7 +166,7 @@ std::vector<Ck> Channels::predict(Ck known) {
             predict_channel(c);
         }
     }
-    first_ticket_ = (first_ticket_ + static_cast<std::uint32_t>(predictions_.size())) & ~kPredicted;
+    first_ticket_ = (first_ticket_ + predictions_.size()) & ~kPredicted;
     return std::exchange(predictions_, {});
 }
 

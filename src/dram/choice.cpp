@@ -140,13 +140,13 @@ unsigned Channel::first_of_all() const {
             const std::uint32_t shared =
                 (keys_.column[b] & column) | (keys_.act1[b] & act1) | (keys_.pre[b] & pre);
             // Dates lie at most a few thousand CK from now, on either side.
-            const auto own = static_cast<std::int32_t>(keys_.date[b] - now);
+            const std::int32_t own = keys_.date[b] - now;
             const std::int32_t wait =
                 std::min(std::max(own, static_cast<std::int32_t>(shared)), kMostWait);
             const std::int32_t age =
                 std::max(kMostAge - static_cast<std::int32_t>(latest - keys_.age[b]), 0);
             best =
-                std::min(best, static_cast<std::uint32_t>(wait) << kWaitShift |
+                std::min(best, wait << kWaitShift |
                                    static_cast<std::uint32_t>(age) << kKeyAgeShift | keys_.rest[b]);
         }
     }
@@ -158,7 +158,7 @@ unsigned Channel::first_of(std::uint32_t banks) const {
     Ck first = kNoDate;
     unsigned best = 0;
     for (; banks != 0; banks &= banks - 1) {
-        const auto bank = static_cast<unsigned>(__builtin_ctz(banks));
+        const unsigned bank = __builtin_ctz(banks);
         const Candidate& candidate = candidates_[bank];
         const Ck date = std::max(dates_.earliest(candidate.command, bank), clock_);
         if (date < first || (date == first && candidate.order < candidates_[best].order)) {
@@ -183,8 +183,7 @@ void Channel::choose_refresh() {
     const bool all = config_.refresh == Refresh::AllBank;
     const std::uint32_t banks = held_banks();
     if (const std::uint32_t activating = banks & activating_; activating != 0) {
-        return offer(Command::Act2, static_cast<unsigned>(__builtin_ctz(activating)), Queue::kNone,
-                     0);
+        return offer(Command::Act2, __builtin_ctz(activating), Queue::kNone, 0);
     }
     if (all) {
         return offer(open_banks_ != 0 ? Command::PreAb : Command::RefAb, 0, Queue::kNone, 0);
@@ -215,9 +214,9 @@ Ck Channel::admission_bound() {
 // Room comes with a column command. A bank that has not begun to open its row is tRCD away from it.
 Ck Channel::column_bound() const {
     const Command column = writing_ ? Command::Wr : Command::Rd;
-    Ck bound = choice_.date + static_cast<Ck>(timing_->rcd);
+    Ck bound = choice_.date + timing_->rcd;
     for (std::uint32_t banks = pending_; banks != 0; banks &= banks - 1) {
-        const auto bank = static_cast<unsigned>(__builtin_ctz(banks));
+        const unsigned bank = __builtin_ctz(banks);
         const Command command = candidates_[bank].command;
         if (is_column(command) || command == Command::Act2) {
             bound = std::min(bound, dates_.of_bank(column, bank));

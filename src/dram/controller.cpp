@@ -31,7 +31,7 @@ const std::vector<PagePolicy>& page_policies() {
 }
 
 void ControllerConfig::describe(ConfigVisitor& visitor) {
-    constexpr int kMost = static_cast<int>(Queue::kSlots);
+    constexpr int kMost = Queue::kSlots;
     visitor.integer("read_queue", read_queue, 1, kMost,
                     "accesses of 64 B per channel; 32 get most of the bandwidth of random traffic");
     visitor.integer("write_queue", write_queue, 1, kMost, "accesses of 64 B per channel");

@@ -56,7 +56,7 @@ void Lpddr5::transport(int socket, Payload& payload, sc_core::sc_time& delay) {
     Direct direct;
     Arrival arrival;
     arrival.date = date.value();
-    arrival.socket = static_cast<std::uint32_t>(socket);
+    arrival.socket = socket;
     arrival.sequence = initiators_[arrival.socket].sequence++;
     arrival.payload = &payload;
     arrival.direct = &direct;
@@ -75,7 +75,7 @@ void Lpddr5::transport(int socket, Payload& payload, sc_core::sc_time& delay) {
 
 tlm::tlm_sync_enum Lpddr5::forward(int socket, Payload& payload, tlm::tlm_phase& phase,
                                    sc_core::sc_time& delay) {
-    const auto from = static_cast<std::uint32_t>(socket);
+    const std::uint32_t from = socket;
     if (phase == tlm::BEGIN_REQ) {
         if (const auto status = check(payload); status != tlm::TLM_OK_RESPONSE) {
             payload.set_response_status(status);
@@ -119,7 +119,7 @@ tlm::tlm_sync_enum Lpddr5::begin_request(std::uint32_t socket, Payload& payload,
         SC_REPORT_ERROR(name(), "an initiator sent BEGIN_REQ before the END_REQ of its last one");
     }
     const Arrival arrival = register_arrival(socket, payload, delay);
-    const auto limit = static_cast<unsigned>(config_.waiting_requests);
+    const unsigned limit = config_.waiting_requests;
     if (++initiator.waiting <= limit) {
         serve_by(channels_.due_of(payload.is_write(), ceil_ck(arrival.date)));
         phase = tlm::END_REQ;

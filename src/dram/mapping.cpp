@@ -106,7 +106,7 @@ std::string Mapping::count_problem(const std::string& count, unsigned field) con
     if (count.size() != 1 || count[0] < '1' || count[0] > '9') {
         return "must have numbers of bits from 1 to 9";
     }
-    const auto wanted = static_cast<unsigned>(count[0] - '0');
+    const unsigned wanted = count[0] - '0';
     if (bits_[field] != 0 && wanted + taken_[field] > bits_[field]) {
         return std::string("must not name more bits than there are of the ") + kFieldNames[field];
     }
@@ -129,10 +129,8 @@ void Mapping::place_field(unsigned field, unsigned bits, unsigned grain_bits) {
 
 void Mapping::append(unsigned field, unsigned bits) {
     if (bits != 0) {
-        pieces_.push_back({static_cast<std::uint8_t>(field),
-                           static_cast<std::uint8_t>(address_bits_),
-                           static_cast<std::uint8_t>(bits), taken_[field]});
-        taken_[field] = static_cast<std::uint8_t>(taken_[field] + bits);
+        pieces_.push_back({field, address_bits_, bits, taken_[field]});
+        taken_[field] += bits;
         address_bits_ += bits;
     }
 }

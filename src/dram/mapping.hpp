@@ -47,7 +47,7 @@ private:
     enum Field : std::uint8_t { kColumn, kGroup, kBank, kRow, kChannel };
     static constexpr std::size_t kFields = 5;
     struct Piece { // some bits of a field at one place of the address
-        std::uint8_t field, shift, bits, field_shift;
+        unsigned field, shift, bits, field_shift;
     };
     using Values = std::array<unsigned, kFields>;
     Mapping() = default;

@@ -99,9 +99,9 @@ public:
     }
     /// The bank that holds the oldest entry of all; only if not empty.
     unsigned oldest_bank() const {
-        unsigned best = static_cast<unsigned>(__builtin_ctz(banks_));
+        unsigned best = __builtin_ctz(banks_);
         for (std::uint32_t rest = banks_ & (banks_ - 1); rest != 0; rest &= rest - 1) {
-            const auto bank = static_cast<unsigned>(__builtin_ctz(rest));
+            const unsigned bank = __builtin_ctz(rest);
             if (entries_[head_[bank]].age < entries_[head_[best]].age) {
                 best = bank;
             }

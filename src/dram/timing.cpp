@@ -24,7 +24,7 @@ const std::vector<Command> kReads{Command::Rd, Command::RdA};
 const std::vector<Command> kWrites{Command::Wr, Command::WrA};
 
 void add_bank_rules(RuleList& list, const Timing& t) {
-    const int write_end = t.wl + static_cast<int>(t.burst());
+    const int write_end = t.wl + t.burst();
     list.add("tRCD", Scope::Bank, {Command::Act1}, {Command::Rd, Command::Wr}, t.rcd);
     list.add("tRC", Scope::Bank, {Command::Act1}, {Command::Act1, Command::RefPb}, t.ras + t.rp_pb);
     list.add("tRAS", Scope::Bank, {Command::Act1}, {Command::Pre}, t.ras);
@@ -39,7 +39,7 @@ void add_bank_rules(RuleList& list, const Timing& t) {
 }
 
 void add_column_rules(RuleList& list, const Timing& t) {
-    const int burst = static_cast<int>(t.burst());
+    const int burst = t.burst();
     list.add("tCCD_S", Scope::Channel, kReads, {Command::Rd}, burst);
     list.add("tCCD_S", Scope::Channel, kWrites, {Command::Wr}, burst);
     list.add("tRTW", Scope::Channel, kReads, {Command::Wr}, t.rl + burst + 2 - t.wl);
@@ -52,7 +52,7 @@ void add_column_rules(RuleList& list, const Timing& t) {
 }
 
 void add_row_rules(RuleList& list, const Timing& t) {
-    const int write_end = t.wl + static_cast<int>(t.burst());
+    const int write_end = t.wl + t.burst();
     list.add("tRRD", Scope::Channel, {Command::Act1}, {Command::Act1, Command::RefPb}, t.rrd);
     list.add("tPPD", Scope::Channel, {Command::Pre}, {Command::Pre, Command::PreAb}, t.ppd);
     list.add("tRAS", Scope::Channel, {Command::Act1}, {Command::PreAb}, t.ras);
@@ -63,7 +63,7 @@ void add_row_rules(RuleList& list, const Timing& t) {
 }
 
 void add_refresh_rules(RuleList& list, const Timing& t) {
-    const int write_end = t.wl + static_cast<int>(t.burst());
+    const int write_end = t.wl + t.burst();
     list.add("tRC", Scope::Channel, {Command::Act1}, {Command::RefAb}, t.ras + t.rp_pb);
     list.add("tRPpb", Scope::Channel, {Command::Pre}, {Command::RefAb}, t.rp_pb);
     list.add("tRTP+tRPpb", Scope::Channel, {Command::RdA}, {Command::RefAb}, t.rtp + t.rp_pb);
@@ -159,7 +159,7 @@ std::vector<Rule> rules(const Timing& timing) {
 }
 
 RuleTable::RuleTable(const Timing& timing)
-    : group_shift_(timing.groups() == 1 ? 4 : 2), faw_(static_cast<Ck>(timing.faw)) {
+    : group_shift_(timing.groups() == 1 ? 4 : 2), faw_(timing.faw) {
     for (const Rule& rule : rules(timing)) {
         Steps& steps =
             steps_[static_cast<std::size_t>(rule.previous)][static_cast<std::size_t>(rule.scope)];

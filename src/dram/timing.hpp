@@ -55,12 +55,12 @@ struct Timing {
 
     unsigned groups() const { return bank_mode == BankMode::Bg ? 4 : 1; }
     double ck_ns() const { return 1000.0 * kBeatsPerCk / data_rate_mt_per_s; }
-    unsigned burst_bytes() const { return static_cast<unsigned>(burst_length) * kBytesPerBeat; }
+    unsigned burst_bytes() const { return burst_length * kBytesPerBeat; }
     /// BL/n: CK of data bus that a burst takes.
-    Ck burst() const { return static_cast<Ck>(burst_length) / kBeatsPerCk; }
-    Ck rc() const { return static_cast<Ck>(ras + rp_pb); }
-    Ck read_latency() const { return static_cast<Ck>(rl) + burst(); }  ///< RD to its last beat
-    Ck write_latency() const { return static_cast<Ck>(wl) + burst(); } ///< WR to its last beat
+    int burst() const { return burst_length / kBeatsPerCk; }
+    int rc() const { return ras + rp_pb; }
+    int read_latency() const { return rl + burst(); }  ///< RD to its last beat
+    int write_latency() const { return wl + burst(); } ///< WR to its last beat
     double peak_gb_per_s() const {
         return kBytesPerBeat * data_rate_mt_per_s / 1000.0;
     } ///< of a channel, 1e9 B/s

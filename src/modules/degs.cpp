@@ -37,14 +37,14 @@ DatedFifo<T>& Degs::wire(Rings<T>& rings, const char* name, int latency) {
 }
 
 void Degs::build_front_end() {
-    const auto sorters = static_cast<std::size_t>(config_.sorting.count);
-    const auto slicers = static_cast<std::size_t>(config_.slicing.count);
+    const std::size_t sorters = config_.sorting.count;
+    const std::size_t slicers = config_.slicing.count;
     TileFrontEnd::Config front;
     front.projection = config_.projection;
     front.binning = config_.binning;
     front.sorting = config_.sorting;
     front.traffic = config_.traffic;
-    front.sort_capacity = static_cast<std::uint64_t>(config_.sort_capacity());
+    front.sort_capacity = config_.sort_capacity();
     front.frames_in_flight = config_.frames_in_flight;
     front.instant = options_.array_only;
     front_end_ = std::make_unique<TileFrontEnd>("front_end", front, time_, job_);
@@ -74,7 +74,7 @@ void Degs::build_span_engine() {
         GaussianSlicingUnit& unit = *slicing_.back();
         for (std::size_t s = 0; s < sorters; ++s) {
             auto& splats = ring(gaussian_rings_, "gaussian_buffer", config_.gaussian_chunks(), 1);
-            fetchers_[s]->out[static_cast<std::size_t>(g)].bind(splats);
+            fetchers_[s]->out[g].bind(splats);
             unit.in[s].bind(splats);
         }
         auto& cancel = wire(cancel_rings_, "cancel", config_.monitor.latency_cycles);
@@ -87,9 +87,7 @@ void Degs::build_span_engine() {
                                                     config_.scheduler.banks));
         auto& rows = ring(span_rings_, "span_buffer", config_.span_lane_depth(), 1);
         const int g = u % config_.slicing.count;
-        slicing_[static_cast<std::size_t>(g)]
-            ->out[static_cast<std::size_t>(u / config_.slicing.count)]
-            .bind(rows);
+        slicing_[g]->out[u / config_.slicing.count].bind(rows);
         spans_.back()->in.bind(rows);
     }
 }
@@ -114,7 +112,7 @@ void Degs::build_scheduler() {
         std::vector<std::size_t> sources;
         for (int u = 0; u < config_.span.count; ++u) {
             if (shares_row(u, config_.span.count, b, s.banks)) {
-                sources.push_back(static_cast<std::size_t>(u));
+                sources.push_back(u);
             }
         }
         packing_.push_back(
@@ -176,9 +174,8 @@ void Degs::build_pixel_buffer() {
         share.row_stride = banked ? banks : 1;
         pixel_buffers_.push_back(std::make_unique<PixelBuffer>(
             numbered("pixel_buffer", pixel_buffers_.size()).c_str(), config_.pixel_buffer,
-            config_.traffic, time_, job_, static_cast<std::size_t>(banked ? 1 : banks),
-            config_.contexts(), share, FrameEnds::awaited(front_end_->frame_free, options_),
-            options_.array_only));
+            config_.traffic, time_, job_, banked ? 1 : banks, config_.contexts(), share,
+            FrameEnds::awaited(front_end_->frame_free, options_), options_.array_only));
     }
 }
 

@@ -34,8 +34,8 @@ void RenderJob::add(const FrameWorkload& frame, const MemoryBases& base) {
     images.emplace_back(frame.camera.width, frame.camera.height);
     const std::size_t before = tiles.size();
     for (int t = 0; t < frame.tiles(); ++t) {
-        const std::uint64_t begin = frame.tile_begin[static_cast<std::size_t>(t)];
-        const std::uint64_t end = frame.tile_begin[static_cast<std::size_t>(t) + 1];
+        const std::uint64_t begin = frame.tile_begin[t];
+        const std::uint64_t end = frame.tile_begin[t + 1];
         if (begin == end) {
             continue;
         }

@@ -50,8 +50,7 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
     : sc_core::sc_module(name), registers("registers"), mem("mem"), irq("irq"),
       config_(checked(config)),
       options_(options), time_{ClockDomain(config_->clock_ghz), options.fidelity}, self_(time_),
-      finished_("finished", time_, kFinishedDepth,
-                static_cast<Cycle>(config_->frame_end.gate_latency_cycles)),
+      finished_("finished", time_, kFinishedDepth, config_->frame_end.gate_latency_cycles),
       gateway_("gateway", options.memory) {
     registers.register_b_transport(this, &Accelerator::transport);
     registers.register_transport_dbg(this, &Accelerator::debug);

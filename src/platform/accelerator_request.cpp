@@ -25,8 +25,8 @@ AcceleratorFault read_size(const AcceleratorRegisters& regs, std::uint64_t max_p
     if (height == 0 || height > kMaxSide || std::uint64_t{width} * height > max_pixels) {
         return fault(AcceleratorError::BadSize, Register::Height);
     }
-    camera.width = static_cast<int>(width);
-    camera.height = static_cast<int>(height);
+    camera.width = width;
+    camera.height = height;
     return {};
 }
 
@@ -53,10 +53,9 @@ AcceleratorFault read_camera(const AcceleratorRegisters& regs, Camera& camera) {
     }
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
-            camera.camera_to_world[i][j] =
-                regs.get_double(Register::Axes, static_cast<std::uint32_t>(3 * i + j));
+            camera.camera_to_world[i][j] = regs.get_double(Register::Axes, 3 * i + j);
         }
-        camera.position[i] = regs.get_double(Register::Position, static_cast<std::uint32_t>(i));
+        camera.position[i] = regs.get_double(Register::Position, i);
         if (!std::isfinite(camera.position[i])) {
             return fault(AcceleratorError::BadCamera, Register::Position);
         }
@@ -77,7 +76,7 @@ AcceleratorFault read_scene(const AcceleratorRegisters& regs, std::uint32_t max_
     if (regs.get(Register::ShDegree) > 3) {
         return fault(AcceleratorError::BadDegree, Register::ShDegree);
     }
-    scene.sh_degree = static_cast<int>(regs.get(Register::ShDegree));
+    scene.sh_degree = regs.get(Register::ShDegree);
     return {};
 }
 

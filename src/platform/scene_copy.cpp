@@ -102,7 +102,7 @@ GaussianCloud invisible(int degree) {
     none.scales.emplace_back(1.0F);
     none.rotations.emplace_back(1.0F, 0.0F, 0.0F, 0.0F);
     none.opacities.push_back(0.0F);
-    none.sh.assign(static_cast<std::size_t>(3 * none.sh_coefficients()), 0.0F);
+    none.sh.assign(3 * none.sh_coefficients(), 0.0F);
     return none;
 }
 
@@ -134,7 +134,7 @@ std::uint64_t SceneCopy::Place::geometry_bytes() const {
 }
 
 std::uint64_t SceneCopy::Place::sh_bytes() const {
-    const auto coefficients = static_cast<std::uint64_t>((sh_degree + 1) * (sh_degree + 1));
+    const std::uint64_t coefficients = (sh_degree + 1) * (sh_degree + 1);
     return std::uint64_t{count} * 3 * coefficients * kFloatBytes;
 }
 

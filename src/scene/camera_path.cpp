@@ -70,9 +70,9 @@ std::vector<Camera> camera_path(const GaussianCloud& cloud, const Camera& start,
     }
     const glm::dvec3 pivot = path_pivot(cloud, start);
     const glm::dvec3 axis = glm::normalize(start.camera_to_world[1]);
-    std::vector<Camera> path(static_cast<std::size_t>(frames), start);
+    std::vector<Camera> path(frames, start);
     for (int k = 1; k < frames; ++k) {
-        Camera& camera = path[static_cast<std::size_t>(k)];
+        Camera& camera = path[k];
         const double angle = k * step_degrees * kDegree;
         camera.position = pivot + turned(start.position - pivot, axis, angle);
         for (int a = 0; a < 3; ++a) {

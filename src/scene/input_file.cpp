@@ -46,7 +46,7 @@ InputFile::InputFile(const std::string& path)
 
 void InputFile::seek(std::uint64_t position) {
     stream_.clear();
-    stream_.seekg(static_cast<std::streamoff>(position));
+    stream_.seekg(position);
     position_ = position;
 }
 
@@ -61,8 +61,8 @@ void InputFile::skip(std::uint64_t bytes) {
 }
 
 std::size_t InputFile::read_some(char* destination, std::size_t bytes) {
-    stream_.read(destination, static_cast<std::streamsize>(bytes));
-    const auto got = static_cast<std::size_t>(stream_.gcount());
+    stream_.read(destination, bytes);
+    const std::size_t got = stream_.gcount();
     position_ += got;
     return got;
 }

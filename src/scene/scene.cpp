@@ -144,7 +144,7 @@ Camera select_camera(const Scene& scene, int index) {
                          scene.source + "' has " + std::to_string(scene.cameras.size()) +
                          " camera(s), numbered from 0.");
     }
-    return scene.cameras[static_cast<std::size_t>(index)];
+    return scene.cameras[index];
 }
 
 } // namespace degs

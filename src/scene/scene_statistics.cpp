@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "config/ratio.hpp"
 #include "splat/angles.hpp"
 #include "splat/reference_renderer.hpp"
 
@@ -18,7 +19,7 @@ double nearest_rank(Values& values, double share) {
     const auto rank =
         static_cast<std::ptrdiff_t>(std::llround(share * static_cast<double>(values.size() - 1)));
     std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[static_cast<std::size_t>(rank)];
+    return values[rank];
 }
 
 template <class Function>
@@ -33,8 +34,7 @@ Values collect(std::size_t count, Function function) {
 template <class Predicate>
 double share_of(const std::vector<float>& values, Predicate predicate) {
     const auto count = std::count_if(values.begin(), values.end(), predicate);
-    return static_cast<double>(count) /
-           static_cast<double>(std::max<std::size_t>(1, values.size()));
+    return ratio_of(count, values.size());
 }
 
 /// Ascending; a flat Gaussian (scale 0) counts as the smallest normal float, so that ratios are
@@ -48,9 +48,8 @@ std::array<double, 3> sorted_axes(const glm::vec3& scale) {
 }
 
 double correlation(const Values& a, const Values& b) {
-    const auto n = static_cast<double>(std::max<std::size_t>(1, a.size()));
-    const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / n;
-    const double mean_b = std::accumulate(b.begin(), b.end(), 0.0) / n;
+    const double mean_a = mean_of(std::accumulate(a.begin(), a.end(), 0.0), a.size());
+    const double mean_b = mean_of(std::accumulate(b.begin(), b.end(), 0.0), b.size());
     double ab = 0;
     double aa = 0;
     double bb = 0;
@@ -99,11 +98,11 @@ double rest_rms(const GaussianCloud& cloud) {
     double sum = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         for (std::size_t k = 3; k < values; ++k) {
-            sum += static_cast<double>(cloud.sh_of(i)[k]) * cloud.sh_of(i)[k];
+            const double coefficient = cloud.sh_of(i)[k];
+            sum += coefficient * coefficient;
         }
     }
-    const auto count = static_cast<double>(cloud.size() * (values - 3));
-    return count > 0 ? std::sqrt(sum / count) : 0;
+    return std::sqrt(mean_of(sum, cloud.size() * (values - 3)));
 }
 
 /// Pixels inside q <= Q_th, by area: pi Q_th sqrt(det).
@@ -156,7 +155,7 @@ ViewStatistics measure_view(const GaussianCloud& cloud, const Camera& camera) {
     const FrameWorkload work = make_frame_workload(cloud, camera, kTile, TileMode::Exact);
     ReferenceCounts counts;
     const Image image = render_reference(work, counts);
-    const auto pixels = static_cast<double>(image.pixels());
+    const std::size_t pixels = image.pixels();
     ViewStatistics out;
     out.visible = work.splats.size();
     out.tile_pairs = work.tile_pairs();
@@ -168,9 +167,9 @@ ViewStatistics measure_view(const GaussianCloud& cloud, const Camera& camera) {
         footprint.push_back(2 * std::sqrt(ellipse_area(splat) / 3.14159265358979323846));
     }
     out.footprint = quantiles_of(footprint);
-    out.fragments_per_pixel = static_cast<double>(out.fragments) / pixels;
-    out.candidates_per_pixel = static_cast<double>(out.candidates) / pixels;
-    out.terminated_share = static_cast<double>(counts.terminated) / pixels;
+    out.fragments_per_pixel = ratio_of(out.fragments, pixels);
+    out.candidates_per_pixel = ratio_of(out.candidates, pixels);
+    out.terminated_share = ratio_of(counts.terminated, pixels);
     out.covered_share = share_of(image.transmittance, [](float t) { return t < 0.5F; });
     return out;
 }

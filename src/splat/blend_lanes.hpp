@@ -47,16 +47,16 @@ struct PixelPlanes {
         std::fill_n(transmittance.begin() + static_cast<std::ptrdiff_t>(first), count, T(1));
         std::fill_n(live.begin() + static_cast<std::ptrdiff_t>(first), count, T(1));
         for (std::vector<T>* plane : {&r, &g, &b}) {
-            std::fill_n(plane->begin() + static_cast<std::ptrdiff_t>(first), count, T(0));
+            std::fill_n(&(*plane)[first], count, T(0));
         }
-        std::fill_n(updates.begin() + static_cast<std::ptrdiff_t>(first), count, 0U);
+        std::fill_n(&updates[first], count, 0U);
     }
     PixelValue read(std::size_t i) const {
         PixelValue value;
-        value.rgb[0] = static_cast<double>(r[i]);
-        value.rgb[1] = static_cast<double>(g[i]);
-        value.rgb[2] = static_cast<double>(b[i]);
-        value.transmittance = static_cast<double>(transmittance[i]);
+        value.rgb[0] = r[i];
+        value.rgb[1] = g[i];
+        value.rgb[2] = b[i];
+        value.transmittance = transmittance[i];
         value.updates = updates[i];
         value.ended = live[i] == T(0);
         return value;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "config/error.hpp"
+#include "config/ratio.hpp"
 
 namespace degs {
 namespace {
@@ -14,7 +15,7 @@ constexpr int kMaxSide = 65536; // px, as in cameras.json
 } // namespace
 
 Camera Camera::scaled_to_width(int new_width) const {
-    const double factor = static_cast<double>(new_width) / width;
+    const double factor = ratio_of(new_width, width);
     const double new_height = std::max(1.0, std::round(height * factor));
     // Phrased so that a camera without pixels (factor infinite or NaN) fails too.
     if (!(new_width >= 1 && new_width <= kMaxSide && width >= 1 && height >= 1 &&

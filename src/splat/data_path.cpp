@@ -44,19 +44,25 @@ std::int32_t nearest_pixel(double value) {
     return static_cast<std::int32_t>(std::lround(std::clamp(value, -kLimit, kLimit)));
 }
 
+/// A derived parameter as the data path holds it.
+template <class T>
+T rounded(double value) {
+    return static_cast<T>(value);
+}
+
 template <class T>
 SpanRecord<T> derive(const ProjectedSplat& splat) {
     SpanRecord<T> record{};
     record.pixel_x = nearest_pixel(splat.mu_x);
     record.pixel_y = nearest_pixel(splat.mu_y);
-    record.offset_x = static_cast<T>(splat.mu_x - record.pixel_x);
-    record.offset_y = static_cast<T>(splat.mu_y - record.pixel_y);
-    record.slope = static_cast<T>(splat.cov_b / splat.cov_c);
-    record.c_prime = static_cast<T>(1.0 / splat.cov_c);
-    record.inverse_a = static_cast<T>(splat.det / splat.cov_c);
-    record.a = static_cast<T>(splat.cov_c / splat.det);
-    record.q_threshold = static_cast<T>(splat.q_threshold);
-    record.fold = static_cast<T>(2.0 * std::log(splat.opacity));
+    record.offset_x = rounded<T>(splat.mu_x - record.pixel_x);
+    record.offset_y = rounded<T>(splat.mu_y - record.pixel_y);
+    record.slope = rounded<T>(splat.cov_b / splat.cov_c);
+    record.c_prime = rounded<T>(1.0 / splat.cov_c);
+    record.inverse_a = rounded<T>(splat.det / splat.cov_c);
+    record.a = rounded<T>(splat.cov_c / splat.det);
+    record.q_threshold = rounded<T>(splat.q_threshold);
+    record.fold = rounded<T>(2.0 * std::log(splat.opacity));
     const double reach = std::sqrt(splat.q_threshold * splat.cov_c);
     record.first_row = nearest_pixel(std::ceil(splat.mu_y - reach));
     record.last_row = nearest_pixel(std::floor(splat.mu_y + reach));
@@ -68,9 +74,9 @@ SpanRecord<T> derive(const ProjectedSplat& splat) {
 
 ColumnRecord derive_columns(const ProjectedSplat& splat) {
     const double reach = std::sqrt(splat.q_threshold * splat.cov_c);
-    return {static_cast<float>(splat.cov_b / splat.cov_a), static_cast<float>(1.0 / splat.cov_a),
-            static_cast<float>(splat.det / splat.cov_a),
-            static_cast<float>(splat.cov_b / splat.cov_c * reach)};
+    return {rounded<float>(splat.cov_b / splat.cov_a), rounded<float>(1.0 / splat.cov_a),
+            rounded<float>(splat.det / splat.cov_a),
+            rounded<float>(splat.cov_b / splat.cov_c * reach)};
 }
 
 template <class T>
@@ -88,8 +94,8 @@ public:
         for (const ProjectedSplat& splat : workload.splats) {
             spans_.push_back(derive<T>(splat));
             columns_.push_back(derive_columns(splat));
-            blends_.push_back({spans_.back().a, static_cast<T>(splat.colour[0]),
-                               static_cast<T>(splat.colour[1]), static_cast<T>(splat.colour[2])});
+            blends_.push_back({spans_.back().a, rounded<T>(splat.colour[0]),
+                               rounded<T>(splat.colour[1]), rounded<T>(splat.colour[2])});
         }
         return base;
     }
@@ -134,7 +140,7 @@ public:
     bool solve_row(std::uint32_t splat, int y, int x_begin, int x_end, int tile_y,
                    RowSpan& span) const override {
         const SpanRecord<T>& s = spans_[splat];
-        const T dy = static_cast<T>(y - s.pixel_y) - s.offset_y;
+        const T dy = below_mean(s, y);
         const T vertical = s.c_prime * dy * dy;
         const T room = s.q_threshold - vertical;
         if (!(room >= 0)) {
@@ -171,8 +177,8 @@ public:
         span.x0 = static_cast<std::int16_t>(x0 - x_begin);
         span.length = static_cast<std::int16_t>(x1 - x0 + 1);
         span.base = span.x0;
-        span.g0 = static_cast<double>(g0);
-        span.d0 = static_cast<double>(d0);
+        span.g0 = g0;
+        span.d0 = d0;
         return true;
     }
 
@@ -185,10 +191,10 @@ public:
 
     BlendOutcome test(const PixelTest& test) override {
         const SpanRecord<T>& s = spans_[test.splat];
-        const T dy = static_cast<T>(test.y - s.pixel_y) - s.offset_y;
+        const T dy = below_mean(s, test.y);
         TestRow<T> row;
         row.rest = s.c_prime * dy * dy - s.fold;
-        if (row.rest > static_cast<T>(kQLimit)) { // adding A u^2 >= 0 cannot round below
+        if (row.rest > kLimit) { // adding A u^2 >= 0 cannot round below
             BlendOutcome outcome;
             outcome.boundary = test.mask;
             return outcome;
@@ -205,16 +211,15 @@ public:
     bool tested_columns(std::uint32_t splat, int y, int x_begin, int x_end, int& first,
                         int& last) const override {
         const SpanRecord<T>& s = spans_[splat];
-        const T dy = static_cast<T>(y - s.pixel_y) - s.offset_y;
+        const T dy = below_mean(s, y);
         const T rest = s.c_prime * dy * dy - s.fold;
-        const auto limit = static_cast<T>(kQLimit);
         const T centre = s.offset_x + s.slope * dy;
-        if (!(rest <= limit) || !std::isfinite(centre) || x_begin >= x_end) {
+        if (!(rest <= kLimit) || !std::isfinite(centre) || x_begin >= x_end) {
             return false;
         }
         const auto inside = [&](int n) {
             const T u = static_cast<T>(n) - centre;
-            return s.a * u * u + rest <= limit;
+            return s.a * u * u + rest <= kLimit;
         };
         const int low = x_begin - s.pixel_x;
         const int high = x_end - 1 - s.pixel_x;
@@ -226,7 +231,7 @@ public:
         if (!inside(nearest)) {
             return false;
         }
-        const T width = std::sqrt((limit - rest) * s.inverse_a);
+        const T width = std::sqrt((kLimit - rest) * s.inverse_a);
         int left = std::clamp(column(std::ceil(centre - width)), low, nearest);
         int right = std::clamp(column(std::floor(centre + width)), nearest, high);
         for (; !inside(left); ++left) {
@@ -249,11 +254,15 @@ public:
         }
         const std::size_t first = rows_.first_pixel(context, row);
         for (int i = 0; i < count; ++i) {
-            pixels[i] = pixels_.read(first + static_cast<std::size_t>(i));
+            pixels[i] = pixels_.read(first + i);
         }
     }
 
 private:
+    // Of a row, in pixels.
+    static T below_mean(const SpanRecord<T>& s, int y) {
+        return static_cast<T>(y - s.pixel_y) - s.offset_y;
+    }
     // Row at which column dx (from the mean) leaves the ellipse, upwards (-1) or downwards (+1),
     // with a row of slack; beyond every row if the column misses the ellipse.
     static int cut(const SpanRecord<T>& s, const ColumnRecord& c, float dx, int direction) {
@@ -278,6 +287,8 @@ private:
         }
         return rows_.first_pixel(context, row) + static_cast<std::size_t>(column);
     }
+
+    static constexpr T kLimit = static_cast<T>(kQLimit);
 
     DataPathOptions options_;
     PixelRows rows_;

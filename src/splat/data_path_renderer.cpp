@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/ratio.hpp"
 #include "splat/pixel_mask.hpp"
 
 namespace degs {
@@ -25,8 +26,7 @@ public:
     TileBlender(const FrameWorkload& work, const DataPathRender& options, DataPathCounts& counts)
         : work_(work), rows_in_columns_(options.rows_in_columns), counts_(counts),
           path_(make_data_path(options.numbers, work.tile_size, 1)), base_(path_->add_frame(work)),
-          live_in_row_(static_cast<std::size_t>(work.tile_size)),
-          row_(static_cast<std::size_t>(work.tile_size)) {}
+          live_in_row_(work.tile_size), row_(work.tile_size) {}
 
     /// Blends the tile's list; false if it has none.
     bool blend(int column, int row);
@@ -49,7 +49,7 @@ private:
 };
 
 bool DataPathRenderer::TileBlender::blend(int column, int row) {
-    const auto tile = static_cast<std::size_t>(row * work_.tiles_x + column);
+    const std::size_t tile = row * work_.tiles_x + column;
     const std::uint32_t* splat = work_.tile_splats.data() + work_.tile_begin[tile];
     const std::uint32_t* end = work_.tile_splats.data() + work_.tile_begin[tile + 1];
     if (splat == end) {
@@ -80,7 +80,7 @@ void DataPathRenderer::TileBlender::blend_splat(std::uint32_t splat) {
     last = std::min(last, box_.y1);
     RowSpan span;
     for (int y = first; y <= last; ++y) {
-        if (live_in_row_[static_cast<std::size_t>(y - box_.y0)] > 0 &&
+        if (live_in_row_[y - box_.y0] > 0 &&
             path_->solve_row(splat, y, box_.x0, box_.x1 + 1, box_.y0, span)) {
             blend_span(span);
         }
@@ -100,11 +100,11 @@ void DataPathRenderer::TileBlender::blend_span(const RowSpan& span) {
         task.column = static_cast<std::int16_t>(column);
         task.offset = static_cast<std::int16_t>(column - span.base);
         const BlendOutcome outcome = path_->blend(task);
-        counts_.useful += static_cast<std::uint64_t>(ones(outcome.useful));
-        counts_.boundary += static_cast<std::uint64_t>(ones(outcome.boundary));
-        counts_.terminated += static_cast<std::uint64_t>(ones(outcome.terminated));
+        counts_.useful += ones(outcome.useful);
+        counts_.boundary += ones(outcome.boundary);
+        counts_.terminated += ones(outcome.terminated);
         live_ -= ones(outcome.ended);
-        live_in_row_[static_cast<std::size_t>(span.y)] -= ones(outcome.ended);
+        live_in_row_[span.y] -= ones(outcome.ended);
     }
 }
 
@@ -114,12 +114,8 @@ void DataPathRenderer::TileBlender::write(Image& image, int x, int y) {
         path_->read_row(0, row - box_.y0, width, row_.data());
         std::size_t at = image.at(box_.x0 - x, row - y);
         for (int column = 0; column < width; ++column, ++at) {
-            const PixelValue& pixel = row_[static_cast<std::size_t>(column)];
-            for (std::size_t channel = 0; channel < 3; ++channel) {
-                image.rgb[3 * at + channel] = static_cast<float>(pixel.rgb[channel]);
-            }
-            image.transmittance[at] = static_cast<float>(pixel.transmittance);
-            image.fragments[at] = pixel.updates;
+            const PixelValue& pixel = row_[column];
+            image.put(at, pixel.rgb, pixel.transmittance, pixel.updates);
         }
     }
 }
@@ -140,7 +136,7 @@ Image DataPathRenderer::render(const TileWindow& window) {
             }
         }
         if (progress_) {
-            progress_(static_cast<double>(row - window.y0 + 1) / (window.y1 - window.y0 + 1));
+            progress_(ratio_of(row - window.y0 + 1, window.y1 - window.y0 + 1));
         }
     }
     return image;

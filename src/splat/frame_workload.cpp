@@ -55,8 +55,7 @@ public:
     /// The same again.
     const std::vector<TileRun>& covered() const { return runs_; }
     std::size_t tile(int row, int column) const {
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.tiles_x()) +
-               static_cast<std::size_t>(column);
+        return row * static_cast<std::size_t>(grid_.tiles_x()) + column;
     }
 
 private:
@@ -89,7 +88,7 @@ std::uint32_t count_tiles(const std::vector<TileRun>& cover, const Binner& binne
                           FrameWorkload& work) {
     std::uint32_t touched = 0;
     for (const TileRun& run : cover) {
-        touched += static_cast<std::uint32_t>(run.last - run.first + 1);
+        touched += run.last - run.first + 1;
         const std::size_t begin = binner.tile(run.row, run.first) + 1;
         const std::size_t end = binner.tile(run.row, run.last) + 1;
         for (std::size_t tile = begin; tile <= end; ++tile) {

@@ -49,10 +49,10 @@ Defect find_defect(const GaussianCloud& cloud, std::size_t i) {
 }
 
 void count(Defect defect, SanitizeReport& report) {
-    report.non_finite += static_cast<std::uint64_t>(defect == Defect::NonFinite);
-    report.zero_rotation += static_cast<std::uint64_t>(defect == Defect::ZeroRotation);
-    report.bad_scale += static_cast<std::uint64_t>(defect == Defect::BadScale);
-    report.bad_opacity += static_cast<std::uint64_t>(defect == Defect::BadOpacity);
+    report.non_finite += defect == Defect::NonFinite;
+    report.zero_rotation += defect == Defect::ZeroRotation;
+    report.bad_scale += defect == Defect::BadScale;
+    report.bad_opacity += defect == Defect::BadOpacity;
 }
 
 /// Every finite float squares without overflow or underflow in double. A quaternion that is as
@@ -79,7 +79,7 @@ void truncate(GaussianCloud& cloud, std::size_t size) {
     cloud.scales.resize(size);
     cloud.rotations.resize(size);
     cloud.opacities.resize(size);
-    cloud.sh.resize(size * static_cast<std::size_t>(cloud.sh_coefficients()) * 3);
+    cloud.sh.resize(size * cloud.sh_coefficients() * 3);
 }
 
 } // namespace

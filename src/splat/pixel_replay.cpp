@@ -18,7 +18,7 @@ struct TileList {
 
     TileList(const FrameWorkload& work, int x, int y) {
         const int size = work.tile_size;
-        const auto tile = static_cast<std::size_t>(y / size * work.tiles_x + x / size);
+        const std::size_t tile = y / size * work.tiles_x + x / size;
         first = work.tile_splats.data() + work.tile_begin[tile];
         length = work.tile_begin[tile + 1] - work.tile_begin[tile];
         x_begin = x / size * size;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "splat/pixel_index.hpp"
 #include "splat/spherical_harmonics.hpp"
 
 namespace degs {
@@ -211,10 +212,10 @@ PixelBox pixel_box(const ProjectedSplat& splat, int width, int height) {
     const double wide_x = reach_x + pixel_slack(std::abs(splat.mu_x) + reach_x);
     const double wide_y = reach_y + pixel_slack(std::abs(splat.mu_y) + reach_y);
     PixelBox box;
-    box.x0 = static_cast<int>(std::clamp<double>(std::ceil(splat.mu_x - wide_x), 0, width));
-    box.x1 = static_cast<int>(std::clamp<double>(std::floor(splat.mu_x + wide_x), -1, width - 1));
-    box.y0 = static_cast<int>(std::clamp<double>(std::ceil(splat.mu_y - wide_y), 0, height));
-    box.y1 = static_cast<int>(std::clamp<double>(std::floor(splat.mu_y + wide_y), -1, height - 1));
+    box.x0 = index_within(std::ceil(splat.mu_x - wide_x), 0, width);
+    box.x1 = index_within(std::floor(splat.mu_x + wide_x), -1, width - 1);
+    box.y0 = index_within(std::ceil(splat.mu_y - wide_y), 0, height);
+    box.y1 = index_within(std::floor(splat.mu_y + wide_y), -1, height - 1);
     return box;
 }
 

@@ -27,7 +27,7 @@ struct Listed {
 
     Listed(const FrameWorkload& work, int x, int y, const PixelReplay& replay) {
         const int size = work.tile_size;
-        const auto tile = static_cast<std::size_t>(y / size * work.tiles_x + x / size);
+        const std::size_t tile = y / size * work.tiles_x + x / size;
         const std::uint64_t begin = work.tile_begin[tile];
         for (std::size_t i = 0; i < replay.alpha.size(); ++i) {
             const ProjectedSplat& splat = work.splats[work.tile_splats[begin + i]];

@@ -45,10 +45,8 @@ public:
     void write(Image& image, int left, int top, ReferenceCounts& counts) const;
 
 private:
-    static std::size_t clipped(int tile_size, int image) {
-        return static_cast<std::size_t>(std::min(tile_size, image));
-    }
-    std::size_t row(int y) const { return static_cast<std::size_t>(y - y0_) * stride_; }
+    static std::size_t clipped(int tile_size, int image) { return std::min(tile_size, image); }
+    std::size_t row(int y) const { return (y - y0_) * stride_; }
     void paint_row(const ProjectedSplat& splat, const SplatTerms& terms, int y);
     /// Blends pixels first .. last of a row of the tile; returns how many of them stopped.
     int blend(const ProjectedSplat& splat, const SplatTerms& terms, double q_row, double centre,
@@ -83,7 +81,7 @@ void TilePainter::paint(const ProjectedSplat& splat) {
         return;
     }
     for (int y = static_cast<int>(top); y <= static_cast<int>(bottom); ++y) {
-        if (live_in_row_[static_cast<std::size_t>(y - y0_)] > 0) {
+        if (live_in_row_[y - y0_] > 0) {
             paint_row(splat, terms, y);
         }
     }
@@ -103,7 +101,7 @@ void TilePainter::paint_row(const ProjectedSplat& splat, const SplatTerms& terms
     const int first = static_cast<int>(left);
     const int stopped =
         blend(splat, terms, q_row, centre, first, static_cast<int>(right), pixels_.data() + row(y));
-    live_in_row_[static_cast<std::size_t>(y - y0_)] -= stopped;
+    live_in_row_[y - y0_] -= stopped;
     live_ -= stopped;
 }
 
@@ -143,11 +141,7 @@ void TilePainter::write(Image& image, int left, int top, ReferenceCounts& counts
         const Pixel* pixel = pixels_.data() + row(y);
         for (int x = x0_; x <= x1_; ++x, ++pixel) {
             const std::size_t at = image.at(x - left, y - top);
-            for (std::size_t channel = 0; channel < 3; ++channel) {
-                image.rgb[3 * at + channel] = static_cast<float>(pixel->rgb[channel]);
-            }
-            image.transmittance[at] = static_cast<float>(pixel->transmittance);
-            image.fragments[at] = pixel->fragments;
+            image.put(at, pixel->rgb.data(), pixel->transmittance, pixel->fragments);
             counts.fragments += pixel->fragments;
             counts.terminated += pixel->done ? 1 : 0;
         }
@@ -169,7 +163,7 @@ Image render_reference(const FrameWorkload& workload, ReferenceCounts& counts,
     for (int row = window.y0; row <= window.y1; ++row) {
         for (int column = window.x0; column <= window.x1; ++column) {
             const int tile = row * workload.tiles_x + column;
-            const auto index = static_cast<std::size_t>(tile);
+            const std::size_t index = tile;
             const std::uint32_t* splat = workload.tile_splats.data() + workload.tile_begin[index];
             const std::uint32_t* end = workload.tile_splats.data() + workload.tile_begin[index + 1];
             if (splat == end) {

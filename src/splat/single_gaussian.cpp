@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/ratio.hpp"
+#include "splat/pixel_index.hpp"
 #include "splat/pixel_rules.hpp"
 
 namespace degs {
@@ -14,7 +16,7 @@ constexpr double kLog2e = 1.4426950408889634;
 /// 0 .. 1, the same on every machine: the engine's bits are fixed by the standard, its
 /// distributions are not.
 double unit(std::mt19937_64& random) {
-    return std::ldexp(static_cast<double>(random() >> 11), -53);
+    return std::ldexp(random() >> 11, -53);
 }
 double between(std::mt19937_64& random, double low, double high) {
     return low + (high - low) * unit(random);
@@ -67,18 +69,18 @@ void AlphaError::add(const AlphaMap& reference, const AlphaMap& map) {
     for (std::size_t i = 0; i < map.alpha.size(); ++i) {
         const double expected = reference.alpha[i];
         const double difference = std::abs(map.alpha[i] - expected);
-        support += static_cast<std::uint64_t>(expected > 0);
+        support += expected > 0;
         if (!std::isfinite(difference)) {
             ++nonfinite;
             continue;
         }
         const bool flip = (expected > 0) != (map.alpha[i] > 0);
-        flips += static_cast<std::uint64_t>(flip);
+        flips += flip;
         max = flip ? max : std::max(max, difference);
         sum += difference;
     }
     ++gaussians;
-    means.push_back(sum / static_cast<double>(map.alpha.size()));
+    means.push_back(mean_of(sum, map.alpha.size()));
 }
 
 double AlphaError::mean() const {
@@ -86,7 +88,7 @@ double AlphaError::mean() const {
     for (const double each : means) {
         sum += each;
     }
-    return means.empty() ? 0 : sum / static_cast<double>(means.size());
+    return mean_of(sum, means.size());
 }
 
 double AlphaError::spread() const {
@@ -95,7 +97,7 @@ double AlphaError::spread() const {
     for (const double each : means) {
         sum += (each - centre) * (each - centre);
     }
-    return means.empty() ? 0 : std::sqrt(sum / static_cast<double>(means.size()));
+    return std::sqrt(mean_of(sum, means.size()));
 }
 
 ProjectedSplat window_splat(double x, double y, double major, double minor, double angle,
@@ -136,8 +138,7 @@ ProjectedSplat random_window_splat(std::mt19937_64& random) {
 WindowCorner window_of(const ProjectedSplat& splat, int width, int height) {
     const auto corner = [](double mean, int size) {
         const int last = (size - 1) / kAlphaWindow;
-        return kAlphaWindow *
-               static_cast<int>(std::clamp(std::floor(mean / kAlphaWindow), 0.0, double{1} * last));
+        return kAlphaWindow * index_within(std::floor(mean / kAlphaWindow), 0, last);
     };
     return {corner(splat.mu_x, width), corner(splat.mu_y, height)};
 }

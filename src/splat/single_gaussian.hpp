@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "config/ratio.hpp"
 #include "splat/numbers/quantized_row.hpp"
 
 namespace degs {
@@ -15,7 +16,7 @@ constexpr int kAlphaWindow = 32;
 /// alpha of a window's pixels, row by row; 0 where it is below 1/255 or no span covers the pixel.
 struct AlphaMap {
     std::vector<double> alpha = std::vector<double>(kAlphaWindow * kAlphaWindow, 0.0);
-    double& at(int x, int y) { return alpha[static_cast<std::size_t>(y * kAlphaWindow + x)]; }
+    double& at(int x, int y) { return alpha[y * kAlphaWindow + x]; }
 };
 
 /// A window's first pixel.
@@ -43,9 +44,7 @@ struct AlphaError {
     double mean() const;
     /// Standard deviation of the Gaussians' means.
     double spread() const;
-    double flip_share() const {
-        return support > 0 ? static_cast<double>(flips) / static_cast<double>(support) : 0;
-    }
+    double flip_share() const { return ratio_of(flips, support); }
 };
 
 /// A splat in the window whose corner is (0, 0): standard deviations in px along its axes, the

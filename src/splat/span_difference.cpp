@@ -62,7 +62,7 @@ SpanDifference compare_spans(const FrameWorkload& workload, const DataPathOption
             const Interval a = solve(*one, i, y, width, difference.inside);
             const Interval b = solve(*two, i, y, width, difference.inside);
             difference.spans += a.length() > 0 ? 1 : 0;
-            difference.pixels += static_cast<std::uint64_t>(a.length());
+            difference.pixels += a.length();
             count_flips(workload.splats[i], y, a, b, difference);
             count_flips(workload.splats[i], y, b, a, difference);
         }

@@ -74,7 +74,7 @@ Vector3<typename Numbers::Scalar> evaluate_sh(const Numbers& numbers, int degree
     Vector3<typename Numbers::Scalar> sum = vector_in(numbers, glm::dvec3(0.0));
     const float* rgb = coefficients;
     for (int k = 0; k < count; ++k, rgb += 3) {
-        const auto& y = basis[static_cast<std::size_t>(k)];
+        const auto& y = basis[k];
         sum = {sum.x + y * numbers(double{rgb[0]}), sum.y + y * numbers(double{rgb[1]}),
                sum.z + y * numbers(double{rgb[2]})};
     }

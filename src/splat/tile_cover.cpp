@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "splat/pixel_index.hpp"
+
 namespace degs {
 namespace {
 
@@ -92,7 +94,7 @@ void cover_tile_row(const RowSolver& solver, int tile_size, int top, int bottom,
 
 /// int() truncates toward zero as in the original; clamped first, so that huge radii are safe.
 int clamped_tile(double tile, int tiles) {
-    return static_cast<int>(std::clamp<double>(tile, 0, tiles));
+    return index_within(tile, 0, tiles);
 }
 
 } // namespace

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+
+#include "config/ratio.hpp"
 
 namespace degs {
 
@@ -25,7 +28,7 @@ public:
         largest_ns_ = other.largest_ns_ > largest_ns_ ? other.largest_ns_ : largest_ns_;
     }
     std::uint64_t samples() const { return samples_; }
-    double mean_ns() const { return samples_ == 0 ? 0 : sum_ns_ / static_cast<double>(samples_); }
+    double mean_ns() const { return mean_of(sum_ns_, samples_); }
     double largest_ns() const { return largest_ns_; }
     /// The smallest value that `share` (0 .. 1) of the samples do not exceed; 0 without samples.
     double percentile_ns(double share) const {
@@ -44,26 +47,25 @@ public:
 private:
     // 32 buckets per power of two of 1/32 ns.
     static constexpr unsigned kSubBits = 5;
-    static constexpr std::uint64_t kPerNs = 32;
+    static constexpr int kPerNs = 32;
     static constexpr std::size_t kBuckets = (64 - kSubBits) << kSubBits;
 
     static std::size_t bucket_of(double ns) {
-        const auto value = static_cast<std::uint64_t>(ns * static_cast<double>(kPerNs));
+        const auto value = static_cast<std::uint64_t>(ns * kPerNs);
         if (value < (std::uint64_t{1} << kSubBits)) {
             return value;
         }
-        const unsigned top = 63U - static_cast<unsigned>(__builtin_clzll(value));
+        const unsigned top = 63U - __builtin_clzll(value);
         const unsigned shift = top - kSubBits;
-        return (static_cast<std::size_t>(shift) << kSubBits) + (value >> shift);
+        return (std::size_t{shift} << kSubBits) + (value >> shift);
     }
     static double upper_end(std::size_t bucket) {
         if (bucket < (std::size_t{2} << kSubBits)) {
-            return static_cast<double>(bucket + 1) / static_cast<double>(kPerNs);
+            return ratio_of(bucket + 1, kPerNs);
         }
-        const std::size_t shift = (bucket >> kSubBits) - 1;
+        const int shift = static_cast<int>(bucket >> kSubBits) - 1;
         const std::size_t mantissa = bucket - (shift << kSubBits) + 1;
-        return static_cast<double>(mantissa) * static_cast<double>(std::uint64_t{1} << shift) /
-               static_cast<double>(kPerNs);
+        return std::ldexp(ratio_of(mantissa, kPerNs), shift);
     }
 
     std::array<std::uint64_t, kBuckets> counts_{};

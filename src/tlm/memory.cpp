@@ -60,7 +60,7 @@ void Memory::transport(int initiator, tlm::tlm_generic_payload& payload, sc_core
     const sc_core::sc_time date = sc_core::sc_time_stamp() + delay;
     Request request;
     request.date = date.value();
-    request.initiator = static_cast<std::size_t>(initiator);
+    request.initiator = initiator;
     request.sequence = sequence_++;
     request.payload = &payload;
     pending_.push_back(&request);
@@ -88,7 +88,7 @@ void Memory::serve_until(std::uint64_t date) {
 
 void Memory::serve(Request& request) {
     tlm::tlm_generic_payload& payload = *request.payload;
-    const auto granule = static_cast<std::uint64_t>(config_.access_bytes);
+    const std::uint64_t granule = config_.access_bytes;
     const std::uint64_t first = payload.get_address() / granule;
     const std::uint64_t last = (payload.get_address() + payload.get_data_length() - 1) / granule;
     const std::uint64_t bytes = (last - first + 1) * granule;

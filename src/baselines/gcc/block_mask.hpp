@@ -16,13 +16,11 @@ public:
 
     /// Views of up to `view_size` px, at most kMaxBlocks * block.
     BlockMask(int view_size, int block)
-        : block_(block), live_(static_cast<std::size_t>((view_size + block - 1) / block), 0) {}
+        : block_(block), live_((view_size + block - 1) / block, 0) {}
 
     /// A view none of whose pixels has ended.
     void begin() { std::fill(live_.begin(), live_.end(), ~std::uint64_t{0}); }
-    void end_block(int row, int column) {
-        live_[static_cast<std::size_t>(row)] &= ~(std::uint64_t{1} << column);
-    }
+    void end_block(int row, int column) { live_[row] &= ~(std::uint64_t{1} << column); }
     /// Whether a live block meets the splat's bounding box, a pixel wider than the ellipse for
     /// rounding, inside the view.
     bool reaches(const DataPath& path, std::uint32_t splat, const JobTile& view) const {
@@ -40,7 +38,7 @@ public:
             ((std::uint64_t{2} << right / block_) - 1) & ~((std::uint64_t{1} << left / block_) - 1);
         std::uint64_t met = 0;
         for (int row = top / block_; row <= bottom / block_; ++row) {
-            met |= live_[static_cast<std::size_t>(row)] & below;
+            met |= live_[row] & below;
         }
         return met != 0;
     }

@@ -30,8 +30,7 @@ ColourStage::ColourStage(const sc_core::sc_module_name& name, const Config& conf
     : sc_core::sc_module(name), in("in"), cancel("cancel"),
       block_ended("block_ended", config.skip_ended ? 1 : 0), out("out"), sh("sh", time),
       config_(config), traffic_(traffic), job_(job), fetcher_(time), shader_(time),
-      fetched_("fetched", time, static_cast<std::size_t>(groups_ahead)),
-      mask_(job.tile_size, config.block) {
+      fetched_("fetched", time, groups_ahead), mask_(job.tile_size, config.block) {
     SC_HAS_PROCESS(ColourStage);
     SC_THREAD(fetch);
     SC_THREAD(shade);
@@ -123,7 +122,7 @@ std::uint64_t ColourStage::sh_bytes(const Survivors& survivors) const {
 }
 
 void ColourStage::shade() {
-    const auto units = static_cast<std::uint64_t>(config_.units);
+    const std::uint64_t units = config_.units;
     for (TileNumber views = 0; !job_.over(views);) {
         const Survivors survivors = fetched_.get(shader_);
         views += survivors.group.last ? 1 : 0;
@@ -139,8 +138,8 @@ void ColourStage::shade() {
 }
 
 Cycle ColourStage::sort_cycles(std::uint64_t keys) const {
-    const auto ways = static_cast<std::uint64_t>(config_.merge_ways);
-    const auto rate = static_cast<std::uint64_t>(config_.keys_per_cycle);
+    const std::uint64_t ways = config_.merge_ways;
+    const std::uint64_t rate = config_.keys_per_cycle;
     std::uint64_t passes = 0;
     for (std::uint64_t runs = keys; runs > 1; ++passes) {
         runs = (runs + ways - 1) / ways;

@@ -18,7 +18,7 @@ Footprint::Footprint(int view_size, int side) : side_(side) {
 
 void Footprint::solve(const DataPath& path, std::uint32_t splat, const JobTile& view) {
     for (int row = first_row_; row <= last_row_; ++row) {
-        const auto i = static_cast<std::size_t>(row);
+        const std::size_t i = row;
         valid_[i] = 0;
         for (auto& mask : border_) {
             mask[i] = 0;
@@ -45,7 +45,7 @@ void Footprint::solve(const DataPath& path, std::uint32_t splat, const JobTile& 
 void Footprint::add(const Row& row) {
     rows_.push_back(row);
     const int window_row = window_of(row.y);
-    const auto i = static_cast<std::size_t>(window_row);
+    const std::size_t i = window_row;
     const int first = window_of(row.first);
     const int last = window_of(row.last);
     const WindowMask windows = windows_between(first, last);

@@ -39,15 +39,13 @@ public:
     /// Rows with valid pixels, top to bottom.
     const std::vector<Row>& rows() const { return rows_; }
     /// Windows of a row of windows that hold a valid pixel.
-    WindowMask valid(int row) const { return valid_[static_cast<std::size_t>(row)]; }
+    WindowMask valid(int row) const { return valid_[row]; }
     /// Those among them with a valid pixel on the given border.
-    WindowMask border(Side side, int row) const {
-        return border_[side][static_cast<std::size_t>(row)];
-    }
+    WindowMask border(Side side, int row) const { return border_[side][row]; }
     int first_window_row() const { return first_row_; } ///< that may hold a valid pixel
     int last_window_row() const { return last_row_; }   ///< below the first one if there is none
     /// Row or column of windows that a row or column of pixels belongs to.
-    int window_of(int pixel) const { return window_of_[static_cast<std::size_t>(pixel)]; }
+    int window_of(int pixel) const { return window_of_[pixel]; }
     int side() const { return side_; }
 
 private:

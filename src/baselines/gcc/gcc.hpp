@@ -27,9 +27,7 @@ public:
     Engine(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
            RenderJob& job, const BuildOptions& options = {});
 
-    std::size_t finished_tiles() const override {
-        return static_cast<std::size_t>(image_buffers_[0]->stats().tiles);
-    }
+    std::size_t finished_tiles() const override { return image_buffers_[0]->stats().tiles; }
     void collect(AcceleratorResult& result) const override;
 
     const Config& config() const { return config_; }

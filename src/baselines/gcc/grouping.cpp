@@ -52,7 +52,7 @@ void Grouping::end_of_elaboration() {
 }
 
 void Grouping::fetch() {
-    const auto chunk = static_cast<std::uint64_t>(config_.chunk);
+    const std::uint64_t chunk = config_.chunk;
     const std::uint64_t record = traffic_.stage_one_bytes();
     for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); ++f) {
         if (frames_in_flight_ != 0 && f >= frames_in_flight_) {
@@ -116,10 +116,10 @@ void Grouping::group_chunk(std::uint32_t f, const Chunk& chunk) {
 void Grouping::regroup(std::uint32_t f) {
     const FrameWorkload& frame = *job_.frames[f];
     const MemoryMap map(traffic_, job_, f);
-    const auto chunk = static_cast<std::size_t>(config_.chunk);
+    const std::size_t chunk = config_.chunk;
     const std::size_t visible = frame.splats.size();
     const std::size_t pieces = (visible + chunk - 1) / chunk;
-    std::vector<Cycle> ready(static_cast<std::size_t>(config_.chunks_in_flight), 0);
+    std::vector<Cycle> ready(config_.chunks_in_flight, 0);
     region_written_ = 0;
     std::size_t asked = 0;
     for (std::size_t piece = 0; piece < pieces; ++piece) {

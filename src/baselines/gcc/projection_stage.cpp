@@ -30,9 +30,8 @@ ProjectionStage::ProjectionStage(const sc_core::sc_module_name& name, const Conf
                                  const Traffic& traffic, const Timebase& time, const RenderJob& job)
     : sc_core::sc_module(name), start("start"), cancel("cancel", 2), out("out"),
       lists("lists", time), shapes("shapes", time), config_(config), traffic_(traffic), job_(job),
-      loader_(time), fetcher_(time), projector_(time),
-      loaded_("loaded", time, static_cast<std::size_t>(config.groups_ahead)),
-      fetched_("fetched", time, static_cast<std::size_t>(config.groups_ahead)) {
+      loader_(time), fetcher_(time), projector_(time), loaded_("loaded", time, config.groups_ahead),
+      fetched_("fetched", time, config.groups_ahead) {
     SC_HAS_PROCESS(ProjectionStage);
     SC_THREAD(load);
     SC_THREAD(fetch);
@@ -75,8 +74,8 @@ void ProjectionStage::load_view(TileNumber number) {
             stats_.entries_cancelled += view.count - done;
             done = view.count;
         } else {
-            group.count = static_cast<std::uint32_t>(std::min<std::uint64_t>(
-                static_cast<std::uint64_t>(config_.group), view.count - done));
+            group.count = static_cast<std::uint32_t>(
+                std::min<std::uint64_t>(config_.group, view.count - done));
             ready = lists.read(loader_, map.views + group.first * traffic_.entry_bytes(),
                                group.count * traffic_.entry_bytes());
             done += group.count;
@@ -89,7 +88,7 @@ void ProjectionStage::load_view(TileNumber number) {
 }
 
 void ProjectionStage::fetch() {
-    const auto record = static_cast<std::uint64_t>(traffic_.shape_bytes);
+    const std::uint64_t record = traffic_.shape_bytes;
     for (TileNumber views = 0; !job_.over(views);) {
         SplatChunk group = loaded_.get(fetcher_);
         views += group.last ? 1 : 0;
@@ -117,7 +116,7 @@ void ProjectionStage::fetch() {
 }
 
 void ProjectionStage::project() {
-    const auto units = static_cast<Cycle>(config_.units);
+    const Cycle units = config_.units;
     for (TileNumber views = 0; !job_.over(views);) {
         const SplatChunk group = fetched_.get(projector_);
         views += group.last ? 1 : 0;

@@ -45,7 +45,7 @@ void Engine::collect_stages(AcceleratorResult& result) const {
 void Engine::collect_laws(AcceleratorResult& result) const {
     const WindowArray::Stats& a = array_->stats();
     const SlotAccount& s = a.slots;
-    const auto pes = static_cast<std::uint64_t>(config_.pes());
+    const std::uint64_t pes = config_.pes();
     auto& laws = result.conservation;
     laws.push_back({"slots of windows and skips = useful + boundary + terminated",
                     (a.windows + a.skip_cycles) * pes, s.useful + s.boundary + s.terminated});

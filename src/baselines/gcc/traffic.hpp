@@ -21,13 +21,11 @@ struct Traffic {
 
     /// The same records as far as all accelerators have them.
     TrafficConfig common() const;
-    std::uint64_t stage_one_bytes() const {
-        return static_cast<std::uint64_t>(mean_bytes + bound_bytes);
-    }
-    std::uint64_t entry_bytes() const { return static_cast<std::uint64_t>(list_entry_bytes); }
+    std::uint64_t stage_one_bytes() const { return mean_bytes + bound_bytes; }
+    std::uint64_t entry_bytes() const { return list_entry_bytes; }
     /// Bytes on the bus for one scattered record of `record` bytes at index `index` of its array.
     std::uint64_t scattered(std::uint64_t record, std::uint64_t index) const {
-        const auto burst = static_cast<std::uint64_t>(burst_bytes);
+        const std::uint64_t burst = burst_bytes;
         return (((index + 1) * record - 1) / burst - index * record / burst + 1) * burst;
     }
 };

@@ -5,8 +5,8 @@
 
 namespace degs::gcc {
 
-Traversal::Traversal(int windows) : seen_(static_cast<std::size_t>(windows), 0) {
-    frontier_.reserve(static_cast<std::size_t>(windows * windows));
+Traversal::Traversal(int windows) : seen_(windows, 0) {
+    frontier_.reserve(windows * windows);
 }
 
 void Traversal::begin(const Footprint& splat, int columns, int rows) {
@@ -19,7 +19,7 @@ void Traversal::begin(const Footprint& splat, int columns, int rows) {
 }
 
 void Traversal::push(const Window& window) {
-    seen_[static_cast<std::size_t>(window.row)] |= WindowMask{1} << window.column;
+    seen_[window.row] |= WindowMask{1} << window.column;
     frontier_.push_back(window);
 }
 
@@ -50,14 +50,14 @@ void Traversal::expand(const Window& window, Cycle known) {
 }
 
 void Traversal::push_new(int row, int column, Cycle known) {
-    if ((seen_[static_cast<std::size_t>(row)] >> column & 1U) == 0) {
+    if ((seen_[row] >> column & 1U) == 0) {
         push({row, column, known});
     }
 }
 
 bool Traversal::find_missed(Window& window) const {
     for (int row = splat_->first_window_row(); row <= splat_->last_window_row(); ++row) {
-        const WindowMask missed = splat_->valid(row) & ~seen_[static_cast<std::size_t>(row)];
+        const WindowMask missed = splat_->valid(row) & ~seen_[row];
         if (missed != 0) {
             window.row = row;
             window.column = __builtin_ctzll(missed);

@@ -36,10 +36,8 @@ WindowArray::WindowArray(const sc_core::sc_module_name& name, const Config& conf
       config_(config), job_(job), contexts_(contexts), block_(block),
       blocks_(ceil_div(job.tile_size, block)), grid_(ceil_div(job.tile_size, config.window)),
       self_(time), footprint_(job.tile_size, config.window), traversal_(grid_),
-      startable_(static_cast<TileNumber>(contexts)),
-      live_in_window_(static_cast<std::size_t>(grid_ * grid_), 0),
-      live_in_block_(static_cast<std::size_t>(blocks_ * blocks_), 0),
-      live_windows_(static_cast<std::size_t>(grid_), 0), ended_head_(live_in_window_.size(), -1) {
+      startable_(contexts), live_in_window_(grid_ * grid_, 0), live_in_block_(blocks_ * blocks_, 0),
+      live_windows_(grid_, 0), ended_head_(live_in_window_.size(), -1) {
     SC_HAS_PROCESS(WindowArray);
     SC_THREAD(run);
 }
@@ -145,7 +143,7 @@ void WindowArray::evaluate(std::uint32_t splat) {
     const int side = config_.window;
     for (const Footprint::Row& row : footprint_.rows()) {
         WindowMask live =
-            live_windows_[static_cast<std::size_t>(footprint_.window_of(row.y))] &
+            live_windows_[footprint_.window_of(row.y)] &
             windows_between(footprint_.window_of(row.first), footprint_.window_of(row.last));
         while (live != 0) {
             const int first = __builtin_ctzll(live);
@@ -164,15 +162,14 @@ void WindowArray::evaluate_run(std::uint32_t splat, int y, int first, int last) 
     test.y = view_->y + y;
     test.row = static_cast<std::int16_t>(y);
     test.context = static_cast<std::int16_t>(context_);
-    stats_.valid_pixels += static_cast<std::uint64_t>(last - first + 1);
+    stats_.valid_pixels += last - first + 1;
     for (int column = first; column <= last; column += kLanes) {
         test.x = view_->x + column;
         test.column = static_cast<std::int16_t>(column);
         test.mask = ~0U >> (kLanes - std::min(kLanes, last - column + 1));
         const BlendOutcome outcome = job_.path->test(test);
-        stats_.slots.useful += static_cast<std::uint64_t>(__builtin_popcount(outcome.useful));
-        stats_.slots.terminated +=
-            static_cast<std::uint64_t>(__builtin_popcount(outcome.terminated));
+        stats_.slots.useful += __builtin_popcount(outcome.useful);
+        stats_.slots.terminated += __builtin_popcount(outcome.terminated);
         if (outcome.ended != 0) {
             note_ended(y, column, outcome.ended);
         }
@@ -200,7 +197,7 @@ Traversal::Window WindowArray::centre_window(const ProjectedSplat& splat) const 
 }
 
 void WindowArray::traverse(const ProjectedSplat& splat) {
-    const auto latency = static_cast<Cycle>(config_.discovery_cycles - 1);
+    const Cycle latency = config_.discovery_cycles - 1;
     traversal_.begin(footprint_, columns_, rows_);
     Traversal::Window window = centre_window(splat);
     do {
@@ -224,7 +221,7 @@ bool WindowArray::missed(Traversal::Window& window) {
 void WindowArray::visit(const Traversal::Window& window) {
     const std::size_t index = window_at(window.row, window.column);
     if (live_in_window_[index] == 0) {
-        const auto cycles = static_cast<Cycle>(config_.skip_cycles);
+        const Cycle cycles = config_.skip_cycles;
         stats_.windows_ended++;
         pending_skips_ += cycles;
         idle_pending_ = idle_pending_ || cycles != 0;
@@ -245,12 +242,12 @@ void WindowArray::visit(const Traversal::Window& window) {
 
 void WindowArray::end_pixels(std::size_t window) {
     for (int& i = ended_head_[window]; i >= 0;) {
-        const EndedPixel pixel = ended_[static_cast<std::size_t>(i)];
+        const EndedPixel pixel = ended_[i];
         i = pixel.next;
         stats_.pixels_ended++;
         --live_in_window_[window];
         --live_pixels_;
-        const auto block = static_cast<std::size_t>(pixel.block);
+        const std::size_t block = pixel.block;
         if (--live_in_block_[block] == 0) {
             report_block(pixel.block);
         }

@@ -105,9 +105,7 @@ private:
     void wait_until(Cycle date);
     void idle(Idle cause, Cycle cycles);
     void settle_idle();
-    std::size_t window_at(int row, int column) const {
-        return static_cast<std::size_t>(row * grid_ + column);
-    }
+    std::size_t window_at(int row, int column) const { return row * grid_ + column; }
 
     Config config_;
     RenderJob& job_;

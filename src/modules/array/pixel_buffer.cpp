@@ -186,11 +186,7 @@ const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y
     unsigned char* out = bytes_.data();
     std::size_t i = image.at(tile.x, tile.y + y);
     for (const PixelValue& pixel : pixels_) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            image.rgb[i * 3 + c] = static_cast<float>(pixel.rgb[c]);
-        }
-        image.transmittance[i] = static_cast<float>(pixel.transmittance);
-        image.fragments[i] = pixel.updates;
+        image.put(i, pixel.rgb, pixel.transmittance, pixel.updates);
         encode(pixel, pixel_bytes, out);
         out += pixel_bytes;
         ++i;

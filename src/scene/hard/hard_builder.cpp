@@ -39,7 +39,7 @@ void HardBuilder::add_world(const glm::dvec3& mean, const glm::dvec3& scale,
     for (int channel = 0; channel < 3; ++channel) {
         cloud.sh.push_back(static_cast<float>((rgb[channel] - 0.5) / kShY0));
     }
-    const auto more = static_cast<std::size_t>(3 * (cloud.sh_coefficients() - 1));
+    const std::size_t more = 3 * (cloud.sh_coefficients() - 1);
     cloud.sh.insert(cloud.sh.end(), more, 0.0F);
 }
 
@@ -55,7 +55,7 @@ void HardBuilder::look(double x, double y, int radius) {
 }
 
 void repeat_last(GaussianCloud& cloud) {
-    const auto values = static_cast<std::size_t>(3 * cloud.sh_coefficients());
+    const std::size_t values = 3 * cloud.sh_coefficients();
     cloud.means.push_back(cloud.means.back());
     cloud.scales.push_back(cloud.scales.back());
     cloud.rotations.push_back(cloud.rotations.back());

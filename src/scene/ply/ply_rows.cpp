@@ -87,7 +87,7 @@ void PlyRows::lay_out() {
 PlyColumn PlyRows::column(const std::string& property) const {
     const auto found = std::find_if(element_->properties.begin(), element_->properties.end(),
                                     [&](const PlyProperty& p) { return p.name == property; });
-    return columns_.at(static_cast<std::size_t>(found - element_->properties.begin()));
+    return columns_.at(found - element_->properties.begin());
 }
 
 void PlyRows::read(char* destination, std::size_t count) {

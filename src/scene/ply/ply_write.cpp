@@ -72,8 +72,7 @@ void write_values(std::ostream& out, std::vector<float>& values) {
             value = load_value<float>(reinterpret_cast<const char*>(&value), true);
         }
     }
-    out.write(reinterpret_cast<const char*>(values.data()),
-              static_cast<std::streamsize>(values.size() * sizeof(float)));
+    out.write(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
     values.clear();
 }
 

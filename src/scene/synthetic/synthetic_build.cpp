@@ -51,7 +51,7 @@ void SyntheticBuilder::add_exact(const glm::dvec3& mean, const glm::dvec3& scale
         for (int i = 0; i < values; i += 4) {
             const std::array<float, 4> units = random_.signed_units();
             for (int j = 0; j < std::min(4, values - i); ++j) {
-                cloud_.sh.push_back(view_dependence * units[static_cast<std::size_t>(j)]);
+                cloud_.sh.push_back(view_dependence * units[j]);
             }
         }
     }

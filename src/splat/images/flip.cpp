@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/ratio.hpp"
 #include "splat/images/flip_colour.hpp"
 #include "splat/images/flip_filter.hpp"
 #include "splat/images/image_metrics.hpp"
@@ -37,8 +38,10 @@ double colour_difference(const glm::dvec3& ycxcz, const glm::dvec3& other, doubl
 }
 
 double feature_difference(const FlipRow& row, const FlipRow& other, std::size_t x) {
-    const double edges = std::abs(static_cast<double>(row.edge[x]) - other.edge[x]);
-    const double points = std::abs(static_cast<double>(row.point[x]) - other.point[x]);
+    const double edge = row.edge[x];
+    const double point = row.point[x];
+    const double edges = std::abs(edge - other.edge[x]);
+    const double points = std::abs(point - other.point[x]);
     return std::pow(std::max(edges, points) / std::sqrt(2.0), kFeatureExponent);
 }
 
@@ -60,7 +63,7 @@ double flip_difference(const Image& reference, const Image& test, double pixels_
             sum += std::pow(colour, 1 - std::min(feature_difference(a, b, x), 1.0));
         }
     }
-    return sum / static_cast<double>(reference.pixels());
+    return mean_of(sum, reference.pixels());
 }
 
 } // namespace degs

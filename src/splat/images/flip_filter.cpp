@@ -68,7 +68,7 @@ FlipKernels::FlipKernels(double pixels_per_degree) {
     const auto taps_of = [&](double sigma, int reach) { // 0 beyond its own reach
         std::vector<double> taps = gaussian(sigma, radius);
         for (int x = -radius; x <= radius; ++x) {
-            taps[static_cast<std::size_t>(x + radius)] *= std::abs(x) <= reach ? 1.0 : 0.0;
+            taps[x + radius] *= std::abs(x) <= reach ? 1.0 : 0.0;
         }
         return taps;
     };
@@ -91,7 +91,7 @@ FlipKernels::FlipKernels(double pixels_per_degree) {
     std::vector<double> first = bell;
     std::vector<double> second = bell;
     for (int x = -radius; x <= radius; ++x) {
-        const auto at = static_cast<std::size_t>(x + radius);
+        const std::size_t at = x + radius;
         first[at] *= -x;
         second[at] *= x * x / (feature * feature) - 1;
     }
@@ -101,7 +101,7 @@ FlipKernels::FlipKernels(double pixels_per_degree) {
 }
 
 FlipFilter::FlipFilter(const Image& image, const FlipKernels& kernels)
-    : image_(image), kernels_(kernels), width_(static_cast<std::size_t>(image.width)),
+    : image_(image), kernels_(kernels), width_(image.width),
       ring_(2 * static_cast<std::size_t>(kernels.radius) + 1), across_(width_), down_(width_) {
     for (std::vector<float>& line : padded_) {
         line.resize(width_ + 2 * static_cast<std::size_t>(kernels.radius));
@@ -109,7 +109,7 @@ FlipFilter::FlipFilter(const Image& image, const FlipKernels& kernels)
 }
 
 void FlipFilter::read_row(int row) {
-    const auto radius = static_cast<std::size_t>(kernels_.radius);
+    const std::size_t radius = kernels_.radius;
     const float* rgb = image_.rgb.data() + image_.at(0, row) * 3;
     for (std::size_t x = 0; x < width_; ++x) {
         const glm::dvec3 srgb(rgb[3 * x], rgb[3 * x + 1], rgb[3 * x + 2]);
@@ -122,7 +122,7 @@ void FlipFilter::read_row(int row) {
         std::fill_n(line.begin(), radius, line[radius]);
         std::fill_n(line.end() - kernels_.radius, radius, line[radius + width_ - 1]);
     }
-    Planes& planes = ring_[static_cast<std::size_t>(row) % ring_.size()];
+    Planes& planes = ring_[row % ring_.size()];
     along_row(padded_[0], kernels_.achromatic, planes.achromatic);
     along_row(padded_[1], kernels_.red_green, planes.red_green);
     along_row(padded_[2], kernels_.blue_yellow_narrow, planes.narrow);
@@ -146,9 +146,9 @@ void FlipFilter::along_row(const std::vector<float>& padded, const FlipKernels::
 void FlipFilter::along_column(std::vector<float> Planes::*plane, const FlipKernels::Taps& taps,
                               float weight, std::vector<float>& sum) const {
     for (int k = -kernels_.radius; k <= kernels_.radius; ++k) {
-        const auto row = static_cast<std::size_t>(std::clamp(row_ + k, 0, image_.height - 1));
+        const std::size_t row = std::clamp(row_ + k, 0, image_.height - 1);
         const std::vector<float>& line = ring_[row % ring_.size()].*plane;
-        const float tap = weight * taps[static_cast<std::size_t>(k + kernels_.radius)];
+        const float tap = weight * taps[k + kernels_.radius];
         for (std::size_t x = 0; x < width_; ++x) {
             sum[x] += tap * line[x];
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,12 +21,14 @@ struct Image {
     Image(int w, int h)
         : width(w), height(h), rgb(pixels() * 3, 0.0F), transmittance(pixels(), 1.0F),
           fragments(pixels(), 0) {}
-    std::size_t pixels() const {
-        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    }
-    std::size_t at(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-               static_cast<std::size_t>(x);
+    std::size_t pixels() const { return static_cast<std::size_t>(width) * height; }
+    std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
+    /// Writes pixel i, rounded to single precision; `colour` are its three channels.
+    void put(std::size_t i, const double* colour, double transmitted, std::uint32_t blended) {
+        std::transform(colour, colour + 3, &rgb[3 * i],
+                       [](double c) { return static_cast<float>(c); });
+        transmittance[i] = static_cast<float>(transmitted);
+        fragments[i] = blended;
     }
 };
 

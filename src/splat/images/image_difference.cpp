@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/ratio.hpp"
+
 namespace degs {
 
 void ImageDifference::add(const Image& reference, const Image& test, int x, int y) {
@@ -12,7 +14,8 @@ void ImageDifference::add(const Image& reference, const Image& test, int x, int 
         double error = 0;
         std::uint64_t nonfinite = 0;
         for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-            const double distance = std::abs(static_cast<double>(reference.rgb[c]) - test.rgb[c]);
+            const double wanted = reference.rgb[c];
+            const double distance = std::abs(wanted - test.rgb[c]);
             if (std::isfinite(distance)) {
                 squares_ += distance * distance;
                 error = std::max(error, distance);
@@ -39,11 +42,11 @@ void ImageDifference::add(const Image& reference, const Image& test, int x, int 
 }
 
 double ImageDifference::alpha_error_mean() const {
-    return pixels_ > 0 ? alpha_sum_ / static_cast<double>(pixels_) : 0;
+    return mean_of(alpha_sum_, pixels_);
 }
 
 double ImageDifference::psnr_db() const {
-    return -10 * std::log10(squares_ / (3 * static_cast<double>(pixels_)));
+    return -10 * std::log10(mean_of(squares_, 3 * pixels_));
 }
 
 void subtract(const Image& reference, Image& test) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "config/error.hpp"
+#include "config/ratio.hpp"
 
 namespace degs {
 namespace {
@@ -58,7 +59,7 @@ public:
                 sum += row_sum(y - kRadius);
             }
         }
-        return sum / (static_cast<double>(length_) * first_.height);
+        return mean_of(sum, length_ * first_.height);
     }
 
 private:
@@ -89,7 +90,7 @@ void StructuralSimilarity::filter_row(int y) {
         padded_.yy[kPad + i] = b * b;
         padded_.xy[kPad + i] = a * b;
     }
-    Moments& out = ring_[static_cast<std::size_t>(y % kTaps)];
+    Moments& out = ring_[y % kTaps];
     convolve(padded_.x, out.x);
     convolve(padded_.y, out.y);
     convolve(padded_.xx, out.xx);
@@ -116,7 +117,7 @@ void StructuralSimilarity::gather(Line Moments::*plane, int y) {
     const int bottom = std::min(first_.height - 1, y + kRadius);
     for (int source = top; source <= bottom; ++source) {
         const double weight = window_[source - y + kRadius];
-        const Line& in = ring_[static_cast<std::size_t>(source % kTaps)].*plane;
+        const Line& in = ring_[source % kTaps].*plane;
         for (std::size_t i = 0; i < length_; ++i) {
             out[i] += weight * in[i];
         }
@@ -160,12 +161,13 @@ ImageError compare_images(const Image& reference, const Image& test) {
     check_comparable(reference, test);
     double squares = 0, worst = 0;
     for (std::size_t i = 0; i < reference.rgb.size(); ++i) {
-        const double error = std::abs(static_cast<double>(reference.rgb[i]) - test.rgb[i]);
+        const double wanted = reference.rgb[i];
+        const double error = std::abs(wanted - test.rgb[i]);
         squares += error * error;
         worst = error > worst || std::isnan(error) ? error : worst; // NaN sticks
     }
     ImageError result;
-    result.psnr_db = -10 * std::log10(squares / static_cast<double>(reference.rgb.size()));
+    result.psnr_db = -10 * std::log10(mean_of(squares, reference.rgb.size()));
     result.max_abs_error = worst;
     result.ssim = StructuralSimilarity(reference, test).mean();
     return result;

@@ -88,7 +88,7 @@ NumberTolerance tolerance_of(const NumberSet& set, const FrameWorkload& workload
 double pixel_tolerance(const FrameWorkload& workload, int x, int y,
                        const NumberTolerance& numbers) {
     const int size = workload.tile_size;
-    const auto tile = static_cast<std::size_t>(y / size * workload.tiles_x + x / size);
+    const std::size_t tile = y / size * workload.tiles_x + x / size;
     const double alpha_min = workload.projection.alpha_min;
     double left = 1; // transmittance
     double sum = 0;

@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    unsigned char byte() const { return static_cast<unsigned char>(name_[at_]); }
+    unsigned char byte() const { return name_[at_]; }
     const std::string& name_;
     std::size_t at_ = 0;
 };

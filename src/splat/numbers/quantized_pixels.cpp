@@ -27,7 +27,7 @@ public:
                       std::size_t first) override {
         TestedPixels tested;
         tested.mask = mask;
-        std::transform(q, q + 32, tested.q, [](double each) { return static_cast<float>(each); });
+        std::transform(q, q + 32, tested.q, [](double each) { return each; });
         return test_(tested, splats_[splat], numbers_, refuse, pixels_, first);
     }
     PixelValue read(std::size_t pixel) const override { return pixels_.read(pixel); }

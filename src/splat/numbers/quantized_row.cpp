@@ -5,11 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "splat/pixel_index.hpp"
+
 namespace degs {
 namespace {
 
 int to_int(double pixel) {
-    return static_cast<int>(std::clamp<double>(pixel, -kFarPixel, kFarPixel));
+    return index_within(pixel, -kFarPixel, kFarPixel);
 }
 
 } // namespace

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace degs {
+
+/// part / whole of two counts, e.g. of hits and accesses; 0 if the whole is 0.
+inline double ratio_of(std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// The mean of `count` values from their sum; 0 of no values.
+inline double mean_of(double sum, std::uint64_t count) {
+    return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+} // namespace degs
