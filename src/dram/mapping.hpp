@@ -61,7 +61,7 @@ private:
 
     bool fold_channel_ = false, fold_bank_ = false;
     std::array<std::uint8_t, kFields> bits_{}; // of each field
-    std::array<std::uint8_t, kFields> taken_{};
+    std::array<unsigned, kFields> taken_{};
     unsigned address_bits_ = 6;
     std::vector<Piece> pieces_; // from low to high
     std::uint64_t capacity_ = 0;

@@ -142,8 +142,7 @@ void Degs::build_array() {
         slices_.push_back(std::make_unique<ArraySlice>(numbered("slice", i).c_str(), slice, time_,
                                                        job_, b, config_.scheduler.banks,
                                                        config_.scheduler.segment_length));
-        // Control packets (tile ends) need cells of their own: they take no room of the buffer.
-        auto& packets = ring(packing_rings_, "packing_buffer", config_.packing_depth() + 4,
+        auto& packets = ring(packing_rings_, "packing_buffer", config_.packing_cells(),
                              config_.packing.latency_cycles);
         packing_[i]->out.bind(packets);
         slices_[i]->in.bind(packets);

@@ -53,9 +53,8 @@ void Degs::collect_buffers(AcceleratorResult& result) const {
                c.span_buffer.bytes, c.span_lane_depth(), span_buffer());
     add_buffer(result, {"crossbar", "Span Vectors; Table I of the paper does not count them."}, 0,
                c.span.crossbar_depth, crossbar());
-    // Four cells more than the buffer has: tile ends travel in them, see build_array().
-    add_buffer(result, {"packing_buffer", "Packets, and four cells for tile ends."},
-               c.packing.bytes, c.packing_depth() + 4, packing_buffer());
+    add_buffer(result, {"packing_buffer", "Packets, and at least four cells for ends of tiles."},
+               c.packing.bytes, c.packing_cells(), packing_buffer());
     Counters& feature = add_buffer(result, {"feature_buffer", "Parameters of splats in the banks."},
                                    c.feature_buffer.bytes)
                             .counters;

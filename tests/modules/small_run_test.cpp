@@ -258,6 +258,18 @@ TEST(SmallRun, ManyTinyTilesInFlight) {
     run(config, frame);
 }
 
+// Banks whose rows are never inside have nothing to pack between the ends of tiles, which must not
+// wait for each other.
+TEST(SmallRun, MoreTilesEndThanPacketsFit) {
+    DegsConfig config = exact_arithmetic();
+    config.tile_size = 4;
+    config.pixel_buffer.bytes = config.pixel_buffer.state_bytes * 16 * 200;
+    config.packing.lead_packets = 4;
+    const FrameWorkload frame = random_frame(9, 90, 70, 4, 40);
+    const auto result = run(config, frame);
+    EXPECT_GT(result->job().tiles.size(), 200U);
+}
+
 // Two frames: the second is projected while the first is rendered, and both are right.
 TEST(SmallRun, FramesOverlap) {
     const FrameWorkload first = random_frame(5, 100, 60, 32, 200);
