@@ -137,12 +137,15 @@ void Degs::build_array() {
                                    config_.scheduler.termination,
                                    config_.slicing.skip_dead_rows ? config_.slicing.count : 0};
     next_region_port_.assign(slicing_.size(), 0);
+    // The end of a tile takes no room of the Packing Buffer, but a cell of its ring. At most one of
+    // every tile in flight waits there.
+    const int tile_ends = std::max(4, config_.contexts());
     for (int b = 0; b < config_.scheduler.banks; ++b) {
         const auto i = static_cast<std::size_t>(b);
         slices_.push_back(std::make_unique<ArraySlice>(numbered("slice", i).c_str(), slice, time_,
                                                        job_, b, config_.scheduler.banks,
                                                        config_.scheduler.segment_length));
-        auto& packets = ring(packing_rings_, "packing_buffer", config_.packing_cells(),
+        auto& packets = ring(packing_rings_, "packing_buffer", config_.packing_depth() + tile_ends,
                              config_.packing.latency_cycles);
         packing_[i]->out.bind(packets);
         slices_[i]->in.bind(packets);

@@ -125,9 +125,6 @@ struct DegsConfig : AcceleratorConfig {
             packing.bytes / scheduler.banks - queue_depth() * scheduler.segment_bytes;
         return packets / (packing.task_bytes * array.pes_per_bank);
     }
-    /// Cells of the ring that stands for a bank's part of the Packing Buffer: its packets and the
-    /// ends of tiles, which take no room of the buffer. At most one per tile in flight waits there.
-    int packing_cells() const { return packing_depth() + std::max(4, contexts()); }
     /// Packets that a bank may be ahead of its array slice.
     int packing_lead() const { return std::min(packing_depth(), packing.lead_packets); }
     int feature_entries() const {

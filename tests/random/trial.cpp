@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/random/trial.hpp"
+
+#include <cstdio>
+
+namespace degs::trials {
+namespace {
+
+/// A word for a shell, in quotes only if it needs them.
+std::string quoted(const std::string& word) {
+    const bool plain = !word.empty() &&
+                       word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                              "0123456789_-+=.,:/") == std::string::npos;
+    return plain ? word : "'" + word + "'";
+}
+
+} // namespace
+
+std::vector<std::string> Trial::overrides() const {
+    std::vector<std::string> settings;
+    for (const Change& change : changes) {
+        settings.push_back(change.path + "=" + change.value);
+    }
+    return settings;
+}
+
+std::string Trial::arguments() const {
+    std::string line = "run configs/" + config + " --scene " + scene +
+                       " --cameras tests/random/cameras.json --camera " + std::to_string(camera) +
+                       " --width " + std::to_string(width) + " --height " + std::to_string(height);
+    if (frames > 1) {
+        char step[32];
+        std::snprintf(step, sizeof step, "%g", step_degrees);
+        line += " --frames " + std::to_string(frames) + " --path-step " + step;
+    }
+    if (array_only) {
+        line += " --array-only";
+    }
+    for (const std::string& setting : overrides()) {
+        line += " --set " + quoted(setting);
+    }
+    return line;
+}
+
+} // namespace degs::trials
