@@ -59,8 +59,8 @@ BufferUse& add_buffer(AcceleratorResult& result, const Title& title, std::int64_
     return result.buffers.emplace_back(std::move(buffer));
 }
 
-void add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes, int depth,
-                const RingUse& use) {
+void add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes,
+                std::uint64_t depth, const RingUse& use) {
     BufferUse& buffer = add_buffer(result, title, bytes);
     buffer.depth = depth;
     buffer.rings = use.depth / buffer.depth;

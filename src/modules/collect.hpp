@@ -58,8 +58,8 @@ RingUse use_of(const std::vector<std::unique_ptr<DatedFifo<T>>>& rings) {
 /// A buffer of `bytes` without rings; its counters follow.
 BufferUse& add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes);
 /// A buffer of `bytes` made of rings of `depth` cells each.
-void add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes, int depth,
-                const RingUse& use);
+void add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes,
+                std::uint64_t depth, const RingUse& use);
 
 /// The Splat Fetchers of any accelerator.
 inline constexpr Title kFetching{"fetching", "Splat Fetchers, busy when they ask for records."};
