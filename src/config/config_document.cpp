@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// JSON strings are YAML strings in double quotes. Bytes that are no UTF-8 become U+FFFD.
+/// JSON strings are YAML strings in double quotes. Bytes that are not UTF-8 become U+FFFD.
 std::string quoted_text(const std::string& text) {
     return ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A configuration on its way out: into results, into a file that reproduces it, into the manual.
+// Writes a configuration into results, into a file that reproduces it, or into the manual.
 #pragma once
 
 #include <functional>
@@ -26,25 +26,25 @@ nlohmann::ordered_json resolved_json(const Describe& describe);
 std::string resolved_yaml_text(const Describe& describe);
 std::vector<KeyDoc> document_keys(const Describe& describe);
 
-/// Every value, nested as in YAML; choices by name. Part of every report.
+/// Returns every value, nested as in YAML, with choices by name. Every report contains it.
 template <class Config>
 nlohmann::ordered_json resolved(Config config) {
     return resolved_json([&](ConfigVisitor& visitor) { config.describe(visitor); });
 }
 
-/// The same as a YAML file with each key's meaning behind it; loading it gives the same struct.
+/// Returns the same as a YAML file with the meaning behind each key; loading it gives the same struct.
 template <class Config>
 std::string resolved_yaml(Config config) {
     return resolved_yaml_text([&](ConfigVisitor& visitor) { config.describe(visitor); });
 }
 
-/// What a user may write, in the order of `describe`; the defaults are the values of `config`.
+/// Lists the keys that a user may write, in the order of `describe`; the defaults are the values of `config`.
 template <class Config>
 std::vector<KeyDoc> document(Config config) {
     return document_keys([&](ConfigVisitor& visitor) { config.describe(visitor); });
 }
 
-/// A Markdown table of key, type, default, allowed, meaning.
+/// Returns a Markdown table with the columns key, type, default, allowed and meaning.
 std::string markdown_table(const std::vector<KeyDoc>& keys);
 
 } // namespace degs

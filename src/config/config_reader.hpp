@@ -10,7 +10,7 @@
 namespace degs {
 
 /// Fills a struct from a source, and remembers every key it was asked for, so that finish() can
-/// reject the others with the names they may have been meant for.
+/// reject the others and suggest the keys that may have been meant.
 class ConfigReader : public ConfigVisitor {
 public:
     using ConfigVisitor::choice;
@@ -41,7 +41,7 @@ private:
     std::string declare(const char* key);
     std::string path_of(const char* key) const;
     std::string sentence_of(const ConfigRule& rule) const;
-    /// Calls `parse(node)` for the file's value, then for the override's; both must be right.
+    /// Calls `parse(node)` for the value of the file, then for that of the override; both must be valid.
     template <class Parse>
     bool each_value(const char* key, const Parse& parse);
     template <class Number>

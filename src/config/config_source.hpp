@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a configuration comes from: a YAML file, overridden by `--set path.to.key=value`.
+// The source of a configuration: a YAML file, overridden by `--set path.to.key=value`.
 #pragma once
 
 #include <filesystem>
@@ -13,22 +13,22 @@
 
 namespace degs {
 
-/// Strict: load() throws InputError for anything in the source that the struct does not ask for
-/// and for anything that it asks for and cannot have. What the source does not name keeps its
-/// default.
+/// The source is strict: load() throws InputError for every key that the struct does
+/// not have and for every value that it cannot take. Keys that the source does not
+/// name keep their defaults.
 ///
 /// Values: integers are decimal digits (no 1e3, no 0x10, no leading zero); reals are finite decimal
 /// numbers; booleans are true or false; choices go by name; a scalar in quotes is always text.
 class ConfigSource {
 public:
-    /// Each override reads `path.to.key=value`; a later one of the same key wins over an earlier
-    /// one.
+    /// Each override reads `path.to.key=value`; a later one of the same key
+    /// wins over an earlier one.
     static ConfigSource from_file(const std::filesystem::path& path,
                                   const std::vector<std::string>& overrides = {});
     /// `name` stands for the file in messages; includes are relative to its folder.
     static ConfigSource from_text(const std::string& name, const std::string& yaml,
                                   const std::vector<std::string>& overrides = {});
-    /// Part of another source's tree, e.g. an item of a list.
+    /// Takes a part of another source's tree, e.g. an item of a list.
     static ConfigSource from_tree(ConfigNode tree, const std::vector<std::string>& overrides = {}) {
         return {std::move(tree), overrides};
     }
@@ -48,9 +48,9 @@ public:
     /// The same for any function that describes: values are read into what it visits.
     void read(const std::function<void(ConfigVisitor&)>& describe) const;
 
-    /// "file:line" or "--set path=value" of what decides a key, "default" if nothing names it.
+    /// Returns "file:line" or "--set path=value" of the text that decides a key, "default" if nothing names it.
     std::string place(const std::string& path) const;
-    /// The files as one tree, before overrides: for callers with lists, which structs do not have.
+    /// The files as one tree, before overrides, for callers that read lists.
     const ConfigNode& tree() const { return root_; }
 
 private:

@@ -35,8 +35,8 @@ std::string read_bytes(const fs::path& path, const std::string& place) {
         throw InputError(name + " cannot be read: " + std::strerror(reason) +
                          (reason == ENOENT ? nearby_file(path) : "") + ".");
     }
-    // One byte more than allowed: tells a file that is too long from one that just fits, and ends
-    // the reading of an endless one.
+    // One byte more than allowed distinguishes a file that is too long from one that just fits, and
+    // ends the reading of an endless one.
     std::string bytes(kLargestConfigBytes + 1, '\0');
     file.read(bytes.data(), bytes.size());
     bytes.resize(file.gcount());

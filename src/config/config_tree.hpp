@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A YAML file as a tree in which every value knows where it was written.
+// A YAML file as a tree in which every value holds its place in the file.
 #pragma once
 
 #include <filesystem>
@@ -23,15 +23,15 @@ struct ConfigNode {
     const ConfigNode* find(const std::string& child) const;
 };
 
-/// Reads a file; the first key of any section may be `include: other.yaml` (or a list of files),
-/// whose keys become part of that section and lose against the section's own. Paths are relative to
-/// the including file. Throws InputError.
+/// Reads a file. The first key of any section may be `include: other.yaml` (or a list of files),
+/// whose keys become part of that section; the section's own keys override them. Paths are relative
+/// to the including file. Throws InputError.
 ConfigNode read_config_file(const std::filesystem::path& path);
-/// The same for text in memory; `name` stands for the file in messages, includes are relative to
-/// it.
+/// The same for text in memory; `name` stands for the file in messages,
+/// includes are relative to it.
 ConfigNode read_config_text(const std::string& name, const std::string& yaml);
 
-// Far above any real configuration; they keep a hostile one from taking all time, memory or stack.
+// Limits far above any real configuration. They keep a hostile file from taking all time, memory or stack.
 constexpr std::size_t kLargestConfigBytes = std::size_t{1} << 20;
 constexpr std::size_t kMostConfigKeys = 4096; ///< in one section
 constexpr std::size_t kDeepestConfig = 32;    ///< sections and lists inside each other

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words in which configuration errors and documentation speak about values.
+// Words for values in configuration errors and documentation.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ std::string number(std::int64_t value);
 /// "memory" + "latency_ns" = "memory.latency_ns"; the root section has the empty path.
 std::string join_path(const std::string& section, const std::string& key);
 std::string list(const std::vector<std::string>& words);
-/// 'text' on one line and of bounded length, whatever a file may contain.
+/// Returns 'text' in quotes, on one line and of bounded length, whatever a file contains.
 std::string quote(const std::string& text);
 
 /// `text` as it is written between the bars of a Markdown table.
 std::string markdown_cell(std::string text);
 
-/// "1 to 64", "at least 1", "at most 64" or "any": a bound at the end of its type is no bound.
+/// Returns "1 to 64", "at least 1", "at most 64" or "any"; a bound at the end of its type does not count.
 std::string range(std::int64_t low, std::int64_t high);
 std::string range(double low, double high);
 
-/// The candidate that `word` most likely misspells; empty when none is near (a third of the
-/// letters).
+/// Returns the candidate that `word` most likely misspells; empty if more than a third of the
+/// letters differ for all of them.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
 } // namespace degs::config_words

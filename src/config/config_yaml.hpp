@@ -7,7 +7,7 @@
 
 namespace degs {
 
-/// One YAML document without following its includes. Throws InputError.
+/// Parses one YAML document without following its includes. Throws InputError.
 ConfigNode parse_config_yaml(const std::string& name, const std::string& text);
 
 } // namespace degs
