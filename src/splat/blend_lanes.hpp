@@ -10,7 +10,7 @@
 
 namespace degs {
 
-/// What a PE fetches by G_ID (paper: Global Gaussian Parameter).
+/// The parameters that a PE fetches by G_ID (paper: Global Gaussian Parameter).
 template <class T>
 struct BlendRecord {
     T a; // quadratic coefficient A
@@ -66,11 +66,11 @@ struct PixelPlanes {
 /// q' = q - 2 ln o at which alpha = 1/255: 2 ln 255.
 constexpr double kQLimit = 11.082527090316852;
 
-/// The PE for up to 32 neighbouring pixels: q_n (paper Eq. 19), alpha (Eq. 21), recurrence (Eq. 8).
-/// `first` is the pixel of mask bit 0. `refuse`: StopRule::Refuse. Neighbouring lanes are computed
-/// together; lanes without a task change nothing. The planes must have kLanePadding pixels more
-/// than are used. Uses the widest vectors of the machine it runs on; results are the same at any
-/// width.
+/// The PE for up to 32 neighbouring pixels: q_n (paper Eq. 19), alpha (Eq. 21), recurrence
+/// (Eq. 8). `first` is the pixel of mask bit 0. `refuse`: StopRule::Refuse. Neighbouring lanes
+/// are computed together; lanes without a task change nothing. The planes must have
+/// kLanePadding pixels more than are used. It uses the widest vectors of the machine; results
+/// are the same at any width.
 template <class T>
 using BlendFunction = BlendOutcome (*)(const BlendTask& task, const BlendRecord<T>& splat,
                                        bool refuse, PixelPlanes<T>& pixels, std::size_t first);
@@ -95,7 +95,7 @@ using TestFunction = BlendOutcome (*)(const TestRow<T>& row, const BlendRecord<T
 TestFunction<float> test_function(float);
 TestFunction<double> test_function(double);
 
-/// All variants this build has, narrow first; those the machine cannot run are left out. For tests.
+/// For tests: all variants of this build that the machine can run, narrow ones first.
 std::vector<BlendFunction<float>> blend_variants();
 std::vector<TestFunction<float>> test_variants();
 /// The exponential of the float lanes, x in [-80, 1]; relative error < 3e-7.

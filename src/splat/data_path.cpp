@@ -116,9 +116,9 @@ public:
         last = spans_[splat].last_column + 2 + options_.delta;
     }
 
-    // The ellipse between two columns is convex, so its lowest row is that of the ellipse's own
-    // lowest point if that lies between them, else where the nearer column cuts it; likewise the
-    // highest.
+    // The ellipse between two columns is convex, so its lowest row is that of the
+    // ellipse's own lowest point if that lies between them, else where the nearer column
+    // cuts it; likewise the highest.
     void rows_in_columns(std::uint32_t splat, int x_begin, int x_end, int& first,
                          int& last) const override {
         const SpanRecord<T>& s = spans_[splat];

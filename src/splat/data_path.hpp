@@ -28,16 +28,16 @@ struct DataPathOptions {
     int delta = 0; ///< px added at both ends that are not exact, in place of a number set's own
     StopRule stop = StopRule::Refuse;
     std::optional<NumberSet> set = std::nullopt; ///< in place of `numbers`: any formats
-    /// What its frames are projected in (ProjectionOptions::format). The data path itself takes
-    /// splats as they are.
+    /// The format in which its frames are projected (ProjectionOptions::format). The data path
+    /// itself takes splats as they are.
     NumberFormat projection = {};
 };
 
 /// The number set of an arithmetic; that of Fp64 is `ideal`.
 NumberSet set_of(Arithmetic arithmetic);
-/// The numbers of that name (Arithmetic) with the span ends and the projection that their set
-/// has; fp64 is exact.
-/// InputError lists the names for any other.
+/// The numbers of that name with the span ends and the
+/// projection of their set; fp64 has exact ends. InputError
+/// lists the names for any other.
 DataPathOptions named_numbers(const std::string& name);
 /// The same with parts changed ("key=value" of NumberSet::describe). fp32 and fp64 stay the
 /// machine's own operations if the projection alone is.
@@ -71,8 +71,8 @@ struct BlendTask {
     std::int16_t context = 0; ///< tile context of the Pixel Buffer
 };
 
-/// Up to 32 neighbouring pixels of a row that each check for themselves whether they are inside the
-/// ellipse: what the lanes of a coupled "checking-while-blending" array do (paper, Sec. II-B).
+/// Up to 32 neighbouring pixels of a row, each of which tests whether it is inside the ellipse, as
+/// the lanes of a coupled "checking-while-blending" array do (paper, Sec. II-B).
 struct PixelTest {
     std::uint32_t splat = 0;
     std::uint32_t mask = 0;   ///< bit i: the pixel at column + i is tested
@@ -82,8 +82,8 @@ struct PixelTest {
     std::int16_t context = 0; ///< tile context of the Pixel Buffer
 };
 
-/// What became of the tasks; disjoint masks whose union is the mask asked for, and the pixels that
-/// ended.
+/// The result of the tasks: disjoint masks whose union is the mask of the request,
+/// and the pixels that ended.
 struct BlendOutcome {
     std::uint32_t useful = 0;     ///< inside the ellipse and blended
     std::uint32_t boundary = 0;   ///< outside the ellipse (alpha < 1/255)
@@ -100,14 +100,14 @@ struct PixelValue {
 };
 
 /// The arithmetic that the modules call: row spans, closed-form q_n, alpha, transmittance and
-/// colour, and the pixel state of all tile contexts. No time in here.
+/// colour, and the pixel state of all tile contexts. It has no time.
 class DataPath {
 public:
     virtual ~DataPath() = default;
 
     /// Derives the records of all splats of a frame; returns the global index of its first splat.
     virtual std::uint32_t add_frame(const FrameWorkload& workload) = 0;
-    /// The splat's rows will be asked for soon: a hint that changes nothing but host time.
+    /// A hint that the rows of the splat will be needed soon. It changes nothing but host time.
     virtual void expect(std::uint32_t splat) const = 0;
     /// First and last image row (inclusive, unclipped) that the splat's ellipse meets.
     virtual void rows(std::uint32_t splat, int& first, int& last) const = 0;
@@ -126,9 +126,9 @@ public:
     virtual void begin_row(int context, int row) = 0;
     /// Updates the pixels of one task, left to right.
     virtual BlendOutcome blend(const BlendTask& task) = 0;
-    /// Tests each pixel by itself, q' = A u^2 + C' dy^2 - 2 ln o with u = dx - m dy (paper Eq. 10),
-    /// and blends the live ones with q <= Q_th; the others keep their state. What number sets make
-    /// of it: QuantizedRow::check.
+    /// Tests each pixel by itself, q' = A u^2 + C' dy^2 - 2 ln o with u = dx - m dy (paper Eq.
+    /// 10), and blends the live ones with q <= Q_th; the others keep their state. For number
+    /// sets see QuantizedRow::check.
     virtual BlendOutcome test(const PixelTest& test) = 0;
     /// First and last of the columns [x_begin, x_end) whose pixel on image row `y` passes test()'s
     /// q <= Q_th, to the last rounding; between them all pixels do. False if none does.

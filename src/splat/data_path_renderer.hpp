@@ -11,7 +11,7 @@
 
 namespace degs {
 
-/// What the PEs did for an image.
+/// The work of the PEs for an image.
 struct DataPathCounts {
     std::uint64_t spans = 0;      ///< rows with at least one pixel
     std::uint64_t useful = 0;     ///< inside the ellipse and blended
@@ -21,11 +21,11 @@ struct DataPathCounts {
 
 struct DataPathRender {
     DataPathOptions numbers;
-    /// Rows asked for per splat: all that its ellipse meets (slicing.rows: splat) or those that it
-    /// meets in the tile's columns (tile). Spans that are wider than the ellipse tell the two
-    /// apart.
+    /// Rows per splat: all that its ellipse meets (slicing.rows: splat) or those
+    /// that it meets in the tile's columns (tile). The two differ for spans that
+    /// are wider than the ellipse.
     bool rows_in_columns = false;
-    /// Told now and then which share is done, 0 .. 1.
+    /// Is called now and then with the share that is done, 0 .. 1.
     std::function<void(double)> progress;
 };
 
@@ -40,7 +40,7 @@ public:
 
     /// The tiles of a window; the image has the size of their pixels.
     Image render(const TileWindow& window);
-    /// Of all windows so far.
+    /// Counts of all windows so far.
     const DataPathCounts& counts() const { return counts_; }
 
 private:

@@ -25,7 +25,7 @@ struct CullCounts {
 /// the list of every tile. Computed once and shared by all architectures (paper, Sec. V-A).
 struct FrameWorkload {
     Camera camera;
-    ProjectionOptions projection; ///< what the splats were projected with
+    ProjectionOptions projection; ///< options of the projection
     int tile_size = 0;            ///< px
     TileMode tile_mode = TileMode::Exact;
     int tiles_x = 0, tiles_y = 0;

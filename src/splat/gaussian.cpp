@@ -55,9 +55,9 @@ void count(Defect defect, SanitizeReport& report) {
     report.bad_opacity += defect == Defect::BadOpacity;
 }
 
-/// Every finite float squares without overflow or underflow in double. A quaternion that is as
-/// close to unit length as rounding to float allows stays as it is, so that sanitizing twice
-/// changes nothing.
+/// Every finite float squares without overflow or underflow in double. A quaternion that
+/// is as close to unit length as rounding to float allows stays as it is, so that
+/// sanitizing twice changes nothing.
 glm::vec4 unit_rotation(const glm::vec4& rotation) {
     constexpr double kRounding = 1.2e-7; // 2 * 2^-24 relative error of the squared length
     const glm::dvec4 q(rotation);

@@ -20,17 +20,17 @@ struct PixelReplay {
     double transmittance = 1;
 };
 
-/// As render_reference draws the pixel.
+/// Draws the pixel as render_reference does.
 PixelReplay replay_reference(const FrameWorkload& workload, int x, int y);
-/// As the row path draws it in the formats of `row`, value by value. A data path's lanes may differ
-/// by a unit of a product (quantized_lanes.hpp), and fp32 ones by the order of operations.
+/// Draws it as the row path does in the formats of `row`, value by value. A data path's lanes may
+/// differ by a unit of a product (quantized_lanes.hpp), and fp32 ones by the order of operations.
 PixelReplay replay_row(const FrameWorkload& workload, int x, int y, const QuantizedRow& row,
                        StopRule stop);
 
-/// Largest channel difference; infinite for what is no number.
+/// Largest channel difference; infinite for NaN.
 double pixel_distance(const PixelReplay& a, const PixelReplay& b);
 
-/// Who is to blame for a pixel's error.
+/// The cause of the error of a pixel.
 struct PixelBlame {
     double error = 0;      ///< largest channel difference of the replay, from the reference
     std::uint32_t id = 0;  ///< Gaussian, index in the cloud
@@ -40,17 +40,17 @@ struct PixelBlame {
     std::string flip;      ///< "stop rule", "span ends", "depth order" or empty
 };
 
-/// Replays a pixel. The Gaussian is the one whose alpha moves the reference's pixel most if it
-/// alone is taken from the number set. The operation is the one that explains most: the error of a
-/// replay in which it alone is rounded, or what is gone from the error if it alone is exact,
-/// whichever is larger. Flip tells that the two disagree on whether the Gaussian is blended:
+/// Replays a pixel. The Gaussian is the one whose alpha moves the reference's pixel most if it alone
+/// is taken from the number set. The operation is the one that explains most: the error of a replay
+/// in which it alone is rounded, or the part of the error that vanishes if it alone is exact,
+/// whichever is larger. `flip` is set if the two disagree on whether the Gaussian is blended:
 /// because the pixel ends at another splat, or because only one of them has it in its span.
 PixelBlame blame_pixel(const FrameWorkload& workload, int x, int y, const NumberSet& set,
                        StopRule stop);
 
 /// The same for a set whose frame was projected in a format of its own: `reference` in double,
 /// `projected` in the set's. The operation is "projection" if that explains more than any other:
-/// the error of `projected` drawn in double, or what is gone from the error without it. The
+/// the error of `projected` drawn in double, or the part of the error that vanishes without it. The
 /// Gaussian is then the one whose part of the pixel changes most, and the flip may be that splats
 /// of both frames come in another order.
 PixelBlame blame_pixel(const FrameWorkload& reference, const FrameWorkload& projected, int x, int y,

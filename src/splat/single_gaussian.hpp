@@ -36,7 +36,7 @@ struct AlphaError {
     std::uint64_t gaussians = 0;
     std::uint64_t support = 0;   ///< pixels with alpha >= 1/255 in the reference
     std::uint64_t flips = 0;     ///< pixels that only one of the maps has
-    std::uint64_t nonfinite = 0; ///< pixels that are no number
+    std::uint64_t nonfinite = 0; ///< pixels that are NaN
     double max = 0;              ///< largest |difference| of pixels that both maps have
     std::vector<double> means;   ///< of each Gaussian: mean |difference| of all 1024 pixels
 

@@ -7,8 +7,8 @@
 
 namespace degs {
 
-/// How the spans of two data paths differ on a frame, every row of a splat solved for the whole
-/// width of the image.
+/// The difference between the spans of two data paths on a frame, with every row of a splat solved
+/// for the whole width of the image.
 struct SpanDifference {
     std::uint64_t spans = 0;  ///< of the first
     std::uint64_t pixels = 0; ///< in them

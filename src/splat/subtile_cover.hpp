@@ -14,9 +14,9 @@ class OrientedBox {
 public:
     OrientedBox() = default;
     explicit OrientedBox(const ProjectedSplat& splat);
-    /// Does the box meet the areas (centre +- 0.5) of pixels x .. x + size - 1, y .. y + size - 1?
-    /// Separating axes, widened by `pixel_slack`: true for every square with a pixel inside the
-    /// ellipse.
+    /// True if the box meets the areas (centre +- 0.5) of pixels x .. x + size - 1, y .. y +
+    /// size - 1. By separating axes, widened by `pixel_slack`: true for every square with a
+    /// pixel inside the ellipse.
     bool meets(double x, double y, double size) const;
 
 private:

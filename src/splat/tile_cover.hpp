@@ -25,9 +25,9 @@ struct TileRun {
 /// exactly, so a diagonal needle lists its own tiles and not its bounding box.
 void cover_ellipse(const ProjectedSplat& splat, const TileGrid& grid, std::vector<TileRun>& runs);
 
-/// The tiles of the original rasteriser: a square of half width ceil(3 sqrt(lambda_max)), in
-/// double. Its upper ends are one pixel short and its lower ends up to one pixel generous, as
-/// there.
+/// The tiles of the original rasteriser: a square of half width ceil(3
+/// sqrt(lambda_max)), in double. Its upper ends are one pixel short and its lower ends
+/// up to one pixel generous, as there.
 void cover_square(const ProjectedSplat& splat, const TileGrid& grid, std::vector<TileRun>& runs);
 
 } // namespace degs

@@ -7,7 +7,7 @@
 
 namespace degs {
 
-/// Tiles x0 .. x1 of the rows of tiles y0 .. y1 (inclusive) of a frame: what to render of it.
+/// Tiles x0 .. x1 of the rows of tiles y0 .. y1 (inclusive) of a frame: the part of it to render.
 struct TileWindow {
     int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
 };

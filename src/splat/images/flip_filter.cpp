@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kFeatureWidth = 0.082; // degrees; of the widest edge that is seen as one
 
-/// a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees: the publication's model of a channel's contrast
-/// sensitivity.
+/// a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees: the publication's model of a
+/// channel's contrast sensitivity.
 struct Sensitivity {
     double a, b;
 };

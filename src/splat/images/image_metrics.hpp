@@ -12,7 +12,7 @@ struct ImageError {
     double max_abs_error = 0; ///< largest channel difference
 };
 
-/// Throws InputError if sizes differ or there is no pixel.
+/// Throws InputError if sizes differ or the images are empty.
 void check_comparable(const Image& reference, const Image& test);
 
 /// Compares the colours of two images; accumulates in double. A non-finite pixel makes the numbers

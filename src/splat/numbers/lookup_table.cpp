@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMostShift = 126; // what a float's exponent can take
 
-/// x limited to low .. high; high if x is no number.
+/// x limited to low .. high; high if x is NaN.
 double within(double x, double low, double high) {
     const double below = x < high ? x : high;
     return below > low ? below : low;

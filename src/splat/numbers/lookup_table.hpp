@@ -12,7 +12,7 @@ namespace degs {
 /// log2(e) / 2: exp(-q / 2) = 2^-(kHalfLog2e q).
 constexpr double kHalfLog2e = 0.72134752044448170;
 
-/// What a table holds. All fall with x.
+/// The functions of the tables. All fall with x.
 enum class TableFunction {
     SqrtOneMinus, ///< sqrt(1 - x), x in 0 .. 1 (paper Sec. IV-A)
     ExpHalf,      ///< exp(-x / 2), x >= 0 (paper Eq. 21)
@@ -37,11 +37,11 @@ struct TableSpec {
     double range = 1;    ///< of x with Reduction::None; beyond it the last cell counts
     NumberFormat values; ///< of entries, of the product in Linear, and of their difference
     /// Of x log2(e) / 2, which ExpHalf forms for Reduction::Binary; the constant is that of a fixed
-    /// multiplier in front of a table, without a table it has this format, too.
+    /// multiplier in front of a table; without a table it is rounded to this format as well.
     NumberFormat argument;
 
     void describe(ConfigVisitor& visitor);
-    /// What a cost model charges for, e.g. "lut.exp2.linear.16x32".
+    /// Key for a cost model, e.g. "lut.exp2.linear.16x32".
     std::string cost_key() const;
 };
 inline TableSpec table_of(TableFunction function) {
@@ -50,8 +50,8 @@ inline TableSpec table_of(TableFunction function) {
     return spec;
 }
 
-/// One table, evaluated the way a unit of the hardware would: every product and sum rounded to
-/// `values`.
+/// One table, evaluated as a unit of the hardware evaluates it: every product and
+/// sum is rounded to `values`.
 class LookupTable {
 public:
     LookupTable() = default;

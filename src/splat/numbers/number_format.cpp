@@ -261,7 +261,7 @@ LaneRounding::LaneRounding(const NumberFormat& format) {
     odd = shift > 0 ? 1 : 0;
     half_less_one = shift > 0 ? (1 << (shift - 1)) - 1 : 0;
     keep = 0x7FFFFFFF & ~((1 << shift) - 1);
-    // Where subnormals are those of fp32, cutting their patterns rounds them, too.
+    // Where subnormals are those of fp32, cutting their patterns rounds them as well.
     if (lowest_exponent(format) > -126) {
         min_normal = bits_of(format.min_normal());
         magic = static_cast<float>(std::ldexp(format.quantum(), 23));

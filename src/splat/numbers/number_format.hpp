@@ -52,7 +52,7 @@ inline bool operator!=(const NumberFormat& a, const NumberFormat& b) {
 
 /// "fp64", "fp32", "fp16", "bf16"; "e6m9", "e5m10b29", "ue5m11b29": exponent and mantissa bits,
 /// bias (2^(E-1) - 1 if not given), u without sign; "q4.12", "uq0.16": integer bits (sign included)
-/// and fraction bits. InputError tells what is allowed.
+/// and fraction bits. Throws InputError with what is allowed.
 NumberFormat parse_format(const std::string& name);
 /// A key of a configuration that holds the name of a format.
 void describe_format(ConfigVisitor& visitor, const char* key, NumberFormat& format,

@@ -21,23 +21,23 @@ enum class Vertical { Squared, Stepwise, FromRatio };
 /// A mean is a coordinate, or its nearest pixel (an integer) and an offset in -0.5 .. 0.5.
 enum class Mean { Coordinate, PixelAndOffset };
 /// Which pixels a row span covers. `Exact`: ceil(x_c - w) .. floor(x_c + w), the pixels with
-/// q <= Q_th. `Outward`: floor(x_c - w) - delta .. ceil(x_c + w) + delta (paper, Sec. III-A).
-/// `Slope`: outward, and delta grows by |dw/dy| times half a unit of the mean, to the nearest px
-/// and at most 1 (the paper "estimates the error based on dw/dy"); fp32 and fp64 have no such unit:
-/// 0.
+/// q <= Q_th. `Outward`: floor(x_c - w) - delta .. ceil(x_c + w) + delta (paper, Sec.
+/// III-A). `Slope`: outward, and delta grows by |dw/dy| times half a unit of the mean, to
+/// the nearest px and at most 1 (the paper "estimates the error based on dw/dy"); fp32 and
+/// fp64 have no such unit: 0.
 enum class SpanEnds { Exact, Outward, Slope };
 /// The pixel of n = 0. `Start`: the span's first (paper). `Vertex`: the pixel of the span nearest
 /// to x_c; all terms of q_n have one sign there, so nothing cancels.
 enum class Base { Start, Vertex };
-/// Products with the integers n and n(n-1). `Whole`: one multiplier. `HalfLookup`: the integer is
-/// cut into its low 4 bits and the rest, each product is looked up and rounded, then they are
-/// added.
+/// Products with the integers n and n(n-1). `Whole`: one multiplier. `HalfLookup`: the
+/// integer is cut into its low 4 bits and the rest, each product is looked up and
+/// rounded, then they are added.
 enum class IntegerMultiplier { Whole, HalfLookup };
 /// q counts nats of exp(-q/2), as in the paper, or binary orders of alpha = 2^-q: A, C' and Q_th
 /// are stored times log2(e) / 2, which costs nothing and saves a multiplier in front of the table.
 enum class Exponent { Natural, Binary };
 
-/// One number format for each stage of the data path, both tables, and what is done in which order.
+/// One number format for each stage of the data path, both tables, and the orders of operations.
 /// Every operation is rounded to the format of its result.
 struct NumberSet {
     std::string name;

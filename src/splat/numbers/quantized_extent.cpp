@@ -9,7 +9,7 @@ namespace degs {
 namespace {
 
 int to_pixel(double x) {
-    const double below = x < kFarPixel ? x : kFarPixel; // also what is no number
+    const double below = x < kFarPixel ? x : kFarPixel; // also NaN
     return static_cast<int>(below > -kFarPixel ? below : -kFarPixel);
 }
 

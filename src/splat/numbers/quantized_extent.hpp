@@ -5,13 +5,13 @@
 
 namespace degs {
 
-/// How far QuantizedRow::solve may be from the ellipse of the record it solves, for one number set.
+/// Bounds on the distance of QuantizedRow::solve from the ellipse of its record, for a number set.
 ///
-/// The record describes an ellipse exactly: |x - mu_x - m dy| <= r_x sqrt(1 - dy^2 / r_y^2). The
-/// Span Unit rounds x = dy^2 / r_y^2 and looks the root up, which is a slightly larger ellipse, and
-/// rounds x_c and the ends, which moves them. Each rounding counts with half a unit of its format
-/// at the largest value that it can see; where that leaves the format, nothing is known but the
-/// rows.
+/// The record describes an ellipse exactly: |x - mu_x - m dy| <= r_x sqrt(1 - dy^2 /
+/// r_y^2). The Span Unit rounds x = dy^2 / r_y^2 and looks the root up, which is a slightly
+/// larger ellipse, and rounds x_c and the ends, which moves them. Each rounding counts with
+/// half a unit of its format at the largest value that it can see; where that leaves the
+/// format, only the rows are known.
 class QuantizedSlack {
 public:
     explicit QuantizedSlack(const NumberSet& set);

@@ -9,10 +9,10 @@
 
 namespace degs {
 
-/// How the lanes round: `Any` in integer arithmetic; `Fixed` if every stage of the PE is a fixed
-/// format of at most 22 bits without the sign, and terms have a sign, weights reach 0.99, table
-/// values 1 and never less than 0: then some results need not be saturated; `Half` if every stage
-/// is fp16.
+/// How the lanes round. `Any`: in integer arithmetic. `Half`: every stage is fp16. `Fixed`: some
+/// results need no saturation, because four conditions hold: (1) every stage of the PE is a fixed
+/// format of at most 22 bits without the sign; (2) terms have a sign; (3) weights reach 0.99; (4)
+/// table values reach 1 and are never below 0.
 enum class LaneFamily { Any, Fixed, Half };
 
 /// The PE of a number set as constants for lanes of floats: QuantizedRow::q, alpha and blend for
@@ -49,13 +49,13 @@ using QuantizedBlendFunction = BlendOutcome (*)(const BlendTask& task,
                                                 const BlendRecord<float>& splat,
                                                 const LaneNumbers& numbers, bool refuse,
                                                 PixelPlanes<float>& pixels, std::size_t first);
-/// Pixels that have checked for themselves.
+/// Pixels with the result of their own check.
 struct TestedPixels {
     std::uint32_t mask = 0;
     float q[32] = {}; ///< of mask bit i
 };
-/// A PE that blends where q <= q_limit, otherwise like QuantizedBlendFunction; all else is
-/// boundary.
+/// A PE that blends where q <= q_limit, otherwise like
+/// QuantizedBlendFunction; all else is boundary.
 using QuantizedTestFunction = BlendOutcome (*)(const TestedPixels& tested,
                                                const BlendRecord<float>& splat,
                                                const LaneNumbers& numbers, bool refuse,
@@ -64,7 +64,7 @@ using QuantizedTestFunction = BlendOutcome (*)(const TestedPixels& tested,
 /// The functions for numbers of a family, with the widest vectors of the machine it runs on.
 QuantizedBlendFunction quantized_blend_function(LaneFamily family);
 QuantizedTestFunction quantized_test_function(LaneFamily family);
-/// All variants for numbers of a family that this build has and the machine can run. For tests.
+/// For tests: all variants for a family that this build has and the machine can run.
 std::vector<QuantizedBlendFunction> quantized_blend_variants(LaneFamily family);
 std::vector<QuantizedTestFunction> quantized_test_variants(LaneFamily family);
 

@@ -57,7 +57,7 @@ void QuantizedRow::derive(const ProjectedSplat& splat, QuantizedSplat& out) cons
     out.c_prime = c_prime_(unit_ / splat.cov_c);
     out.a = conic_(unit_ * splat.conic_a());
     out.radius = radius_(std::sqrt(splat.q_threshold * (splat.det / splat.cov_c)));
-    // Finite also if the splat has no more than its mean's pixel (Q_th = 0): 0 * inf is no number.
+    // Finite also if the splat has no more than its mean's pixel (Q_th = 0): 0 * inf is NaN.
     out.inverse_radius2 = std::min(inverse_radius2_(1 / (splat.cov_c * splat.q_threshold)),
                                    set_.inverse_radius2.max());
 }

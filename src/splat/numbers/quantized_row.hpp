@@ -6,8 +6,8 @@
 
 namespace degs {
 
-/// A row or column beyond every image: what a float says is limited to it before it is an int, and
-/// it leaves room to add to it.
+/// A row or column beyond every image. Floats are limited to it before they are converted to int,
+/// and sums with it do not overflow.
 constexpr int kFarPixel = 1 << 29;
 
 /// The record of a splat in the formats of a number set; double only carries the values.
@@ -32,7 +32,7 @@ struct QuantizedSpan {
     bool empty() const { return x1 < x0; }
 };
 
-/// What a row has in common for pixels that check for themselves: q' = A u^2 + level.
+/// The part of a row that all pixels share when each checks for itself: q' = A u^2 + level.
 struct QuantizedCheck {
     bool possible = false; ///< no pixel of the row passes if not
     double centre = 0;     ///< x_c, px from the splat's own pixel
@@ -56,7 +56,7 @@ public:
     QuantizedSplat record(const ProjectedSplat& splat) const;
     /// Solves image row `y` for the columns x_begin .. x_end - 1 (paper Eq. 12-15, 19).
     QuantizedSpan solve(const QuantizedSplat& splat, int y, int x_begin, int x_end) const;
-    /// Does row `y` meet the ellipse, x <= 1? All rows nearer to the mean do then, too.
+    /// True if row `y` meets the ellipse (x <= 1). All rows nearer to the mean then meet it as well.
     bool meets(const QuantizedSplat& splat, int y) const;
     /// The coupled check of a pixel (DataPath::test) with the Span Unit's operations: dy, x_c and
     /// level as in solve(), then q' = (A u) u + level, rounded to the format of q. With

@@ -10,8 +10,8 @@ namespace degs {
 
 class Rounded;
 
-/// Makes values of a format out of doubles, rounded once. What leaves a fixed format is infinite
-/// here, as it is in a float, so that a result that overflowed on its way shows it.
+/// Makes values of a format out of doubles, rounded once. A value that leaves a fixed format
+/// becomes infinite, as in a float, so that an overflow on the way is visible in the result.
 class RoundedNumbers {
 public:
     using Scalar = Rounded;
@@ -71,7 +71,7 @@ inline double value_of(Rounded x) {
     return x.value();
 }
 
-// Functions are rounded once as well, from double: a library's own logf is not the same everywhere.
+// Functions are rounded once as well, from double, because logf differs between libraries.
 inline double root_of(double x) {
     return std::sqrt(x);
 }
