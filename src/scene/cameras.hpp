@@ -9,13 +9,13 @@
 
 namespace degs {
 
-/// Reads cameras.json of the original 3DGS code: an array of {width, height, position, rotation,
-/// fx, fy} with optional id and img_name. `rotation` holds the rows of the camera-to-world matrix.
-/// Anything doubtful is an InputError that names the file, the entry and the key. Reading takes at
-/// most 12 bytes of memory per byte of the file, the cameras included.
+/// Reads cameras.json of the original 3DGS code: an array of {width, height, position, rotation, fx, fy}
+/// with optional id and img_name. `rotation` holds the rows of the camera-to-world matrix. Throws
+/// InputError with the file, the entry and the key for every value outside the rules of docs/cameras.md.
+/// Reading takes at most 12 bytes of memory per byte of the file, the cameras included.
 std::vector<Camera> read_cameras(const std::string& path);
 
-/// How `orbit_camera` looks at a scene that has no cameras of its own.
+/// The view of `orbit_camera` on a scene that has no cameras of its own.
 struct OrbitOptions {
     double azimuth_degrees = 30;
     double elevation_degrees = 20;

@@ -16,7 +16,7 @@ constexpr int kMostImageSide = 1000000;
 void write_exr(const Image& image, const std::string& path);
 
 /// Reads R, G, B and, where present, `transmittance` and `fragments` (else 1 and 0). InputError if
-/// this is no EXR image of at most 2^28 pixels with these channels.
+/// this is not an EXR image of at most 2^28 pixels with these channels.
 Image read_exr(const std::string& path);
 
 /// Writes 8 bits per channel: clamp(value, 0, 1) * 255 + 0.5, truncated; NaN is 0. No gamma: the

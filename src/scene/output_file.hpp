@@ -6,8 +6,8 @@
 
 namespace degs {
 
-/// Calls `write` with the name of a temporary file in the folder of `path`, then renames that file
-/// to `path`: whoever looks sees the old file or the whole new one, also if the run is killed. If
+/// Calls `write` with the name of a temporary file in the folder of `path`, then renames that
+/// file to `path`: readers see the old file or the whole new one, also if the run is killed. If
 /// `write` throws, the temporary file is removed. InputError if the folder is missing, cannot be
 /// written, or `path` is a folder.
 void write_atomically(const std::string& path,

@@ -18,16 +18,16 @@ struct Scene {
 };
 
 /// Loads `spec`: a scene file (its extension chooses the reader), or
-/// "synthetic:NAME[,gaussians=N][,seed=N]". Cameras come from `cameras_path` if given, else from
-/// cameras.json beside the file (or, for the folder layout of the original training code, beside
-/// the model). InputError for everything a user can get wrong, also for a scene without a drawable
-/// Gaussian.
+/// "synthetic:NAME[,gaussians=N][,seed=N]". Cameras come from `cameras_path` if given, else
+/// from cameras.json beside the file (or, for the folder layout of the original training code,
+/// beside the model). Throws InputError for every mistake in the input, also for a scene
+/// without a drawable Gaussian.
 Scene load_scene(const std::string& spec, const std::string& cameras_path = "");
 
 /// File name extensions that `load_scene` reads, e.g. ".ply".
 std::vector<std::string> scene_extensions();
 
-/// By position in `scene.cameras`; InputError that says how many there are.
+/// Returns a camera by its position in `scene.cameras`. InputError if it does not exist.
 Camera select_camera(const Scene& scene, int index);
 
 } // namespace degs

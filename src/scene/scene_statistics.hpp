@@ -17,10 +17,10 @@ struct Quantiles {
     double p10 = 0, p50 = 0, p90 = 0, p99 = 0;
 };
 
-/// Nearest rank; reorders `values`. All 0 if there is none.
+/// By nearest rank; reorders `values`. All quantiles are 0 if `values` is empty.
 Quantiles quantiles_of(std::vector<double>& values);
 
-/// What a scene is made of, independent of any view.
+/// Statistics of a scene that do not depend on a view.
 struct SceneStatistics {
     std::uint64_t gaussians = 0;
     int sh_degree = 0;
@@ -42,7 +42,7 @@ struct SceneStatistics {
 /// `dropped` is passed through: what `sanitize` removed before.
 SceneStatistics measure_scene(const GaussianCloud& cloud, const SanitizeReport& dropped = {});
 
-/// What a view makes of a scene; the counts of the reference renderer.
+/// Statistics of a view of a scene; the counts of the reference renderer.
 struct ViewStatistics {
     std::uint64_t visible = 0;       ///< splats that some tile of 16 x 16 lists
     std::uint64_t tile_pairs = 0;    ///< tile list entries, tiles of 16 x 16

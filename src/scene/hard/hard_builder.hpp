@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How hard cases are made: splats by their place on the screen.
+// Makes hard cases out of splats that are given by their place on the screen.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ public:
     HardBuilder(int width, int height);
 
     void add(const ScreenSplat& splat);
-    /// World units, for what has no place on the screen.
+    /// Adds a Gaussian in world units, for those that have no place on the screen.
     void add_world(const glm::dvec3& mean, const glm::dvec3& scale, const glm::dvec4& rotation,
                    double opacity, const glm::dvec3& rgb);
     /// A window around a pixel, clipped to the image; nothing if it lies outside.
@@ -44,12 +44,12 @@ private:
     static int middle_of(int pixels) { return pixels / 2; }
 };
 
-/// Of a case that has no other.
+/// For cases with a single scene.
 inline std::vector<HardScene> only_scene(HardBuilder& builder) {
     return {std::move(builder.scene)};
 }
 
-/// The last Gaussian once more, for what is then changed in it.
+/// Repeats the last Gaussian, which the caller then changes.
 void repeat_last(GaussianCloud& cloud);
 
 // The cases by what makes them hard; each fills in scenes for a viewport.

@@ -30,13 +30,13 @@ struct HardCase {
     std::string expectation;
     /// The scenes for a viewport of width x height px; nullptr if there is nothing to draw.
     std::vector<HardScene> (*make)(int width, int height) = nullptr;
-    /// What else must hold of a scene and its workload; a sentence if it does not, else empty.
+    /// Checks a scene and its workload further. Returns a sentence if a condition fails, else nothing.
     std::string (*check)(const HardScene& scene, const FrameWorkload& workload) = nullptr;
-    /// Cases about files: writes broken ones to the folder; a sentence if one is not refused with a
-    /// clear one, else empty.
+    /// For cases about files: writes broken files to the folder. Returns a sentence if one of them
+    /// is not refused with a clear message, else nothing.
     std::string (*refuse)(const std::string& folder) = nullptr;
     bool spans = false; ///< compare the spans of fp32 with those of fp64
-    /// What this version has no input or key for, instead of all of the above.
+    /// Instead of all of the above: the input or key that this version does not have.
     std::string not_applicable;
 };
 

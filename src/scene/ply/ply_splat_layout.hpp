@@ -7,7 +7,7 @@
 
 namespace degs {
 
-/// What the vertices of a PLY file have to say about Gaussians.
+/// The properties of the vertices of a PLY file that describe Gaussians.
 struct PlySplatLayout {
     const PlyElement* vertex = nullptr; ///< inside the header
     int sh_degree = 0;

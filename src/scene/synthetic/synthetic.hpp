@@ -22,7 +22,7 @@ struct SyntheticScene {
     std::vector<Camera> cameras; ///< overview 640x480, near 1280x720, closeup 1920x1080
 };
 
-/// A profile's row in the manual.
+/// One row of the table of profiles.
 struct SyntheticProfile {
     std::string name;
     std::string meaning;
@@ -33,10 +33,10 @@ std::vector<SyntheticProfile> synthetic_profiles();
 /// Parses "NAME[,gaussians=N][,seed=N]". InputError names the profiles, keys and ranges.
 SyntheticSpec parse_synthetic(const std::string& text);
 
-/// The same spec gives the same bytes on every platform with IEEE arithmetic (nothing depends on
-/// the distributions of the standard library or the last bit of the C library's exp). Sizes shrink
-/// as the count grows, so that coverage and depth complexity stay; below 10 000 Gaussians only
-/// roughly.
+/// The same spec gives the same bytes on every platform with IEEE arithmetic (nothing
+/// depends on the distributions of the standard library or the last bit of the C library's
+/// exp). Sizes shrink as the count grows, so that coverage and depth complexity stay; below
+/// 10 000 Gaussians only roughly.
 SyntheticScene make_synthetic(const SyntheticSpec& spec);
 
 } // namespace degs

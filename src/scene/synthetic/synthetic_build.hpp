@@ -6,8 +6,8 @@
 
 namespace degs {
 
-/// How the Gaussians of one part of a scene look, whatever their place. Sizes are largest standard
-/// deviations in scene units at `SyntheticSpec::gaussians` = 100 000.
+/// The look of the Gaussians of one part of a scene, independent of their place. Sizes are largest
+/// standard deviations in scene units at `SyntheticSpec::gaussians` = 100 000.
 struct SyntheticLook {
     MeasuredDistribution size;
     MeasuredDistribution elongation; ///< largest over middle axis

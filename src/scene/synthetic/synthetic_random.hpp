@@ -9,14 +9,14 @@
 
 namespace degs {
 
-/// exp and log from sums and products alone, because the last bit of the C library's differs
-/// between platforms. Relative error below 1e-14; `x` of exp in -600 .. 600, of log positive and
-/// normal.
+/// exp and log from sums and products alone, because the last bit of those of the C
+/// library differs between platforms. Relative error below 1e-14; `x` of exp in -600 ..
+/// 600, of log positive and normal.
 double portable_exp(double x);
 double portable_log(double x);
 
-/// Random numbers that are the same everywhere: the engine's bits are fixed by the standard, its
-/// distributions are not, so the mapping is ours (sums, products and square roots).
+/// Random numbers that are the same everywhere. The standard fixes the bits of the engine but not
+/// its distributions, so this class maps them with sums, products and square roots.
 class SyntheticRandom {
 public:
     explicit SyntheticRandom(std::uint64_t seed) : engine_(seed) {}
