@@ -12,7 +12,7 @@ using Cycle = std::uint64_t;
 /// Later than anything; half the range, so that adding a latency cannot wrap.
 constexpr Cycle kNever = ~Cycle{0} / 2;
 
-/// Converts between cycles and kernel time; the only place that does. There is no clock signal.
+/// Converts between cycles and kernel time; nothing else does. The model has no clock signal.
 class ClockDomain {
 public:
     /// `gigahertz` > 0; the period is rounded to the kernel's time resolution.
@@ -22,7 +22,7 @@ public:
     sc_core::sc_time at(Cycle date) const {
         return sc_core::sc_time::from_value(date * period_.value());
     }
-    /// Half a cycle after `date`: whatever is dated <= `date` has happened by then.
+    /// Half a cycle after `date`. Everything dated up to `date` has happened by then.
     sc_core::sc_time half_after(Cycle date) const {
         return sc_core::sc_time::from_value(date * period_.value() + period_.value() / 2);
     }

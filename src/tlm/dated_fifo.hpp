@@ -63,14 +63,14 @@ public:
         }
     }
     void put(Process& writer, const T& value) { put_at(writer, value, 0); }
-    /// Like put(), but the item may be read from `ready` on at the earliest (data that is on its
-    /// way).
+    /// Like put(), but the item may be read from `ready` on at the earliest
+    /// (data that is on its way).
     void put_at(Process& writer, const T& value, Cycle ready) {
         reserve(writer);
         tail_->value = value;
         commit(writer, ready);
     }
-    /// The cell that put_staged() will hand over, to be filled in place after reserve().
+    /// The cell that put_staged() hands over. The writer fills it in place after reserve().
     T& staged() { return tail_->value; }
     /// After reserve(), at the same date or later.
     void put_staged(Process& writer) { commit(writer, 0); }
@@ -80,8 +80,8 @@ public:
         drop(reader);
         return value;
     }
-    /// Like get(), but leaves the item in its cell, so that large items need no copy; drop()
-    /// follows.
+    /// Like get(), but leaves the item in its cell, so that large items
+    /// need no copy; drop() follows.
     const T& arrive(Process& reader) {
         wait_for_item(reader);
         const Cycle ready = reader.local();
@@ -257,10 +257,10 @@ private:
         free_ = &tail_->date;
     }
     /// Raises the high-water mark if more items than that were inside when the item now read was
-    /// written: itself, and those before it that were read later. Told by dates alone, because how
-    /// full the ring is depends on how far the host lets its sides run ahead. An item read at the
-    /// very date is gone. Items are read in order, so it is enough to ask whether the item that
-    /// many places before was still inside; the mark rises by one item at a time.
+    /// written: itself, and those before it that were read later. It uses dates alone, because the
+    /// number of items in the ring depends on how far the host lets its sides run ahead. An item
+    /// read at the very date is gone. Items are read in order, so it is enough to ask whether the
+    /// item that many places before was still inside; the mark rises by one item at a time.
     void count_fill() {
         if (earlier_->read > front_->written) {
             stats_.high_water++; // the next item asks for the same cell, one place further back
@@ -294,7 +294,7 @@ private:
         const sc_core::sc_time target = time_.clock.at(date);
         event.notify(target > now ? target - now : sc_core::SC_ZERO_TIME);
     }
-    /// The process that stands for a foreign block: its date is the kernel's.
+    /// The process that represents a foreign block; its date is that of the kernel.
     Process& foreign(std::unique_ptr<Process>& side) {
         if (!side) {
             side = std::make_unique<Process>(time_);
@@ -320,7 +320,7 @@ private:
     mutable sc_core::sc_event foreign_room_;
 };
 
-/// How a block names a FIFO it uses.
+/// The port through which a block uses a FIFO.
 template <class T>
 using FifoPort = sc_core::sc_port<DatedFifo<T>>;
 

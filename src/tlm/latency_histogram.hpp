@@ -10,7 +10,7 @@
 namespace degs {
 
 /// Durations in ns, kept as counts: the mean is exact, percentiles are right to 1/32 of their value
-/// (and to 1/32 ns below one). An increment per sample.
+/// (and to 1/32 ns below one). Adding a sample costs one increment.
 class LatencyHistogram {
 public:
     void add(double ns) {

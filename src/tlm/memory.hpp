@@ -71,8 +71,8 @@ private:
     std::unordered_map<std::uint64_t, std::array<unsigned char, kPageBytes>> pages_;
 };
 
-/// Marks a payload whose bytes stand for data that the model does not materialise: our memory then
-/// takes the time of the access and keeps nothing. Other memories may ignore it.
+/// Marks a payload whose bytes stand for data that the model does not materialise: the memories of
+/// this project then take the time of the access and keep nothing. Other memories may ignore it.
 struct TimingOnly : tlm::tlm_extension<TimingOnly> {
     tlm_extension_base* clone() const override { return new TimingOnly; }
     void copy_from(const tlm_extension_base&) override {}

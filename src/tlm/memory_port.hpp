@@ -15,8 +15,8 @@
 
 namespace degs {
 
-/// One stream's way to memory: a TLM-2.0 initiator socket used from dated processes. Works with any
-/// LT target. One payload is reused for all accesses, since b_transport blocks.
+/// Connects one stream to memory: a TLM-2.0 initiator socket that a dated process uses, with any LT target.
+/// All accesses of the port share one payload, because b_transport() returns before the next access begins.
 class MemoryPort : public sc_core::sc_module {
 public:
     tlm_utils::simple_initiator_socket<MemoryPort> out;
@@ -24,8 +24,8 @@ public:
     MemoryPort(const sc_core::sc_module_name& name, const Timebase& time)
         : sc_core::sc_module(name), out("out"), clock_(&time.clock) {}
 
-    /// Reads or writes `bytes` whose values the model does not keep. Issued at the process's local
-    /// date, which does not move; returns the date at which the transfer is complete.
+    /// Reads or writes `bytes` whose values the model does not keep. The access leaves at the local
+    /// date of the process, which does not move. Returns the date at which the transfer is complete.
     Cycle read(Process& process, std::uint64_t address, std::uint64_t bytes) {
         return access(process, tlm::TLM_READ_COMMAND, address, nullptr, bytes);
     }
@@ -38,14 +38,14 @@ public:
                       const_cast<unsigned char*>(data.data()), data.size());
     }
 
-    /// Called with the bytes of every read, which then really come from the memory. For memories
-    /// that hold what is read; before the simulation starts.
+    /// Is called with the bytes of every read, which then really come from the memory. It is for
+    /// memories that hold the data, and must be set before the simulation starts.
     using Observer =
         std::function<void(std::uint64_t address, const unsigned char* data, std::uint64_t bytes)>;
     void observe_reads(Observer observer) { observer_ = std::move(observer); }
 
-    /// Puts real bytes there without taking time (debug transport). Throws std::runtime_error if
-    /// the memory takes fewer.
+    /// Writes real bytes without taking time (debug transport). Throws std::runtime_error
+    /// if the memory takes fewer.
     void poke(std::uint64_t address, const std::vector<unsigned char>& data);
 
 private:

@@ -11,16 +11,16 @@ namespace degs {
 
 class FifoBase;
 
-/// How a run spends host time on order. Both give the same dates and decisions.
-/// `Strict`: every process sleeps to each of its dates and looks at inputs half a cycle later.
-/// `Exact`: processes run ahead on their own dates and ask for proof only where order matters.
+/// How processes are kept in order. Both give the same dates and decisions. `Strict`: every process
+/// sleeps to each of its dates and looks at inputs half a cycle later. `Exact`: processes run ahead
+/// on their own dates and ask for proof only where order matters.
 enum class Fidelity { Strict, Exact };
 
-/// The body of a process that needs no thread: what it does follows from its input ring alone, and
-/// it stops where an output ring is full. In exact mode it runs inside whoever feeds it or makes
-/// room for it, which costs a call instead of two trips through the kernel; dates are the same.
-/// Like a thread it takes its next item before it knows whether the result fits, and holds it: the
-/// cell it frees may be what somebody else needs at that date.
+/// The body of a process that needs no thread, because its actions follow from its input ring alone
+/// and it stops where an output ring is full. In exact mode it runs inside the process that feeds
+/// it or makes room for it, which costs a call instead of two context switches of the kernel; dates
+/// are the same. Like a thread it takes its next item before it knows whether the result fits, and
+/// holds it: somebody else may need the freed cell at that date.
 class Pumped {
 public:
     virtual ~Pumped() = default;
@@ -28,7 +28,7 @@ public:
     virtual void pump() = 0;
 };
 
-/// What all blocks of one clock domain share.
+/// The clock and the fidelity that all blocks of one clock domain share.
 struct Timebase {
     ClockDomain clock{1.0};
     Fidelity fidelity = Fidelity::Exact;
@@ -63,32 +63,32 @@ public:
     /// No more items will ever come from this process.
     void finish();
 
-    /// The first date >= `from` at which one of `inputs` has an item, but no later than `limit`;
-    /// with certainty: nothing dated up to the answer can still arrive. Does not move the local
+    /// The first date >= `from` at which one of `inputs` has an item, but no later than `limit`.
+    /// The answer is certain: nothing dated up to it can still arrive. Does not move the local
     /// date. kNever if all inputs are closed and no limit is given. `from` and `limit` >= local().
     Cycle next_arrival(FifoBase* const* inputs, std::size_t count, Cycle from, Cycle limit);
-    /// True if `input` has an item dated up to now; with certainty.
+    /// True if `input` has an item dated up to now. The answer is certain.
     inline bool arrived(FifoBase& input);
 
-    /// Earliest date at which this process can act again, as far as `depth` blocked predecessors
-    /// tell. A lower bound; never revised downwards.
+    /// A lower bound of the date at which this process can act again, derived from up to `depth`
+    /// blocked predecessors. It never falls.
     Cycle bound(int depth) const;
 
     // For FifoBase: blocking on one ring, and the wake-up of whoever is blocked.
     void block_on_item(FifoBase& fifo);
     void block_on_room(FifoBase& fifo);
     bool blocked() const { return input_count_ != 0 || room_ != nullptr; }
-    /// Makes this the process of a thread-less body that waits on `input` whenever it does not run.
+    /// Runs `body` in place of a thread whenever `input` has an item.
     void pump_with(Pumped& body, FifoBase& input) {
         body_ = &body;
         inputs_.front() = &input;
         input_count_ = 1;
     }
-    /// A thread-less body holds a result for which `room` has none; nullptr: no longer.
+    /// A thread-less body holds a result because `room` is full; nullptr: it holds none.
     void hold_for(FifoBase* room) { room_ = room; }
-    /// In the next delta cycle, not at the date of what it waits for: dates are in the rings, and
-    /// kernel time only has to pass where somebody sleeps for it. Inlined everywhere, so that each
-    /// caller's jump into a thread-less body has one target, which the host then foresees.
+    /// Wakes the process in the next delta cycle, not at the date of the item that it waits for: dates are
+    /// in the rings, and kernel time only has to pass where somebody sleeps for it. Inlined everywhere, so
+    /// that each caller's jump into a thread-less body has one target, which the host then foresees.
     __attribute__((always_inline)) void wake() {
         if (body_ != nullptr) {
             body_->pump();
@@ -103,12 +103,12 @@ public:
 private:
     bool arrived_after_asking(FifoBase& input);
     Cycle quiet_until(FifoBase& input, Cycle date) const;
-    /// Date beyond which advance_to() has more to do, without alarms: strict processes sleep to
-    /// each date.
+    /// Date beyond which advance_to() has more to do, without alarms: strict
+    /// processes sleep to each date.
     Cycle no_alarm() const { return strict_ ? 0 : kNever; }
     void sleep();
     void sleep_until(Cycle half_after_date);
-    /// What advance_to() has to do beyond alarm_.
+    /// The work of advance_to() beyond alarm_.
     void pass_alarm();
     void ring_alarms();
 
@@ -117,7 +117,7 @@ private:
     Cycle local_ = 0;
     Pumped* body_ = nullptr;
     sc_core::sc_event wake_;
-    // What the process is blocked on, for bound().
+    // The ring on which the process is blocked, for bound().
     std::vector<FifoBase*> inputs_{1, nullptr}; // the first input_count_ count
     std::size_t input_count_ = 0;
     Cycle limit_ = kNever;
@@ -131,7 +131,7 @@ private:
     std::vector<Alarm> alarms_;
 };
 
-/// What a ring of any item type shows to processes; see DatedFifo.
+/// The part of a ring that does not depend on its item type; see DatedFifo.
 class FifoBase {
 public:
     /// Depth of a FIFO that never pushes back: messages and tokens travel on wires, and whoever
