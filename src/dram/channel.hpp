@@ -26,15 +26,15 @@ struct Answer {
     Ck date = 0; ///< last beat; of a posted write the CK after it has entered the write queue
 };
 
-/// What a run has brought about.
+/// The results of a run.
 struct Outcome {
     std::vector<Answer> answers;         ///< in no order of dates
     std::vector<std::uint32_t> admitted; ///< ids of accesses that have entered a queue
 };
 
-/// One x16 channel with its controller, as plain arithmetic: no tick and no event. Work is pushed
-/// with dates, and run(until) issues every command dated up to `until`, each at the first CK in
-/// which it is legal and chosen. Copying a channel is how to ask what would happen.
+/// One x16 channel with its controller, as plain arithmetic without ticks and events. Work is
+/// pushed with dates, and run(until) issues every command dated up to `until`, each at the first CK
+/// in which it is legal and chosen. To see what would happen, run a copy.
 ///
 /// Modelled: read and write queue; FR-FCFS and simpler schedulers; open and closed page; writes in
 /// batches between two watermarks, at once when no read waits; forwarding of reads from queued
@@ -68,12 +68,12 @@ public:
     /// No access that waits for room in a queue, or for its date, gets in before this.
     Ck admission_bound();
 
-    /// Nothing is queued, or waits for a queue.
+    /// True if nothing is queued and nothing waits for a queue.
     bool idle() const;
     /// Accesses that wait for room in a queue, or for their date.
     std::size_t waiting() const { return reads_in_.size() + writes_in_.size(); }
     bool has_writes() const { return writes_.size() != 0 || !writes_in_.empty(); }
-    /// What waits for room may be answered when it gets in.
+    /// Accesses that wait for room may be answered when they get in.
     bool answers_at_admission() const { return after_writes_ != 0 || !writes_in_.empty(); }
     const Stats& stats() const { return stats_; }
     Ck open_until(Ck date) const; ///< CK with a row open, up to `date`
@@ -86,7 +86,7 @@ private:
         BankState state = BankState::Closed;
         std::uint32_t row = 0;
     };
-    struct Candidate {           // what a bank would do next for the current direction
+    struct Candidate {           // the next command of a bank for the current direction
         std::uint64_t order = 0; // rank, then age
         Command command = Command::Pre;
         std::uint8_t slot = Queue::kNone;
@@ -153,7 +153,7 @@ private:
     Queue reads_, writes_;
     std::deque<Access> reads_in_, writes_in_; // wait for their date or for room
     bool writing_ = false;
-    // How many waiting writes have a hash; tells at arrival that a read has nothing to wait for.
+    // The number of waiting writes by hash. It shows at arrival that a read has nothing to wait for.
     std::array<std::uint16_t, 256> writes_of_hash_{};
     std::size_t after_writes_ = 0; // reads in reads_in_ with after_write
 

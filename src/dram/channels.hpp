@@ -29,7 +29,7 @@ struct Config {
     double peak_gb_per_s() const { return channels * timing.peak_gb_per_s(); } ///< 1e9 B/s
 };
 
-/// A request of any size as the channels see it.
+/// A request of any size, as it enters the channels.
 struct Request {
     Ck date = 0;
     std::uint64_t address = 0, bytes = 0;
@@ -39,8 +39,8 @@ struct Request {
 
 /// All channels: cuts requests into accesses and puts their answers together. Plain arithmetic.
 ///
-/// A channel is run only when somebody could notice: a read shows no earlier than RL + BL/n after
-/// its command, so a channel may stay that far behind unless an answer can come from its queues.
+/// A channel runs only when its state can matter: a read shows no earlier than RL + BL/n after its
+/// command, so a channel may stay that far behind unless an answer can come from its queues.
 class Channels {
 public:
     explicit Channels(const Config& config);
@@ -51,14 +51,14 @@ public:
 
     /// Dates never fall, and are later than any `until` so far.
     void push(const Request& request);
-    /// Everything up to `until` that a request of push() may notice.
+    /// Runs everything up to `until` that can affect a request of push().
     void run(Ck until);
-    /// Date up to which run() must be called, at the latest half a CK after it; kNoDate if nothing
-    /// of push() is under way.
+    /// Date up to which run() must be called, at the latest half a CK after it; kNoDate if no
+    /// request of push() is in flight.
     Ck due() const;
     /// The same for a request that is about to be pushed.
     Ck due_of(bool write, Ck date) const;
-    /// From now on tell admissions at their dates, too (or no longer).
+    /// From now on admissions are reported at their dates as well, or no longer.
     void watch_admissions(bool exactly);
 
     /// Complete requests with the date of the last answer, and requests that do not wait for room
@@ -66,13 +66,13 @@ public:
     std::vector<Answer>& completed() { return completed_; }
     std::vector<std::uint32_t>& admitted() { return admitted_; }
 
-    /// Like push(), for a requester who wants the answer at once; nothing of it is told later.
+    /// Like push(), for a requester that wants the answer at once. The request does not appear in completed().
     void push_for_prediction(const Request& request);
     /// When the requests pushed so since the last call are complete if nothing more comes, by
     /// running copies of the channels. All dates up to `known` have been pushed.
     std::vector<Ck> predict(Ck known);
 
-    /// Brings statistics up to `until`.
+    /// Updates the statistics up to `until`.
     void settle(Ck until);
     const Channel& operator[](std::size_t channel) const { return channels_[channel]; }
     Channel& operator[](std::size_t channel) { return channels_[channel]; }

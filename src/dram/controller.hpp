@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choices of a channel's controller: what may be chosen by name, and its numbers.
+// The configuration of a channel's controller: choices by name, and numbers.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace degs::dram {
 
-/// Which of the queued accesses may send commands. Ready commands go first, column commands before
-/// others, the oldest among equals.
+/// Which of the queued accesses may send commands. Ready commands go first; among them column
+/// commands go before others, and the oldest among equals.
 struct Scheduler {
     const char* name;
     bool hits_first;  ///< a bank serves accesses to its open row before older ones
     bool oldest_only; ///< nothing overtakes the oldest access of the queue
 };
 
-/// What happens to a row that has been accessed.
+/// What happens to a row after an access.
 struct PagePolicy {
     const char* name;
     bool auto_precharge; ///< the last queued access to a row closes it

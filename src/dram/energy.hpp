@@ -7,7 +7,7 @@
 
 namespace degs::dram {
 
-/// Energy of the DRAM by class of event, nJ; the SoC's controller and PHY are not in it.
+/// Energy of the DRAM by class of event, nJ. It does not include the controller and PHY of the SoC.
 struct Energy {
     double activate_nj = 0, read_nj = 0, write_nj = 0, refresh_nj = 0, background_nj = 0;
     double total_nj() const {
@@ -29,8 +29,8 @@ struct Energy {
                 background_nj - earlier.background_nj};
     }
 
-    /// What an event costs. Vendors publish no currents beside timings: derived from the maxima of
-    /// a 16 Gb LPDDR5X sheet, less what typical parts draw; see docs/lpddr5.md.
+    /// Energy per event. Vendors publish no currents beside timings, so the values are derived from
+    /// the maxima of a 16 Gb LPDDR5X sheet and lowered to typical parts; see docs/lpddr5.md.
     struct Config {
         double activate_nj = 1.0;
         double read_pj_per_bit = 2.75, write_pj_per_bit = 1.75;
@@ -39,7 +39,7 @@ struct Energy {
         void describe(ConfigVisitor& visitor);
     };
 
-    /// Adds what one channel has used in its first `elapsed` CK.
+    /// Adds the energy of one channel in its first `elapsed` CK.
     void add(const Config& config, const Timing& timing, const Channel& channel, Ck elapsed);
 };
 

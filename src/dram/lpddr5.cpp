@@ -220,7 +220,7 @@ void Lpddr5::plan_answers() {
     }
     channels_.admitted().clear();
     for (const Answer& answer : channels_.completed()) {
-        // A channel is never run too late to tell in time; this guards the ring all the same.
+        // A channel is never run too late to answer in time; this guards the ring all the same.
         const Ck date = std::max({answer.date + extra_, answered_, ceil_ck(now())});
         answers_[date % answers_.size()].push_back(answer.id);
         ++answers_planned_;

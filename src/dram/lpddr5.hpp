@@ -18,16 +18,16 @@ namespace degs::dram {
 
 /// LPDDR5 main memory at bank level, for LT and AT initiators at once. One socket per initiator.
 ///
-/// Requests are served in the order of their dates (kernel time plus annotated delay), equal dates
-/// by socket index; contents change in that order, too. A payload with the extension TimingOnly
+/// Requests are served in the order of their dates (kernel time plus annotated delay), ties broken
+/// by socket index; contents change in the same order. A payload with the extension TimingOnly
 /// takes time and moves no data.
 ///
-/// AT, the accurate path: four phases. END_REQ comes at once unless `waiting_requests` requests of
-/// the initiator wait for room in the controllers' queues; then it is withheld until one has got
-/// in, which is the only back-pressure. BEGIN_RESP comes at the date of the last beat (a posted
-/// write: when the queues have it), one per socket at a time. Early completion is accepted.
-/// LT: b_transport() returns half a cycle of `time` after the request's date with the rest of the
-/// response time annotated: what the present queues, banks and buses give if nothing more comes.
+/// AT, the accurate path: four phases. END_REQ comes at once unless `waiting_requests` requests of the
+/// initiator wait for room in the controllers' queues; then it is withheld until one has got in, which
+/// is the only back-pressure. BEGIN_RESP comes at the date of the last beat (a posted write: when the
+/// queues have it), one per socket at a time. Early completion is accepted. LT: b_transport() returns
+/// half a cycle of `time` after the request's date with the rest of the response time annotated: the
+/// answer that the present queues, banks and buses give if nothing more comes.
 ///
 /// Not modelled: the interconnect (every channel takes any number of requests per CK), and what
 /// lpddr5_channel.hpp and lpddr5_timing.hpp leave out.
@@ -47,7 +47,7 @@ public:
 
     const Stats& stats(std::size_t initiator) const { return stats_[initiator]; }
     Stats total() const;
-    /// Of all channels, up to now.
+    /// Counters of all channels, up to now.
     Channel::Stats commands() { return commands(sc_core::sc_time_stamp()); }
     Energy energy() { return energy(sc_core::sc_time_stamp()); }
     /// The same up to another date: of a run that is over, which may end before or after the date
@@ -55,7 +55,7 @@ public:
     Channel::Stats commands(const sc_core::sc_time& until);
     Energy energy(const sc_core::sc_time& until);
     const Channels& channels() const { return channels_; }
-    /// Called with every command; no cost when never called. Before the simulation starts.
+    /// Calls `observer` with every command. Set it before the simulation starts.
     void observe(const std::function<void(unsigned channel, const Issued&)>& observer);
 
 private:
@@ -112,8 +112,8 @@ private:
     void schedule();
     void serve_by(Ck due);
     void schedule_responses();
-    /// Everything dated before `date`, in kernel time units, is in the statistics; returns it in
-    /// CK.
+    /// Everything dated before `date`, in kernel time units, is in the
+    /// statistics; returns it in CK.
     Ck settle(std::uint64_t date);
 
     tlm::tlm_response_status check(const Payload& payload) const;

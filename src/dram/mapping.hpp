@@ -10,7 +10,7 @@
 
 namespace degs::dram {
 
-/// Where 64 bytes lie; they never cross a row.
+/// The place of 64 bytes, which never cross a row.
 struct Place {
     unsigned channel = 0;
     unsigned bank = 0; ///< group * (banks per group) + bank in the group
@@ -37,7 +37,7 @@ public:
     /// What `order` must be instead ("must ..."); empty if it names every bit once.
     static std::string problem(const Config& config, const Timing& timing, int channels);
 
-    /// Of the access that holds `address`, which is below capacity().
+    /// Place of the access that holds `address`, which is below capacity().
     Place place(std::uint64_t address) const;
     /// The first byte of the access at a place; the inverse of place().
     std::uint64_t address(const Place& place) const;

@@ -8,10 +8,10 @@
 
 namespace degs::dram {
 
-/// Up to 64 bytes of one row, read or written; what a controller queue holds.
+/// One entry of a controller queue: up to 64 bytes of one row, read or written.
 struct Access {
     Ck date = 0;          ///< first CK in which it may send a command
-    std::uint32_t id = 0; ///< of whoever wants the answer
+    std::uint32_t id = 0; ///< of the requester
     std::uint32_t row = 0;
     std::uint8_t bank = 0;
     std::uint8_t block = 0;  ///< of 64 bytes in the row
@@ -20,7 +20,7 @@ struct Access {
     bool after_write = false; ///< a read: an older write to the block may be waiting
 };
 
-/// What the row buffer held when an access was first served.
+/// State of the row buffer when an access was first served.
 enum class RowState : std::uint8_t { Hit, Closed, Conflict };
 using ByRowState = std::array<std::uint64_t, 3>;
 

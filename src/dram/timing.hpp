@@ -12,8 +12,8 @@
 
 namespace degs::dram {
 
-/// A date or a duration in cycles of the command clock CK (1.25 ns at 6400 MT/s). Plain arithmetic:
-/// nothing of a channel knows SystemC.
+/// A date or a duration in cycles of the command clock CK (1.25 ns at 6400 MT/s). A channel is
+/// plain arithmetic without SystemC.
 using Ck = std::uint64_t;
 /// Later than anything; half the range, so that adding a gap cannot wrap.
 constexpr Ck kNoDate = ~Ck{0} / 2;
@@ -66,7 +66,7 @@ struct Timing {
     } ///< of a channel, 1e9 B/s
 };
 
-/// Which commands a rule looks back at.
+/// The commands that a rule looks back at.
 enum class Scope : std::uint8_t { Bank, Group, Channel };
 constexpr std::size_t kScopes = 3;
 
@@ -79,7 +79,7 @@ struct Rule {
     const char* name;
 };
 
-/// Every constraint between two commands. Two are no such rule: tFAW, and one command per CK.
+/// Every constraint between two commands. Two constraints are not of this kind: tFAW, and one command per CK.
 std::vector<Rule> rules(const Timing& timing);
 
 /// The rules sorted by what has been issued; made once, shared by all channels.
@@ -109,8 +109,8 @@ private:
     Ck faw_;
 };
 
-/// The earliest legal date of every command of one channel, given those issued so far. Says nothing
-/// about the state of banks: who issues a Rd knows that the row is open.
+/// The earliest legal date of every command of one channel, given those issued so far. It does not
+/// check the state of banks: the caller issues a Rd only to an open row.
 class Dates {
 public:
     explicit Dates(const RuleTable& table) : table_(&table) {}
@@ -118,7 +118,7 @@ public:
     Ck earliest(Command command, unsigned bank) const {
         return std::max(of_bank(command, bank), of_others(command, table_->group_of(bank)));
     }
-    /// The two parts of it: what the bank itself demands changes only with commands to the bank.
+    /// The two parts of it. The part of the bank changes only with commands to the bank.
     Ck of_bank(Command command, unsigned bank) const { return bank_[kind(command)][bank]; }
     Ck of_others(Command command, unsigned group) const {
         const std::size_t c = kind(command);
