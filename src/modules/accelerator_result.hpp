@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What any accelerator has to say about a run: plain values, filled when the run is over.
+// The results of a run of any accelerator: plain values, filled when the run is over.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +47,7 @@ struct StreamUse {
     void describe(StatsVisitor& visitor) const;
 };
 
-/// A law that must hold between two counters of a run.
+/// An invariant: two counters of a run that must agree.
 struct Conservation {
     std::string law;
     std::uint64_t left = 0, right = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the counters of blocks to an AcceleratorResult.
+// Turns the counters of blocks into an AcceleratorResult.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ struct Title {
     const char* sentence;
 };
 
-/// Adds a stage; the cycles of `result` must be known. None if there are no units.
+/// Adds a stage, or nothing if there are no units. The cycles of `result` must be known.
 void add_stage(AcceleratorResult& result, const Title& title, std::size_t units,
                std::uint64_t busy_cycles, Counters counters);
 
@@ -66,14 +66,14 @@ inline constexpr Title kFetching{"fetching", "Splat Fetchers, busy when they ask
 
 using PixelBuffers = std::vector<std::unique_ptr<PixelBuffer>>;
 
-/// Dates of the frames, cycles of the run and background tiles; comes first, because everything
-/// that is relative to the run needs its cycles.
+/// Fills in the dates of the frames, the cycles of the run and the background tiles. It comes
+/// first, because everything that is relative to the run needs its cycles.
 void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
                     const BackgroundWriter& background);
 /// `bytes`: of all instances together.
 void add_pixel_buffer(AcceleratorResult& result, int bytes, int contexts,
                       const PixelBuffers& buffers);
-/// What empty and finished tiles did not cost, for --explain.
+/// Adds the work that empty and finished tiles saved, for --explain.
 void explain_tiles(AcceleratorResult& result, std::uint64_t records_cancelled);
 
 /// Names of numbered modules and rings: "bank_3".
@@ -81,7 +81,7 @@ inline std::string numbered(const char* name, std::size_t index) {
     return std::string(name) + "_" + std::to_string(index);
 }
 
-/// A ring of at least one cell, owned by whoever wires blocks together.
+/// A ring of at least one cell, owned by the module that wires blocks together.
 template <class T>
 DatedFifo<T>& add_ring(std::vector<std::unique_ptr<DatedFifo<T>>>& rings, const char* name,
                        const Timebase& time, int depth, int latency) {

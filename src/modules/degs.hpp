@@ -20,7 +20,7 @@ namespace degs {
 ///   Span Units -> crossbar -> Issue Banks -> Packing Units -> [Packing Buffer] -> array slices ->
 ///   Pixel Buffer -> memory
 ///
-/// with two ways back: terminations to the Issue Banks, tile cancellation to the fetchers.
+/// There are two ways back: terminations to the Issue Banks, and tile cancellation to the fetchers.
 class Degs : public RenderEngine {
 public:
     /// `job` supplies the work and receives the images. `config.problem()` must be empty.

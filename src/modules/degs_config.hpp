@@ -119,7 +119,7 @@ struct DegsConfig : AcceleratorConfig {
     }
     int span_lane_depth() const { return span_buffer.bytes / span_buffer.row_bytes / span.count; }
     int queue_depth() const { return scheduler.queue_segments_per_pe * array.pes_per_bank; }
-    /// Packets per bank: the Packing Buffer holds the banks' waiting segments, too.
+    /// Packets per bank. The Packing Buffer also holds the waiting segments of the banks.
     int packing_depth() const {
         const int packets =
             packing.bytes / scheduler.banks - queue_depth() * scheduler.segment_bytes;

@@ -13,8 +13,8 @@
 
 namespace degs {
 
-/// Whose bytes a stream carries. `Scene`: what somebody has put into memory for the accelerator to
-/// read. `Own`: what the accelerator itself writes, and may read back.
+/// The owner of the bytes of a stream. `Scene`: data that somebody has put into memory for the
+/// accelerator. `Own`: data that the accelerator itself writes, and may read back.
 enum class StreamData { Scene, Own };
 
 /// A stream between the accelerator and its memory. Every stream is an initiator of its own;
@@ -25,14 +25,14 @@ struct MemoryStream {
     StreamData data = StreamData::Own;
 };
 
-/// What one initiator has transferred.
+/// The traffic of one initiator.
 struct MemoryTraffic {
     std::uint64_t reads = 0, writes = 0;             ///< accesses
     std::uint64_t bytes_read = 0, bytes_written = 0; ///< as they occupied the memory
 };
 
-/// The memory of an accelerator, whichever it is: its own, see make_main_memory(), or that of a
-/// platform.
+/// The memory of any accelerator: its own, see
+/// make_main_memory(), or that of a platform.
 class MainMemory {
 public:
     MainMemory() = default;

@@ -28,7 +28,7 @@ public:
     Traffic traffic(std::size_t initiator) const { return memory_->traffic(initiator); }
     Traffic total() const;
     double busy_ns() const { return memory_->busy_ns(); } ///< see MainMemory
-    /// Fills in what the memory has to say; the cycles of `result` must be known.
+    /// Fills in the results of the memory; the cycles of `result` must be known.
     void collect(AcceleratorResult& result) const;
 
 private:

@@ -23,13 +23,13 @@ struct ProjectedChunk {
     std::uint64_t tile_pairs = 0; ///< tiles touched by these splats, summed
 };
 
-/// The first entries of a tile's list are in order, Sorting Unit -> Splat Fetcher.
+/// Reports that the first entries of a tile's list are in order, Sorting Unit -> Splat Fetcher.
 struct SortedRun {
     TileNumber tile = 0;
     std::uint64_t end = 0; ///< entries in order so far; the list is complete at JobTile::count
 };
 
-/// An engine's Splat Fetcher is ready for another tile, Splat Fetcher -> Tile Dispatcher.
+/// Asks for another tile, Splat Fetcher -> Tile Dispatcher.
 struct TileRequest {};
 
 /// Up to a fixed number of depth-ordered splats of one tile, Splat Fetcher -> rasterisation.
@@ -56,7 +56,7 @@ struct SpanItem {
 };
 
 /// Tasks of one segment on their way to the array. A packet may carry a part of them; the others
-/// follow in the next packets, and nothing of the same conflict domain comes between them.
+/// follow in the next packets, before any other task of the same conflict domain.
 struct TaskRun {
     BlendTask task;         ///< all tasks of the segment, one per set bit of the mask
     std::uint32_t part = 0; ///< those in this packet
@@ -85,7 +85,7 @@ struct TaskPacket {
     ~TaskPacket() = default;
 
 private:
-    /// Only the runs in use: most packets have few, and every packet is copied.
+    /// Copies only the runs in use, because most packets have few.
     void copy(const TaskPacket& other) {
         std::copy_n(other.runs.begin(), other.run_count, runs.begin());
         run_count = other.run_count;

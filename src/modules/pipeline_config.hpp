@@ -8,7 +8,7 @@
 
 namespace degs {
 
-/// What every data path has to choose, whoever schedules it.
+/// The choices of every data path, whichever accelerator uses it.
 struct PipelineConfig {
     Arithmetic numbers = Arithmetic::Fp32;
     StopRule stop_rule = StopRule::Refuse;

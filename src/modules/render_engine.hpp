@@ -17,14 +17,14 @@ namespace degs {
 
 class MainMemory;
 
-/// An accelerator with its memory, as whoever runs it sees it: built for a job, run by the kernel,
-/// asked for its counters when nothing is left to happen.
+/// An accelerator with its memory: built for a job, run by the kernel, and read
+/// out when no event is left.
 class RenderEngine : public sc_core::sc_module {
 public:
     using sc_core::sc_module::sc_module;
     /// Tiles whose pixels have all been read out.
     virtual std::size_t finished_tiles() const = 0;
-    /// Reads the counters; names, images, host times and the fields of the job are not its matter.
+    /// Reads the counters. It does not fill in names, images, host times or job fields.
     virtual void collect(AcceleratorResult& result) const = 0;
 };
 
@@ -33,8 +33,8 @@ struct BuildOptions {
     /// The rasterisation array alone: depth-ordered lists are there at once and memory is
     /// unlimited, so that arrays can be compared without their front ends.
     bool array_only = false;
-    /// Gets the number of every frame once its last pixel is in memory. Its writer is the engine;
-    /// its forward latency is FrameEndConfig::gate_latency_cycles.
+    /// Receives the number of every frame once its last pixel is in memory. The engine writes it,
+    /// with the forward latency FrameEndConfig::gate_latency_cycles.
     DatedFifo<std::uint32_t>* finished = nullptr;
     /// Memory of somebody else, e.g. of a platform; nullptr: the accelerator gets the memory that
     /// its configuration describes.
@@ -49,8 +49,8 @@ struct AreaConfig {
     void describe(ConfigVisitor& visitor);
 };
 
-/// The configuration of an accelerator, whichever it is. A new accelerator derives one of these
-/// and joins accelerator_kinds(); docs/adding-an-accelerator.md is a worked example.
+/// The configuration of any accelerator. A new accelerator derives one of these and joins
+/// accelerator_kinds(); docs/adding-an-accelerator.md is a worked example.
 struct AcceleratorConfig {
     std::string name;
     double clock_ghz = 1.0;
@@ -78,7 +78,7 @@ struct AcceleratorConfig {
     virtual int tile_contexts() const = 0;
     /// Record layouts of the streams that all accelerators have.
     virtual TrafficConfig records() const = 0;
-    /// The scene as a platform's memory holds it: values of 4 B, see docs/accelerator.md.
+    /// Switches to the scene as a platform's memory holds it: values of 4 B, see docs/accelerator.md.
     virtual void read_floats() = 0;
     /// `job` must be made for this configuration and outlive the engine.
     virtual std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time,

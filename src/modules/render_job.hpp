@@ -43,7 +43,7 @@ public:
 
 private:
     std::deque<JobTile> tiles_;
-    std::vector<JobTile*> index_; // what the hot loops ask; a deque would have to divide
+    std::vector<JobTile*> index_; // for the hot loops; a deque would have to divide
     std::size_t size_ = 0;        // likewise
 };
 
@@ -76,15 +76,15 @@ struct RenderJob {
         return MemoryMap(traffic, *frames[frame], bases[frame]);
     }
 
-    /// Is there a frame / a tile of this number? Sleeps until it joins, if more may come, and moves
-    /// the process to the date at which it did.
+    /// True if there is a frame / a tile of this number. If more may come, sleeps until it joins,
+    /// and moves the process to that date.
     bool has_frame(Process& process, std::uint32_t frame) const {
         return there(process, [this, frame] { return frame < frames.size(); });
     }
     bool has_tile(Process& process, std::size_t tile) const {
         return there(process, [this, tile] { return tile < tiles.size(); });
     }
-    /// Will there never be a tile of this number?
+    /// True if there will never be a tile of this number.
     bool over(std::size_t tile) const { return joined == nullptr && tile >= tiles.size(); }
 
     /// Lists the tiles of a frame and loads its splats into the data path.

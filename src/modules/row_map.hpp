@@ -6,7 +6,7 @@
 
 namespace degs {
 
-/// Rows are dealt round: unit `a` of `as` owns the rows y = a mod as, unit `b` of `bs` those with
+/// Rows are dealt in turn: unit `a` of `as` owns the rows y = a mod as, unit `b` of `bs` those with
 /// y = b mod bs. True if some row belongs to both.
 inline bool shares_row(int a, int as, int b, int bs) {
     const int common = std::gcd(as, bs);

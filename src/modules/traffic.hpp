@@ -8,11 +8,11 @@
 
 namespace degs {
 
-/// Whose SH coefficients are read: those of visible Gaussians, or all, culled ones too.
+/// The Gaussians whose SH coefficients are read: the visible ones, or all.
 enum class ShReads { Visible, All };
 
-/// Record layouts of the streams between accelerator and memory [assumed; architecture page, Sec.
-/// 4].
+/// Record layouts of the streams between accelerator and memory
+/// [assumed]; see docs/memory.md.
 struct TrafficConfig {
     int geometry_bytes = 22; ///< per Gaussian: 11 values of 2 B
     int sh_value_bytes = 2;  ///< per coefficient and channel
@@ -32,8 +32,8 @@ struct TrafficConfig {
 constexpr int kFloatBytes = 4;
 constexpr int kFloatGeometryBytes = 11 * kFloatBytes;
 
-/// Where a platform wants the streams of a frame. Without bases the regions follow each other from
-/// address 0.
+/// The addresses that a platform gives to the streams of a frame. Without bases the regions follow
+/// each other from address 0.
 struct MemoryBases {
     bool given = false;
     std::uint64_t geometry = 0, sh = 0;
@@ -42,7 +42,7 @@ struct MemoryBases {
     int pixel_bytes = 0; ///< of this frame; 0: as TrafficConfig says
 };
 
-/// Where the streams live in memory; regions are aligned to 4 KiB.
+/// The addresses of the streams in memory; regions are aligned to 4 KiB.
 struct MemoryMap {
     std::uint64_t geometry = 0, sh = 0, splats = 0, lists = 0, frame_buffer = 0;
     MemoryMap() = default;

@@ -26,7 +26,7 @@ public:
 
     explicit FeatureBuffer(int entries);
 
-    /// Makes (tile, splat) the splat that enters; false if no entry is free at `now`.
+    /// Makes (tile, splat) the splat that enters. False if no entry is free at `now`.
     bool admit(TileNumber tile, std::uint32_t splat, Cycle now) {
         return key(tile, splat) == current_key_ || enter(key(tile, splat), now);
     }

@@ -14,17 +14,17 @@
 
 namespace degs {
 
-/// When a tile context may hold the next tile. `Tile`: once all slices have finished. `Bank`: the
-/// Pixel Buffer is banked by row like the Issue Banks, and each bank hands its rows back on its
-/// own.
+/// When a tile context may hold the next tile. `Tile`: once all slices have finished.
+/// `Bank`: the Pixel Buffer is banked by row like the Issue Banks, and each bank hands
+/// its rows back on its own.
 enum class ContextRelease { Tile, Bank };
 
-/// Holds the pixels of the tiles in flight (paper Table I, "Pixel Buffer") and writes finished
-/// tiles to the frame buffer in memory as RGBA8 or RGBA16F. A context is free again once every
-/// slice has finished its tile and the pixels have been read out; the write itself is
-/// posted.
-/// One instance serves a share of the pixels: all of them, one bank's rows, or the tiles that are
-/// granted to one engine.
+/// Holds the pixels of the tiles in flight (paper Table I, "Pixel Buffer")
+/// and writes finished tiles to the frame buffer in memory as RGBA8 or
+/// RGBA16F. A context is free again once every slice has finished its tile
+/// and the pixels have been read out; the write itself is posted. An instance
+/// serves a share of the pixels: all of them, one bank's rows, or the tiles
+/// that are granted to one engine.
 class PixelBuffer : public sc_core::sc_module {
 public:
     struct Config {
@@ -53,7 +53,7 @@ public:
                     "Finished tiles waiting because too many writes were in flight.");
         }
     };
-    /// Which pixels are this instance's, and where it keeps them.
+    /// The pixels of this instance, and where it keeps them.
     struct Share {
         int first_row = 0, row_stride = 1; ///< rows y = first, first + stride, ... of every tile
         int first_context = 0;             ///< in the data path
@@ -63,10 +63,10 @@ public:
     };
 
     sc_core::sc_vector<FifoPort<SliceReport>> in; ///< one per array slice
-    /// The tile that may now use its context, one per bank; of granted tiles only the number of
-    /// messages counts.
+    /// The tile that may now use its context, one per bank; of granted tiles only the
+    /// number of messages counts.
     sc_core::sc_vector<FifoPort<TileNumber>> context_free;
-    /// The frame of every tile written, to the Frame Gate; empty without one.
+    /// Sends the frame of every tile written to the Frame Gate; empty without one.
     sc_core::sc_vector<FifoPort<std::uint32_t>> frame_done;
     MemoryPort frame_buffer;
 

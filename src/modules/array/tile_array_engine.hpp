@@ -16,13 +16,13 @@
 
 namespace degs {
 
-/// An accelerator of one array behind a Tile Front End, with everything but the array:
+/// An accelerator of one array behind a Tile Front End. This class has everything but the array:
 ///
 ///   Tile Front End -> Splat Fetchers -> [buffer] -> (array) -> Pixel Buffer -> memory
 ///
-/// and one way back: a tile whose pixels have all ended is cancelled upstream. A derived class
-/// builds its array in its constructor and hands over the ports; docs/adding-an-accelerator.md is a
-/// worked example.
+/// There is one way back: a tile whose pixels have all ended is cancelled upstream. A derived
+/// class builds its array in its constructor and hands over the ports;
+/// docs/adding-an-accelerator.md is a worked example.
 class TileArrayEngine : public RenderEngine {
 public:
     struct Parts {
@@ -47,8 +47,8 @@ protected:
 
     /// Splat streams that the array reads; tile t comes on stream t modulo their number.
     std::size_t streams() const { return fetchers_.size(); }
-    /// Wires the ports of an array: `in` (one per stream), `context_free`, `tile_done`,
-    /// `tile_state`.
+    /// Wires the ports of an array: `in` (one per stream), `context_free`,
+    /// `tile_done`, `tile_state`.
     template <class Array>
     void connect(Array& array) {
         for (std::size_t i = 0; i < streams(); ++i) {
@@ -59,7 +59,7 @@ protected:
         array.tile_state.bind(*report_rings_[1]);
     }
 
-    /// Slots, window, the array's own stages and laws.
+    /// Fills slots, window, and the stages and invariants of the array.
     virtual void collect_array(AcceleratorResult& result) const = 0;
 
     const TileFrontEnd& front_end() const { return *front_end_; }

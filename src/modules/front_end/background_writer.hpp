@@ -12,9 +12,9 @@
 namespace degs {
 
 /// Writes the pixels of the tiles that list no splat: they never enter the pipeline. That a tile is
-/// one of them is known when the lists of its frame are complete. A posted write every
-/// `cycles_per_write`, each a row of pixels of neighbouring background tiles; all their rows where
-/// they are as wide as the image.
+/// one of them is known when the lists of its frame are complete. One posted write leaves every
+/// `cycles_per_write` cycles: a row of pixels of neighbouring background tiles, or all their rows
+/// where they are as wide as the image.
 class BackgroundWriter : public sc_core::sc_module {
 public:
     struct Stats {
@@ -24,7 +24,7 @@ public:
 
     /// Frames whose lists are complete; empty if `instant`.
     sc_core::sc_vector<FifoPort<std::uint32_t>> listed;
-    /// The frame, once its background is in memory; empty if nobody wants to know.
+    /// Sends the frame once its background is in memory; empty if nobody waits for it.
     sc_core::sc_vector<FifoPort<std::uint32_t>> frame_done;
     MemoryPort frame_buffer;
 

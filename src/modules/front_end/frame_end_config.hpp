@@ -9,7 +9,7 @@ namespace degs {
 /// docs/background-writer.md.
 struct FrameEndConfig {
     int background_cycles_per_write = 1; ///< of the Background Writer
-    int gate_latency_cycles = 1;         ///< last report of a frame to who waits for it
+    int gate_latency_cycles = 1;         ///< from the last report of a frame to its listeners
     void describe(ConfigVisitor& visitor) {
         visitor.integer("background_cycles_per_write", background_cycles_per_write, 1, 1024,
                         "cycles from one write of background pixels to the next [assumed]");

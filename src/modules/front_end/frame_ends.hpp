@@ -12,20 +12,20 @@
 
 namespace degs {
 
-/// What every accelerator needs at the end of a frame besides its Pixel Buffers: the Background
-/// Writer, and, where somebody waits for finished frames, the Frame Gate with its rings.
+/// The end of a frame, which every accelerator has besides its Pixel Buffers: the Background Writer
+/// and, where somebody waits for finished frames, the Frame Gate with its rings.
 class FrameEnds {
 public:
-    /// Does anybody wait? The Pixel Buffers must then have their port `frame_done`.
+    /// True if anybody waits. The Pixel Buffers must then have their port `frame_done`.
     static bool awaited(const sc_core::sc_vector<FifoPort<std::uint32_t>>& listeners,
                         const BuildOptions& options) {
         return listeners.size() != 0 || options.finished != nullptr;
     }
 
-    /// What a front end and the end of a frame tell each other.
+    /// The messages between a front end and the end of a frame.
     struct FrontEnd {
         sc_core::sc_vector<FifoPort<std::uint32_t>>& frame_free; ///< wait for finished frames
-        sc_core::sc_vector<FifoPort<std::uint32_t>>& listed;     ///< tell whose lists are complete
+        sc_core::sc_vector<FifoPort<std::uint32_t>>& listed;     ///< frames with all lists
     };
 
     /// `reports`: see FrameGate.

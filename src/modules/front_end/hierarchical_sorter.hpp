@@ -14,9 +14,9 @@ namespace degs {
 /// Chunks of a tile that has been cancelled are never sorted. Tiles go round the units; loading,
 /// the coarse step and the fine step overlap.
 ///
-/// A coarse level halves the partitions and moves every key once. While partitions are longer than
-/// the unit's buffer, levels go through memory, and each chunk is read once more before its fine
-/// step.
+/// A coarse level halves the partitions and moves every key once. While partitions are
+/// longer than the unit's buffer, levels go through memory, and each chunk is read once
+/// more before its fine step.
 class HierarchicalSorter : public sc_core::sc_module {
 public:
     struct Config {

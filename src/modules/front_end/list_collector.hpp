@@ -8,8 +8,8 @@
 
 namespace degs {
 
-/// Hands lists over tile by tile although the sorter hands them over run by run: takes the runs of
-/// a tile until its list is complete. It starts to when there is room for the list behind it.
+/// Takes the runs of a tile from the sorter until its list is complete, then hands over the list as
+/// a whole. It starts on a list only when there is room for it.
 class ListCollector : public sc_core::sc_module {
 public:
     FifoPort<SortedRun> in;  ///< from a sorter, until kNoTile

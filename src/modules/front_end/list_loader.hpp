@@ -10,8 +10,8 @@
 
 namespace degs {
 
-/// Reads the lists of every `stride`-th tile from memory, one ahead of whoever sorts them. The
-/// lists of a frame are there when its token has come.
+/// Reads the lists of every `stride`-th tile from memory, one ahead of the sorter. The lists of a
+/// frame are in memory when its token has come.
 class ListLoader : public sc_core::sc_module {
 public:
     FifoPort<std::uint32_t> start; ///< frame tokens from the binner

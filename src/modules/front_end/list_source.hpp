@@ -8,7 +8,7 @@
 
 namespace degs {
 
-/// In place of projection, binning and sorting when the rasterisation array is looked at alone: the
+/// Replaces projection, binning and sorting when the rasterisation array is simulated alone: the
 /// lists of all tiles are in order from the start. Tiles go round the sources.
 class ListSource : public sc_core::sc_module {
 public:

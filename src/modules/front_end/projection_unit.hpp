@@ -14,10 +14,10 @@
 namespace degs {
 
 /// Reads Gaussians, culls and projects them, then reads the SH of the visible ones and shades them
-/// (paper Table I, "Projection Unit"); with `traffic.sh: all` the SH of culled ones, too. Chunks of
-/// the scene go round the units. Three overlapping steps, each with its own date: fetch geometry,
-/// project, shade. Not modelled: the arithmetic pipeline's depth beyond `latency_cycles`; values
-/// come from the shared FrameWorkload.
+/// (paper Table I, "Projection Unit"); with `traffic.sh: all` it also reads the SH of culled ones.
+/// Chunks of the scene go round the units. Three overlapping steps, each with its own date: fetch
+/// geometry, project, shade. Not modelled: the arithmetic pipeline's depth beyond `latency_cycles`;
+/// values come from the shared FrameWorkload.
 class ProjectionUnit : public sc_core::sc_module {
 public:
     struct Config {

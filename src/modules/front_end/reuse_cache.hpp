@@ -11,14 +11,14 @@
 
 namespace degs {
 
-/// For every entry of a frame's tile lists the next entry, in raster order of tiles, that names the
-/// same splat.
+/// For every entry of a frame's tile lists the next entry, in raster order of tiles,
+/// that names the same splat.
 class NextUse {
 public:
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-    /// One backward pass over the lists. Throws std::length_error if there are 2^32 - 1 entries or
-    /// more.
+    /// One backward pass over the lists. Throws std::length_error if there are
+    /// 2^32 - 1 entries or more.
     explicit NextUse(const FrameWorkload& frame);
 
     /// Position in FrameWorkload::tile_splats, or kNone.
@@ -32,7 +32,7 @@ private:
 class NextUses {
 public:
     explicit NextUses(const RenderJob& job) : job_(job) {}
-    /// Lasts until the next call with a frame that was never asked for.
+    /// The reference is valid until the next call with another new frame.
     const NextUse& of(std::uint32_t frame) {
         for (auto f = static_cast<std::uint32_t>(frames_.size()); f <= frame; ++f) {
             frames_.emplace_back(*job_.frames[f]);
@@ -45,13 +45,13 @@ private:
     std::vector<NextUse> frames_;
 };
 
-/// The Gaussian reuse cache of GBU: keeps splat records between the tiles of one engine. Which
-/// record gives way is decided by reuse distances that binning has computed in advance: the one
-/// whose next use is farthest away, which may be the record that has just been read. Next uses are
-/// those of all tiles in raster order, whichever engine works on them; once the engine has passed a
-/// tile, its entries count no more. Fully associative [assumed].
+/// The Gaussian reuse cache of GBU: keeps splat records between the tiles of one engine. Reuse
+/// distances that binning has computed in advance decide which record is replaced: the one whose
+/// next use is farthest away, which may be the record that has just been read. Next uses are those
+/// of all tiles in raster order, whichever engine works on them; once the engine has passed a tile,
+/// its entries no longer count. Fully associative [assumed].
 ///
-/// No time in here: the Splat Fetcher asks which records it must read.
+/// The cache has no time of its own: the Splat Fetcher asks which records it must read.
 class ReuseCache {
 public:
     struct Stats {
@@ -65,8 +65,8 @@ public:
     /// Both outlive the cache. `records`: capacity, >= 1.
     ReuseCache(const RenderJob& job, NextUses& next_uses, std::size_t records);
 
-    /// Looks up `count` list entries from `first` on; tiles never go back. The number of records
-    /// that have to be read.
+    /// Looks up `count` list entries from `first` on; tiles never go back. Returns the number of
+    /// records that have to be read.
     std::uint32_t request(TileNumber tile, std::uint64_t first, std::uint32_t count);
 
     const Stats& stats() const { return stats_; }

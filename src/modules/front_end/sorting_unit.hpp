@@ -10,10 +10,10 @@
 
 namespace degs {
 
-/// Puts the list of a tile in near-to-far order (paper Table I, "Sorting Unit"). Tiles go round the
-/// units. Two overlapping steps: load the list, merge-sort it; a Splat Fetcher takes it from there.
-/// Lists longer than the unit's share of the Gaussian Buffer take extra merge passes through
-/// memory.
+/// Puts the list of a tile in near-to-far order (paper Table I, "Sorting Unit"). Tiles go
+/// round the units. Two overlapping steps: load the list, merge-sort it; a Splat Fetcher
+/// takes it from there. Lists longer than the unit's share of the Gaussian Buffer take extra
+/// merge passes through memory.
 class SortingUnit : public sc_core::sc_module {
 public:
     struct Config {

@@ -12,9 +12,9 @@
 
 namespace degs {
 
-/// Streams the splat records of sorted lists from memory to the rasterisation, in order, a chunk at
-/// a time. Fetching stops when the tile is cancelled: what has been asked for still arrives, the
-/// rest of the list is never read.
+/// Streams the splat records of sorted lists from memory to the rasterisation, in order, a chunk
+/// at a time. Fetching stops when the tile is cancelled: requested records still arrive, the rest
+/// of the list is never read.
 class SplatFetcher : public sc_core::sc_module {
 public:
     struct Config {
@@ -40,10 +40,10 @@ public:
     sc_core::sc_vector<FifoPort<TileRequest>> request;
     MemoryPort records;
 
-    /// `instant`: records are there when the readers have room for them, see BuildOptions; the
-    /// memory is not asked. `granted`: tiles come one by one on request, and a last chunk of
-    /// kNoTile tells the readers, who cannot know which tiles are theirs, that none follows.
-    /// `cache`: records that it has are not read; null without one.
+    /// `instant`: records arrive as soon as the readers have room for them, without memory; see
+    /// BuildOptions. `granted`: tiles come one by one on request, and a last chunk of kNoTile ends
+    /// the stream for the readers, which cannot know their last tile. `cache`: records that it has
+    /// are not read; null without one.
     SplatFetcher(const sc_core::sc_module_name& name, const Config& config,
                  const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
                  std::size_t readers, bool instant, bool granted = false,
@@ -67,7 +67,7 @@ private:
     ReuseCache* cache_;
     Process self_;
     TileNumber cancelled_before_ = 0; // tiles below this number are cancelled or over
-    TileNumber skipped_ = kNoTile;    // its readers have been told that nothing follows
+    TileNumber skipped_ = kNoTile;    // its readers have had the chunk that ends it
     std::uint64_t done_ = 0;          // entries of the tile being fetched
     std::vector<Cycle> answered_;     // ring of completion dates of the latest requests
     std::uint64_t requests_ = 0;

@@ -12,7 +12,7 @@ namespace degs {
 
 /// Collects the Projection Units' results in scene order, writes splat records and tile-list
 /// entries to memory, and lets sorting start when the frame's lists are complete. The paper does
-/// not name this block; something has to write the lists.
+/// not name this block, but some unit has to write the lists.
 class TileBinner : public sc_core::sc_module {
 public:
     struct Config {

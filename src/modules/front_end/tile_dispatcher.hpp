@@ -12,8 +12,8 @@
 namespace degs {
 
 /// Hands sorted tiles to engines that each work on a tile of their own: in tile order, the next
-/// complete list to the engine that asked first; of those that asked in the same cycle to the one
-/// with the lowest index. One tile per cycle.
+/// complete list goes to the engine that asked first; of those that asked in the same cycle, to the
+/// one with the lowest index. One tile is granted per cycle.
 class TileDispatcher : public sc_core::sc_module {
 public:
     struct Stats {

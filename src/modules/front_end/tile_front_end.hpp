@@ -49,15 +49,15 @@ public:
     TileFrontEnd(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                  const RenderJob& job);
 
-    /// Whether frames have to wait for each other: frame_free must be served.
+    /// True if frames have to wait for each other; frame_free must then be connected.
     static bool gated(const Config& config, const RenderJob& job) {
         return !config.instant &&
                job.frames.size() > static_cast<std::size_t>(config.frames_in_flight);
     }
-    /// Also the record streams of the fetchers behind it.
+    /// Connects the memory ports, also those of the fetchers behind it.
     void connect_memory(MemoryStreams& streams,
                         const std::vector<std::unique_ptr<SplatFetcher>>& fetchers);
-    /// Stages, and the dates at which lists were complete.
+    /// Adds the stages and the dates at which lists were complete.
     void collect(AcceleratorResult& result) const;
 
     const std::vector<std::unique_ptr<ProjectionUnit>>& projection() const { return projection_; }

@@ -16,8 +16,8 @@
 
 namespace degs {
 
-/// What the array reports and the bank skips: whole segments whose pixels have all ended (paper,
-/// Sec. IV-B), or single pixels.
+/// The grain in which the array reports ended pixels and the bank skips them: whole segments
+/// (paper, Sec. IV-B), or single pixels.
 enum class TerminationGrain { Segment, Pixel };
 
 /// One Issue Bank of the Packing Scheduler (paper, Sec. IV-B): takes the row spans of its rows in
@@ -25,7 +25,7 @@ enum class TerminationGrain { Segment, Pixel };
 /// each as soon as its conflict domain (row x segment) may be updated again. Inside a domain order
 /// is kept; across domains any ready one may go. Segments of terminated regions are dropped.
 ///
-/// Cycle t: see terminations and freed contexts dated <= t, accept segments, issue segments.
+/// In cycle t the bank takes terminations and freed contexts dated <= t, accepts segments, and issues segments.
 class IssueBank : public sc_core::sc_module {
 public:
     struct Config {

@@ -18,10 +18,10 @@ namespace degs {
 /// open until the array wants it, so packing never costs the array a cycle.
 ///
 /// The array executes one packet per cycle in order and never stalls, so the cycle in which a task
-/// will execute is known when it is packed. The Issue Bank's scoreboard works with those dates,
-/// which is what keeps the reuse distance at the array also when queued packets drain back to back.
+/// will execute is known when it is packed. The scoreboard of the Issue Bank works with those
+/// dates, which keeps the reuse distance at the array also when queued packets drain back to back.
 ///
-/// No process of its own: the Issue Bank calls it in its own cycle.
+/// The unit has no process: the Issue Bank calls it in its own cycle.
 class PackingUnit : public sc_core::sc_module {
 public:
     struct Config {
@@ -42,7 +42,7 @@ public:
 
     /// Execution date of the next task if it is packed at `now`.
     Cycle next_execution(Cycle now) const { return std::max(now + latency_, next_slot_); }
-    /// Packets' worth of room for `tasks` more tasks at `now`?
+    /// True if there is room for `tasks` more tasks at `now`.
     bool room(Cycle now, int tasks) const {
         const Cycle queued = std::max(next_slot_, now + 1) - (now + 1);
         // ceil((open + new) / width) more packets fit, without dividing.
@@ -51,20 +51,20 @@ public:
     /// Packs those tasks of a segment that `mask` names, at least one; returns the execution date
     /// of the last one.
     Cycle add(Process& bank, const TaskRun& run, std::uint32_t mask);
-    /// Tells the array that the bank has nothing more for `tile`.
+    /// Sends the end of `tile`: the bank has nothing more for it.
     void end_tile(Process& bank, TileNumber tile);
-    /// Must an open packet go at `now`?
+    /// True if an open packet must go at `now`.
     bool due(Cycle now) const { return open_until_ <= now; }
-    /// Hands over an open packet whose time has come, its empty slots accounted for by `cause`.
-    /// Before the bank asks for its next date: others trust that it does nothing until then.
+    /// Hands over an open packet whose time has come, its empty slots accounted for by `cause`. Call
+    /// it before the bank asks for its next date, because others rely on its doing nothing until then.
     void send_due(Process& bank, Idle cause);
     /// The cycles [bank.local(), until) are over for the bank; `until` may not lie beyond the date
     /// given by open_until(). Accounts for those in which the array gets nothing, by `cause`.
     void close_cycles(Process& bank, Cycle until, Idle cause);
     /// Latest date up to which the bank may sleep: an open packet has to go then. kNever if none.
     Cycle open_until() const { return open_until_; }
-    /// Would close_cycles(bank, until, ...) account for empty slots? Else its cause does not
-    /// matter.
+    /// True if close_cycles(bank, until, ...) would account for empty slots; otherwise
+    /// its cause does not matter.
     bool leaves_slots(Cycle until) const {
         return !open() && started() && until + latency_ > next_slot_;
     }

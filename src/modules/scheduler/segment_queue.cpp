@@ -110,8 +110,8 @@ int SegmentQueue::pick(Tile& tile, Cycle date) const {
     return scan_ == DomainScan::RoundRobin ? pick_next(tile) : pick_least(tile);
 }
 
-// The ready domain of the smallest key. Selected without branches, which would be mispredicted half
-// the time.
+// The ready domain of the smallest key. Selected without branches, which would be
+// mispredicted half the time.
 int SegmentQueue::pick_least(const Tile& tile) const {
     std::uint64_t best_key = ~std::uint64_t{0};
     int best = -1;

@@ -16,9 +16,9 @@ struct Segment {
     std::uint16_t feature = 0;  ///< Feature Buffer entry
 };
 
-/// Which ready conflict domain issues first. `RoundRobin`: the next one after the last that issued.
-/// `Oldest`: the one whose head segment arrived first. `Deepest`: the one with most segments
-/// waiting.
+/// Which ready conflict domain issues first. `RoundRobin`: the next one after the last
+/// that issued. `Oldest`: the one whose head segment arrived first. `Deepest`: the one
+/// with most segments waiting.
 enum class DomainScan { RoundRobin, Oldest, Deepest };
 
 /// The waiting segments of one bank: one first-in-first-out list per conflict domain (row x segment
@@ -38,7 +38,7 @@ class SegmentQueue {
     };
 
 public:
-    /// What a tile in flight has in the queue. Bit sets run over domains, words_ words each.
+    /// The part of a tile in flight. Bit sets run over domains, words_ words each.
     class Tile {
         friend class SegmentQueue;
         std::size_t waiting = 0;
@@ -73,8 +73,8 @@ public:
     std::size_t size() const { return size_; }
     static std::size_t waiting(const Tile& tile) { return tile.waiting; }
 
-    /// Queues a segment that arrived as number `sequence`; the caller fills in its run and feature,
-    /// in place: copying what was just written costs more than all else in here.
+    /// Queues a segment that arrived as number `sequence`. The caller fills in its run and feature
+    /// in place, because copying data that was just written costs more than all else in this class.
     Segment& push(Tile& tile, int domain, std::uint64_t sequence);
     static Segment& front(Tile& tile, int domain) { return tile.lists[domain].head->segment; }
     inline void pop(Tile& tile, int domain);
@@ -83,7 +83,7 @@ public:
     static std::uint32_t end_pixels(Tile& tile, int domain, std::uint32_t mask) {
         return tile.lists[domain].ended |= mask;
     }
-    /// Pixels of the domain that take tasks, which is for the bank to say; at first all.
+    /// Pixels of the domain that take tasks. Set by the bank; initially all pixels.
     static std::uint32_t live(const Tile& tile, int domain) { return tile.lists[domain].live; }
     static void set_live(Tile& tile, int domain, std::uint32_t mask) {
         tile.lists[domain].live = mask;
@@ -144,7 +144,7 @@ private:
     std::vector<Tile> tiles_;
 };
 
-// In the hot loop; a call costs as much as the work.
+// Inlined in the hot loop, because a call costs as much as the work.
 inline __attribute__((always_inline)) void SegmentQueue::pop(Tile& tile, int domain) {
     List& list = tile.lists[domain];
     Entry& entry = *list.head;
@@ -155,7 +155,7 @@ inline __attribute__((always_inline)) void SegmentQueue::pop(Tile& tile, int dom
     tile.waiting--;
     list.head = second;
     list.length--;
-    // No branch on what is as likely as not. The key of an empty list is never asked for.
+    // There is no branch, because both outcomes are equally likely. The key of an empty list is never read.
     const bool last = second == nullptr;
     const Entry& head = last ? entry : *second;
     list.end = last ? &list.head : list.end;

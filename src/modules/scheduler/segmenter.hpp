@@ -11,8 +11,8 @@
 namespace degs {
 
 /// Cuts row spans at the fixed strides of their tile, columns 0 .. length - 1 and so on (paper,
-/// Sec. IV-B), and numbers the conflict domains (row x segment) of one bank's rows of a tile. No
-/// process: the Issue Bank asks for one segment after the other.
+/// Sec. IV-B), and numbers the conflict domains (row x segment) of one bank's rows of a tile. It
+/// has no process: the Issue Bank asks for one segment after the other.
 class Segmenter {
 public:
     struct Domain {
@@ -61,16 +61,16 @@ public:
             context_ = static_cast<std::int16_t>(item.tile % contexts_);
         }
     }
-    /// Is a segment of the span left?
+    /// True if a segment of the span is left.
     bool cutting() const { return column_ < end_; }
     TileNumber tile() const { return tile_; }
-    /// Of the next segment.
+    /// Domain of the next segment.
     int domain() const { return domain_; }
     std::uint32_t mask() const {
         return bits_between(std::max(begin_ - column_, 0), std::min(end_ - column_, length_));
     }
-    /// Puts the tasks `mask` of the next segment together. Field by field: a copy of what was just
-    /// written would wait for the write.
+    /// Puts the tasks `mask` of the next segment together. It writes field by field, because a copy
+    /// of data that was just written would wait for the write.
     void fill(TaskRun& run, std::uint32_t mask) const {
         run.tile = tile_;
         run.domain = domain_;
@@ -91,7 +91,7 @@ public:
 private:
     int length_;
     TileNumber contexts_;
-    // Tables instead of divisions: this is the hot loop.
+    // Tables replace divisions in the hot loop.
     std::vector<Domain> domains_;
     std::vector<int> first_domain_of_row_, segment_of_column_;
     // The span being cut, in pixels of the tile, and its next segment.

@@ -10,8 +10,8 @@
 
 namespace degs {
 
-/// Which scanlines a splat is cut into: all that its ellipse meets, or those that it meets inside
-/// the tile's columns.
+/// The scanlines into which a splat is cut: all that its ellipse meets, or those that it meets
+/// inside the tile's columns.
 enum class SlicedRows { Splat, Tile };
 
 /// Enumerates the scanlines of each splat inside the tile and pushes them into the Span Buffer

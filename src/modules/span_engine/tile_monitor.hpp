@@ -11,7 +11,7 @@ namespace degs {
 
 /// Cancels the rest of a tile's list upstream once every array slice has reported that all its
 /// pixels have ended. The paper describes feedback to the Issue Banks only; stopping the fetch is
-/// ours [assumed], sampled by the Sorting and Slicing Units between chunks of splats.
+/// our addition [assumed]. Splat Fetchers and Slicing Units sample it between chunks of splats.
 class TileMonitor : public sc_core::sc_module {
 public:
     struct Config {
