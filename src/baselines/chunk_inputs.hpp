@@ -23,7 +23,7 @@ public:
     DatedFifo<SplatChunk>& of(TileNumber tile) {
         return *ports_[tile % ports_.size()].operator->();
     }
-    /// No further chunk of `tile` is wanted; its last one has not been taken.
+    /// Drops the further chunks of `tile`, whose last chunk has not been taken.
     void stop(TileNumber tile);
     /// Moves the array to the date at which `wanted` has an item it may read, or to `limit`: false
     /// then. An item of a stopped tile does not count. Throws std::logic_error if nothing can come.

@@ -16,8 +16,8 @@
 
 namespace degs {
 
-/// The standalone GBU (Ye et al., HPCA 2025) with GSCore's projection and sorting, as the DeGS
-/// paper compares against it; defaults are its 64-PE design. What neither paper tells is [assumed].
+/// The standalone GBU (Ye et al., HPCA 2025) with GSCore's projection and sorting, as the DeGS paper
+/// compares against it; defaults are its 64-PE design. Values that neither paper gives are [assumed].
 struct GbuConfig : AcceleratorConfig {
     struct ListBuffer {
         int bytes = 15 * 1024; ///< lists being sorted

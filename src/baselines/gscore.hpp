@@ -15,8 +15,8 @@ namespace degs {
 ///   Tile Front End with Hierarchical Sorters -> Splat Fetchers -> [buffer] -> Lockstep Array ->
 ///   Pixel Buffer -> memory
 ///
-/// and one way back: a tile whose pixels have all ended is cancelled, neither fetched nor sorted
-/// any further.
+/// There is one way back: a tile whose pixels have all ended is cancelled, neither
+/// fetched nor sorted any further.
 class Gscore : public TileArrayEngine {
 public:
     /// `job` supplies the work and receives the images. `config.problem()` must be empty.

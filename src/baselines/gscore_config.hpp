@@ -19,7 +19,7 @@
 namespace degs {
 
 /// A complete GSCore (Lee et al., ASPLOS 2024) with the memory of this project's comparisons;
-/// defaults are its 64 lanes. What its publication leaves open is marked in the descriptions.
+/// defaults are its 64 lanes. Descriptions mark the values that its publication leaves open.
 struct GscoreConfig : AcceleratorConfig {
     /// On-chip memory as one figure, as in the paper's Table I; the Pixel Buffer is part of it.
     struct Buffer {

@@ -19,12 +19,12 @@ namespace degs {
 /// II-B; Lee et al., ASPLOS 2024). A tile is cut into sub-tiles of the lanes' size. For each splat
 /// in depth order, each sub-tile that its bitmap names and that is not done takes one slot, in
 /// which every lane evaluates the splat at its own pixel, useful or not. A sub-tile is done when
-/// its last pixel has ended; what a slot finds guides the slots `termination_cycles` later. The
+/// its last pixel has ended; the result of a slot guides the slots `termination_cycles` later. The
 /// tile stops when all its sub-tiles are done; splats of it that still come are dropped at no cost.
 ///
 /// Updates of a pixel in neighbouring cycles are forwarded (initiation interval 1), tiles follow
 /// each other without a bubble while a context is free, and a splat whose bits are all clear or
-/// done costs no cycle: all in favour of this design.
+/// done costs no cycle. All of this favours the design.
 class LockstepArray : public sc_core::sc_module {
 public:
     struct Config {

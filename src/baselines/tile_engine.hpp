@@ -23,10 +23,10 @@ namespace degs {
 /// GBU makes the conic a circle and turns it so that a row is parallel to an axis, which leaves
 /// x''^2 <= threshold - y''^2 per pixel. That is the completed square that the data path solves.
 ///
-/// An entry is evaluated when it is pushed: a Row PE sees nothing but its own queue, so the dates
-/// of the entry's slots follow from those of the entries before it, and whatever ends the row
-/// before it is already known. A Row PE drops the entries of a row whose pixels have all ended at
-/// no cost; generation hears of it `termination_cycles` later and leaves the row out. Pixel updates
+/// An entry is evaluated when it is pushed: a Row PE depends on nothing but its own queue, so the
+/// dates of the entry's slots follow from those of the entries before it, and it is already known
+/// whether the row ends before it. A Row PE drops the entries of a row whose pixels have all ended
+/// at no cost; generation sees it `termination_cycles` later and leaves the row out. Pixel updates
 /// that follow each other closely are forwarded inside the Row PE [assumed].
 class TileEngine : public sc_core::sc_module {
 public:

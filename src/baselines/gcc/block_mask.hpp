@@ -18,11 +18,11 @@ public:
     BlockMask(int view_size, int block)
         : block_(block), live_((view_size + block - 1) / block, 0) {}
 
-    /// A view none of whose pixels has ended.
+    /// Starts a view none of whose pixels has ended.
     void begin() { std::fill(live_.begin(), live_.end(), ~std::uint64_t{0}); }
     void end_block(int row, int column) { live_[row] &= ~(std::uint64_t{1} << column); }
-    /// Whether a live block meets the splat's bounding box, a pixel wider than the ellipse for
-    /// rounding, inside the view.
+    /// True if, inside the view, a live block meets the bounding box of the splat, which is a pixel
+    /// wider than the ellipse for rounding.
     bool reaches(const DataPath& path, std::uint32_t splat, const JobTile& view) const {
         int top = 0, bottom = 0, left = 0, right = 0;
         path.rows(splat, top, bottom);

@@ -14,7 +14,7 @@
 
 namespace degs::gcc {
 
-/// Stage III of GCC: of the Gaussians of a projected group, reads SH for those that can still
+/// Stage III of GCC. It reads SH for those Gaussians of a projected group that can still
 /// contribute, computes their colours, and sorts them exactly. A Gaussian cannot contribute if all
 /// blocks of the view that its bounding box meets have ended; the mask is looked at once per group,
 /// when the group enters. Colours and sorting overlap; a group is handed to Stage IV when both are

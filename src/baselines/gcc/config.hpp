@@ -14,7 +14,7 @@
 namespace degs::gcc {
 
 /// A complete GCC accelerator; defaults are the 64-PE design that DeGS compares with (its Table I).
-/// What is not published is a key.
+/// Every unpublished value is a key.
 struct Config : AcceleratorConfig {
     int view_size = 128;                ///< px, side of a view
     int group_buffer_bytes = 62 * 1024; ///< groups between the stages
@@ -53,7 +53,7 @@ struct Config : AcceleratorConfig {
     int listed_gaussians() const { return projection.groups_ahead * projection.group; }
     /// Hand-overs that wait before Stage IV: as many groups as elsewhere.
     int chunks_ahead() const { return (listed_gaussians() + colour.chunk - 1) / colour.chunk; }
-    /// Behind the shapes, behind projection, behind SH, behind colour: four rings.
+    /// Bytes of the four rings behind shapes, projection, SH and colour.
     int group_bytes() const {
         return listed_gaussians() * (traffic.list_entry_bytes + 4 * splat_bytes);
     }

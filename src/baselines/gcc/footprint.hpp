@@ -17,9 +17,9 @@ inline WindowMask windows_between(int first, int last) {
     return ((WindowMask{2} << last) - 1) & ~((WindowMask{1} << first) - 1);
 }
 
-/// What of one splat lies inside a view, pixel row by pixel row and window by window. A view is cut
-/// into windows of `side` x `side` px from its top left corner; `valid` is what the alpha test of
-/// the data path accepts (alpha >= 1/255), whether or not the pixel has ended.
+/// The part of a splat inside a view, pixel row by pixel row and window by window. A view is cut
+/// into windows of `side` x `side` px from its top left corner; a pixel is valid if the alpha test
+/// of the data path accepts it (alpha >= 1/255), whether or not it has ended.
 class Footprint {
 public:
     enum Side { kLeft, kRight, kTop, kBottom };
@@ -33,7 +33,7 @@ public:
     /// view_size <= kMaxWindows * side.
     Footprint(int view_size, int side);
 
-    /// Forgets the splat before.
+    /// Replaces the previous splat.
     void solve(const DataPath& path, std::uint32_t splat, const JobTile& view);
 
     /// Rows with valid pixels, top to bottom.

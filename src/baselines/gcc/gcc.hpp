@@ -19,8 +19,8 @@ namespace degs::gcc {
 ///   means -> Grouping (I) -> lists -> Projection Stage (II) -> Colour Stage (III) -> Window Array
 ///   (IV) -> image buffer -> memory
 ///
-/// with two ways back: ended blocks to Stage III, cancelled views to Stages II and III. An image
-/// that does not fit the image buffer is rendered view by view ("compatibility mode").
+/// There are two ways back: ended blocks to Stage III, and cancelled views to Stages II and III. An
+/// image that does not fit the image buffer is rendered view by view ("compatibility mode").
 class Engine : public RenderEngine {
 public:
     /// `job` supplies the work and receives the images. `config.problem()` must be empty.

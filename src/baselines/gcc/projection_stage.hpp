@@ -11,11 +11,11 @@
 
 namespace degs::gcc {
 
-/// Stage II of GCC: takes the views in order and the groups of a view near to far; reads the list
-/// of a group, then scale, rotation and opacity of its Gaussians, and projects them. A group is a
-/// fixed number of neighbours in the view's list; the last one may be smaller. Three overlapping
-/// steps, each some groups ahead of the next. Once all pixels of a view have ended, its further
-/// groups are not read. A Gaussian is read again for every view that it overlaps.
+/// Stage II of GCC. It takes the views in order and the groups of a view near to far. It reads the
+/// list of a group, then scale, rotation and opacity of its Gaussians, and projects them. A group
+/// is a fixed number of neighbours in the view's list; the last one may be smaller. Three
+/// overlapping steps, each some groups ahead of the next. Once all pixels of a view have ended, its
+/// further groups are not read. A Gaussian is read again for every view that it overlaps.
 class ProjectionStage : public sc_core::sc_module {
 public:
     struct Config {
@@ -68,8 +68,8 @@ private:
     Stats stats_;
 };
 
-/// Takes what has arrived of `cancel` and answers whether `view` is cancelled; `first` is the first
-/// view that is not known to be cancelled or over. The question takes a cycle.
+/// Takes the messages that have arrived on `cancel`. True if `view` is cancelled; `first` is the
+/// first view that is not known to be cancelled or over. The check takes a cycle.
 bool gcc_cancelled(Process& self, FifoPort<TileNumber>& cancel, TileNumber& first, TileNumber view);
 
 } // namespace degs::gcc

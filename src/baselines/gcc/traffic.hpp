@@ -8,7 +8,7 @@
 namespace degs::gcc {
 
 /// Record layouts of GCC's streams. A Gaussian is stored stage by stage, so that one that is
-/// dropped early costs only what has been looked at.
+/// dropped early costs only the stages that have read it.
 struct Traffic {
     int mean_bytes = 6;       ///< per Gaussian, Stage I: 3 values of 2 B
     int bound_bytes = 2;      ///< per Gaussian, Stage I: radius of a sphere around it
@@ -19,7 +19,7 @@ struct Traffic {
     int burst_bytes = 64;     ///< scattered records are read in whole bursts
     void describe(ConfigVisitor& visitor);
 
-    /// The same records as far as all accelerators have them.
+    /// The records that all accelerators have.
     TrafficConfig common() const;
     std::uint64_t stage_one_bytes() const { return mean_bytes + bound_bytes; }
     std::uint64_t entry_bytes() const { return list_entry_bytes; }
@@ -30,8 +30,8 @@ struct Traffic {
     }
 };
 
-/// Where GCC's streams live: a Gaussian's stages in the geometry region, lists of groups behind the
-/// lists of views.
+/// The addresses of GCC's streams. The stages of a Gaussian are in the geometry region, lists of
+/// groups behind the lists of views.
 struct MemoryMap {
     std::uint64_t means = 0, shapes = 0, sh = 0, groups = 0, views = 0;
     MemoryMap(const Traffic& traffic, const RenderJob& job, std::uint32_t frame);

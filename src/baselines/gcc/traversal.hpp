@@ -8,10 +8,10 @@
 
 namespace degs::gcc {
 
-/// The way of GCC from window to window of one splat (rule: docs/gcc-window-array.md): a frontier
-/// of windows, first found first visited; a visited window adds the neighbours across those of its
-/// sides on which it has a valid border pixel. Says which window comes next and from when on it is
-/// known; the dates are the caller's.
+/// The traversal of GCC from window to window of one splat (rule: docs/gcc-window-array.md). It keeps
+/// a frontier of windows and visits them in the order in which they were found. A visited window adds
+/// the neighbours across those of its sides on which it has a valid border pixel. The class returns
+/// the next window and the date from which it is known; the caller handles dates otherwise.
 class Traversal {
 public:
     struct Window {

@@ -19,16 +19,16 @@ namespace degs::gcc {
 /// order it starts where the centre is (clamped to the view) and goes on to every neighbouring
 /// window across whose side the splat is valid; each visited window takes one slot in which all PEs
 /// evaluate the splat at their pixel. Windows whose pixels have all ended are passed without
-/// evaluation. A view (here: the tile of a job) is one after the other.
+/// evaluation. Views (here: the tiles of a job) follow one after the other.
 ///
-/// What a slot finds out is known `discovery_cycles` later. 1: splats are interleaved so well that
-/// nobody waits. More: one splat is in flight, the array waits for its next window, or for the
-/// certainty that there is none, in class `conflict`.
+/// The neighbours that a slot finds are known `discovery_cycles` later. With 1, splats are
+/// interleaved so well that the array never waits. With more, one splat is in flight, and the array
+/// waits, in class `conflict`, for its next window or for the certainty that there is none.
 ///
 /// A splat's valid pixels may lie apart, because its centre is outside the view or because it is
 /// thinner than the pixel grid. When the frontier is empty and valid windows are left, the
-/// traversal is seeded again at the first of them, so that the image is right; how the hardware
-/// would know is open.
+/// traversal is seeded again at the first of them, so that the image is right; the papers do not
+/// say how the hardware finds it.
 class WindowArray : public sc_core::sc_module {
 public:
     struct Config {
@@ -71,8 +71,8 @@ public:
     FifoPort<SliceReport> tile_state;            ///< to the Tile Monitor, once per tile
     sc_core::sc_vector<FifoPort<BlockEnded>> block_ended; ///< to Stage III; may be empty
 
-    /// The job's tile size is at most 64 windows. `block`: side of the blocks that are reported,
-    /// px.
+    /// The job's tile size is at most 64 windows. `block`: side of the
+    /// blocks that are reported, px.
     WindowArray(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                 RenderJob& job, std::size_t inputs, int contexts, std::size_t listeners = 0,
                 int block = 8);
