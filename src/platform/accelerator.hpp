@@ -15,18 +15,18 @@
 
 namespace degs {
 
-/// Any accelerator of the project as a citizen of a platform: registers, a way to memory, an
-/// interrupt, and nothing else. docs/accelerator.md has the register map and the memory layout.
+/// Any accelerator of the project as a module of a platform, with registers, a memory socket and an
+/// interrupt. docs/accelerator.md has the register map and the memory layout.
 ///
 /// A frame: `Start` samples the registers. Values come from a copy of the scene that is read first,
 /// by debug transport in no time, or by transactions where the memory has no debug transport. The
 /// model then reads the same bytes again when its blocks do, and writes real pixels. Bytes that
-/// differ by then are an error, and so are refused accesses and bad registers: a frame always ends
-/// with Done or Error and, if enabled, the interrupt; nothing throws.
+/// differ by then are an error, and so are refused accesses and bad registers. A frame always ends
+/// with Done or Error and, if enabled, the interrupt. Nothing throws.
 ///
 /// Not modelled: values of splat records and lists, which are written to the workspace as bytes
-/// without meaning; an abort of a running frame; power states. What a frame needs on the host
-/// (about 200 B per visible splat) is kept until the end of the simulation.
+/// without meaning; an abort of a running frame; power states. The host memory of a frame (about
+/// 200 B per visible splat) is kept until the end of the simulation.
 class Accelerator : public sc_core::sc_module {
 public:
     struct Options {
@@ -41,14 +41,14 @@ public:
     tlm::tlm_initiator_socket<> mem;
     sc_core::sc_out<bool> irq; ///< high while an enabled interrupt is pending
 
-    /// Copies `config`, which then reads scenes of floats. Throws std::invalid_argument if it has a
-    /// problem().
+    /// Copies `config` and makes the copy read scenes of floats. Throws
+    /// std::invalid_argument if it has a problem().
     Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config);
     Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
                 const Options& options);
 
     const AcceleratorConfig& config() const { return *config_; }
-    /// Ways of a platform's test bench to what the registers do not tell.
+    /// For test benches: state that the registers do not expose.
     const RenderEngine& engine() const { return *engine_; }
     const MemoryGateway& gateway() const { return gateway_; }
 

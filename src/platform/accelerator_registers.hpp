@@ -70,17 +70,17 @@ constexpr std::uint32_t kIrqError = 1U << 1U;
 
 enum class FrameFormat : std::uint32_t { Rgba8 = 0, Rgba16F = 1 };
 
-/// Why a frame was not rendered, or not to be trusted.
+/// Why a frame was not rendered, or cannot be trusted.
 enum class AcceleratorError : std::uint32_t {
     None = 0,
     BadSize = 1,        ///< width or height 0 or over 65536, or too many pixels
     BadCount = 2,       ///< no Gaussians, or too many
     BadDegree = 3,      ///< SH degree over 3
     BadFormat = 4,      ///< no FrameFormat
-    Misaligned = 5,     ///< a base is no multiple of kBaseAlignment
+    Misaligned = 5,     ///< a base is not a multiple of kBaseAlignment
     Overlap = 6,        ///< two regions overlap, or one passes the end of the address space
     BadCamera = 7,      ///< not finite, focal length not positive, or axes not orthonormal
-    SmallWorkspace = 8, ///< WorkspaceNeeded tells how much it takes
+    SmallWorkspace = 8, ///< WorkspaceNeeded holds the bytes that it takes
     LoadError = 9,      ///< memory refused a read while the scene was loaded
     BusError = 10,      ///< memory refused an access while the frame was rendered
     SceneChanged = 11,  ///< the scene was written while the frame was rendered
@@ -88,7 +88,7 @@ enum class AcceleratorError : std::uint32_t {
 };
 constexpr std::uint64_t kBaseAlignment = 64; ///< B
 
-/// The words behind the map. No time and no bus in here.
+/// The words behind the map, without time and bus.
 class AcceleratorRegisters {
 public:
     AcceleratorRegisters();

@@ -19,7 +19,7 @@ struct AcceleratorFault {
     explicit operator bool() const { return error != AcceleratorError::None; }
 };
 
-/// What the registers ask for: the values that they had when the frame was started.
+/// The request of a frame: the values of the registers when it was started.
 struct AcceleratorRequest {
     struct Limits {
         std::uint32_t gaussians = 1U << 24U; ///< of a scene
@@ -35,7 +35,7 @@ struct AcceleratorRequest {
     static AcceleratorFault read(const AcceleratorRegisters& registers, const Limits& limits,
                                  AcceleratorRequest& request);
     std::uint64_t frame_bytes() const;
-    /// Geometry, SH, workspace, frame buffer.
+    /// The regions of geometry, SH, workspace and frame buffer.
     std::vector<MemoryGateway::Region> regions() const;
 };
 

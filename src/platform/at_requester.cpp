@@ -25,7 +25,7 @@ AtRequester::AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator
     dont_initialize();
 }
 
-// What is still under way then must not free the extension of a port.
+// Transactions that are still in flight then must not free the extension of a port.
 AtRequester::~AtRequester() {
     for (const auto& transaction : transactions_) {
         transaction->set_extension<TimingOnly>(nullptr);

@@ -12,12 +12,12 @@
 namespace degs {
 
 /// Blocking accesses of several processes over one socket, with the four phases of the TLM-2.0 base
-/// protocol: what an AT target needs that has no b_transport().
+/// protocol, for AT targets without b_transport().
 ///
-/// BEGIN_REQ goes out at the date of the access without annotated delay, one at a time: the next
-/// one when END_REQ, an answer or early completion has ended the request phase. The oldest date
-/// goes first, equal dates by rank. At most `outstanding` transactions are under way. Answers may
-/// come in any order and with any kind of ending; END_RESP is sent at the date of the answer.
+/// BEGIN_REQ goes out at the date of the access without annotated delay, one at a time. The next one
+/// follows when END_REQ, an answer or early completion has ended the request phase. The oldest date
+/// goes first; ties are broken by rank. At most `outstanding` transactions are in flight. Answers
+/// may come in any order and with any kind of ending; END_RESP is sent at the date of the answer.
 ///
 /// Not modelled: time of the phases on this side.
 class AtRequester : public sc_core::sc_module, private tlm::tlm_mm_interface {
@@ -33,14 +33,14 @@ public:
                 unsigned outstanding);
     ~AtRequester() override;
 
-    /// From a thread, as b_transport(): returns when all pieces are answered. The response is the
-    /// first that is no success, in the order of the pieces.
+    /// Must be called from a thread, as b_transport(); returns when all pieces are answered. The
+    /// response is that of the first piece that failed, in the order of the pieces, or OK.
     void transport(unsigned rank, Payload& access, const std::vector<Piece>& pieces,
                    sc_core::sc_time& delay);
     tlm::tlm_sync_enum backward(Payload& payload, tlm::tlm_phase& phase, sc_core::sc_time& delay);
 
     std::uint64_t transactions() const { return sequence_; }
-    /// Most of them under way at a time.
+    /// Largest number of transactions in flight at a time so far.
     unsigned most_under_way() const { return most_under_way_; }
 
 private:

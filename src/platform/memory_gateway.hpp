@@ -18,20 +18,20 @@ namespace degs {
 
 /// All streams of an accelerator through one TLM-2.0 initiator socket, for memory that belongs to a
 /// platform: every access moves real bytes, and the platform arbitrates. An access that the
-/// platform refuses is remembered and then counts as done: an accelerator ends its frame and says
-/// so in a register, it does not end the simulation.
+/// platform refuses is counted as an error and then treated as done: an accelerator ends its frame
+/// and reports the error in a register, and the simulation goes on.
 class MemoryGateway : public sc_core::sc_module, public MainMemory {
 public:
     /// `Lt`: one b_transport() per access, whose annotated delay lets a stream have several
-    /// accesses under way. `At`: four phases, for memories without b_transport(); a stream then
+    /// accesses in flight. `At`: four phases, for memories without b_transport(); a stream then
     /// waits for each access, which makes frames several times longer (docs/accelerator.md).
     enum class Transport { Lt, At };
     struct Options {
         Transport transport = Transport::Lt;
-        /// AT: transactions of all streams under way at a time; at least 1.
+        /// AT: transactions of all streams in flight at a time; at least 1.
         unsigned outstanding = 64;
-        /// AT: accesses are split at multiples of this and the pieces overlap; 0 disables
-        /// splitting.
+        /// AT: accesses are split at multiples of this and the pieces
+        /// overlap; 0 disables splitting.
         std::uint64_t piece_bytes = 0;
     };
 
@@ -41,8 +41,8 @@ public:
     /// Throws std::invalid_argument if no transaction may be outstanding.
     MemoryGateway(const sc_core::sc_module_name& name, const Options& options);
 
-    /// Called with what is read by streams that carry the scene, see MemoryPort::observe_reads().
-    /// Before connect().
+    /// Is called with the bytes that streams of the scene read, see
+    /// MemoryPort::observe_reads(). Set it before connect().
     using Observer = MemoryPort::Observer;
     void observe_scene(Observer observer) { scene_ = std::move(observer); }
 
@@ -56,16 +56,16 @@ public:
     struct Region {
         std::uint64_t begin = 0, bytes = 0;
     };
-    /// An access that starts in a region and is longer than what is left of it goes on at the
-    /// region's start: blocks fetch scattered records as one run of as many bytes, which may be
-    /// longer than a small array, and must not touch what is not theirs. At any time.
+    /// An access that starts in a region and passes its end continues at the start of the region:
+    /// blocks fetch scattered records as one run of as many bytes, which may be longer than a small
+    /// array, and must not touch other regions. May be called at any time.
     void set_regions(std::vector<Region> regions) { regions_ = std::move(regions); }
 
-    /// Of all streams.
+    /// Counters of all streams.
     MemoryTraffic total() const;
 
-    /// An access that belongs to no stream: is not counted, not kept in the regions, and keeps its
-    /// response. From a thread, like debug().
+    /// Performs an access that belongs to no stream. It is not counted, not confined to the
+    /// regions, and keeps its response. Must be called from a thread, like debug().
     void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
     unsigned int debug(tlm::tlm_generic_payload& payload) { return out->transport_dbg(payload); }
 

@@ -22,17 +22,17 @@ public:
         std::uint64_t sh_bytes() const;
     };
 
-    /// Reads both arrays: by debug transport, or, where the memory has none, by transactions whose
-    /// time passes. The answer of the first transaction that failed, else TLM_OK_RESPONSE. From a
-    /// process.
+    /// Reads both arrays by debug transport or, where the memory has none, by
+    /// transactions whose time passes. Returns the first failing response, or OK. Must
+    /// be called from a process.
     tlm::tlm_response_status load(MemoryGateway& memory, const Place& place);
 
-    /// What the bytes mean. A Gaussian that no renderer can draw (see sanitize()) stays, without
-    /// opacity, so that the numbers of the others are those of their records.
+    /// Decodes the bytes. A Gaussian that cannot be drawn (see sanitize()) stays, without opacity,
+    /// so that the indices of the others are those of their records.
     GaussianCloud cloud(std::uint32_t& dropped) const;
 
-    /// Are these the bytes of the copy? Of an access that starts in an array; one that is longer
-    /// than the rest of the array goes on at its start, see MemoryGateway::set_regions().
+    /// True if these are the bytes of the copy. The access starts in an array; one that is longer
+    /// than the rest of the array continues at its start, see MemoryGateway::set_regions().
     bool matches(std::uint64_t address, const unsigned char* data, std::uint64_t bytes) const;
 
 private:
@@ -40,7 +40,7 @@ private:
     std::vector<unsigned char> geometry_, sh_;
 };
 
-/// The bytes of a cloud as above, for who puts a scene into memory. Means are rounded to float.
+/// Encodes a cloud as these bytes, for a program that puts a scene into memory. Means are rounded to float.
 void encode_scene(const GaussianCloud& cloud, std::vector<unsigned char>& geometry,
                   std::vector<unsigned char>& sh);
 
