@@ -13,8 +13,8 @@ namespace {
 /// Simulated time between two looks at the progress; some 10 ms of host time.
 constexpr Cycle kCyclesPerSlice = 10000;
 
-/// sc_start(t) executes the same events in the same order as sc_start(), so that looking in between
-/// changes nothing.
+/// sc_start(t) executes the same events in the same order as sc_start(), so that looking
+/// in between changes nothing.
 void run_kernel(const RenderEngine& engine, const ClockDomain& clock, std::size_t tiles,
                 Progress& progress) {
     do {

@@ -8,16 +8,16 @@
 
 namespace degs::sim {
 
-/// Builds the accelerator, renders the frames one after the other, checks the laws of conservation.
-/// Once per process: SystemC elaborates once. All workloads must have the tile size and tile mode
-/// that the accelerator asks for. Throws std::logic_error if the model is broken.
+/// Builds the accelerator, renders the frames one after the other and checks the invariants. May be
+/// called once per process, because SystemC elaborates once. All workloads must have the tile size
+/// and tile mode that the accelerator asks for. Throws std::logic_error if the model is broken.
 AcceleratorResult run_accelerator(const AcceleratorConfig& config,
                                   const std::vector<const FrameWorkload*>& frames,
                                   Fidelity fidelity, const BuildOptions& options,
                                   Progress& progress);
 
-/// Throws std::logic_error unless all tiles are done (else the model is deadlocked), every law
-/// holds and the slots fill PEs x window.
+/// Throws std::logic_error unless all tiles are done (else the model is deadlocked), every
+/// invariant holds and the slots fill PEs x window.
 void check_result(const AcceleratorResult& result);
 
 } // namespace degs::sim

@@ -21,7 +21,7 @@ struct ChildJob {
     std::function<std::string()> work; ///< called in the child; what it returns comes back
 };
 
-/// What became of a job: its output, or why there is none.
+/// The result of a job: its output, or the reason why it has none.
 struct ChildOutcome {
     std::string output;
     std::optional<Failure> failure; ///< its sentence begins with the name of the job
@@ -43,8 +43,8 @@ struct ChildWatcher {
 /// that had not ended get no call of `ended`. Between calls they act as elsewhere.
 class ChildPool {
 public:
-    /// At most `at_once` (at least 1) children at a time; `watcher` is called during the calls
-    /// below.
+    /// At most `at_once` (at least 1) children at a time; `watcher` is
+    /// called during the calls below.
     ChildPool(int at_once, ChildWatcher watcher);
     ~ChildPool(); ///< kills the children
     ChildPool(const ChildPool&) = delete;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// degs soc: the accelerator on a platform where others use the memory, too.
+// degs soc: the accelerator on a platform where others use the memory as well.
 #include <memory>
 
 #include <nlohmann/json.hpp>

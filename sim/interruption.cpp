@@ -27,8 +27,8 @@ void write_text(const char* text) {
     (void)written; // nobody is left to be told
 }
 
-/// Calls only what a signal handler may. SA_RESETHAND has put the default back, which acts when
-/// this returns.
+/// Calls only what a signal handler may. SA_RESETHAND has put the default back,
+/// which acts when this returns.
 void speak(int signal) {
     write_text(before);
     write_text(sentence.load());

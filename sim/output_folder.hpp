@@ -8,7 +8,7 @@
 
 namespace degs::sim {
 
-/// The folder that receives results. Made, and tried out, before anything long starts.
+/// The folder that receives results. It is created, and writing to it is tried, before anything long starts.
 class OutputFolder {
 public:
     /// Creates the folder; throws InputError if that fails, if nothing can be written there, or if
@@ -16,7 +16,7 @@ public:
     OutputFolder(std::string folder, const std::vector<std::string>& files);
 
     std::string path(const std::string& file) const;
-    /// Whole or not at all.
+    /// Writes the file whole or not at all.
     void write_text(const std::string& file, const std::string& text) const;
     /// Likewise, as json_text().
     void write_json(const std::string& file, const nlohmann::ordered_json& value) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes separated by commas, although the names of synthetic scenes have some of their own.
+// Scenes separated by commas; the names of synthetic scenes may contain commas as well.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace degs::sim {
 
 /// Cuts every word at its commas, but neither an existing file's name nor in front of a setting of
 /// a synthetic scene: "a.ply,synthetic:object,seed=2,b.ply" are three. Empty names are kept, so
-/// that loading them tells.
+/// that loading them reports the mistake.
 std::vector<std::string> split_scenes(const std::vector<std::string>& words);
 
 } // namespace degs::sim

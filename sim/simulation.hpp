@@ -23,7 +23,7 @@ struct RunRequest {
     std::vector<Camera> following; ///< frames after the view's own, of the same size
 };
 
-/// What stays of a scene when its Gaussians have become a workload.
+/// The facts of a scene that stay when its Gaussians have become a workload.
 struct SceneFacts {
     std::string name, source;
     std::uint64_t gaussians = 0;
@@ -72,8 +72,8 @@ WorkloadFacts facts_of(const FrameWorkload& workload);
 /// Largest resident set of this process so far.
 std::uint64_t peak_rss_bytes();
 
-/// The frames of `cameras` as the accelerator wants them, projected in its numbers; adds the host
-/// seconds to `seconds`.
+/// The frames of `cameras` with the tiles of the accelerator, projected in its numbers; adds the
+/// host seconds to `seconds`.
 std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds);
@@ -81,16 +81,16 @@ Reference make_reference(const FrameWorkload& workload);
 /// The same for a frame in any format: what was not projected in double is projected again, and the
 /// host seconds of that are added to `seconds`.
 Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame, double& seconds);
-/// Fills in what a comparison of the first frame with its reference says.
+/// Compares the first frame with its reference and fills in the result.
 void judge(RunResult& result, const Reference& reference);
 
 /// Runs the accelerator on frames that were made for it (at least one). Facts of the scene, host
 /// times of what came before and the comparison are the caller's. Throws std::logic_error if the
-/// model breaks its laws. Once per process.
+/// model violates an invariant. May be called once per process.
 RunResult run_frames(const RunRequest& request, const std::vector<const FrameWorkload*>& frames);
 
-/// All of it: frames, run, reference. Throws InputError for mistakes of the user, std::logic_error
-/// if the model breaks its laws. `view` loses its Gaussians as soon as they are projected.
+/// Makes frames, runs them and renders the reference. Throws InputError for mistakes of the user,
+/// std::logic_error if an invariant is violated. `view` loses its Gaussians once projected.
 RunResult simulate(const RunRequest& request, View view);
 
 } // namespace degs::sim

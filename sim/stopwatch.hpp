@@ -5,7 +5,7 @@
 
 namespace degs::sim {
 
-/// Host time since it was made.
+/// Measures host time since its construction.
 class Stopwatch {
 public:
     double seconds() const {

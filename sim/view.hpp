@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is rendered, from where and how large, for all commands with a scene.
+// The scene, the camera and the image size, for all commands with a scene.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the numbers of a data path are from the truth: rows of results, as table and as JSON.
+// The error of a data path's numbers against double precision: rows of results, as table and as JSON.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace degs::sim {
 
-/// The pixel with the largest error of a channel, and what blame_pixel says of it.
+/// The pixel with the largest error of a channel, and its cause as blame_pixel finds it.
 struct WorstPixel {
     int x = 0, y = 0;
     double error = 0;           ///< of the pixel's replay
@@ -25,8 +25,8 @@ struct WorstPixel {
     std::string flip;           ///< "stop rule", "span ends" or empty
 };
 
-/// One number set on one scene, or on one kind of single Gaussians. What a kind of measurement does
-/// not have is empty, and null in the file.
+/// One number set on one scene, or on one kind of single Gaussians. Values that a kind of
+/// measurement does not have are empty, and null in the file.
 struct AccuracyRow {
     std::string scene;           ///< or "isotropic-3", "random"
     std::optional<int> camera;   ///< position in the scene's list
@@ -35,7 +35,7 @@ struct AccuracyRow {
     double alpha_error_mean = 0; ///< absolute, against fp64, over all pixels
     double alpha_error_max = 0;  ///< over pixels that both draw
     std::optional<double> psnr_db, ssim, flip, max_abs_error; ///< of images
-    std::uint64_t nonfinite = 0;                              ///< values that are no number
+    std::uint64_t nonfinite = 0;                              ///< values that are NaN
 
     // Images only.
     bool identical = false;      ///< to the reference; psnr_db is empty then

@@ -21,10 +21,10 @@ struct AccuracyNumbers {
 };
 
 /// "tuned" or, with parts changed, "tuned:projection=fp64:alpha=uq1.15", with the span ends of that
-/// name; with the set's own if it is empty. InputError names what is wrong and what there is.
+/// name; with the set's own if it is empty. Throws InputError with the mistake and the allowed names.
 AccuracyNumbers numbers_of(const std::string& text, const std::string& span_ends);
 
-/// In which a set's frames are projected; a hard case has its own near plane.
+/// Options with which the frames of a set are projected; a hard case has its own near plane.
 ProjectionOptions projected_in(const NumberSet& set, ProjectionOptions options = {});
 
 } // namespace degs::sim

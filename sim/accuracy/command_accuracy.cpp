@@ -80,7 +80,7 @@ void check_scene(const std::string& scene) {
 SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
     SceneAccuracyRequest request;
     for (const std::string& name : options.numbers) {
-        numbers_of(name, options.span_ends); // a mistake is told before a scene loads
+        numbers_of(name, options.span_ends); // reports a mistake before a scene loads
     }
     for (const std::string& name : options.resolutions) {
         resolution_height(name);

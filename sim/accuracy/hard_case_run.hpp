@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hard cases through the reference and the data path of every number set.
+// Runs the hard cases through the reference and the data path of every number set.
 #pragma once
 
 #include <string>
@@ -37,15 +37,15 @@ struct HardResult {
     std::vector<std::string> problems; ///< before a number set comes in: counts, order, files
     std::vector<std::string> notes;    ///< counted flips
     std::vector<HardMeasure> measures; ///< by resolution, then by set
-    /// What is not as expected: nothing, if the suite holds.
+    /// The expectations that do not hold; empty if all do.
     std::vector<std::string> failures() const;
 };
 
-/// `folder` is for files that are written and removed. Throws InputError for names that are not
-/// known.
+/// `folder` is for files that are written and removed. Throws InputError for
+/// names that are not known.
 std::vector<HardResult> run_hard_cases(const HardCaseRequest& request, const std::string& folder);
 
-/// For terminals, with the sentences of what does not hold.
+/// Table for terminals, with a sentence for every expectation that does not hold.
 std::string hard_case_table(const std::vector<HardResult>& results);
 /// The table of docs/numerical-stability.md.
 std::string hard_case_markdown(const std::vector<HardResult>& results);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `degs compare` is asked to compare, checked before anything long starts.
+// The request of `degs compare`, checked before anything long starts.
 #pragma once
 
 #include <optional>
@@ -33,11 +33,11 @@ struct CompareRequest {
     int jobs = 1; ///< simulations at a time
 };
 
-/// Loads configurations, each written as FILE or NAME=FILE; without a name it is called like the
-/// file without folder and extension. A file with a list `points` is a study: every point is a
-/// configuration, called by its key `name`. An override is "path=value" for all or
-/// "NAME:path=value" for one. Throws InputError for a name that is empty, given twice or not known,
-/// else InputError.
+/// Loads configurations, each written as FILE or NAME=FILE; without a name it is called like
+/// the file without folder and extension. A file with a list `points` is a study: every
+/// point is a configuration, called by its key `name`. An override is "path=value" for all
+/// or "NAME:path=value" for one. Throws InputError for a name that is empty, given twice or
+/// not known, else InputError.
 std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
                                       const std::vector<std::string>& overrides);
 
@@ -47,7 +47,7 @@ std::optional<std::vector<int>> parse_cameras(const std::string& text);
 /// "1080p,4k". InputError for an unknown name and one given twice.
 std::vector<ImageSize> parse_resolutions(const std::string& text);
 
-/// InputError for a scene without a name and one that is there twice.
+/// Throws InputError for a scene without a name and for one that is given twice.
 void check_scenes(const std::vector<std::string>& scenes);
 
 } // namespace degs::sim

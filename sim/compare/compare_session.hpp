@@ -19,13 +19,13 @@ namespace degs::sim {
 
 struct SharedView;
 
-/// Names of what a comparison writes into its folder.
+/// Names of the files that a comparison writes into its folder.
 std::vector<std::string> comparison_files();
 
-/// Runs all configurations on all views, each run in a process of its own, as many at a time as the
-/// request allows; what this process makes for them counts as one. Frames, reference images and
-/// scenes are made once and shared by all runs that want them. What has been found so far is on
-/// disk after every run.
+/// Runs all configurations on all views, each run in a process of its own, as many at a time
+/// as the request allows; what this process makes for them counts as one. Frames, reference
+/// images and scenes are made once and shared by all runs that want them. Results are written
+/// to the folder after every run.
 class CompareSession {
 public:
     CompareSession(const CompareRequest& request, const OutputFolder& out);
@@ -34,9 +34,9 @@ public:
     CompareSession& operator=(const CompareSession&) = delete;
 
     /// Returns when all is done or Ctrl-C has come. A mistake in one scene, camera or configuration
-    /// costs the views or runs concerned; the comparison and failure() tell of it.
+    /// costs the views or runs concerned; the comparison and failure() report it.
     Comparison run();
-    /// What kept the comparison from being complete.
+    /// The failure that kept the comparison from being complete.
     std::optional<Failure> failure() const;
 
 private:

@@ -17,7 +17,7 @@ constexpr int kComparisonVersion = 1;
 std::string comparison_text(const Comparison& comparison);
 /// compare.json
 nlohmann::ordered_json comparison_json(const Comparison& comparison);
-/// compare.csv: a row per run, numbers in full, nothing where there is no number.
+/// compare.csv: a row per run, numbers in full; a cell without a number is empty.
 std::string comparison_csv(const Comparison& comparison);
 
 /// slots.svg; empty if no run has blended anything.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What degs memory found out, as JSON and as words.
+// Results of degs memory, as JSON and as text.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ struct MemoryFacts {
     double wall_s = 0;
 };
 
-/// Latency is that of reads where there are any: a posted write is answered by the queue.
+/// Latency of reads, or of writes if there are no reads: a posted write is answered by the queue.
 const LatencyHistogram& latency_of(const TrafficResult& result);
 LoadPoint point_of(const TrafficResult& result, const dram::Config& memory);
 nlohmann::ordered_json memory_json(const MemoryFacts& facts);

@@ -15,7 +15,7 @@
 
 namespace degs::sim {
 
-/// What a measurement saw between its warm-up and its end.
+/// Results of a measurement between its warm-up and its end.
 struct TrafficResult {
     double offered = 0; ///< share of the peak; 0: as much as the memory takes
     double seconds = 0; ///< simulated
@@ -28,13 +28,13 @@ struct TrafficResult {
     double gb_per_s() const { return static_cast<double>(bytes) / seconds / 1e9; }
 };
 
-/// Requests under way per channel that saturate it: what fills the read queue, and those whose data
-/// are on their way back.
+/// Requests in flight per channel that saturate it: those that fill the read queue, and those whose
+/// data are on their way back.
 int traffic_window(const dram::Config& config, int request_bytes);
 
 /// AT initiators for a memory, one per channel, so that every channel has its own line of requests
-/// and none waits for another's queue. In a closed loop each keeps traffic_window() requests under
-/// way, a little more than the read queue and the data bus hold. With an offered load requests come
+/// and none waits for another's queue. In a closed loop each keeps traffic_window() requests in
+/// flight, a few more than the read queue and the data bus hold. With an offered load requests come
 /// at random (Poisson), and latency counts from that date, whether or not the line is free.
 class MemoryTraffic : public sc_core::sc_module {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pictures with many lines have in common.
+// The common style of pictures with many lines.
 #pragma once
 
 #include <algorithm>

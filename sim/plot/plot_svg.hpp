@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The two pictures of a comparison and that of a memory, 800 px wide, in colours that people with
-// any colour vision can tell apart (M. Okabe, K. Ito, Color Universal Design, 2008).
+// any colour vision can distinguish (M. Okabe, K. Ito, Color Universal Design, 2008).
 #pragma once
 
 #include <array>

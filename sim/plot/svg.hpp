@@ -15,7 +15,7 @@ struct TextStyle {
     bool bold = false;
 };
 
-/// Shapes that tell lines apart without colour.
+/// Shapes that distinguish lines without colour.
 enum class Marker { Circle, Square, Triangle, Diamond };
 
 /// Coordinates in px from the top left; later shapes lie on earlier ones.
@@ -30,14 +30,14 @@ public:
     /// (x, y) is the anchor on the base line.
     void text(double x, double y, const std::string& words, const TextStyle& style = {});
 
-    /// The whole file; `title` is what a screen reader says.
+    /// Returns the whole file; a screen reader says `title`.
     std::string document(double width, double height, const std::string& title) const;
 
 private:
     std::string body_;
 };
 
-/// What `words` will measure at most in a usual sans-serif font, px; fonts are not looked up.
+/// Upper bound of the width of `words` in a usual sans-serif font, px; fonts are not looked up.
 double text_width(const std::string& words, double size, bool bold = false);
 /// The longest beginning of `words` that fits, with an ellipsis if something is missing.
 std::string fitting(const std::string& words, double size, double width);

@@ -13,9 +13,9 @@ namespace degs::sim {
 
 /// Routes LT and debug transactions of N initiators by address to windows. A window is a target
 /// with a socket of its own for every initiator (a memory that arbitrates by itself) or one for
-/// all. The target sees addresses relative to its window; what no window holds as a whole is an
-/// address error. Not modelled: time. The bus has no latency and no bandwidth, so all waiting is
-/// the target's.
+/// all. The target sees addresses relative to its window; an access that no window holds as a whole
+/// is an address error. Not modelled: time. The bus has no latency and no limit of bandwidth, so
+/// all waiting happens in the target.
 class AddressBus : public sc_core::sc_module {
 public:
     struct Window {
@@ -29,8 +29,8 @@ public:
     AddressBus(const sc_core::sc_module_name& name, std::size_t initiators,
                const std::vector<Window>& windows);
 
-    /// Of `out`: where an initiator's transactions to a window leave; initiator 0 if it has one
-    /// only.
+    /// Index into `out` of the socket for an initiator's transactions to a window; initiator 0
+    /// if the window has only one.
     std::size_t socket_of(std::size_t window, std::size_t initiator = 0) const {
         return first_[window] + (windows_[window].per_initiator ? initiator : 0);
     }

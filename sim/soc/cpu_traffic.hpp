@@ -11,7 +11,7 @@
 
 namespace degs::sim {
 
-/// Memory traffic of one processor core: cache lines at an even rate, as many under way as its
+/// Memory traffic of one processor core: cache lines at an even rate, as many in flight as its
 /// cache allows. When memory is slower than the rate the core falls behind and does not catch up.
 /// Data have no values and lines no owner: two cores never wait for each other.
 class CpuTraffic : public sc_core::sc_module {
@@ -30,7 +30,7 @@ public:
 
     CpuTraffic(const sc_core::sc_module_name& name, const Config& config);
 
-    /// From now on, 1e9 B/s; 0: none.
+    /// Sets the rate from now on, 1e9 B/s; 0 stops the traffic.
     void set_rate(double gb_per_s);
     std::uint64_t bytes_moved() const { return bytes_moved_; }
     std::uint64_t errors() const { return errors_; }

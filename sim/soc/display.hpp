@@ -29,7 +29,7 @@ public:
 
     Display(const sc_core::sc_module_name& name, const Config& config);
 
-    /// The buffer to read from the next picture on; before the first there is no picture.
+    /// Sets the buffer to read from the next picture on. Before the first call nothing is shown.
     void show(std::uint64_t frame_buffer);
     const Stats& stats() const { return stats_; }
 

@@ -143,7 +143,7 @@ AcceleratorError SocHost::start_and_wait() {
     return static_cast<AcceleratorError>(read(Register::ErrorCode));
 }
 
-// A frame without a workspace ends at once and tells what it needs.
+// A frame without a workspace ends at once and reports the bytes that it needs.
 void SocHost::reserve_memory() {
     const auto bytes =
         static_cast<std::uint64_t>(camera_.width) * static_cast<std::uint64_t>(camera_.height) * 4;

@@ -16,7 +16,7 @@
 
 namespace degs::sim {
 
-/// What the driver of the accelerator saw of a frame.
+/// A frame as the driver of the accelerator saw it.
 struct SocFrame {
     std::uint64_t cycles = 0, load_cycles = 0;
     std::uint64_t bytes_read = 0, bytes_written = 0, fragments = 0;
@@ -26,8 +26,8 @@ struct SocFrame {
 
 /// The processor that drives the accelerator, as a program on it would: puts a scene into memory,
 /// writes registers, sleeps until the interrupt. Scene and pixels go by debug transport, because
-/// how they get there is not what is measured. Throws std::runtime_error if a register access is
-/// refused or a frame ends with an error.
+/// their transfer is not measured. Throws std::runtime_error if a register access is refused or a
+/// frame ends with an error.
 class SocHost : public sc_core::sc_module {
 public:
     tlm_utils::simple_initiator_socket<SocHost> out;
@@ -37,7 +37,7 @@ public:
     SocHost(const sc_core::sc_module_name& name, std::uint64_t registers, std::uint64_t memory,
             std::uint64_t bytes);
 
-    /// What the processor does; once, before the simulation starts.
+    /// The program of the processor; set once, before the simulation starts.
     std::function<void(SocHost&)> program;
     bool finished() const { return finished_; }
 

@@ -28,7 +28,7 @@ public:
                 const Camera& camera);
 
     SocHost& host() { return *host_; }
-    /// Shows nothing until it is told to.
+    /// The display, which shows nothing until show() is called.
     Display& display() { return *display_; }
     void set_load(double gb_per_s);
     std::uint64_t cpu_bytes() const;

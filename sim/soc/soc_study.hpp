@@ -16,7 +16,7 @@
 
 namespace degs::sim {
 
-/// What the platform is made of, and what competes with the accelerator.
+/// The parts of the platform, and the load that competes with the accelerator.
 struct SocRequest {
     RunConfig config;
     dram::Config memory;

@@ -9,9 +9,9 @@
 
 namespace degs::sim {
 
-/// One line on stderr that tells how far a long step is, from its third second on and only on a
-/// terminal; gone when the step ends. A thread of its own prints it, so that steps that cannot be
-/// asked (loading, the reference render) have one too.
+/// One line on stderr that shows the progress of a long step, from its third second on and only on
+/// a terminal; it disappears when the step ends. A thread of its own prints it, so that steps that
+/// cannot be asked (loading, the reference render) have one too.
 class Progress {
 public:
     explicit Progress(std::string step);
@@ -22,8 +22,8 @@ public:
     /// Share of the step that is done, 0 .. 1.
     void done(double share) { share_ = share; }
 
-    /// Those that are made from now on print nothing; for processes whose parent tells how far it
-    /// is.
+    /// Objects made from now on print nothing, for processes whose
+    /// parent shows the progress.
     static void silence();
 
 private:
@@ -37,8 +37,8 @@ private:
     std::thread watcher_;
 };
 
-/// A line on stderr that its owner keeps up to date, on a terminal only; gone when it is destroyed.
-/// Where there is no terminal, lines of their own can be noted.
+/// A line on stderr that its owner keeps up to date, on a terminal only; it disappears with its
+/// owner. Where there is no terminal, lines of their own can be noted.
 class StatusLine {
 public:
     StatusLine();

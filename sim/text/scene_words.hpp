@@ -7,9 +7,9 @@
 
 namespace degs::sim {
 
-/// What a scene is made of, and its cameras.
+/// Describes a scene and its cameras.
 std::string scene_info(const Scene& scene);
-/// What a view of it costs; renders the reference image once.
+/// Describes the work of a view; renders the reference image once.
 std::string view_info(const Scene& scene, const Camera& camera);
 
 } // namespace degs::sim

@@ -18,7 +18,7 @@ std::string count_words(std::uint64_t count, const char* one, const char* many) 
     return grouped(count) + " " + (count == 1 ? one : many);
 }
 
-/// Enough digits to tell how far it is from 1: 0.99999873 -> "0.9999987".
+/// Enough digits to show its distance from 1: 0.99999873 -> "0.9999987".
 std::string similarity(double ssim) {
     const double gap = std::abs(1.0 - ssim);
     const int decimals = gap > 0 ? static_cast<int>(2 - std::floor(std::log10(gap))) : 3;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person reads after a run. Text only; the commands print it.
+// The text that a person reads after a run. The commands print it.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace degs::sim {
 
-/// Lines of a block: a name and what it says.
+/// Lines of a block: a name and its text.
 using Block = std::vector<std::pair<std::string, std::string>>;
 /// The names padded to one column; what they say is one line each, whatever it contains.
 std::string layout(const Block& block);
 
 /// The summary of a run; `image_path` is where the image went.
 std::string summary(const RunResult& result, const std::string& image_path);
-/// --explain: what the model left out and why, one sentence per line.
+/// Text of --explain: what the model left out and why, one sentence per line.
 std::string explanation(const RunResult& result);
 /// "flowers · 210 422 Gaussians, SH 2"
 std::string scene_words(const SceneFacts& scene);
