@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// GoogleTest inside sc_main: tests of the module kit need the SystemC kernel, the others do not
-// mind.
+// GoogleTest inside sc_main: tests of the module kit need the SystemC
+// kernel, the others do not mind.
 #include <cstdlib>
 
 #include <gtest/gtest.h>
 #include <systemc>
 
 namespace {
-/// SystemC prints its banner before sc_main; set early, it spares builds (test discovery) and
-/// tests.
+/// SystemC prints its banner before sc_main; set early, it spares builds
+/// (test discovery) and tests.
 const int kNoBanner = ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
 } // namespace
 

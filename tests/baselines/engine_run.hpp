@@ -32,7 +32,7 @@ public:
         return result;
     }
 
-    /// The laws that the engine states itself, slots by window, tiles.
+    /// The invariants that the engine states itself, slots by window, tiles.
     void expect_sound() const {
         EXPECT_EQ(engine_->finished_tiles(), job_.tiles.size());
         expect_laws(result(), pes_);

@@ -7,8 +7,8 @@
 
 namespace degs::test {
 
-/// A GBU of `engines` engines for tiles of `tile` px in double precision; buffers as large as
-/// needed.
+/// A GBU of `engines` engines for tiles of `tile` px in double precision;
+/// buffers as large as needed.
 inline GbuConfig gbu_of(int tile, int engines, int row_pes) {
     GbuConfig c;
     c.pipeline.numbers = Arithmetic::Fp64;
@@ -49,7 +49,7 @@ inline void expect_same_statistics(const GbuRun& a, const GbuRun& b) {
     a.signature().expect_same(b.signature());
 }
 
-/// Every tile is done once, every law holds; rows are bound to PEs, so nothing conflicts.
+/// Every tile is done once, every invariant holds; rows are bound to PEs, so nothing conflicts.
 inline void expect_sound(const GbuRun& run) {
     const AcceleratorResult result = run.result();
     EXPECT_EQ(result.tiles, run.job().tiles.size());

@@ -62,7 +62,7 @@ inline void expect_same(const GccRun& a, const GccRun& b) {
     }
 }
 
-/// Every view is done once, every law holds.
+/// Every view is done once, every invariant holds.
 inline void expect_sound(const GccRun& run) {
     EXPECT_EQ(run.result().tiles, run.job().tiles.size());
     expect_laws(run.result(), run.gcc().config().pes());

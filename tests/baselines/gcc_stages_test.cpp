@@ -38,9 +38,9 @@ TEST(GccGrouping, AFrameIsGroupedWhenItsListsAreInMemory) {
     EXPECT_EQ(unit.stats().busy, 5U * 25);
     EXPECT_EQ(unit.stats().gaussians, 500U);
     EXPECT_EQ(unit.stats().entries_written, 500U);
-    // Means of four chunks at 200; the fifth is asked for when the first is taken, so it is there
-    // at 400, takes 25 cycles, and its entries are in memory 200 later. An access takes a cycle or
-    // so.
+    // Means of four chunks at 200; the fifth is asked for when the first is taken, so it
+    // is there at 400, takes 25 cycles, and its entries are in memory 200 later. An
+    // access takes a cycle or so.
     EXPECT_GE(unit.frames_grouped()[0], 400U + 25 + 200);
     EXPECT_LE(unit.frames_grouped()[0], 400U + 25 + 200 + 2);
     EXPECT_EQ(got[0].first, unit.frames_grouped()[0] + 1);

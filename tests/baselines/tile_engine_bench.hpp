@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tile engines of GBU between scripts: chunks come at chosen dates, contexts go back at chosen
-// dates.
+// Tile engines of GBU between scripts: chunks come at chosen dates,
+// contexts go back at chosen dates.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dates of one tile engine, from the rule: a splat per cycle, a pixel per cycle and Row PE. An
-// entry pushed in cycle t is loaded in t + 1 at the earliest; an entry of n pixels takes n + 1
-// slots.
+// Dates of one tile engine, from the rule: a splat per cycle, a pixel per cycle and Row
+// PE. An entry pushed in cycle t is loaded in t + 1 at the earliest; an entry of n
+// pixels takes n + 1 slots.
 #include "tests/baselines/tile_engine_bench.hpp"
 
 namespace degs {

@@ -237,7 +237,7 @@ TEST(Lpddr5Channel, ClosedPageClosesBehindTheLastAccess) {
     EXPECT_EQ(bench.channel.stats().commands[static_cast<std::size_t>(Command::Pre)], 0U);
 }
 
-// A copy tells what will happen and leaves the channel as it is.
+// A copy shows what will happen and leaves the channel as it is.
 TEST(Lpddr5Channel, CopiesPredict) {
     ChannelBench bench(plain());
     std::mt19937 random(8);

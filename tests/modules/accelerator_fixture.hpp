@@ -98,7 +98,7 @@ inline bool same_bytes(const Image& a, const Image& b) {
            same(a.fragments, b.fragments);
 }
 
-/// Every law that the engine states itself; the slots fill PEs x window.
+/// Every invariant that the engine states itself; the slots fill PEs x window.
 inline void expect_laws(const AcceleratorResult& result, int pes) {
     EXPECT_EQ(result.slots.total(), result.window.cycles() * static_cast<std::uint64_t>(pes));
     EXPECT_EQ(result.hazards, 0U);

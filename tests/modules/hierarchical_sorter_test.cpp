@@ -90,9 +90,9 @@ INSTANTIATE_TEST_SUITE_P(Lists, HierarchicalSorting,
                                            ChunkSortCase{200, 256, 0}),
                          ::testing::PrintToStringParamName());
 
-// 200 keys where 50 fit: two levels (100, 50) read and write everything, the last two happen in the
-// buffer; the first level's read is the loader's, each of the 16 chunks of 12.5 .. 13 is read
-// again.
+// 200 keys where 50 fit: two levels (100, 50) read and write everything, the last two
+// happen in the buffer; the first level's read is the loader's, each of the 16 chunks of
+// 12.5 .. 13 is read again.
 TEST(HierarchicalSorter, LongListsGoThroughMemory) {
     SorterBench units(200, small(16), 50);
     units.bench.drain(units.sorted);
@@ -115,7 +115,7 @@ TEST(HierarchicalSorter, ChunksOfACancelledTileAreNotSorted) {
     sc_core::sc_start();
     ASSERT_EQ(got.size(), 4U);
     EXPECT_EQ(got[1].second.end, 32U);
-    EXPECT_EQ(got[2].second.end, 200U); // the fetcher is told that nothing follows
+    EXPECT_EQ(got[2].second.end, 200U); // the fetcher gets the end of the list
     EXPECT_EQ(units.sorter.stats().keys_sorted, 32U);
     EXPECT_EQ(units.sorter.stats().keys_cancelled, 168U);
 }

@@ -132,7 +132,7 @@ inline void expect_same_statistics(const DegsRun& a, const DegsRun& b) {
     a.signature().expect_same(b.signature());
 }
 
-/// Conservation laws of every finished run.
+/// Invariants of every finished run.
 inline void expect_sound(const DegsRun& run) {
     const Degs& degs = run.degs();
     const SlotAccount slots = run.slots();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slicing Units, Span Units, Tile Monitor and Pixel Buffer, one at a time: dates against closed
-// formulas.
+// Slicing Units, Span Units, Tile Monitor and Pixel Buffer, one at a time:
+// dates against closed formulas.
 #include "modules/array/pixel_buffer.hpp"
 #include "modules/span_engine/gaussian_slicing_unit.hpp"
 #include "modules/span_engine/span_unit.hpp"

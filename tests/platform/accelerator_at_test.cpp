@@ -41,7 +41,7 @@ protected:
     DegsConfig config;
     std::uint64_t loaded = 0;
 
-    /// A script that renders one frame and tells its cycles.
+    /// A script that renders one frame and returns its cycles.
     std::function<void(Host&)> frame(std::uint64_t& cycles) {
         return [this, &cycles](Host& host) {
             program(host, cloud, camera);

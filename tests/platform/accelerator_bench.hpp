@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A platform in little for degs::Accelerator: a memory that is not ours, and a host that works the
-// registers.
+// A platform in little for degs::Accelerator: a memory that is not ours, and a host
+// that works the registers.
 #pragma once
 
 #include <cstring>

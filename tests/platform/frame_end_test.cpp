@@ -39,7 +39,7 @@ TEST_F(SmallRunFrameEnd, TheGateTellsTheEndThatMuchLater) {
 
 // An empty frame of 72 rows is three writes, one per row of tiles of 32: the first leaves when the
 // scene has been read, the last two intervals after the first; it is acknowledged 50 cycles later,
-// and a cycle later the gate tells.
+// and a cycle later the gate reports the frame.
 TEST_F(SmallRunFrameEnd, BackgroundIsWrittenAtItsRate) {
     camera.position.z = 50; // nothing to see
     run({{1, 1}, {900, 1}, {1000, 1}});

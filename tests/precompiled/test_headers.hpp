@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What most tests include anyway. Saves time, not lines: tests compile without it, too.
-// No guard, because it is compiled as a main file.
+// Headers that most tests include. They save time only: tests compile without them as well. No
+// guard, because it is compiled as a main file.
 
 #include <algorithm>
 #include <array>

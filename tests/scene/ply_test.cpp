@@ -12,7 +12,7 @@ namespace {
 using test::Folder;
 using test::PlyBuilder;
 
-/// A value that tells property and row apart.
+/// A value that differs for every property and row.
 double marker(const std::string& name, int row) {
     const std::size_t digits = name.find_last_not_of("0123456789") + 1;
     const double index = digits < name.size() ? std::stod(name.substr(digits)) : 0;

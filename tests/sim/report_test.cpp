@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run leaves behind: the contract of report.json and the laws that its numbers obey.
+// The output of a run: the contract of report.json and the invariants of its numbers.
 #include <regex>
 #include <set>
 

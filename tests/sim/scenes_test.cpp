@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real trained scenes, end to end: the program runs them, the report says how right and how busy it
-// was.
+// Real trained scenes, end to end: the program runs them, the report says how
+// right and how busy it was.
 #include <algorithm>
 #include <cmath>
 

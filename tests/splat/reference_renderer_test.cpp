@@ -237,7 +237,7 @@ TEST(ReferenceRendererHardCases, CentresOnTheGrid) {
     expect_brute_force(cloud, make_camera(32, 32, 64));
 }
 
-// H20: sizes that are no multiple of the tile, down to a single pixel or line.
+// H20: sizes that are not a multiple of the tile, down to a single pixel or line.
 TEST(ReferenceRendererHardCases, OddSizes) {
     const GaussianCloud cloud = test::random_cloud(300, 41);
     for (const auto& [width, height] : {std::pair(1, 1), {1, 40}, {40, 1}, {17, 33}, {15, 31}}) {

@@ -28,7 +28,7 @@ void expect_same(const Rounded& rounded, float native) {
     ASSERT_EQ(bits_of(narrow), bits_of(native)) << native;
 }
 
-// Any patterns: subnormals, infinities and NaN come, too.
+// Any patterns, subnormals, infinities and NaN included.
 TEST(Rounded, IsTheMachinesFloatToTheBit) {
     const RoundedNumbers numbers(parse_format("fp32"));
     std::mt19937 random(3);

@@ -16,9 +16,9 @@
 namespace degs::test {
 
 /// How a transaction ends. `Four`: END_REQ, later BEGIN_RESP. `RequestAtOnce`: END_REQ is what
-/// BEGIN_REQ returns. `NoEndReq`: BEGIN_RESP ends the request, too. `AnswerAtOnce`: BEGIN_RESP is
-/// what BEGIN_REQ returns, if no other answer is under way. `Completed`: TLM_COMPLETED. `Mixed`:
-/// all of them in turn.
+/// BEGIN_REQ returns. `NoEndReq`: BEGIN_RESP ends the request, too. `AnswerAtOnce`: BEGIN_RESP
+/// is what BEGIN_REQ returns, if no other answer is in flight. `Completed`: TLM_COMPLETED.
+/// `Mixed`: all of them in turn.
 enum class Ending { Four, RequestAtOnce, NoEndReq, AnswerAtOnce, Completed, Mixed };
 
 inline std::string ending_name(const ::testing::TestParamInfo<Ending>& ending) {

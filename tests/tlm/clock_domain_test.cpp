@@ -16,7 +16,7 @@ TEST(ClockDomain, AWholePeriodPerCycle) {
     EXPECT_EQ(clock.half_after(7), sc_time(7.5, sc_core::SC_NS));
 }
 
-// 1/0.7 ns is no whole number of picoseconds; the rounded period is used everywhere, so dates do
+// 1/0.7 ns is not a whole number of picoseconds; the rounded period is used everywhere, so dates do
 // not drift against each other.
 TEST(ClockDomain, APeriodThatIsRounded) {
     for (const double gigahertz : {0.7, 1.3, 3.0, 0.033}) {
