@@ -9,6 +9,7 @@
 #include "sim/run_config.hpp"
 #include "sim/statistics_list.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {
@@ -61,6 +62,7 @@ std::string statistics(const RunConfig& config, const ConfigOptions& options) {
 
 void run(const ConfigOptions& options) {
     const RunConfig config = config_of(options);
+    print_warnings(config.warnings);
     if (options.stats) {
         print(statistics(config, options));
     } else if (options.format == "markdown") {

@@ -47,6 +47,7 @@ void put_memory(ConfigNode& tree, const std::string& file) {
     const std::string place = "--memory " + file;
     ConfigNode& memory = section_of(tree, "memory", place);
     ConfigNode& model = section_of(memory, "model", place);
+    model.layer = 0; // as --set: it is meant to win over what the file says of memory
     model.kind = ConfigNode::Kind::kScalar;
     model.text = "lpddr5";
     ConfigNode& keys = section_of(memory, "lpddr5", place);
@@ -82,7 +83,7 @@ RunConfig default_run_config(const std::string& kind, const std::vector<std::str
 
 RunConfig load_run_config(const ConfigSource& source) {
     RunConfig config;
-    source.load(config);
+    config.warnings = source.load(config);
     return config;
 }
 

@@ -15,13 +15,18 @@ class RunConfig {
 public:
     /// The first of accelerator_kinds() with its defaults.
     RunConfig();
-    RunConfig(const RunConfig& other) : kind_(other.kind_), model_(other.model_->clone()) {}
+    RunConfig(const RunConfig& other)
+        : warnings(other.warnings), kind_(other.kind_), model_(other.model_->clone()) {}
     RunConfig& operator=(const RunConfig& other) {
+        warnings = other.warnings;
         kind_ = other.kind_;
         model_ = other.model_->clone();
         return *this;
     }
     ~RunConfig() = default;
+
+    /// What was set and has no effect, one sentence each.
+    std::vector<std::string> warnings;
 
     const AcceleratorConfig& accelerator() const { return *model_; }
     /// What a file calls this kind of accelerator, "degs".

@@ -82,8 +82,11 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
     result.config = request.config;
     result.camera = frames.front()->camera;
     result.workload = facts_of(*frames.front());
-    result.warnings =
-        saturation_warnings(request.config.accelerator().data_path(), *frames.front());
+    result.warnings = request.config.warnings;
+    for (std::string& sentence :
+         saturation_warnings(request.config.accelerator().data_path(), *frames.front())) {
+        result.warnings.push_back(std::move(sentence));
+    }
     Progress progress("simulation");
     result.accelerator = run_accelerator(request.config.accelerator(), frames, request.fidelity,
                                          request.build, progress);

@@ -8,6 +8,7 @@
 #include "sim/compare/comparison_output.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/view_options.hpp"
+#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {
@@ -53,6 +54,7 @@ void run(const CompareOptions& options) {
     if (!comparison.rows.empty()) {
         print("all numbers and pictures: " + visible(out.path("")) + "\n");
     }
+    print_warnings(session.warnings());
     if (const std::optional<Failure> failure = session.failure()) {
         throw FailureError(*failure);
     }

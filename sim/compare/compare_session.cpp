@@ -239,6 +239,12 @@ void CompareSession::take(const Started& started, ChildOutcome&& outcome) {
                           (started.path ? "-path.json" : ".json"),
                       summary.report);
     summary.report.clear();
+    for (const std::string& sentence : summary.warnings) {
+        const std::string warning = name + ": " + sentence;
+        if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) {
+            warnings_.push_back(warning);
+        }
+    }
     Found& found = found_[{started.view, started.config}];
     (started.path ? found.path : found.frame) = std::move(summary);
 }

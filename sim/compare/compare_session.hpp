@@ -38,6 +38,8 @@ public:
     Comparison run();
     /// The failure that kept the comparison from being complete.
     std::optional<Failure> failure() const;
+    /// What the runs warned of, each sentence once for each configuration.
+    const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
     struct Started;
@@ -68,6 +70,7 @@ private:
     std::size_t views_ = 0;                                      ///< begun
     std::map<std::pair<std::size_t, std::size_t>, Found> found_; ///< by view and configuration
     std::vector<FailedRun> failed_;
+    std::vector<std::string> warnings_;
     std::vector<Failure> failures_; ///< the same with their codes
     std::vector<Started> started_;  ///< by number of the run
     RunProgress progress_;

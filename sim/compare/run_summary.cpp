@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 
 #include "config/config_words.hpp"
@@ -37,6 +38,7 @@ void each_field(Fields& fields, Summary& summary) {
     fields("view.visible", summary.view.visible);
     fields("view.fragments", summary.view.fragments);
     for_each_measure([&](Measure m) { fields("measure." + name_of(m), summary.measures[m]); });
+    fields("warnings", summary.warnings);
     fields("report", summary.report);
 }
 
@@ -53,6 +55,14 @@ private:
     static const std::string& text(const std::string& value) { return value; }
     static std::string text(int value) { return std::to_string(value); }
     static std::string text(std::size_t value) { return std::to_string(value); }
+    /// Sentences end at the ends of lines.
+    static std::string text(const std::vector<std::string>& values) {
+        std::string lines;
+        for (const std::string& value : values) {
+            lines += value + "\n";
+        }
+        return lines;
+    }
     static std::string text(double value) { return config_words::number(value); }
     template <class Value>
     static std::string text(const std::optional<Value>& value) {
@@ -106,6 +116,14 @@ private:
     static void take(const std::string&, const std::string& text, std::string& value) {
         value = text;
     }
+    static void take(const std::string&, const std::string& text,
+                     std::vector<std::string>& values) {
+        values.clear();
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            values.push_back(line);
+        }
+    }
     template <class Number>
     static void take(const std::string& name, const std::string& text, Number& value) {
         const char* end = text.data() + text.size();
@@ -145,6 +163,7 @@ RunSummary summary_of(const RunResult& result, int camera) {
         summary.view.fragments = result.workload.reference->fragments;
     }
     summary.measures = measures_of(result);
+    summary.warnings = result.warnings;
     return summary;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/compare/measures.hpp"
 
@@ -24,14 +25,15 @@ struct RunSummary {
     int pes = 0, tile_size = 0;
     ComparedView view;
     Measures measures;
-    std::string report; ///< report.json of the run; empty if nobody wants it
+    std::vector<std::string> warnings; ///< sentences; see warnings.hpp
+    std::string report;                ///< report.json of the run; empty if nobody wants it
 };
 
 /// Without the report. `camera` is the view's position in the scene's list.
 RunSummary summary_of(const RunResult& result, int camera);
 
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 1;
+constexpr int kSummaryVersion = 2;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

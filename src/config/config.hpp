@@ -64,6 +64,13 @@ public:
         require(value == below, {key, "must be a power of two", std::to_string(below)});
     }
 
+    /// Says that `key`, a value or a section, has no effect while `decider` has its present value;
+    /// both are of this section and visited before. `reason` completes "has no effect, because". A
+    /// reader warns if the source names the key, unless what names the decider was written over it.
+    virtual void unused(const char* key, const char* decider, const char* reason) {
+        (void)key, (void)decider, (void)reason;
+    }
+
     void integer(const char* key, int& value, int low, int high, const char* doc) {
         std::int64_t wide = value;
         integer(key, wide, low, high, doc);

@@ -166,6 +166,16 @@ std::string ConfigReader::sentence_of(const ConfigRule& rule) const {
            (others.empty() ? "" : " (" + others + ")") + ".";
 }
 
+void ConfigReader::unused(const char* key, const char* decider, const char* reason) {
+    const std::string& section = open_.back().path;
+    const ConfigSource::Given given = source_.strongest(join_path(section, key));
+    const ConfigSource::Given by = source_.strongest(join_path(section, decider));
+    if (given.node != nullptr && (by.node == nullptr || given.node->layer <= by.node->layer)) {
+        warnings_.push_back(given.node->place + ": key " + quote(given.path) +
+                            " has no effect, because " + reason + ".");
+    }
+}
+
 void ConfigReader::finish() const {
     reject_unknown(source_.root_, "");
     for (const auto& override : source_.overrides_) {

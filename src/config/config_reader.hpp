@@ -28,9 +28,12 @@ public:
     void choice(const char* key, int& value, const std::vector<const char*>& names,
                 const char* doc) override;
     void require(bool holds, const ConfigRule& rule) override;
+    void unused(const char* key, const char* decider, const char* reason) override;
 
     /// Rejects keys that nobody asked for, then the first rule that does not hold.
     void finish() const;
+    /// One sentence for every key that was given and has no effect.
+    const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
     struct Section {
@@ -57,6 +60,7 @@ private:
     std::map<std::string, std::vector<std::string>> known_; // keys by path of their section
     std::map<std::string, std::string> values_;             // as text, by path
     std::string broken_rule_;                               // the sentence; empty while all hold
+    std::vector<std::string> warnings_;
 };
 
 } // namespace degs

@@ -40,6 +40,7 @@ ConfigSource::ConfigSource(ConfigNode root, const std::vector<std::string>& over
         override.path = path_of(setting, option);
         override.value.kind = ConfigNode::Kind::kScalar;
         override.value.text = setting.substr(override.path.size() + 1);
+        override.value.layer = 0;
         override.value.place = option + " " + setting;
         overrides_.push_back(std::move(override));
     }
@@ -60,10 +61,12 @@ ConfigSource ConfigSource::from_overrides(const std::vector<std::string>& overri
     return {empty_root(), overrides, option};
 }
 
-void ConfigSource::read(const std::function<void(ConfigVisitor&)>& describe) const {
+std::vector<std::string>
+ConfigSource::read(const std::function<void(ConfigVisitor&)>& describe) const {
     ConfigReader reader(*this);
     describe(reader);
     reader.finish();
+    return reader.warnings();
 }
 
 const ConfigSource::Override* ConfigSource::override_of(const std::string& path) const {
@@ -72,10 +75,24 @@ const ConfigSource::Override* ConfigSource::override_of(const std::string& path)
     return last == overrides_.rend() ? nullptr : &*last;
 }
 
+ConfigSource::Given ConfigSource::strongest(const std::string& path) const {
+    for (const Override& each : overrides_) {
+        if (each.path == path || each.path.compare(0, path.size() + 1, path + ".") == 0) {
+            return {&each.value, each.path};
+        }
+    }
+    return {node_of(path), path};
+}
+
 std::string ConfigSource::place(const std::string& path) const {
     if (const Override* set = override_of(path)) {
         return set->value.place;
     }
+    const ConfigNode* node = node_of(path);
+    return node == nullptr ? "default" : node->place;
+}
+
+const ConfigNode* ConfigSource::node_of(const std::string& path) const {
     const ConfigNode* node = &root_;
     std::size_t begin = 0;
     while (node != nullptr && begin <= path.size()) {
@@ -83,7 +100,7 @@ std::string ConfigSource::place(const std::string& path) const {
         node = node->find(path.substr(begin, end - begin));
         begin = end + 1;
     }
-    return node == nullptr ? "default" : node->place;
+    return node;
 }
 
 } // namespace degs

@@ -38,15 +38,18 @@ public:
                                        const std::string& option = "--set");
 
     /// Fills any struct with `void describe(ConfigVisitor&)`; leaves it untouched when it throws.
+    /// Returns a sentence for every key of the source that has no effect.
     template <class Config>
-    void load(Config& config) const {
+    std::vector<std::string> load(Config& config) const {
         Config loaded = config;
-        read([&](ConfigVisitor& visitor) { loaded.describe(visitor); });
+        std::vector<std::string> warnings =
+            read([&](ConfigVisitor& visitor) { loaded.describe(visitor); });
         config = loaded;
+        return warnings;
     }
 
     /// The same for any function that describes: values are read into what it visits.
-    void read(const std::function<void(ConfigVisitor&)>& describe) const;
+    std::vector<std::string> read(const std::function<void(ConfigVisitor&)>& describe) const;
 
     /// Returns "file:line" or "--set path=value" of the text that decides a key, "default" if nothing names it.
     std::string place(const std::string& path) const;
@@ -62,7 +65,14 @@ private:
 
     ConfigSource(ConfigNode root, const std::vector<std::string>& overrides,
                  const std::string& option = "--set");
+    /// What the source says most strongly of a path, or of keys below it.
+    struct Given {
+        const ConfigNode* node = nullptr; ///< nullptr: nothing
+        std::string path;
+    };
+    Given strongest(const std::string& path) const;
     const Override* override_of(const std::string& path) const;
+    const ConfigNode* node_of(const std::string& path) const; // in the files
 
     ConfigNode root_;
     std::vector<Override> overrides_;

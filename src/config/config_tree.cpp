@@ -58,6 +58,7 @@ void merge(ConfigNode& below, ConfigNode above) {
         return;
     }
     below.place = above.place;
+    below.layer = above.layer;
     for (ConfigNode& child : above.children) {
         const auto twin =
             std::find_if(below.children.begin(), below.children.end(),
@@ -67,6 +68,13 @@ void merge(ConfigNode& below, ConfigNode above) {
         } else {
             merge(*twin, std::move(child));
         }
+    }
+}
+
+void set_layer(ConfigNode& node, int layer) {
+    node.layer = layer;
+    for (ConfigNode& child : node.children) {
+        set_layer(child, layer);
     }
 }
 
@@ -100,6 +108,7 @@ public:
                              (root.kind == Kind::kList ? "list" : "single value") +
                              "; a section of keys is expected.");
         }
+        set_layer(root, static_cast<int>(std::max<std::size_t>(open_.size(), 1)));
         expand(root, fs::path(name).parent_path(), "");
         return root;
     }

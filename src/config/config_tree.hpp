@@ -14,10 +14,13 @@ struct ConfigNode {
     enum class Kind { kNull, kScalar, kSection, kList };
 
     Kind kind = Kind::kNull;
-    std::string key;                  ///< empty for the root and for items of a list
-    std::string text;                 ///< of a scalar
-    bool quoted = false;              ///< a scalar in quotes is text, never a number
-    std::string place;                ///< "file:line" of the key, or "--set path=value"
+    std::string key;     ///< empty for the root and for items of a list
+    std::string text;    ///< of a scalar
+    bool quoted = false; ///< a scalar in quotes is text, never a number
+    std::string place;   ///< "file:line" of the key, or "--set path=value"
+    /// What it is written over: 0 an override, over all files; 1 the file itself, over what it
+    /// includes; 2 an included file, and so on.
+    int layer = 1;
     std::vector<ConfigNode> children; ///< in the order of the file
 
     const ConfigNode* find(const std::string& child) const;

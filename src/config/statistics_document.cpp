@@ -84,9 +84,9 @@ std::vector<std::string> shared_names(const std::string& path) {
         names.push_back(row.path);
     }
     const std::string near = config_words::nearest(path, names);
-    throw InputError(
-        "There is no statistic " + config_words::quote(path) +
-        (near.empty() ? "; 'degs config --stats' lists them." : "; did you mean '" + near + "'?"));
+    throw InputError("There is no statistic " + config_words::quote(path) +
+                     (near.empty() ? "; 'degs config --stats' lists them."
+                                   : " (did you mean '" + near + "'?)."));
 }
 
 /// `text` in lines of at most 80 characters where words permit, behind `indent`.

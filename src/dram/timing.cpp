@@ -81,6 +81,9 @@ void describe_organisation(Timing& t, ConfigVisitor& v) {
               "MT/s per pin; CK is an eighth of it (WCK:CK = 4:1); 6400 is the paper's memory");
     v.choice("bank_mode", t.bank_mode, {"bg", "16b"},
              "bg: 4 groups of 4 banks, needed above 3200 MT/s; 16b: 16 banks without groups");
+    constexpr int kFastest16b = 3200; // JESD209-5B: 16 banks without groups end there
+    v.require(t.bank_mode == Timing::BankMode::Bg || t.data_rate_mt_per_s <= kFastest16b,
+              {"bank_mode", "must be bg above 3200 MT/s", "bg", {"data_rate_mt_per_s"}});
     v.integer("burst_length", t.burst_length, 16, 32,
               "beats of a column command: 16 = 32 B; 32 = 64 B, in 16b mode only here");
     v.require(t.burst_length == 16 || t.burst_length == 32,

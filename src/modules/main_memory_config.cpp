@@ -10,6 +10,14 @@ void MainMemoryConfig::describe(ConfigVisitor& visitor) {
         "channels, banks and rows, the section of that name counts");
     Memory::Config::describe(visitor);
     visitor.section("lpddr5", lpddr5, "the keys of configs/memory/*.yaml");
+    if (model == MemoryModel::Bus) {
+        visitor.unused("lpddr5", "model", "memory.model is bus");
+        return;
+    }
+    constexpr const char* kReason = "memory.model is lpddr5, which has keys of its own";
+    for (const char* key : {"bandwidth_gb_per_s", "latency_ns", "access_bytes"}) {
+        visitor.unused(key, "model", kReason);
+    }
 }
 
 } // namespace degs

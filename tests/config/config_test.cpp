@@ -268,5 +268,50 @@ TEST(ConfigPlace, TellsWhatDecidesAKey) {
     EXPECT_EQ(source.place("memory.refresh.rate"), "default");
 }
 
+/// A bus or banks; only one of them counts.
+struct EitherMemory {
+    bool banked = false;
+    int width = 8;
+    struct Banks {
+        int count = 4;
+        void describe(ConfigVisitor& v) { v.integer("count", count, 1, 64, "banks"); }
+    } banks;
+    void describe(ConfigVisitor& v) {
+        v.boolean("banked", banked, "which one counts");
+        v.integer("width", width, 1, 64, "of the bus");
+        v.section("banks", banks, "of the other");
+        if (banked) {
+            v.unused("width", "banked", "banked is true");
+        } else {
+            v.unused("banks", "banked", "banked is false");
+        }
+    }
+};
+
+std::vector<std::string> warnings_of(const std::string& yaml,
+                                     const std::vector<std::string>& overrides) {
+    EitherMemory config;
+    return ConfigSource::from_text("file.yaml", yaml, overrides).load(config);
+}
+
+using Sentences = std::vector<std::string>;
+
+TEST(UnusedKeys, AreNamedWithTheirPlaceAndTheReason) {
+    EXPECT_EQ(warnings_of("banked: true\nwidth: 4\n", {}),
+              Sentences{"file.yaml:2: key 'width' has no effect, because banked is true."});
+    EXPECT_EQ(warnings_of("banked: true\n", {"width=4"}),
+              Sentences{"--set width=4: key 'width' has no effect, because banked is true."});
+    EXPECT_EQ(
+        warnings_of("width: 4\n", {"banks.count=2"}),
+        Sentences{
+            "--set banks.count=2: key 'banks.count' has no effect, because banked is false."});
+}
+
+TEST(UnusedKeys, AreNoMistakeIfAStrongerChoiceCameOverThem) {
+    EXPECT_EQ(warnings_of("width: 4\n", {"banked=true"}), Sentences{});
+    EXPECT_EQ(warnings_of("banked: true\n", {}), Sentences{});
+    EXPECT_EQ(warnings_of("width: 4\n", {}), Sentences{});
+}
+
 } // namespace
 } // namespace degs::config_test

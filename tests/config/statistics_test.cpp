@@ -118,7 +118,7 @@ TEST(Statistics, AreFoundByNameOrSuggested) {
         return std::string();
     };
     EXPECT_EQ(sentence("house.atic.warm"),
-              "There is no statistic 'house.atic.warm'; did you mean 'house.attic.warm'?");
+              "There is no statistic 'house.atic.warm' (did you mean 'house.attic.warm'?).");
     EXPECT_THAT(sentence("nonsense"), HasSubstr("degs config --stats"));
     EXPECT_NE(sentence("house"), "") << "a section is not a number";
     EXPECT_THROW(statistics_in(list, "hous"), InputError);

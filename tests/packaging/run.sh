@@ -21,7 +21,7 @@ cmake -S "$here/outside" -B "$work/outside" -DCMAKE_PREFIX_PATH="$work/prefix" -
 cmake --build "$work/outside"
 "$work/outside/outside"
 
-for file in share/degs/configs/degs-64.yaml include/degs/modules/accelerator.hpp; do
+for file in share/degs/configs/degs-64.yaml include/degs/platform/accelerator.hpp; do
     [[ -f $work/prefix/$file ]] || { echo "$file was not installed"; exit 1; }
 done
 if grep -rl "$build" "$work/prefix" --include='*.cmake' --include='*.pc'; then

@@ -153,10 +153,10 @@ TEST(AccuracyScenes, NamesMistakes) {
         expect_mistake(degs(arguments), words);
     };
     mistake({"--scene", kAccuracyScene, "--numbers", "fp8"}, "'fp8'");
-    mistake({"--scene", kAccuracyScene, "--numbers", "tuned:alfa=fp16"}, "'alfa' is no part");
+    mistake({"--scene", kAccuracyScene, "--numbers", "tuned:alfa=fp16"}, "key 'alfa' is unknown");
     mistake({"--scene", kAccuracyScene, "--numbers", "tuned:projection=fp8"},
-            "'projection' must be");
-    mistake({"--scene", kAccuracyScene, "--numbers", "tuned:projection=ue8m9"}, "has no sign");
+            "key 'projection' is 'fp8', but must be");
+    mistake({"--scene", kAccuracyScene, "--numbers", "tuned:projection=ue8m9"}, "must have a sign");
     mistake({"--scene", kAccuracyScene, "--resolution", "720p,16k"}, "'16k'");
     mistake({"--scene", "absent.ply"}, "absent.ply");
     mistake({"--scene", "synthetic:object,"}, "empty name");

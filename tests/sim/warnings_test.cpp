@@ -53,5 +53,45 @@ TEST(SmallRunWarnings, OrdinaryScenesHaveNone) {
     }
 }
 
+TEST(SmallRunWarnings, KeysWithoutEffectAreNamed) {
+    const Folder folder;
+    const std::vector<std::string> unused{"--set", "memory.model=lpddr5", "--set",
+                                          "memory.bandwidth_gb_per_s=51.2"};
+    const std::string sentence = "--set memory.bandwidth_gb_per_s=51.2: key "
+                                 "'memory.bandwidth_gb_per_s' has no effect, because memory.model "
+                                 "is lpddr5, which has keys of its own.";
+    std::vector<std::string> run{"run",
+                                 config("degs-16"),
+                                 "--scene",
+                                 "synthetic:object,gaussians=50",
+                                 "--width",
+                                 "32",
+                                 "--no-reference",
+                                 "--out",
+                                 folder / "run"};
+    run.insert(run.end(), unused.begin(), unused.end());
+    const Outcome outcome = degs(run);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err, "degs: warning: " + sentence + "\n");
+    EXPECT_EQ(report_in(folder / "run")["warnings"], json::array({sentence}));
+
+    std::vector<std::string> compare{"compare",         config("degs-16"),
+                                     "--scene",         "synthetic:object,gaussians=50",
+                                     "--width",         "32",
+                                     "--no-reference",  "--out",
+                                     folder / "compare"};
+    compare.insert(compare.end(), unused.begin(), unused.end());
+    EXPECT_NE(degs(compare).err.find("degs: warning: degs-16: " + sentence), std::string::npos);
+
+    const Outcome silent = degs({"config", config("degs-16"), "--set", "memory.model=lpddr5"});
+    EXPECT_EQ(silent.err, ""); // the file's bandwidth is that of its own model
+}
+
+TEST(HostileMemory, SixteenBanksEndAt3200) {
+    expect_mistake(degs({"config", config("degs-16"), "--set", "memory.model=lpddr5", "--set",
+                         "memory.lpddr5.timing.bank_mode=16b"}),
+                   "must be bg above 3200 MT/s");
+}
+
 } // namespace
 } // namespace degs::sim_test
