@@ -21,7 +21,9 @@ using Kind = ConfigNode::Kind;
 
 std::string read_bytes(const fs::path& path, const std::string& place) {
     if (path.empty()) {
-        throw InputError(place + "the name of the configuration file is empty.");
+        throw InputError(place +
+                         "configuration file '' has an empty name; the path of a YAML file is "
+                         "needed.");
     }
     const std::string name = place + "configuration file " + quote(path.string());
     std::error_code ignored;
