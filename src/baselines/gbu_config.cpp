@@ -54,6 +54,8 @@ void GbuConfig::describe(ConfigVisitor& visitor) {
     visitor.section("pixel_buffer", pixel_buffer, "tiles in flight");
     visitor.section("monitor", monitor, "cancellation of finished tiles");
     visitor.section("memory", memory, "off-chip memory");
+    visitor.does_not_follow("area", "engines.count");
+    visitor.does_not_follow("area", "engines.row_pes");
     require_sizes(visitor);
 }
 

@@ -36,6 +36,7 @@ void GscoreConfig::describe(ConfigVisitor& visitor) {
     visitor.section("pixel_buffer", pixel_buffer, "tiles in flight, part of buffer.bytes");
     visitor.section("monitor", monitor, "cancellation of finished tiles");
     visitor.section("memory", memory, "off-chip memory");
+    visitor.does_not_follow("area", "array.lanes");
     require_sizes(visitor);
 }
 

@@ -29,6 +29,7 @@ public:
                 const char* doc) override;
     void require(bool holds, const ConfigRule& rule) override;
     void unused(const char* key, const char* decider, const char* reason) override;
+    void does_not_follow(const char* key, const char* decider) override;
 
     /// Rejects keys that nobody asked for, then the first rule that does not hold.
     void finish() const;

@@ -110,6 +110,8 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
     visitor.section("monitor", monitor, "cancellation of finished tiles");
     visitor.section("memory", memory, "off-chip memory");
     require_counts(visitor);
+    visitor.does_not_follow("area", "scheduler.banks");
+    visitor.does_not_follow("area", "array.pes_per_bank");
     require_sizes(visitor);
     require_packing(visitor);
 }

@@ -60,6 +60,7 @@ const std::vector<Broken>& broken_rules() {
         {"gcc-64", {"colour.block=1"}, "colour.block"},
         {"gcc-64", {"projection.group=4096"}, "group_buffer_bytes"},
         {"degs-64", {lpddr5 + "channels=3"}, lpddr5 + "channels"},
+        {"degs-64", {lpddr5 + "timing.bank_mode=16b"}, lpddr5 + "timing.bank_mode"},
         {"degs-64", {lpddr5 + "timing.burst_length=24"}, lpddr5 + "timing.burst_length"},
         {"degs-64", {lpddr5 + "timing.burst_length=32"}, lpddr5 + "timing.burst_length"},
         {"degs-64", {lpddr5 + "timing.rows=1025"}, lpddr5 + "timing.rows"},

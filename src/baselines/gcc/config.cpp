@@ -32,6 +32,7 @@ void Config::describe(ConfigVisitor& visitor) {
     visitor.section("image_buffer", image_buffer, "pixels of the views in flight");
     visitor.section("monitor", monitor, "cancellation of finished views");
     visitor.section("memory", memory, "off-chip memory");
+    visitor.does_not_follow("area", "array.window");
     require_sizes(visitor);
 }
 
