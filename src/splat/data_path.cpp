@@ -122,9 +122,9 @@ public:
     void rows_in_columns(std::uint32_t splat, int x_begin, int x_end, int& first,
                          int& last) const override {
         const SpanRecord<T>& s = spans_[splat];
-        const float left = static_cast<float>(x_begin - s.pixel_x) - static_cast<float>(s.offset_x);
-        const float right =
-            static_cast<float>(x_end - 1 - s.pixel_x) - static_cast<float>(s.offset_x);
+        const auto offset = static_cast<float>(s.offset_x);
+        const float left = static_cast<float>(x_begin - s.pixel_x) - offset;
+        const float right = static_cast<float>(x_end - 1 - s.pixel_x) - offset;
         first = s.first_row;
         last = s.last_row;
         // Lowest row index = smallest y: at x offset -tip; largest y at +tip.
@@ -154,8 +154,9 @@ public:
             left = std::ceil(left);
             right = std::floor(right);
         } else {
-            left = std::floor(left) - static_cast<T>(options_.delta);
-            right = std::ceil(right) + static_cast<T>(options_.delta);
+            const T delta = static_cast<T>(options_.delta);
+            left = std::floor(left) - delta;
+            right = std::ceil(right) + delta;
         }
         left = std::max(left, static_cast<T>(x_begin - s.pixel_x));
         right = std::min(right, static_cast<T>(x_end - 1 - s.pixel_x));
@@ -266,13 +267,14 @@ private:
     // Row at which column dx (from the mean) leaves the ellipse, upwards (-1) or downwards (+1),
     // with a row of slack; beyond every row if the column misses the ellipse.
     static int cut(const SpanRecord<T>& s, const ColumnRecord& c, float dx, int direction) {
-        const float room = static_cast<float>(s.q_threshold) - c.c_prime * dx * dx;
+        const auto q_threshold = static_cast<float>(s.q_threshold);
+        const float room = q_threshold - c.c_prime * dx * dx;
         if (!(room >= -1e-3F)) {
             return direction < 0 ? kFarRow : -kFarRow;
         }
         // The two terms of `room` cancel where the column just touches the ellipse: with their
         // rounding added, a steep needle loses no row.
-        const float rounding = 1e-6F * (static_cast<float>(s.q_threshold) + 1);
+        const float rounding = 1e-6F * (q_threshold + 1);
         const float height = std::sqrt(std::max(room + rounding, 0.0F) * c.inverse);
         const float y =
             static_cast<float>(s.offset_y) + c.slope * dx + static_cast<float>(direction) * height;
@@ -285,7 +287,7 @@ private:
         if (!rows_.placed(context, row)) {
             pixels_.clear(rows_.place(context, row), rows_.stride());
         }
-        return rows_.first_pixel(context, row) + static_cast<std::size_t>(column);
+        return rows_.first_pixel(context, row) + column;
     }
 
     static constexpr T kLimit = static_cast<T>(kQLimit);

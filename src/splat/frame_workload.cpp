@@ -54,9 +54,7 @@ public:
     }
     /// The same again.
     const std::vector<TileRun>& covered() const { return runs_; }
-    std::size_t tile(int row, int column) const {
-        return row * static_cast<std::size_t>(grid_.tiles_x()) + column;
-    }
+    std::size_t tile(int row, int column) const { return row * grid_.tiles_x() + column; }
 
 private:
     TileGrid grid_;
@@ -179,7 +177,7 @@ FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& came
     work.tiles_y = grid.tiles_y();
     work.gaussians = cloud.size();
     work.sh_degree = cloud.sh_degree;
-    work.tile_begin.assign(static_cast<std::size_t>(work.tiles()) + 1, 0);
+    work.tile_begin.assign(work.tiles() + std::size_t{1}, 0);
 
     Binner binner(grid, mode);
     project_all(cloud, binner, work);

@@ -30,7 +30,7 @@ bool all_finite(const GaussianCloud& cloud, std::size_t i) {
     return std::isfinite(mean.x) && std::isfinite(mean.y) && std::isfinite(mean.z) &&
            all_finite(&cloud.scales[i].x, 3) && all_finite(&cloud.rotations[i].x, 4) &&
            std::isfinite(cloud.opacities[i]) &&
-           all_finite(cloud.sh_of(i), static_cast<std::size_t>(cloud.sh_coefficients()) * 3);
+           all_finite(cloud.sh_of(i), cloud.sh_coefficients() * 3);
 }
 
 Defect find_defect(const GaussianCloud& cloud, std::size_t i) {
@@ -66,7 +66,7 @@ glm::vec4 unit_rotation(const glm::vec4& rotation) {
 }
 
 void move_gaussian(GaussianCloud& cloud, std::size_t from, std::size_t to) {
-    const std::size_t sh_values = static_cast<std::size_t>(cloud.sh_coefficients()) * 3;
+    const std::size_t sh_values = cloud.sh_coefficients() * 3;
     cloud.means[to] = cloud.means[from];
     cloud.scales[to] = cloud.scales[from];
     cloud.rotations[to] = cloud.rotations[from];

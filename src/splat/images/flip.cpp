@@ -54,10 +54,11 @@ double flip_difference(const Image& reference, const Image& test, double pixels_
     FlipFilter second(test, kernels);
     const double largest = largest_difference();
     double sum = 0;
+    const std::size_t width = reference.width;
     for (int y = 0; y < reference.height; ++y) {
         const FlipRow& a = first.next();
         const FlipRow& b = second.next();
-        for (std::size_t x = 0; x < static_cast<std::size_t>(reference.width); ++x) {
+        for (std::size_t x = 0; x < width; ++x) {
             const double colour =
                 colour_difference({a.y[x], a.cx[x], a.cz[x]}, {b.y[x], b.cx[x], b.cz[x]}, largest);
             sum += std::pow(colour, 1 - std::min(feature_difference(a, b, x), 1.0));

@@ -101,10 +101,10 @@ FlipKernels::FlipKernels(double pixels_per_degree) {
 }
 
 FlipFilter::FlipFilter(const Image& image, const FlipKernels& kernels)
-    : image_(image), kernels_(kernels), width_(image.width),
-      ring_(2 * static_cast<std::size_t>(kernels.radius) + 1), across_(width_), down_(width_) {
+    : image_(image), kernels_(kernels), width_(image.width), ring_(2 * kernels.radius + 1),
+      across_(width_), down_(width_) {
     for (std::vector<float>& line : padded_) {
-        line.resize(width_ + 2 * static_cast<std::size_t>(kernels.radius));
+        line.resize(width_ + 2 * kernels.radius);
     }
 }
 
