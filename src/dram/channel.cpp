@@ -2,14 +2,9 @@
 #include "dram/channel.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace degs::dram {
 namespace {
-
-unsigned entries(double share, int depth) {
-    return static_cast<unsigned>(std::floor(share * depth + 0.5));
-}
 
 /// Applies `change` to every counter of `stats` and its counterpart.
 template <class Change>
@@ -39,53 +34,20 @@ void Channel::Stats::subtract(const Stats& earlier) {
 
 Channel::Channel(const Timing& timing, const RuleTable& rules, const ControllerConfig& config,
                  Ck phase)
-    : timing_(&timing), config_(config), scheduler_(schedulers()[config.scheduler]),
+    : timing_(&timing), posted_writes_(config.posted_writes),
       auto_precharge_(page_policies()[config.page_policy].auto_precharge),
-      write_high_(std::max(1U, entries(config.write_high, config.write_queue))),
-      write_low_(entries(config.write_low, config.write_queue)), dates_(rules),
-      reads_(config.read_queue), writes_(config.write_queue),
-      refresh_due_(config.refresh == Refresh::None
-                       ? kNoDate
-                       : refresh_period() - std::min(phase, refresh_period())) {
-    keys_.rest.fill(~0U);
-}
-
-Ck Channel::refresh_period() const {
-    const Ck all_banks = timing_->refi;
-    return config_.refresh == Refresh::PerBank ? all_banks / kRefreshSteps : all_banks;
-}
-
-bool Channel::idle() const {
-    return reads_.size() == 0 && writes_.size() == 0 && reads_in_.empty() && writes_in_.empty();
-}
-
-Ck Channel::open_until(Ck date) const {
-    return stats_.open + (open_banks_ != 0 && date > open_since_ ? date - open_since_ : 0);
-}
-
-bool Channel::push(Access access) {
-    if (access.write) {
-        ++writes_of_hash_[hash(access)];
-        writes_in_.push_back(access);
-        return config_.posted_writes;
-    }
-    access.after_write = writes_of_hash_[hash(access)] != 0;
-    after_writes_ += access.after_write ? 1 : 0;
-    reads_in_.push_back(access);
-    return access.after_write;
-}
+      state_{0, Banks(rules), Queues(config), Refresher(timing, config, phase)},
+      chooser_(schedulers()[config.scheduler]) {}
 
 void Channel::run(Ck until, Outcome& outcome) {
     for (;;) {
-        if (!chosen_) {
-            choose();
-        }
+        const Chooser::Choice& next = choice();
         const Ck admission = next_admission();
-        if (std::min(admission, choice_.date) > until) {
+        if (std::min(admission, next.date) > until) {
             return;
         }
         // An access may send its first command in the CK in which it comes.
-        if (admission <= choice_.date) {
+        if (admission <= next.date) {
             admit(admission, outcome);
         } else {
             perform(outcome);
@@ -93,208 +55,154 @@ void Channel::run(Ck until, Outcome& outcome) {
     }
 }
 
-Ck Channel::next_date() {
-    if (!chosen_) {
-        choose();
-    }
-    return std::min(choice_.date, next_admission());
-}
-
-Ck Channel::next_admission() const {
-    Ck date = kNoDate;
-    if (!reads_in_.empty() && !reads_.full()) {
-        date = reads_in_.front().date;
-    }
-    if (!writes_in_.empty() && !writes_.full()) {
-        date = std::min(date, writes_in_.front().date);
-    }
-    return std::max(date, clock_);
-}
-
 void Channel::admit(Ck date, Outcome& outcome) {
-    clock_ = date;
-    while (!writes_in_.empty() && !writes_.full() && writes_in_.front().date <= date) {
-        const Access access = writes_in_.front();
-        writes_in_.pop_front();
+    state_.clock = date;
+    while (state_.queues.write_ready(date)) {
+        const Access access = state_.queues.take_write();
         outcome.admitted.push_back(access.id);
-        if (config_.posted_writes) {
+        if (posted_writes_) {
             outcome.answers.push_back({access.id, date + 1});
         }
-        if (!config_.posted_writes || !merge(access)) {
-            enqueue(writes_, access);
+        if (posted_writes_ && state_.queues.merge(access)) {
+            ++stats_.merged;
+            continue;
+        }
+        state_.queues.enqueue_write(access);
+        if (state_.queues.writing()) {
+            chooser_.add(access.bank, state_);
         }
     }
-    while (!reads_in_.empty() && !reads_.full() && reads_in_.front().date <= date) {
-        const Access access = reads_in_.front();
-        reads_in_.pop_front();
+    while (state_.queues.read_ready(date)) {
+        const Access access = state_.queues.take_read();
         outcome.admitted.push_back(access.id);
-        after_writes_ -= access.after_write ? 1 : 0;
-        if (access.after_write && forward(access)) {
+        if (access.after_write && state_.queues.covered(access)) {
             ++stats_.forwarded;
             outcome.answers.push_back({access.id, date + 1});
-        } else {
-            enqueue(reads_, access);
+            continue;
+        }
+        state_.queues.enqueue_read(access);
+        if (!state_.queues.writing()) {
+            chooser_.add(access.bank, state_);
         }
     }
-    choose_direction();
+    turn();
 }
 
-void Channel::enqueue(Queue& to, const Access& access) {
-    to.push(access);
-    if (&to == &queue()) {
-        find_candidate(access.bank);
-        offer_candidate(access.bank);
-    }
-}
-
-bool Channel::forward(const Access& access) const {
-    const std::uint8_t slot = writes_.find(access.bank, access.row, access.block);
-    return slot != Queue::kNone && (access.bursts & ~writes_[slot].access.bursts) == 0;
-}
-
-bool Channel::merge(const Access& access) {
-    const std::uint8_t slot = writes_.find(access.bank, access.row, access.block);
-    if (slot == Queue::kNone) {
-        return false;
-    }
-    writes_[slot].access.bursts |= access.bursts;
-    writes_[slot].left |= access.bursts;
-    --writes_of_hash_[hash(access)];
-    ++stats_.merged;
-    return true;
-}
-
-// Reads first; writes in batches, or when there is nothing else to do. Asked only when the size of
-// a queue has changed, so a direction always gets something done.
-void Channel::choose_direction() {
-    const unsigned reads = reads_.size();
-    const unsigned writes = writes_.size();
-    const bool write = writing_ ? writes != 0 && (writes > write_low_ || reads == 0)
-                                : writes >= write_high_ || (reads == 0 && writes != 0);
-    if (write != writing_) {
-        writing_ = write;
-        stats_.drains += write ? 1 : 0;
-        find_candidates();
-        chosen_ = false;
+void Channel::turn() {
+    if (state_.queues.turn()) {
+        stats_.drains += state_.queues.writing() ? 1 : 0;
+        chooser_.update_all(state_);
+        chooser_.drop();
     }
 }
 
 void Channel::perform(Outcome& outcome) {
-    const Choice choice = choice_;
-    chosen_ = false;
-    clock_ = choice.date;
+    const Chooser::Choice choice = this->choice();
+    chooser_.drop();
+    state_.clock = choice.date;
     if (choice.start_refresh) {
-        refreshing_ = true;
+        state_.refresher.start();
         return;
     }
     if (is_column(choice.command)) {
-        column(outcome);
+        column(choice, outcome);
     } else {
         row_command(choice);
     }
-    ++clock_;
+    ++state_.clock;
 }
 
-void Channel::row_command(const Choice& choice) {
+void Channel::row_command(const Chooser::Choice& choice) {
     const unsigned bank = choice.bank;
     change_row(choice);
-    issue(choice.command, bank, banks_[bank].row);
+    issue(choice.command, bank);
     if (choice.command == Command::PreAb) {
-        find_candidates();
-    } else {
-        find_candidate(bank);
-        if (choice.command == Command::RefPb) {
-            find_candidate(bank ^ kRefreshPartner);
-        }
+        chooser_.update_all(state_);
+        return;
+    }
+    chooser_.update(bank, state_);
+    if (choice.command == Command::RefPb) {
+        chooser_.update(bank ^ kRefreshPartner, state_);
     }
 }
 
-void Channel::change_row(const Choice& choice) {
+void Channel::change_row(const Chooser::Choice& choice) {
     const unsigned bank = choice.bank;
-    Bank& state = banks_[bank];
-    auto* entry = choice.slot == Queue::kNone ? nullptr : &queue()[choice.slot];
+    auto* entry = choice.slot == Queue::kNone ? nullptr : &state_.queues.current()[choice.slot];
     switch (choice.command) {
     case Command::Act1:
-        state = {BankState::Activating, entry->access.row};
-        activating_ |= 1U << bank;
-        if (open_banks_++ == 0) {
-            open_since_ = choice.date;
-        }
+        state_.banks.activate(bank, entry->access.row, state_.clock);
         if (entry->outcome == RowState::Hit) {
             entry->outcome = RowState::Closed;
         }
         break;
     case Command::Act2:
-        state.state = BankState::Open;
-        activating_ &= ~(1U << bank);
+        state_.banks.open(bank);
         break;
     case Command::Pre:
-        close(bank);
+        state_.banks.close(bank, state_.clock);
         if (entry != nullptr) {
             entry->outcome = RowState::Conflict;
         }
         break;
     case Command::PreAb:
-        for (unsigned each = 0; each < kBanks; ++each) {
-            close(each);
-        }
+        state_.banks.close_all(state_.clock);
         break;
     default:
-        refresh_due_ += refresh_period();
-        refreshing_ = false;
-        refresh_bank_ = (refresh_bank_ + 1) % kRefreshSteps;
+        state_.refresher.finish();
     }
 }
 
-void Channel::column(Outcome& outcome) {
-    const unsigned bank = choice_.bank;
-    Queue& from = queue();
-    Queue::Entry& entry = from[choice_.slot];
-    Command command = writing_ ? Command::Wr : Command::Rd;
+void Channel::column(const Chooser::Choice& choice, Outcome& outcome) {
+    const unsigned bank = choice.bank;
+    Queue::Entry& entry = state_.queues.current()[choice.slot];
     const bool first = entry.left == entry.access.bursts;
-    const RowState found = first ? entry.outcome : RowState::Hit;
-    ++stats_.bursts[static_cast<std::size_t>(found)];
+    ++of_kind(stats_.bursts, first ? entry.outcome : RowState::Hit);
     entry.left &= entry.left - 1;
+    Command command = choice.command;
     const bool last = entry.left == 0;
     if (last) {
-        ++stats_.accesses[static_cast<std::size_t>(entry.outcome)];
-        if (!writing_) {
-            outcome.answers.push_back({entry.access.id, choice_.date + timing_->read_latency()});
-        } else if (!config_.posted_writes) {
-            outcome.answers.push_back({entry.access.id, choice_.date + timing_->write_latency()});
-        }
-        if (writing_) {
-            --writes_of_hash_[hash(entry.access)];
-        }
-        from.remove(choice_.slot);
-        if (auto_precharge_ && from.oldest_of_row(bank, banks_[bank].row) == Queue::kNone) {
-            command = writing_ ? Command::WrA : Command::RdA;
-            close(bank);
+        ++of_kind(stats_.accesses, entry.outcome);
+        answer(entry.access, outcome);
+        state_.queues.remove(choice.slot);
+        if (auto_precharge_ &&
+            state_.queues.current().oldest_of_row(bank, state_.banks.row(bank)) == Queue::kNone) {
+            command = state_.queues.writing() ? Command::WrA : Command::RdA;
+            state_.banks.close(bank, state_.clock);
         }
     }
-    issue(command, bank, banks_[bank].row);
-    find_candidate(bank);
+    issue(command, bank);
+    chooser_.update(bank, state_);
     if (last) {
-        choose_direction();
+        turn();
     }
 }
 
-void Channel::close(unsigned bank) {
-    Bank& state = banks_[bank];
-    if (state.state != BankState::Closed) {
-        state.state = BankState::Closed;
-        if (--open_banks_ == 0) {
-            stats_.open += clock_ - open_since_;
-        }
+void Channel::answer(const Access& access, Outcome& outcome) const {
+    if (!access.write) {
+        outcome.answers.push_back({access.id, state_.clock + timing_->read_latency()});
+    } else if (!posted_writes_) {
+        outcome.answers.push_back({access.id, state_.clock + timing_->write_latency()});
     }
 }
 
-void Channel::issue(Command command, unsigned bank, unsigned row) {
-    dates_.issue(command, bank, clock_);
-    ++stats_.commands[static_cast<std::size_t>(command)];
+void Channel::issue(Command command, unsigned bank) {
+    state_.banks.issue(command, bank, state_.clock);
+    ++of_kind(stats_.commands, command);
+    stats_.open = state_.banks.open_time();
     if (observer_) {
-        observer_({command, clock_, bank, row});
+        observer_({command, state_.clock, bank, state_.banks.row(bank)});
     }
+}
+
+Ck Channel::admission_bound() {
+    if (waiting() == 0) {
+        return kNoDate;
+    }
+    choice();
+    return state_.queues.held_up()
+               ? std::min(next_admission(), chooser_.column_bound(state_, timing_->rcd))
+               : next_admission();
 }
 
 } // namespace degs::dram

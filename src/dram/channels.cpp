@@ -34,8 +34,7 @@ Channels::Channels(const Config& config)
     const std::size_t count = config.channels;
     channels_.reserve(count);
     for (std::size_t c = 0; c < count; ++c) {
-        const Ck phase =
-            config.controller.refresh_stagger ? static_cast<Ck>(config.timing.refi) * c / count : 0;
+        const Ck phase = config.controller.refresh_stagger ? c * config.timing.refi / count : 0;
         channels_.emplace_back(timing_, rules_, config.controller, phase);
     }
     due_.assign(count, kNoDate);

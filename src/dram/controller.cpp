@@ -2,7 +2,6 @@
 #include "dram/controller.hpp"
 
 #include "config/config_words.hpp"
-#include "dram/queue.hpp"
 
 namespace degs::dram {
 namespace {
@@ -21,7 +20,7 @@ std::vector<const char*> names_of(const std::vector<Policy>& policies) {
 
 const std::vector<Scheduler>& schedulers() {
     static const std::vector<Scheduler> schedulers{
-        {"frfcfs", true, false}, {"bank_fcfs", false, false}, {"fcfs", false, true}};
+        {Frfcfs::kName, Frfcfs{}}, {BankFcfs::kName, BankFcfs{}}, {Fcfs::kName, Fcfs{}}};
     return schedulers;
 }
 
@@ -31,10 +30,9 @@ const std::vector<PagePolicy>& page_policies() {
 }
 
 void ControllerConfig::describe(ConfigVisitor& visitor) {
-    constexpr int kMost = Queue::kSlots;
-    visitor.integer("read_queue", read_queue, 1, kMost,
+    visitor.integer("read_queue", read_queue, 1, Queue::kSlots,
                     "accesses of 64 B per channel; 32 get most of the bandwidth of random traffic");
-    visitor.integer("write_queue", write_queue, 1, kMost, "accesses of 64 B per channel");
+    visitor.integer("write_queue", write_queue, 1, Queue::kSlots, "accesses of 64 B per channel");
     visitor.real("write_high", write_high, 0.0, 1.0,
                  "share of the write queue; from here on writes go first, about 80 % is usual");
     visitor.real("write_low", write_low, 0.0, 1.0,

@@ -6,17 +6,9 @@
 #include <vector>
 
 #include "config/config.hpp"
-#include "dram/timing.hpp"
+#include "dram/scheduler.hpp"
 
 namespace degs::dram {
-
-/// Which of the queued accesses may send commands. Ready commands go first; among them column
-/// commands go before others, and the oldest among equals.
-struct Scheduler {
-    const char* name;
-    bool hits_first;  ///< a bank serves accesses to its open row before older ones
-    bool oldest_only; ///< nothing overtakes the oldest access of the queue
-};
 
 /// What happens to a row after an access.
 struct PagePolicy {

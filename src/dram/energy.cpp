@@ -20,7 +20,7 @@ void Energy::Config::describe(ConfigVisitor& visitor) {
 
 void Energy::add(const Config& config, const Timing& timing, const Channel& channel, Ck elapsed) {
     const auto count = [&](Command command) {
-        return static_cast<double>(channel.stats().commands[static_cast<std::size_t>(command)]);
+        return static_cast<double>(of_kind(channel.stats().commands, command));
     };
     const double bits = 8.0 * timing.burst_bytes();
     constexpr double kNjPerPj = 1e-3;

@@ -30,7 +30,7 @@ namespace degs::dram {
 /// answer that the present queues, banks and buses give if nothing more comes.
 ///
 /// Not modelled: the interconnect (every channel takes any number of requests per CK), and what
-/// lpddr5_channel.hpp and lpddr5_timing.hpp leave out.
+/// channel.hpp and timing.hpp leave out.
 class Lpddr5 : public sc_core::sc_module {
 public:
     struct Stats {

@@ -34,7 +34,7 @@ inline double hit_rate(const ByRowState& counts) {
 /// A controller queue of one direction: fixed slots, and a list per bank in the order of arrival.
 class Queue {
 public:
-    static constexpr unsigned kSlots = 64;
+    static constexpr int kSlots = 64;
     static constexpr std::uint8_t kNone = 0xFF;
     struct Entry {
         Access access;
@@ -44,7 +44,8 @@ public:
         std::uint8_t next = kNone, previous = kNone; ///< of the same bank
     };
 
-    explicit Queue(unsigned depth)
+    /// `depth`: 1 to kSlots.
+    explicit Queue(int depth)
         : free_(depth >= kSlots ? ~std::uint64_t{0} : (std::uint64_t{1} << depth) - 1) {
         head_.fill(kNone);
         tail_.fill(kNone);
@@ -89,6 +90,10 @@ public:
         }
         return slot;
     }
+    /// The oldest access of the bank if it wants the row, else kNone; only if the bank has one.
+    std::uint8_t oldest_if_hit(unsigned bank, std::uint32_t row) const {
+        return entries_[head_[bank]].access.row == row ? head_[bank] : kNone;
+    }
     std::uint8_t find(unsigned bank, std::uint32_t row, unsigned block) const {
         std::uint8_t slot = head_[bank];
         while (slot != kNone &&
@@ -99,9 +104,9 @@ public:
     }
     /// The bank that holds the oldest entry of all; only if not empty.
     unsigned oldest_bank() const {
-        unsigned best = __builtin_ctz(banks_);
+        unsigned best = first_bank(banks_);
         for (std::uint32_t rest = banks_ & (banks_ - 1); rest != 0; rest &= rest - 1) {
-            const unsigned bank = __builtin_ctz(rest);
+            const unsigned bank = first_bank(rest);
             if (entries_[head_[bank]].age < entries_[head_[best]].age) {
                 best = bank;
             }

@@ -13,7 +13,8 @@ public:
              const std::vector<Command>& next, int gap) {
         for (const Command before : previous) {
             for (const Command after : next) {
-                rules.push_back({before, after, scope, static_cast<Ck>(std::max(gap, 1)), name});
+                const Ck least = std::max(gap, 1);
+                rules.push_back({before, after, scope, least, name});
             }
         }
     }
@@ -143,7 +144,7 @@ void describe_refresh(Timing& t, ConfigVisitor& v) {
 const char* command_name(Command command) {
     constexpr const char* kNames[] = {"act1", "act2", "rd",     "wr",     "rda",
                                       "wra",  "pre",  "pre_ab", "ref_ab", "ref_pb"};
-    return kNames[static_cast<std::size_t>(command)];
+    return of_kind(kNames, command);
 }
 
 void Timing::describe(ConfigVisitor& visitor) {
@@ -164,8 +165,7 @@ std::vector<Rule> rules(const Timing& timing) {
 RuleTable::RuleTable(const Timing& timing)
     : group_shift_(timing.groups() == 1 ? 4 : 2), faw_(timing.faw) {
     for (const Rule& rule : rules(timing)) {
-        Steps& steps =
-            steps_[static_cast<std::size_t>(rule.previous)][static_cast<std::size_t>(rule.scope)];
+        Steps& steps = of_kind(of_kind(steps_, rule.previous), rule.scope);
         steps.step.at(steps.count++) = {static_cast<std::uint16_t>(rule.next),
                                         static_cast<std::uint16_t>(rule.gap)};
     }

@@ -30,10 +30,21 @@ constexpr bool is_column(Command command) {
 constexpr unsigned kBanks = 16;          ///< BG and 16B mode alike
 constexpr unsigned kPageBytes = 2048;    ///< of a bank, BG and 16B mode alike
 constexpr unsigned kBytesPerBeat = 2;    ///< x16
-constexpr unsigned kBeatsPerCk = 8;      ///< WCK:CK = 4:1, both edges
+constexpr int kBeatsPerCk = 8;           ///< WCK:CK = 4:1, both edges
 constexpr unsigned kAccessBytes = 64;    ///< what a controller queue's entry covers
-constexpr unsigned kRefreshSteps = 8;    ///< per-bank refresh: pairs of banks
+constexpr int kRefreshSteps = 8;         ///< per-bank refresh: pairs of banks
 constexpr unsigned kRefreshPartner = 8u; ///< bank b is refreshed together with b + 8
+
+/// The first bank of a mask that is not empty.
+inline unsigned first_bank(std::uint32_t banks) {
+    return __builtin_ctz(banks);
+}
+
+/// The counter, or whatever else, of one of several kinds.
+template <class PerKind, class Kind>
+auto& of_kind(PerKind& each, Kind kind) {
+    return each[static_cast<std::size_t>(kind)];
+}
 
 /// Organisation and timing of one channel. Durations in CK, rounded up; defaults are 6400 MT/s in
 /// BG mode with 8 Gb per channel (JESD209-5B as restated by public simulators, see docs/lpddr5.md).
@@ -98,7 +109,7 @@ public:
 
     explicit RuleTable(const Timing& timing);
     const Steps& after(Command previous, Scope scope) const {
-        return steps_[static_cast<std::size_t>(previous)][static_cast<std::size_t>(scope)];
+        return of_kind(of_kind(steps_, previous), scope);
     }
     unsigned group_of(unsigned bank) const { return bank >> group_shift_; }
     Ck faw() const { return faw_; }

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dram/queues.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace degs::dram {
+namespace {
+
+unsigned entries(double share, int depth) {
+    return static_cast<unsigned>(std::floor(share * depth + 0.5));
+}
+
+} // namespace
+
+Queues::Queues(const ControllerConfig& config)
+    : posted_writes_(config.posted_writes),
+      write_high_(std::max(1U, entries(config.write_high, config.write_queue))),
+      write_low_(entries(config.write_low, config.write_queue)), reads_(config.read_queue),
+      writes_(config.write_queue) {}
+
+bool Queues::push(Access access) {
+    if (access.write) {
+        ++writes_of_hash_[hash(access)];
+        writes_in_.push_back(access);
+        return posted_writes_;
+    }
+    access.after_write = writes_of_hash_[hash(access)] != 0;
+    after_writes_ += access.after_write ? 1 : 0;
+    reads_in_.push_back(access);
+    return access.after_write;
+}
+
+bool Queues::covered(const Access& access) const {
+    const std::uint8_t slot = writes_.find(access.bank, access.row, access.block);
+    return slot != Queue::kNone && (access.bursts & ~writes_[slot].access.bursts) == 0;
+}
+
+bool Queues::merge(const Access& access) {
+    const std::uint8_t slot = writes_.find(access.bank, access.row, access.block);
+    if (slot == Queue::kNone) {
+        return false;
+    }
+    writes_[slot].access.bursts |= access.bursts;
+    writes_[slot].left |= access.bursts;
+    --writes_of_hash_[hash(access)];
+    return true;
+}
+
+void Queues::remove(unsigned slot) {
+    if (writing_) {
+        --writes_of_hash_[hash(writes_[slot].access)];
+    }
+    current().remove(slot);
+}
+
+bool Queues::idle() const {
+    return reads_.size() == 0 && writes_.size() == 0 && waiting() == 0;
+}
+
+} // namespace degs::dram

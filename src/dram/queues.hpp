@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <deque>
+
+#include "dram/controller.hpp"
+#include "dram/queue.hpp"
+
+namespace degs::dram {
+
+/// The read queue and the write queue of a channel, what waits for its date or for room in them,
+/// and which of the two is served: reads first; writes in batches between two watermarks, or when
+/// no read waits.
+class Queues {
+public:
+    explicit Queues(const ControllerConfig& config);
+
+    /// Dates never fall per direction. True if the answer may come as soon as the queues have it.
+    bool push(Access access);
+    /// The earliest date of an access that waits and for which there is room.
+    Ck next_admission() const {
+        Ck date = kNoDate;
+        if (!reads_in_.empty() && !reads_.full()) {
+            date = reads_in_.front().date;
+        }
+        if (!writes_in_.empty() && !writes_.full()) {
+            date = std::min(date, writes_in_.front().date);
+        }
+        return date;
+    }
+    bool write_ready(Ck date) const { return ready(writes_in_, writes_, date); }
+    bool read_ready(Ck date) const { return ready(reads_in_, reads_, date); }
+    /// Takes the first that waits; it then is enqueued, merged, or answered from a write.
+    Access take_write() {
+        const Access access = writes_in_.front();
+        writes_in_.pop_front();
+        return access;
+    }
+    Access take_read() {
+        const Access access = reads_in_.front();
+        reads_in_.pop_front();
+        after_writes_ -= access.after_write ? 1 : 0;
+        return access;
+    }
+
+    void enqueue_write(const Access& access) { writes_.push(access); }
+    void enqueue_read(const Access& access) { reads_.push(access); }
+    /// Joins a write to one that waits for the same block; false if there is none.
+    bool merge(const Access& access);
+    /// Does a waiting write hold all that this read wants?
+    bool covered(const Access& access) const;
+    /// Takes a served access out of the current queue.
+    void remove(unsigned slot);
+    /// Which direction to serve from now on; true if that is another one. To be asked when the size
+    /// of a queue has changed.
+    bool turn() {
+        const unsigned reads = reads_.size();
+        const unsigned writes = writes_.size();
+        const bool write = writing_ ? writes != 0 && (writes > write_low_ || reads == 0)
+                                    : writes >= write_high_ || (reads == 0 && writes != 0);
+        const bool turned = write != writing_;
+        writing_ = write;
+        return turned;
+    }
+
+    bool writing() const { return writing_; }
+    /// That of the present direction.
+    Queue& current() { return writing_ ? writes_ : reads_; }
+    const Queue& current() const { return writing_ ? writes_ : reads_; }
+
+    /// True if nothing is queued and nothing waits for a queue.
+    bool idle() const;
+    /// Accesses that wait for room in a queue, or for their date.
+    std::size_t waiting() const { return reads_in_.size() + writes_in_.size(); }
+    /// Something waits for room in a full queue.
+    bool held_up() const {
+        return (reads_.full() && !reads_in_.empty()) || (writes_.full() && !writes_in_.empty());
+    }
+    bool has_writes() const { return writes_.size() != 0 || !writes_in_.empty(); }
+    /// Accesses that wait for room may be answered when they get in.
+    bool answers_at_admission() const { return after_writes_ != 0 || !writes_in_.empty(); }
+
+private:
+    static bool ready(const std::deque<Access>& waiting, const Queue& queue, Ck date) {
+        return !waiting.empty() && !queue.full() && waiting.front().date <= date;
+    }
+    static std::size_t hash(const Access& access) {
+        return (access.row * 37U + access.bank * 11U + access.block) % 256;
+    }
+
+    bool posted_writes_;
+    unsigned write_high_, write_low_; // entries
+    Queue reads_, writes_;
+    std::deque<Access> reads_in_, writes_in_; // wait for their date or for room
+    bool writing_ = false;
+    // The number of waiting writes by hash. It shows at arrival that a read has nothing to wait for.
+    std::array<std::uint16_t, 256> writes_of_hash_{};
+    std::size_t after_writes_ = 0; // reads in reads_in_ with after_write
+};
+
+} // namespace degs::dram
