@@ -20,8 +20,8 @@ namespace degs::sim {
 namespace {
 
 /// One line, whatever a file name or a message may contain.
-int fail(int code, const std::string& sentence) {
-    std::cerr << "degs: " << visible(sentence) << std::endl;
+int fail(int code, const std::string& words) {
+    std::cerr << "degs: " << visible(words) << std::endl;
     return code;
 }
 

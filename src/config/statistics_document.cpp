@@ -15,9 +15,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-class Lister : public StatsVisitor {
+class StatisticLister : public StatsVisitor {
 public:
-    explicit Lister(bool all) : all_(all) {}
+    explicit StatisticLister(bool all) : all_(all) {}
     void begin_section(const std::string& name, const std::string& sentence) override {
         open_.push_back(path(name));
         list.push_back({open_.back(), "", sentence, true, {}});
@@ -116,9 +116,9 @@ std::vector<Statistic>::iterator shared_place(std::vector<Statistic>& list,
 }
 
 std::vector<Statistic> listed(const DescribeStats& describe, bool all) {
-    Lister lister(all);
-    describe(lister);
-    return std::move(lister.list);
+    StatisticLister statistic_lister(all);
+    describe(statistic_lister);
+    return std::move(statistic_lister.list);
 }
 
 } // namespace
