@@ -37,7 +37,7 @@ struct Driver : sc_core::sc_module {
 } // namespace
 
 int sc_main(int, char**) {
-    degs::Lpddr5 memory("memory", {}, degs::Timebase(), 1);
+    degs::dram::Lpddr5 memory("memory", {}, degs::Timebase(), 1);
     Driver driver("driver");
     driver.out.bind(memory.in[0]);
     sc_core::sc_start();
