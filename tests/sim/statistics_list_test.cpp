@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> output_lines(const std::string& text) {
     std::vector<std::string> lines;
     std::istringstream in(text);
     for (std::string line; std::getline(in, line);) {
@@ -24,7 +24,7 @@ std::set<std::string> listed(const std::string& config) {
     const Outcome outcome = degs({"config", config, "--stats", "--format", "markdown"});
     expect_success(outcome);
     std::set<std::string> paths;
-    for (const std::string& line : lines_of(outcome.out)) {
+    for (const std::string& line : output_lines(outcome.out)) {
         if (line.rfind("| `", 0) == 0) {
             paths.insert(line.substr(3, line.find('`', 3) - 3));
         }
@@ -95,7 +95,7 @@ TEST_P(StatisticsOf, AReportAreListed) {
 TEST_P(StatisticsOf, DesignsHaveSentencesAndFitATerminal) {
     const Outcome outcome = degs({"config", config(GetParam()), "--stats"});
     expect_success(outcome);
-    const std::vector<std::string> lines = lines_of(outcome.out);
+    const std::vector<std::string> lines = output_lines(outcome.out);
     for (std::size_t i = 0; i < lines.size(); ++i) {
         EXPECT_LE(lines[i].size(), 80U) << lines[i];
         if (lines[i].find(" [") != std::string::npos && lines[i].front() != ' ') {
