@@ -10,7 +10,7 @@ packages=(
     libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
 )
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format clang-tidy ccache mandoc mkdocs-material
-    python3)
+    python3 zsh)
 [[ ${1:-} != --tests ]] || packages+=("${test_packages[@]}")
 
 missing=()

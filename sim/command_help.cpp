@@ -10,6 +10,7 @@
 #include "sim/command_line/bash_completion.hpp"
 #include "sim/command_line/help_text.hpp"
 #include "sim/command_line/manual_page.hpp"
+#include "sim/command_line/zsh_completion.hpp"
 #include "sim/commands.hpp"
 #include "sim/text/standard_output.hpp"
 
@@ -19,7 +20,8 @@ namespace {
 struct HelpOptions {
     std::vector<std::string> command;
     bool manual = false;
-    bool completion = false;
+    bool bash_completion = false;
+    bool zsh_completion = false;
 };
 
 const CLI::App& find_command(const CLI::App& program, const std::vector<std::string>& words) {
@@ -55,8 +57,10 @@ std::vector<std::string> synthetic_names() {
 void run(const CLI::App& program, const HelpOptions& options) {
     if (options.manual) {
         print(manual_page(describe(program)));
-    } else if (options.completion) {
+    } else if (options.bash_completion) {
         print(bash_completion(describe(program), synthetic_names()));
+    } else if (options.zsh_completion) {
+        print(zsh_completion(describe(program), synthetic_names()));
     } else {
         print(help_text(find_command(program, options.command)));
     }
@@ -73,11 +77,16 @@ void add_help_command(CLI::App& program) {
     CLI::Option* manual =
         command->add_flag("--man", options->manual, "print the manual page (roff)")
             ->excludes(words);
-    command
-        ->add_flag("--bash-completion", options->completion,
-                   "print what bash needs to complete commands, options and values")
+    CLI::Option* bash =
+        command
+            ->add_flag("--bash-completion", options->bash_completion,
+                       "print what bash needs to complete commands, options and values")
+            ->excludes(words)
+            ->excludes(manual);
+    command->add_flag("--zsh-completion", options->zsh_completion, "print the same for zsh")
         ->excludes(words)
-        ->excludes(manual);
+        ->excludes(manual)
+        ->excludes(bash);
     command->callback([options, &program] { run(program, *options); });
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "config/error.hpp"
+#include "config/ratio.hpp"
 #include "scene/image_io.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"

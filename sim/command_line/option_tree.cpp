@@ -82,7 +82,9 @@ OptionEntry describe(const CLI::Option& option) {
     OptionEntry entry;
     entry.argument = option.get_positional();
     entry.required = option.get_required();
-    entry.several = entry.argument && option.get_expected_max() > 1;
+    entry.several = entry.argument
+                        ? option.get_expected_max() > 1
+                        : option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
     if (entry.argument) {
         entry.names = {in_capitals(option.get_name(true))};
     } else {

@@ -18,7 +18,7 @@ struct OptionEntry {
     std::vector<std::string> notes; ///< "required", "default 1", "1 to 64", "not with --width"
     bool argument = false;
     bool required = false;
-    bool several = false;
+    bool several = false; ///< an argument of several words, an option that may be repeated
 };
 
 struct CommandEntry {

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "config/config_words.hpp"
+#include "config/ratio.hpp"
 #include "config/visible_text.hpp"
 #include "sim/text/words.hpp"
 

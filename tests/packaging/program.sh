@@ -17,4 +17,5 @@ grep -q '^\.TH DEGS 1' "$work/prefix/share/man/man1/degs.1"
 COMP_WORDS=(degs comp) COMP_CWORD=1
 _degs
 [[ ${COMPREPLY[*]} == compare ]] || { echo "completed to '${COMPREPLY[*]}'"; exit 1; }
+grep -q '^#compdef degs' "$work/prefix/share/zsh/site-functions/_degs"
 complete -p degs | grep -q -- '-F _degs degs'

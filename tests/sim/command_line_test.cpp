@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Help, suggestions, manual page and completion, as a stranger meets them.
 #include <algorithm>
+#include <cstring>
+#include <set>
 #include <sstream>
 
 #include "tests/sim/child.hpp"
@@ -124,6 +126,77 @@ TEST(BashCompletion, FindsFilesAndFolders) {
               (std::vector<std::string>{"my file.yaml", "my folder"}));
     EXPECT_EQ(completions({"degs", "run", "--out", "my"}, folder / "."),
               std::vector<std::string>{"my folder"});
+}
+
+/// The words of `text` that begin with "--", as a help text or a completion names options.
+std::set<std::string> options_in(const std::string& text) {
+    std::set<std::string> options;
+    for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at + 2)) {
+        const std::size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at);
+        const std::string word = text.substr(at, end - at);
+        if (word.size() > 2 && (at == 0 || std::strchr(" ({,\n'", text[at - 1]) != nullptr)) {
+            options.insert(word);
+        }
+    }
+    return options;
+}
+
+/// The function of a command in the completion of zsh.
+std::string zsh_function(const std::string& script, const std::string& name) {
+    const std::size_t begin = script.find("\n_" + name + "() {\n");
+    EXPECT_NE(begin, std::string::npos) << name;
+    return script.substr(begin, script.find("\n}\n", begin) - begin);
+}
+
+// tests/packaging/zsh_completion.zsh asks a real zsh.
+TEST(ZshCompletion, HasTheOptionsAndCommandsOfTheHelp) {
+    const Outcome outcome = degs({"help", "--zsh-completion"});
+    expect_success(outcome);
+    EXPECT_EQ(outcome.out.rfind("#compdef degs\n", 0), 0U);
+    using Words = std::vector<std::string>;
+    for (const Words& command : std::vector<Words>{{"run"},
+                                                   {"compare"},
+                                                   {"render"},
+                                                   {"memory"},
+                                                   {"soc"},
+                                                   {"accuracy"},
+                                                   {"config"},
+                                                   {"help"},
+                                                   {"scene", "info"},
+                                                   {"scene", "generate"},
+                                                   {"scene", "convert"}}) {
+        Words words{"help"};
+        std::string name = "degs";
+        for (const std::string& word : command) {
+            words.push_back(word);
+            name += "_" + word;
+        }
+        const std::string function = zsh_function(outcome.out, name);
+        const std::string help = degs(words).out;
+        EXPECT_EQ(options_in(function), options_in(help)) << name;
+        EXPECT_GT(options_in(function).size(), 1U) << name;
+    }
+    const std::string program = zsh_function(outcome.out, "degs");
+    for (const char* command :
+         {"'run:", "'scene:", "scene) _degs_scene ;;", "help) _degs_help ;;"}) {
+        EXPECT_NE(program.find(command), std::string::npos) << command;
+    }
+}
+
+TEST(ZshCompletion, KnowsValuesFilesAndWhatMayBeRepeated) {
+    const std::string script = degs({"help", "--zsh-completion"}).out;
+    const std::string run = zsh_function(script, "degs_run");
+    EXPECT_NE(run.find(":(exact strict)'"), std::string::npos) << run;
+    EXPECT_NE(run.find("'(--scene)'--scene'["), std::string::npos) << run;
+    EXPECT_NE(run.find("]:SCENE:__degs_scenes'"), std::string::npos) << run;
+    EXPECT_NE(run.find("'*'--set'["), std::string::npos) << run;
+    EXPECT_NE(run.find("'(--out)'--out'["), std::string::npos) << run;
+    EXPECT_NE(run.find(":FOLDER:_files -/'"), std::string::npos) << run;
+    EXPECT_NE(run.find("':CONFIG:_files'"), std::string::npos) << run;
+    EXPECT_NE(zsh_function(script, "degs_compare").find("'*:CONFIG:_files'"), std::string::npos);
+    EXPECT_NE(script.find(" synthetic:object "), std::string::npos);
+    // Brackets end an explanation unless they are escaped.
+    EXPECT_NE(run.find("\\[default exact\\]"), std::string::npos) << run;
 }
 
 /// mandoc belongs to the packages of the tests (scripts/install.sh).
