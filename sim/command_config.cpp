@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "config/config_document.hpp"
+#include "config/config_words.hpp"
 #include "config/error.hpp"
 #include "sim/commands.hpp"
 #include "sim/run_config.hpp"
@@ -20,7 +21,8 @@ struct ConfigOptions {
     std::vector<std::string> overrides;
     std::string format = "text";
     bool stats = false;
-    std::string section; ///< of the statistics
+    std::string of = "run"; ///< the command whose statistics are listed
+    std::string section;    ///< of the statistics
 };
 
 /// path = value
@@ -55,7 +57,15 @@ std::string statistics(const RunConfig& config, const ConfigOptions& options) {
         throw InputError(
             "--stats has the formats text and markdown; 'yaml' is for configurations.");
     }
-    const std::vector<Statistic> list = statistics_in(statistics_of(config), options.section);
+    if (options.of != "run" && options.has_config) {
+        throw InputError("The statistics of 'degs " + options.of +
+                         "' are the same for every configuration; leave out " +
+                         config_words::quote(options.config) + ".");
+    }
+    const std::vector<Statistic> all = options.of == "compare"  ? statistics_of_compare()
+                                       : options.of == "memory" ? statistics_of_memory()
+                                                                : statistics_of(config);
+    const std::vector<Statistic> list = statistics_in(all, options.section);
     return options.format == "markdown" ? statistics_markdown(list, options.section)
                                         : statistics_text(list);
 }
@@ -99,7 +109,12 @@ void add_config_command(CLI::App& program) {
         ->capture_default_str();
     CLI::Option* stats =
         command->add_flag("--stats", options->stats,
-                          "what a run on this accelerator reports, with units and meanings");
+                          "the statistics that a run on this accelerator reports, with units and "
+                          "meanings");
+    command->add_option("--of", options->of, "the command whose statistics are listed")
+        ->check(CLI::IsMember({"run", "compare", "memory"}))
+        ->capture_default_str()
+        ->needs(stats);
     command
         ->add_option("--section", options->section,
                      "a part of the statistics: stages, stages.span or timing.cycles")

@@ -64,8 +64,8 @@ void add_run_command(CLI::App& program) {
     add_out_option(*command, options->out, "folder for image.exr, image.png and report.json");
     command
         ->add_option("--memory", options->memory,
-                     "file of an LPDDR5 memory, as in configs/memory, in place of what the "
-                     "configuration says of memory")
+                     "file of an LPDDR5 memory, as in configs/memory; it overrides the "
+                     "configuration's memory section")
         ->type_name("FILE");
     add_overrides_option(*command, options->overrides);
     command->add_flag("--no-reference", options->no_reference,
@@ -74,7 +74,7 @@ void add_run_command(CLI::App& program) {
         "--array-only", options->array_only,
         "the rasterisation array alone: sorted lists are there at once, and memory is "
         "unlimited");
-    command->add_flag("--explain", options->explain, "tell what the model left out, and why");
+    command->add_flag("--explain", options->explain, "print what the model left out, and why");
     command->callback([options] { run(*options); });
 }
 

@@ -73,9 +73,7 @@ void add_commands(CLI::App& program) {
 } // namespace
 
 void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides) {
-    command
-        .add_option("--set", overrides,
-                    "path.to.key=value in place of what the file says; may be repeated")
+    command.add_option("--set", overrides, "path.to.key=value overrides the file; may be repeated")
         ->type_name("KEY=VALUE")
         ->take_all()
         ->expected(1);

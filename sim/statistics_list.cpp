@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/statistics_list.hpp"
 
+#include "sim/compare/measures.hpp"
+#include "sim/memory/memory_report.hpp"
 #include "sim/report.hpp"
 
 namespace degs::sim {
+namespace {
 
-std::vector<Statistic> statistics_of(const RunConfig& config) {
+std::vector<Statistic> report_statistics(const RunConfig& config) {
     Progress::silence();
     const AcceleratorConfig& accelerator = config.accelerator();
     Camera camera;
@@ -17,8 +20,23 @@ std::vector<Statistic> statistics_of(const RunConfig& config) {
     RunRequest request;
     request.config = config;
     const RunResult result = run_frames(request, {&frames.front()});
+    return document_statistics([&result](StatsVisitor& visitor) { describe(result, visitor); });
+}
+
+} // namespace
+
+std::vector<Statistic> statistics_of(const RunConfig& config) {
+    return shared_once(report_statistics(config));
+}
+
+std::vector<Statistic> statistics_of_compare() {
+    return measure_statistics(report_statistics(RunConfig{}));
+}
+
+std::vector<Statistic> statistics_of_memory() {
+    const MemoryFacts facts;
     return shared_once(
-        document_statistics([&result](StatsVisitor& visitor) { describe(result, visitor); }));
+        document_statistics([&facts](StatsVisitor& visitor) { describe(facts, visitor); }));
 }
 
 } // namespace degs::sim

@@ -13,5 +13,9 @@ namespace degs::sim {
 /// that what is listed is what is collected: once per process. Throws std::logic_error if the model
 /// breaks its laws.
 std::vector<Statistic> statistics_of(const RunConfig& config);
+/// The keys of a run of compare.json, which are columns of compare.csv. Renders likewise.
+std::vector<Statistic> statistics_of_compare();
+/// The numbers of memory.json.
+std::vector<Statistic> statistics_of_memory();
 
 } // namespace degs::sim

@@ -129,7 +129,7 @@ std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
     for (const Draft& draft : drafts) {
         if (count(draft.name) > 1) {
             throw InputError("Two configurations are called '" + draft.name +
-                             "'; NAME=FILE tells them apart.");
+                             "'; NAME=FILE keeps them apart.");
         }
     }
     for (const std::string& text : overrides) {

@@ -13,8 +13,10 @@ namespace {
 
 struct MeasureRule {
     const char* name;      ///< null: that of the class of slots
-    const char* statistic; ///< of a report; null: not one of them alone
+    const char* statistic; ///< of a report, which describes it; null: not one of them alone
     bool mean;
+    const char* unit = nullptr; ///< this and the next: where no statistic describes it
+    const char* sentence = nullptr;
 };
 
 constexpr std::array<MeasureRule, kMeasures> kRules{{
@@ -34,11 +36,11 @@ constexpr std::array<MeasureRule, kMeasures> kRules{{
     {"dram.bytes_read", "dram.bytes_read", false},
     {"dram.bytes_written", "dram.bytes_written", false},
     {"dram.utilization", "dram.utilization", false},
-    {"area_mm2", nullptr, false},
-    {"ratio.latency", nullptr, true},
-    {"ratio.throughput", nullptr, true},
-    {"ratio.latency_per_mm2", nullptr, true},
-    {"ratio.throughput_per_mm2", nullptr, true},
+    {"area_mm2", nullptr, false, "mm2", "Area that the configuration states."},
+    {"ratio.latency", nullptr, true, "", "Latency of the first configuration / latency."},
+    {"ratio.throughput", nullptr, true, "", "Throughput / that of the first configuration."},
+    {"ratio.latency_per_mm2", nullptr, true, "", "ratio.latency x area of the first / area."},
+    {"ratio.throughput_per_mm2", nullptr, true, "", "ratio.throughput x area of the first / area."},
     {"image.psnr_db", "image.psnr_db", false},
     {"image.ssim", "image.ssim", false},
     {"image.max_abs_error", "image.max_abs_error", false},
@@ -47,6 +49,11 @@ constexpr std::array<MeasureRule, kMeasures> kRules{{
 
 const MeasureRule& rule_of(Measure measure) {
     return kRules[index_of(measure)];
+}
+
+/// A position in kSlotClasses.
+int slot_class_of(Measure measure) {
+    return index_of(measure) - index_of(Measure::Useful);
 }
 
 /// Empty for what does not exist for this run.
@@ -82,12 +89,31 @@ void read_slots(const SlotAccount& slots, Measures& measures) {
 
 } // namespace
 
+std::vector<Statistic> measure_statistics(const std::vector<Statistic>& report) {
+    std::vector<Statistic> list;
+    for_each_measure([&](Measure m) {
+        const MeasureRule& rule = rule_of(m);
+        Statistic row;
+        if (rule.statistic != nullptr) {
+            row = find_statistic(report, rule.statistic);
+        } else if (rule.sentence != nullptr) {
+            row.unit = rule.unit;
+            row.sentence = rule.sentence;
+        } else {
+            row.unit = "share";
+            row.sentence = kSlotClasses.at(slot_class_of(m)).sentence;
+        }
+        row.path = name_of(m);
+        list.push_back(row);
+    });
+    return list;
+}
+
 std::string name_of(Measure measure) {
     if (const char* name = rule_of(measure).name) {
         return name;
     }
-    const int slot_class = index_of(measure) - index_of(Measure::Useful);
-    return std::string("slots.") + kSlotClasses.at(slot_class).name;
+    return std::string("slots.") + kSlotClasses.at(slot_class_of(measure)).name;
 }
 
 bool has_mean(Measure measure) {

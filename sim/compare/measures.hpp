@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "config/statistics_document.hpp"
 #include "sim/simulation.hpp"
 
 namespace degs::sim {
@@ -73,6 +75,10 @@ private:
 std::string name_of(Measure measure);
 /// Whether its geometric mean over views says something.
 bool has_mean(Measure measure);
+
+/// The keys of a run with their units and meanings, without values. `report` is the list of what a
+/// run reports, where most of them are described.
+std::vector<Statistic> measure_statistics(const std::vector<Statistic>& report);
 
 /// Measures of a run by itself: all but the ratios. Throws std::logic_error if the description of
 /// the result lacks a statistic that a measure comes from.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/config_document.hpp"
+#include "config/statistics_document.hpp"
 #include "sim/report.hpp"
 #include "sim/text/terminal.hpp"
 #include "sim/text/text_table.hpp"
@@ -14,49 +15,74 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json latency_json(const LatencyHistogram& latency) {
-    return {{"mean", latency.mean_ns()},          {"p50", latency.percentile_ns(0.5)},
-            {"p95", latency.percentile_ns(0.95)}, {"p99", latency.percentile_ns(0.99)},
-            {"max", latency.largest_ns()},        {"samples", latency.samples()}};
+/// pJ for each bit that was moved.
+double pj_per_bit(const TrafficResult& result) {
+    return 1e3 * result.energy.total_nj() / (8.0 * static_cast<double>(result.bytes));
 }
 
-Json commands_json(const dram::Channel::Stats& stats) {
-    Json json;
-    for (std::size_t c = 0; c < dram::kCommands; ++c) {
-        json[dram::command_name(static_cast<dram::Command>(c))] = stats.commands[c];
+double mean_power_w(const TrafficResult& result) {
+    return 1e-9 * result.energy.total_nj() / result.seconds;
+}
+
+void describe_traffic(const MemoryFacts& facts, StatsVisitor& v) {
+    const TrafficShape& shape = facts.shape;
+    const dram::ControllerConfig& controller = facts.memory.controller;
+    v.begin_section("traffic", "Requests of the measurement.");
+    v.text("pattern", shape.pattern, "Sequence of addresses (--pattern).");
+    v.count("request_bytes", shape.request_bytes, "bytes", "Size of a request.");
+    v.count("reads_per_write", shape.reads_per_write, "reads", "On average; 0 means reads only.");
+    v.count("read_queue", controller.read_queue, "accesses", "Depth of a channel's read queue.");
+    v.count("write_queue", controller.write_queue, "accesses", "Depth of its write queue.");
+    v.count("requests", facts.saturated.requests, "requests", "Measured after the warm-up.");
+    v.count("seed", shape.seed, "", "Of the random numbers.");
+    if (v.wants(shape.pattern == "strided")) {
+        v.count("stride_bytes", shape.stride_bytes, "bytes",
+                "Distance of two requests; with the pattern strided only.");
     }
-    return json;
+    v.end_section();
 }
 
-Json rows_json(const std::array<std::uint64_t, 3>& counts) {
-    return {{"hits", counts[0]}, {"closed", counts[1]}, {"conflicts", counts[2]}};
+void describe_energy(const TrafficResult& result, StatsVisitor& v) {
+    v.begin_section("energy", "Energy of the DRAM by event.");
+    result.energy.describe_with_unit(v);
+    v.real("pj_per_bit", pj_per_bit(result), "pJ/bit", "total_nj for each bit of the requests.");
+    v.real("mean_power_w", mean_power_w(result), "W", "total_nj / simulated_us.");
+    v.end_section();
 }
 
-Json energy_json(const TrafficResult& result) {
-    const dram::Energy& energy = result.energy;
-    return {{"activate_nj", energy.activate_nj},
-            {"read_nj", energy.read_nj},
-            {"write_nj", energy.write_nj},
-            {"refresh_nj", energy.refresh_nj},
-            {"background_nj", energy.background_nj},
-            {"total_nj", energy.total_nj()},
-            {"pj_per_bit", 1e3 * energy.total_nj() / (8.0 * static_cast<double>(result.bytes))},
-            {"mean_power_w", 1e-9 * energy.total_nj() / result.seconds}};
+/// Of the saturated memory.
+void describe_results(const MemoryFacts& facts, StatsVisitor& v) {
+    const TrafficResult& result = facts.saturated;
+    describe_traffic(facts, v);
+    v.real("peak_gb_per_s", facts.memory.peak_gb_per_s(), "GB/s", "Data rate x width of the bus.");
+    v.real("bandwidth_gb_per_s", result.gb_per_s(), "GB/s", "Bytes of the requests / time.");
+    v.real("bandwidth_fraction", point_of(result, facts.memory).carried, "share",
+           "bandwidth_gb_per_s / peak_gb_per_s.");
+    v.real("simulated_us", result.seconds * 1e6, "us", "Time of the measurement.");
+    v.section("latency_ns", latency_of(result),
+              "From a request to its answer: of reads, or of writes if there are no reads.");
+    v.section("write_latency_ns", result.writes, "The same of writes; posted writes answer early.");
+    result.commands.describe(v);
+    describe_energy(result, v);
 }
 
-Json shape_json(const TrafficShape& shape, const dram::ControllerConfig& controller,
-                std::uint64_t requests) {
-    Json json{{"pattern", shape.pattern},
-              {"request_bytes", shape.request_bytes},
-              {"reads_per_write", shape.reads_per_write},
-              {"read_queue", controller.read_queue},
-              {"write_queue", controller.write_queue},
-              {"requests", requests},
-              {"seed", shape.seed}};
-    if (shape.pattern == "strided") {
-        json["stride_bytes"] = shape.stride_bytes;
-    }
-    return json;
+/// A point of the curve.
+void describe_point(const TrafficResult& result, const dram::Config& memory, StatsVisitor& v) {
+    v.real("offered_fraction", result.offered, "share", "Offered load / peak_gb_per_s.");
+    v.real("bandwidth_fraction", point_of(result, memory).carried, "share",
+           "Bandwidth that was reached / peak_gb_per_s.");
+    v.section("latency_ns", latency_of(result), "From the arrival of a request to its answer.");
+}
+
+void describe_host(const MemoryFacts& facts, StatsVisitor& v) {
+    const TrafficResult& result = facts.saturated;
+    v.begin_section("host", "The machine that simulated; differs between runs.");
+    v.real("requests_per_s", static_cast<double>(result.host_requests) / result.host_s,
+           "requests/s", "Speed of the simulation, warm-up included.");
+    v.real("sim_s", result.host_s, "s", "The simulation of the saturated memory.");
+    v.real("wall_s", facts.wall_s, "s", "All of it, without writing memory.json.");
+    v.count("peak_rss_bytes", peak_rss_bytes(), "bytes", "Largest resident set.");
+    v.end_section();
 }
 
 std::string mix_words(const TrafficShape& shape) {
@@ -77,37 +103,30 @@ LoadPoint point_of(const TrafficResult& result, const dram::Config& memory) {
             latency.percentile_ns(0.95)};
 }
 
+void describe(const MemoryFacts& facts, StatsVisitor& v) {
+    describe_results(facts, v);
+    v.begin_section("curve", "A list with one entry for each offered load.");
+    v.begin_section("*", "Each entry.");
+    describe_point(facts.saturated, facts.memory, v);
+    v.end_section();
+    v.end_section();
+    describe_host(facts, v);
+}
+
 Json memory_json(const MemoryFacts& facts) {
-    const TrafficResult& result = facts.saturated;
     Json json;
     json["schema"] = {{"name", "degs-memory"}, {"version", 1}};
     json["tool"] = tool_json();
     json["config"] = resolved(facts.memory);
-    json["traffic"] = shape_json(facts.shape, facts.memory.controller, result.requests);
-    json["peak_gb_per_s"] = facts.memory.peak_gb_per_s();
-    json["bandwidth_gb_per_s"] = result.gb_per_s();
-    json["bandwidth_fraction"] = point_of(result, facts.memory).carried;
-    json["simulated_us"] = result.seconds * 1e6;
-    json["latency_ns"] = latency_json(latency_of(result));
-    json["write_latency_ns"] = latency_json(result.writes);
-    json["row_hit_rate"] = dram::hit_rate(result.commands.bursts);
-    json["access_hit_rate"] = dram::hit_rate(result.commands.accesses);
-    json["bursts"] = rows_json(result.commands.bursts);
-    json["accesses"] = rows_json(result.commands.accesses);
-    json["forwarded"] = result.commands.forwarded;
-    json["merged"] = result.commands.merged;
-    json["commands"] = commands_json(result.commands);
-    json["energy"] = energy_json(result);
+    json.update(statistics_json(
+        list_statistics([&](StatsVisitor& visitor) { describe_results(facts, visitor); })));
     json["curve"] = Json::array();
     for (const TrafficResult& each : facts.curve) {
-        json["curve"].push_back({{"offered_fraction", each.offered},
-                                 {"bandwidth_fraction", point_of(each, facts.memory).carried},
-                                 {"latency_ns", latency_json(latency_of(each))}});
+        json["curve"].push_back(statistics_json(list_statistics(
+            [&](StatsVisitor& visitor) { describe_point(each, facts.memory, visitor); })));
     }
-    json["host"] = {{"requests_per_s", static_cast<double>(result.host_requests) / result.host_s},
-                    {"sim_s", result.host_s},
-                    {"wall_s", facts.wall_s},
-                    {"peak_rss_bytes", peak_rss_bytes()}};
+    json.update(statistics_json(
+        list_statistics([&](StatsVisitor& visitor) { describe_host(facts, visitor); })));
     return json;
 }
 
@@ -128,9 +147,8 @@ std::string memory_words(const MemoryFacts& facts) {
          {"rows", "hits " + percent(dram::hit_rate(result.commands.bursts)) + " % of the bursts, " +
                       percent(dram::hit_rate(result.commands.accesses)) +
                       " % of the 64 B accesses"},
-         {"energy",
-          three_digits(1e3 * result.energy.total_nj() / (8.0 * static_cast<double>(result.bytes))) +
-              " pJ/bit · " + three_digits(1e-9 * result.energy.total_nj() / result.seconds) + " W"},
+         {"energy", three_digits(pj_per_bit(result)) + " pJ/bit · " +
+                        three_digits(mean_power_w(result)) + " W"},
          {"host", three_digits(facts.wall_s) + " s · " +
                       scaled(static_cast<double>(result.host_requests) / result.host_s) +
                       " requests/s"}});

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "modules/stream_kinds.hpp"
+
 namespace degs {
 
 Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Timebase& time,
@@ -119,7 +121,7 @@ void Gbu::build_pixel_buffer(int index) {
 void Gbu::build_memory() {
     front_end_->connect_memory(streams_, fetchers_);
     for (auto& unit : pixel_buffers_) {
-        streams_.connect(unit->frame_buffer, "frame_buffer", StreamData::Own);
+        streams_.connect(unit->frame_buffer, stream_kinds::kFrameBuffer);
     }
     frame_ends_.connect_memory(streams_);
     streams_.build("memory", config_.memory, time_, options_);

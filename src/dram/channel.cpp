@@ -22,7 +22,33 @@ void each_counter(Channel::Stats& stats, const Channel::Stats& other, const Chan
     change(stats.open, other.open);
 }
 
+void describe_rows(const ByRowState& counts, StatsVisitor& v, const char* unit) {
+    v.count("hits", counts[0], unit, "The row was open.");
+    v.count("closed", counts[1], unit, "The bank was closed, and had to be activated.");
+    v.count("conflicts", counts[2], unit, "Another row was open, and had to be closed first.");
+}
+
 } // namespace
+
+void Channel::Stats::describe(StatsVisitor& v) const {
+    v.real("row_hit_rate", hit_rate(bursts), "share", "bursts.hits / all bursts.");
+    v.real("access_hit_rate", hit_rate(accesses), "share", "accesses.hits / all accesses.");
+    v.begin_section("bursts", "Bursts by the state in which they found their bank.");
+    describe_rows(bursts, v, "bursts");
+    v.end_section();
+    v.begin_section("accesses", "Accesses of up to 64 B by the state in which their first burst "
+                                "found its bank.");
+    describe_rows(accesses, v, "accesses");
+    v.end_section();
+    v.count("forwarded", forwarded, "accesses", "Reads answered from a queued write.");
+    v.count("merged", merged, "accesses", "Writes that a queued write of the same place took in.");
+    v.begin_section("commands", "Commands on the bus, by kind.");
+    for (std::size_t c = 0; c < kCommands; ++c) {
+        const auto command = static_cast<Command>(c);
+        v.count(command_name(command), commands[c], "commands", command_sentence(command));
+    }
+    v.end_section();
+}
 
 void Channel::Stats::add(const Stats& other) {
     each_counter(*this, other, [](std::uint64_t& mine, std::uint64_t its) { mine += its; });

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "config/statistics.hpp"
 #include "dram/banks.hpp"
 #include "dram/chooser.hpp"
 #include "dram/controller.hpp"
@@ -56,6 +57,8 @@ public:
         Ck open = 0;                             ///< CK with a row open, up to the last change
         void add(const Stats& other);
         void subtract(const Stats& earlier);
+        /// All but `drains` and `open`, from which the energy follows.
+        void describe(StatsVisitor& v) const;
     };
 
     /// `phase`: CK by which the first refresh comes early. The table outlives the channel.

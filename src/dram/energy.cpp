@@ -38,4 +38,18 @@ void Energy::add(const Config& config, const Timing& timing, const Channel& chan
                      (config.standby_open_mw * open + config.standby_closed_mw * closed);
 }
 
+void Energy::describe(StatsVisitor& v) const {
+    for (const EnergyClass& each : kEnergyClasses) {
+        v.real(each.name, this->*each.nj, "nJ", each.sentence);
+    }
+    v.real("total", total_nj(), "nJ", "The sum.");
+}
+
+void Energy::describe_with_unit(StatsVisitor& v) const {
+    for (const EnergyClass& each : kEnergyClasses) {
+        v.real(each.name_with_unit, this->*each.nj, "nJ", each.sentence);
+    }
+    v.real("total_nj", total_nj(), "nJ", "The sum.");
+}
+
 } // namespace degs::dram

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
 #include "config/config.hpp"
 #include "config/statistics.hpp"
 #include "dram/channel.hpp"
@@ -14,14 +16,9 @@ struct Energy {
         return activate_nj + read_nj + write_nj + refresh_nj + background_nj;
     }
 
-    void describe(StatsVisitor& v) const {
-        v.real("activate", activate_nj, "nJ", "Opening and closing rows.");
-        v.real("read", read_nj, "nJ", "Read bursts.");
-        v.real("write", write_nj, "nJ", "Write bursts.");
-        v.real("refresh", refresh_nj, "nJ", "Refreshes.");
-        v.real("background", background_nj, "nJ", "Standby, whatever happens.");
-        v.real("total", total_nj(), "nJ", "The sum.");
-    }
+    void describe(StatsVisitor& v) const;
+    /// The same with names that end in the unit.
+    void describe_with_unit(StatsVisitor& v) const;
 
     Energy operator-(const Energy& earlier) const {
         return {activate_nj - earlier.activate_nj, read_nj - earlier.read_nj,
@@ -42,5 +39,20 @@ struct Energy {
     /// Adds the energy of one channel in its first `elapsed` CK.
     void add(const Config& config, const Timing& timing, const Channel& channel, Ck elapsed);
 };
+
+/// One class of events and what it means. Its name stands alone where a section says the unit.
+struct EnergyClass {
+    const char* name;
+    const char* name_with_unit;
+    double Energy::*nj;
+    const char* sentence;
+};
+inline constexpr std::array<EnergyClass, 5> kEnergyClasses{{
+    {"activate", "activate_nj", &Energy::activate_nj, "Opening and closing rows."},
+    {"read", "read_nj", &Energy::read_nj, "Read bursts."},
+    {"write", "write_nj", &Energy::write_nj, "Write bursts."},
+    {"refresh", "refresh_nj", &Energy::refresh_nj, "Refreshes."},
+    {"background", "background_nj", &Energy::background_nj, "Standby, whatever happens."},
+}};
 
 } // namespace degs::dram

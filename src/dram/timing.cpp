@@ -139,12 +139,32 @@ void describe_refresh(Timing& t, ConfigVisitor& v) {
         {"rfc_ab", "rp_ab", "ras", "wl", "wr", "pbr2pbr"});
 }
 
+struct CommandText {
+    const char* name;
+    const char* sentence;
+};
+
+constexpr CommandText kCommandTexts[kCommands] = {
+    {"act1", "ACT-1: first half of the activation of a row."},
+    {"act2", "ACT-2: second half; the row is open after it."},
+    {"rd", "RD: reads a burst."},
+    {"wr", "WR: writes a burst."},
+    {"rda", "RDA: reads a burst, then closes the row (auto-precharge)."},
+    {"wra", "WRA: writes a burst, then closes the row (auto-precharge)."},
+    {"pre", "PRE: closes the row of a bank."},
+    {"pre_ab", "PREab: closes the rows of all banks."},
+    {"ref_ab", "REFab: refreshes all banks."},
+    {"ref_pb", "REFpb: refreshes a pair of banks."},
+};
+
 } // namespace
 
 const char* command_name(Command command) {
-    constexpr const char* kNames[] = {"act1", "act2", "rd",     "wr",     "rda",
-                                      "wra",  "pre",  "pre_ab", "ref_ab", "ref_pb"};
-    return of_kind(kNames, command);
+    return of_kind(kCommandTexts, command).name;
+}
+
+const char* command_sentence(Command command) {
+    return of_kind(kCommandTexts, command).sentence;
 }
 
 void Timing::describe(ConfigVisitor& visitor) {

@@ -23,6 +23,7 @@ constexpr Ck kNoDate = ~Ck{0} / 2;
 enum class Command : std::uint8_t { Act1, Act2, Rd, Wr, RdA, WrA, Pre, PreAb, RefAb, RefPb };
 constexpr std::size_t kCommands = 10;
 const char* command_name(Command command);
+const char* command_sentence(Command command);
 constexpr bool is_column(Command command) {
     return command >= Command::Rd && command <= Command::WrA;
 }

@@ -105,9 +105,9 @@ void describe_dram(const AcceleratorResult& run, StatsVisitor& v) {
     } else {
         v.nothing("energy_nj", "Energy of the DRAM by event.");
     }
-    v.begin_section("streams", "The same by kind of record.");
+    v.begin_section("streams", "Traffic by kind of record.");
     for (const StreamUse& stream : run.streams) {
-        v.section(stream.name, stream, "");
+        v.section(stream.name, stream, stream.sentence);
     }
     v.end_section();
     v.end_section();
@@ -148,9 +148,7 @@ void StreamUse::describe(StatsVisitor& visitor) const {
     if (visitor.wants(read_latency.samples() != 0)) {
         visitor.begin_section("read_latency_ns",
                               "From the date of a read to its last byte; with lpddr5 only.");
-        visitor.real("mean", read_latency.mean_ns(), "ns", "Mean.");
-        visitor.real("p95", read_latency.percentile_ns(0.95), "ns",
-                     "95th percentile, right to 1/32 of its value.");
+        read_latency.describe_summary(visitor);
         visitor.end_section();
     }
 }

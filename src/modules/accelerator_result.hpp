@@ -41,7 +41,8 @@ struct BufferUse {
 };
 
 struct StreamUse {
-    std::string name;
+    std::string name;     ///< key in results
+    std::string sentence; ///< what it carries
     std::uint64_t bytes_read = 0, bytes_written = 0, requests = 0;
     LatencyHistogram read_latency; ///< date of a request to its last byte; empty on a plain bus
     void describe(StatsVisitor& visitor) const;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "modules/row_map.hpp"
+#include "modules/stream_kinds.hpp"
 
 namespace degs {
 
@@ -196,7 +197,7 @@ void Degs::connect_region_feedback(int slice, int listeners) {
 void Degs::build_memory() {
     front_end_->connect_memory(streams_, fetchers_);
     for (auto& unit : pixel_buffers_) {
-        streams_.connect(unit->frame_buffer, "frame_buffer", StreamData::Own);
+        streams_.connect(unit->frame_buffer, stream_kinds::kFrameBuffer);
     }
     frame_ends_.connect_memory(streams_);
     streams_.build("memory", config_.memory, time_, options_);

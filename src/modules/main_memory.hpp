@@ -17,12 +17,18 @@ namespace degs {
 /// accelerator. `Own`: data that the accelerator itself writes, and may read back.
 enum class StreamData { Scene, Own };
 
+/// A kind of record that is read or written. The texts are literals.
+struct StreamKind {
+    const char* name; ///< key in results
+    StreamData data;
+    const char* sentence; ///< who moves what, and when
+};
+
 /// A stream between the accelerator and its memory. Every stream is an initiator of its own;
-/// streams of the same kind of record share a name.
+/// several may carry the same kind of record.
 struct MemoryStream {
-    MemoryPort* port = nullptr;
-    const char* name = "";
-    StreamData data = StreamData::Own;
+    MemoryPort* port;
+    StreamKind kind;
 };
 
 /// The traffic of one initiator.
@@ -31,8 +37,7 @@ struct MemoryTraffic {
     std::uint64_t bytes_read = 0, bytes_written = 0; ///< as they occupied the memory
 };
 
-/// The memory of any accelerator: its own, see
-/// make_main_memory(), or that of a platform.
+/// The memory of any accelerator: its own, see make_main_memory(), or that of a platform.
 class MainMemory {
 public:
     MainMemory() = default;

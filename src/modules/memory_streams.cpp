@@ -32,7 +32,8 @@ void MemoryStreams::collect_streams(AcceleratorResult& result) const {
         auto stream = std::find_if(result.streams.begin(), result.streams.end(),
                                    [&](const StreamUse& s) { return s.name == name(i); });
         if (stream == result.streams.end()) {
-            stream = result.streams.insert(stream, StreamUse{name(i), 0, 0, 0, {}});
+            stream = result.streams.insert(
+                stream, StreamUse{name(i), streams_[i].kind.sentence, 0, 0, 0, {}});
         }
         stream->bytes_read += traffic.bytes_read;
         stream->bytes_written += traffic.bytes_written;

@@ -15,16 +15,14 @@ public:
     using Traffic = MemoryTraffic;
 
     /// Initiators are numbered, and ties in time resolved, in the order of these calls.
-    void connect(MemoryPort& port, const char* stream, StreamData data) {
-        streams_.push_back({&port, stream, data});
-    }
+    void connect(MemoryPort& port, const StreamKind& kind) { streams_.push_back({&port, kind}); }
     /// Elaborates the memory that `config` describes for all connected ports, or binds them to that
     /// of `options`. With arrays alone neither latency nor bandwidth count.
     void build(const char* name, const MainMemoryConfig& config, const Timebase& time,
                const BuildOptions& options);
 
     std::size_t size() const { return streams_.size(); }
-    const char* name(std::size_t initiator) const { return streams_[initiator].name; }
+    const char* name(std::size_t initiator) const { return streams_[initiator].kind.name; }
     Traffic traffic(std::size_t initiator) const { return memory_->traffic(initiator); }
     Traffic total() const;
     double busy_ns() const { return memory_->busy_ns(); } ///< see MainMemory

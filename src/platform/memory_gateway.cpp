@@ -23,7 +23,7 @@ void MemoryGateway::connect(const std::vector<MemoryStream>& streams) {
         in_[i].register_b_transport(this, &MemoryGateway::serve, static_cast<int>(i));
         in_[i].register_transport_dbg(this, &MemoryGateway::debug_of, static_cast<int>(i));
         streams[i].port->out.bind(in_[i]);
-        if (scene_ && streams[i].data == StreamData::Scene) {
+        if (scene_ && streams[i].kind.data == StreamData::Scene) {
             streams[i].port->observe_reads(scene_);
         }
     }

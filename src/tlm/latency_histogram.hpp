@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "config/ratio.hpp"
+#include "config/statistics.hpp"
 
 namespace degs {
 
@@ -42,6 +43,19 @@ public:
             }
         }
         return largest_ns_;
+    }
+    /// The two numbers that stand for the whole: mean and 95th percentile.
+    void describe_summary(StatsVisitor& v) const {
+        v.real("mean", mean_ns(), "ns", "Mean.");
+        v.real("p95", percentile_ns(0.95), "ns", "95th percentile, right to 1/32 of its value.");
+    }
+    void describe(StatsVisitor& v) const {
+        v.real("mean", mean_ns(), "ns", "Mean.");
+        v.real("p50", percentile_ns(0.5), "ns", "Median, right to 1/32 of its value.");
+        v.real("p95", percentile_ns(0.95), "ns", "95th percentile, right to 1/32 of its value.");
+        v.real("p99", percentile_ns(0.99), "ns", "99th percentile, right to 1/32 of its value.");
+        v.real("max", largest_ns(), "ns", "Longest.");
+        v.count("samples", samples(), "requests", "Requests that were measured.");
     }
 
 private:

@@ -22,8 +22,8 @@ protected:
                 seen.push_back(address);
                 EXPECT_EQ(data[0], 0xA5);
             });
-        gateway.connect(
-            {{&first, "records", StreamData::Scene}, {&second, "geometry", StreamData::Own}});
+        gateway.connect({{&first, {"records", StreamData::Scene, ""}},
+                         {&second, {"geometry", StreamData::Own, ""}}});
         Script script("script", [&] {
             Process process(time);
             body(process);

@@ -19,9 +19,11 @@ std::vector<std::string> output_lines(const std::string& text) {
     return lines;
 }
 
-/// Paths of the numbers and texts that are listed for a design.
-std::set<std::string> listed(const std::string& config) {
-    const Outcome outcome = degs({"config", config, "--stats", "--format", "markdown"});
+/// Paths of the numbers and texts that `degs config` lists with these arguments.
+std::set<std::string> listed_by(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "config");
+    arguments.insert(arguments.end(), {"--stats", "--format", "markdown"});
+    const Outcome outcome = degs(arguments);
     expect_success(outcome);
     std::set<std::string> paths;
     for (const std::string& line : output_lines(outcome.out)) {
@@ -30,6 +32,10 @@ std::set<std::string> listed(const std::string& config) {
         }
     }
     return paths;
+}
+
+std::set<std::string> listed(const std::string& config) {
+    return listed_by({config});
 }
 
 /// A section that a design does not have is null: then one of its statistics is listed.
@@ -105,8 +111,64 @@ TEST_P(StatisticsOf, DesignsHaveSentencesAndFitATerminal) {
     }
 }
 
+TEST_P(StatisticsOf, StreamsHaveSentences) {
+    const Outcome outcome =
+        degs({"config", config(GetParam()), "--stats", "--section", "dram.streams"});
+    expect_success(outcome);
+    int streams = 0;
+    for (const std::string& line : output_lines(outcome.out)) {
+        if (line.rfind("dram.streams.", 0) == 0 && line.find('*') == std::string::npos) {
+            EXPECT_NE(line.find(": "), std::string::npos) << line << " has no sentence";
+            ++streams;
+        }
+    }
+    EXPECT_GE(streams, 6);
+}
+
 INSTANTIATE_TEST_SUITE_P(Designs, StatisticsOf,
                          ::testing::Values("degs-64-tuned", "gscore-64", "gbu-64", "gcc-64"));
+
+/// `paths` without doubles, as a set that can be compared with a list.
+std::set<std::string> collected(const json& value) {
+    std::vector<std::string> paths;
+    collect_paths(value, "", paths);
+    return {paths.begin(), paths.end()};
+}
+
+TEST(StatisticsOfMemory, AreThoseOfItsReport) {
+    const Folder folder;
+    expect_success(degs({"memory", config("memory/lpddr5-3200x128"), "--pattern", "strided",
+                         "--requests", "1000", "--out", folder / "."}));
+    json report = json::parse(read_file(folder / "memory.json"));
+    for (const char* other : {"schema", "tool", "config"}) {
+        report.erase(other);
+    }
+    json each; // entry of the curve
+    each["*"] = report["curve"].at(0);
+    report["curve"] = each;
+    EXPECT_EQ(collected(report), listed_by({"--of", "memory"}));
+}
+
+TEST(StatisticsOfMemory, HaveSentences) {
+    const Outcome outcome = degs({"config", "--stats", "--of", "memory"});
+    expect_success(outcome);
+    EXPECT_NE(outcome.out.find("\ncommands.ref_ab [commands]\n    REFab: "), std::string::npos)
+        << outcome.out;
+    EXPECT_NE(outcome.out.find("\naccesses: Accesses of up to 64 B"), std::string::npos);
+}
+
+TEST(StatisticsOfCompare, AreTheKeysOfARun) {
+    const Folder folder;
+    const Outcome outcome =
+        degs({"compare", config("degs-16"), "--scene", "synthetic:object,gaussians=100", "--width",
+              "64", "--out", folder / "."});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    json run = json::parse(read_file(folder / "compare.json"))["runs"].at(0);
+    for (const char* other : {"config", "view"}) {
+        run.erase(other);
+    }
+    EXPECT_EQ(collected(run), listed_by({"--of", "compare"}));
+}
 
 TEST(StatisticsCommand, ShowsASectionOfAnAccelerator) {
     const Outcome outcome = degs(
@@ -129,6 +191,9 @@ TEST(HostileStatistics, Mistakes) {
     expect_mistake(degs({"config", "--stats", "--format", "yaml"}), "yaml");
     expect_mistake(degs({"config", "--section", "stages"}), "--stats");
     expect_mistake(degs({"config", "gpu", "--stats"}), "gpu");
+    expect_mistake(degs({"config", "--stats", "--of", "soc"}), "soc");
+    expect_mistake(degs({"config", "--of", "memory"}), "--stats");
+    expect_mistake(degs({"config", "gbu", "--stats", "--of", "memory"}), "leave out 'gbu'");
 }
 
 } // namespace

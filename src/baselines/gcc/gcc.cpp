@@ -3,7 +3,21 @@
 
 #include <algorithm>
 
+#include "modules/stream_kinds.hpp"
+
 namespace degs::gcc {
+namespace {
+
+constexpr StreamKind kMeans{"means", StreamData::Scene,
+                            "Positions of all Gaussians, read by Stage I."};
+constexpr StreamKind kGroupListsWritten{"group_lists_written", StreamData::Own,
+                                        "Entries of the lists of groups, written by Stage I."};
+constexpr StreamKind kGroupListsRead{"group_lists_read", StreamData::Own,
+                                     "The same entries, read by Stage II group by group."};
+constexpr StreamKind kShapes{"shapes", StreamData::Scene,
+                             "Scale, rotation and opacity of listed Gaussians, read by Stage II."};
+
+} // namespace
 
 std::unique_ptr<RenderEngine> Config::build(const char* module, const Timebase& time,
                                             RenderJob& job, const BuildOptions& options) const {
@@ -100,15 +114,15 @@ void Engine::build_source() {
 
 void Engine::build_memory() {
     if (grouping_) {
-        streams_.connect(grouping_->means, "means", StreamData::Scene);
-        streams_.connect(grouping_->lists, "group_lists_written", StreamData::Own);
-        streams_.connect(projection_->lists, "group_lists_read", StreamData::Own);
-        streams_.connect(projection_->shapes, "shapes", StreamData::Scene);
-        streams_.connect(colour_->sh, "sh", StreamData::Scene);
+        streams_.connect(grouping_->means, kMeans);
+        streams_.connect(grouping_->lists, kGroupListsWritten);
+        streams_.connect(projection_->lists, kGroupListsRead);
+        streams_.connect(projection_->shapes, kShapes);
+        streams_.connect(colour_->sh, stream_kinds::kSh);
     } else {
-        streams_.connect(fetcher_->records, "splats_read", StreamData::Own);
+        streams_.connect(fetcher_->records, stream_kinds::kSplatsRead);
     }
-    streams_.connect(image_buffers_[0]->frame_buffer, "frame_buffer", StreamData::Own);
+    streams_.connect(image_buffers_[0]->frame_buffer, stream_kinds::kFrameBuffer);
     frame_ends_.connect_memory(streams_);
     streams_.build("memory", config_.memory, time_, options_);
 }

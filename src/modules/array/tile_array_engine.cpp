@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/array/tile_array_engine.hpp"
+#include "modules/stream_kinds.hpp"
 
 namespace degs {
 
@@ -12,7 +13,7 @@ TileArrayEngine::TileArrayEngine(const sc_core::sc_module_name& name, const Part
     frame_ends_.build(parts_.frame_end, time, parts_.front.traffic, job_, pixel_buffers_,
                       {front_end_->frame_free, front_end_->listed}, 1, options_);
     front_end_->connect_memory(streams_, fetchers_);
-    streams_.connect(pixel_buffers_.front()->frame_buffer, "frame_buffer", StreamData::Own);
+    streams_.connect(pixel_buffers_.front()->frame_buffer, stream_kinds::kFrameBuffer);
     frame_ends_.connect_memory(streams_);
     streams_.build("memory", parts_.memory, time, options_);
 }

@@ -9,6 +9,7 @@
 #include "modules/front_end/frame_end_config.hpp"
 #include "modules/front_end/frame_gate.hpp"
 #include "modules/memory_streams.hpp"
+#include "modules/stream_kinds.hpp"
 
 namespace degs {
 
@@ -33,7 +34,7 @@ public:
                const RenderJob& job, const PixelBuffers& buffers, const FrontEnd& front_end,
                std::uint64_t reports, const BuildOptions& options);
     void connect_memory(MemoryStreams& streams) {
-        streams.connect(background_->frame_buffer, "frame_buffer", StreamData::Own);
+        streams.connect(background_->frame_buffer, stream_kinds::kFrameBuffer);
     }
     const BackgroundWriter& background() const { return *background_; }
 

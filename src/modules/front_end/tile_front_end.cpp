@@ -2,6 +2,7 @@
 #include "modules/front_end/tile_front_end.hpp"
 
 #include "modules/collect.hpp"
+#include "modules/stream_kinds.hpp"
 
 namespace degs {
 
@@ -75,25 +76,25 @@ void TileFrontEnd::build_sorter(std::size_t index, const Config& config, const T
 void TileFrontEnd::connect_memory(MemoryStreams& streams,
                                   const std::vector<std::unique_ptr<SplatFetcher>>& fetchers) {
     for (auto& unit : projection_) {
-        streams.connect(unit->geometry, "geometry", StreamData::Scene);
-        streams.connect(unit->sh, "sh", StreamData::Scene);
+        streams.connect(unit->geometry, stream_kinds::kGeometry);
+        streams.connect(unit->sh, stream_kinds::kSh);
     }
     if (binner_) {
-        streams.connect(binner_->splats, "splats_written", StreamData::Own);
-        streams.connect(binner_->lists, "tile_lists_written", StreamData::Own);
+        streams.connect(binner_->splats, stream_kinds::kSplatsWritten);
+        streams.connect(binner_->lists, stream_kinds::kTileListsWritten);
     }
     for (std::size_t i = 0; i < std::max(sorted.size(), fetchers.size()); ++i) {
         if (i < sorting_.size()) {
-            streams.connect(sorting_[i]->loader.lists, "tile_lists_sorted", StreamData::Own);
-            streams.connect(sorting_[i]->lists, "tile_lists_sorted", StreamData::Own);
+            streams.connect(sorting_[i]->loader.lists, stream_kinds::kTileListsSorted);
+            streams.connect(sorting_[i]->lists, stream_kinds::kTileListsSorted);
         }
         if (i < hierarchical_.size()) {
-            streams.connect(hierarchical_[i]->loader.lists, "tile_lists_sorted", StreamData::Own);
-            streams.connect(hierarchical_[i]->lists, "tile_lists_sorted", StreamData::Own);
-            streams.connect(hierarchical_[i]->chunks, "tile_lists_sorted", StreamData::Own);
+            streams.connect(hierarchical_[i]->loader.lists, stream_kinds::kTileListsSorted);
+            streams.connect(hierarchical_[i]->lists, stream_kinds::kTileListsSorted);
+            streams.connect(hierarchical_[i]->chunks, stream_kinds::kTileListsSorted);
         }
         if (i < fetchers.size()) {
-            streams.connect(fetchers[i]->records, "splats_read", StreamData::Own);
+            streams.connect(fetchers[i]->records, stream_kinds::kSplatsRead);
         }
     }
 }
