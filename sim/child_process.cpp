@@ -41,7 +41,7 @@ void write_all(int file, const std::string& bytes) {
     }
 }
 
-/// Does the work; the first byte says what came of it.
+/// Does the work; the first byte reports how it ended.
 std::string message_of(const ChildJob& job) {
     try {
         return static_cast<char>(kOutput) + job.work();
@@ -87,7 +87,7 @@ ChildPool::Child::Child(std::size_t index, const ChildJob& job, const StoppingSi
     : index_(index), name_(job.name) {
     std::array<int, 2> ends{-1, -1};
     const pid_t parent = ::getpid();
-    // What waits in a buffer would otherwise be written by both.
+    // Otherwise both processes would write the text that waits in a buffer.
     std::cout.flush();
     std::fflush(nullptr);
     if (::pipe2(ends.data(), O_CLOEXEC) != 0 || (pid_ = ::fork()) < 0) {

@@ -43,8 +43,8 @@ struct ChildWatcher {
 /// that had not ended get no call of `ended`. Between calls they act as elsewhere.
 class ChildPool {
 public:
-    /// At most `at_once` (at least 1) children at a time; `watcher` is
-    /// called during the calls below.
+    /// At most `at_once` (at least 1) children at a time; `watcher` is called during the calls
+    /// below.
     ChildPool(int at_once, ChildWatcher watcher);
     ~ChildPool(); ///< kills the children
     ChildPool(const ChildPool&) = delete;

@@ -24,11 +24,11 @@ const char* before = ""; ///< clears the line of a terminal that shows how far t
 
 void write_text(const char* text) {
     const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
-    (void)written; // nobody is left to be told
+    (void)written; // no place is left to report a failure
 }
 
-/// Calls only what a signal handler may. SA_RESETHAND has put the default back,
-/// which acts when this returns.
+/// Calls only what a signal handler may. SA_RESETHAND has put the default back, which acts when
+/// this returns.
 void speak(int signal) {
     write_text(before);
     write_text(sentence.load());

@@ -9,10 +9,12 @@ namespace degs::sim {
 /// as they always do. A signal that the program was started to ignore stays ignored.
 void announce_interruption();
 
-/// That sentence from now on, instead of "Interrupted."; more than some 500 bytes are cut.
+/// Makes `sentence` the one that is printed from now on, instead of "Interrupted."; more than some
+/// 500 bytes are cut.
 void set_interruption_sentence(const std::string& sentence);
 
-/// The signals end this process in silence; for a forked child, whose parent speaks.
+/// From now on the signals end this process without a sentence. For a forked child, whose parent
+/// prints it.
 void keep_interruption_quiet();
 
 } // namespace degs::sim

@@ -17,8 +17,8 @@ extern "C" int __lsan_is_turned_off() { // NOLINT(bugprone-reserved-identifier)
 }
 #endif
 
-// In place of the library's main(), which prints the kernel's banner
-// before sc_main() could stop it.
+// Replaces the library's main(), which prints the kernel's banner before sc_main() could stop
+// it.
 int main(int argc, char* argv[]) {
     ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
     return sc_core::sc_elab_and_sim(argc, argv);

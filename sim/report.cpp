@@ -108,7 +108,7 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
     v.end_section();
 }
 
-/// What stands between the laws of conservation and the warnings in a report.
+/// The sections of a report between `conservation` and `warnings`.
 void describe_outcome(const RunResult& result, StatsVisitor& v) {
     v.begin_section("energy", "Energy of the accelerator.");
     describe_unavailable(v, "this version has no energy model");

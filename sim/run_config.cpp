@@ -29,7 +29,7 @@ void RunConfig::describe(ConfigVisitor& visitor) {
 
 namespace {
 
-/// The section of `key` in `parent`, made if it is not there.
+/// The section of `key` in `parent`, which is created if it does not exist.
 ConfigNode& section_of(ConfigNode& parent, const std::string& key, const std::string& place) {
     for (ConfigNode& child : parent.children) {
         if (child.key == key) {
@@ -47,7 +47,7 @@ void put_memory(ConfigNode& tree, const std::string& file) {
     const std::string place = "--memory " + file;
     ConfigNode& memory = section_of(tree, "memory", place);
     ConfigNode& model = section_of(memory, "model", place);
-    model.layer = 0; // as --set: it is meant to win over what the file says of memory
+    model.layer = 0; // as with --set: it overrides the file's memory section
     model.kind = ConfigNode::Kind::kScalar;
     model.text = "lpddr5";
     ConfigNode& keys = section_of(memory, "lpddr5", place);

@@ -25,11 +25,11 @@ public:
     }
     ~RunConfig() = default;
 
-    /// What was set and has no effect, one sentence each.
+    /// One sentence for each key that was set and has no effect.
     std::vector<std::string> warnings;
 
     const AcceleratorConfig& accelerator() const { return *model_; }
-    /// What a file calls this kind of accelerator, "degs".
+    /// The name of this kind of accelerator in a file, e.g. "degs".
     std::string kind() const;
 
     void describe(ConfigVisitor& visitor);
@@ -45,12 +45,12 @@ private:
 /// named. Throws InputError.
 RunConfig load_run_config(const std::string& file, const std::vector<std::string>& overrides,
                           const std::string& memory_file = "");
-/// The same for what is read already.
+/// The same for a file that has been read.
 RunConfig load_run_config(const ConfigSource& source);
 
 /// Whether a file may name this kind of accelerator.
 bool is_accelerator(const std::string& kind);
-/// The defaults of a kind of accelerator, with overrides. Throws ConfigError.
+/// The defaults of a kind of accelerator, with overrides. Throws InputError.
 RunConfig default_run_config(const std::string& kind, const std::vector<std::string>& overrides);
 
 } // namespace degs::sim

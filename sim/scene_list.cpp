@@ -12,7 +12,7 @@ bool exists(const std::string& file) {
     return std::filesystem::exists(file, ignored);
 }
 
-/// A piece behind a synthetic scene's name that belongs to it; scene files have a '.'.
+/// True if the piece is a setting of the synthetic scene before it and not the name of a scene.
 bool is_setting(const std::vector<std::string>& scenes, std::size_t own, const std::string& piece) {
     return scenes.size() > own && scenes.back().rfind("synthetic:", 0) == 0 &&
            piece.find('=') != std::string::npos && !exists(piece);

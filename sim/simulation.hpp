@@ -84,8 +84,8 @@ Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame,
 /// Compares the first frame with its reference and fills in the result.
 void judge(RunResult& result, const Reference& reference);
 
-/// Runs the accelerator on frames that were made for it (at least one). Facts of the scene, host
-/// times of what came before and the comparison are the caller's. Throws std::logic_error if the
+/// Runs the accelerator on frames that were made for it (at least one). The caller fills in the
+/// facts of the scene, the host times of earlier steps and the comparison. Throws std::logic_error if the
 /// model violates an invariant. May be called once per process.
 RunResult run_frames(const RunRequest& request, const std::vector<const FrameWorkload*>& frames);
 

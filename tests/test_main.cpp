@@ -7,8 +7,8 @@
 #include <systemc>
 
 namespace {
-/// SystemC prints its banner before sc_main; set early, it spares builds
-/// (test discovery) and tests.
+/// SystemC prints its banner before sc_main; set early, it spares builds (test discovery) and
+/// tests.
 const int kNoBanner = ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
 } // namespace
 

@@ -26,7 +26,7 @@ std::string decibel_words(const AccuracyRow& row) {
     return row.identical ? "identical" : row.psnr_db ? three_digits(*row.psnr_db) : "";
 }
 
-/// Six decimals: what is interesting lies close to 1.
+/// Six decimals, because the interesting values lie close to 1.
 std::string ssim_words(double ssim) {
     char text[32];
     std::snprintf(text, sizeof text, "%.6f", ssim);
@@ -77,7 +77,7 @@ nlohmann::ordered_json worst_json(const std::optional<WorstPixel>& worst) {
     return json;
 }
 
-/// What only rows of images have.
+/// Adds the keys that only rows of images have.
 void add_image_keys(const AccuracyRow& row, nlohmann::ordered_json& json) {
     const bool image = !row.span_ends.empty();
     json["identical"] = image ? nlohmann::ordered_json(row.identical) : nullptr;

@@ -24,7 +24,7 @@ struct Frame {
     Image reference;
     FrameWorkload projected; ///< in the format of the last set that has one of its own
 
-    /// The frame as a set's hardware has it.
+    /// The frame as the hardware of a set sees it.
     const FrameWorkload& in(const NumberSet& set) {
         if (set.projection.is_fp64()) {
             return workload;

@@ -67,7 +67,7 @@ SingleGaussianRequest single_request(const AccuracyOptions& options) {
     return request;
 }
 
-/// Tells of names that are none before the scenes in front of them have been measured.
+/// Reports a scene that does not exist before the scenes in front of it have been measured.
 void check_scene(const std::string& scene) {
     if (scene.empty()) {
         throw InputError("A scene has an empty name; a file or synthetic:NAME is needed.");

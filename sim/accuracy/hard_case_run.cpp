@@ -98,7 +98,7 @@ Projected project_in(const Prepared& prepared, const ProjectionOptions& options,
     return out;
 }
 
-/// The scene as a set's hardware has it.
+/// The scene as the hardware of a set sees it.
 const Projected& projected_for(const NumberSet& set, Prepared& prepared) {
     if (set.projection.is_fp64()) {
         return prepared.exact;
@@ -132,8 +132,8 @@ Prepared prepare(const HardCase& hard, HardScene scene, int tile_size,
     return out;
 }
 
-/// Judges the windows of one set by what its own splats look like in double: the bound is that of
-/// the formats behind the projection.
+/// Judges the windows of one set against its own splats, drawn in double. The bound is that of the
+/// formats behind the projection.
 class Judge {
 public:
     Judge(const Prepared& prepared, const Projected& projected, const NumberSet& set)
@@ -166,7 +166,8 @@ private:
 void Judge::add(std::size_t window, const Image& image) {
     const Image& reference = projected_.references[window];
     const PixelBox box = pixels_of(projected_.workload, prepared_.windows[window]);
-    // What no splat can be blamed for: images are floats. Faint errors need no closer look.
+    // No splat can be blamed for errors up to this one: images hold floats, and faint errors need
+    // no closer look.
     const double harmless = std::min(tolerance_.alpha, 1.0 / 255);
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         const double left = image.transmittance[i];

@@ -28,7 +28,7 @@ struct HardMeasure {
     std::uint64_t recounted = 0; ///< pixels with another number of updates than the reference's
     std::uint64_t beyond = 0;    ///< pixels further off than the formats explain
     double alpha_bound = 0;      ///< on a fragment's alpha, of the scene with the widest
-    bool bounded = false;        ///< is there a bound for the set, see tolerance_of?
+    bool bounded = false;        ///< the set has a bound, see tolerance_of()
     std::vector<std::string> problems; ///< sentences; none: the expectation holds
 };
 
@@ -41,8 +41,8 @@ struct HardResult {
     std::vector<std::string> failures() const;
 };
 
-/// `folder` is for files that are written and removed. Throws InputError for
-/// names that are not known.
+/// `folder` is for files that are written and removed. Throws InputError for names that are not
+/// known.
 std::vector<HardResult> run_hard_cases(const HardCaseRequest& request, const std::string& folder);
 
 /// Table for terminals, with a sentence for every expectation that does not hold.

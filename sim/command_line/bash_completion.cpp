@@ -14,7 +14,7 @@ std::string strung(const Words& words, const std::string& between) {
     return text;
 }
 
-/// A line of a case: patterns and what they set.
+/// A line of a case: patterns, and the assignment behind them.
 std::string branch(const Words& patterns, const std::string& sets) {
     Words quoted;
     for (const std::string& pattern : patterns) {
@@ -23,7 +23,7 @@ std::string branch(const Words& patterns, const std::string& sets) {
     return "        " + strung(quoted, " | ") + ") " + sets + " ;;\n";
 }
 
-/// What may stand in the place of a value or argument.
+/// The assignment for the words, or the kind of word, that a value or argument may be.
 std::string sets_of(const OptionEntry& option) {
     if (!option.choices.empty()) {
         return "words='" + strung(option.choices, " ") + "'";

@@ -4,7 +4,7 @@
 namespace degs::sim {
 namespace {
 
-/// Of the last change to what is written here by hand; the rest follows the program.
+/// Date of the last change to the text of this file; the rest of the page follows the program.
 constexpr const char* kDate = "2026-11-22";
 
 /// Text in which man sees no commands: hyphens stay hyphens, and no line begins with '.' or '\''.

@@ -13,7 +13,7 @@ namespace degs::sim {
 struct OptionEntry {
     std::vector<std::string> names;   ///< "-h" and "--help"; of an argument "CONFIG"
     std::string value;                ///< what follows: "FILE", "INT"; empty: nothing
-    std::vector<std::string> choices; ///< that the value is one of; empty: any
+    std::vector<std::string> choices; ///< the allowed values; empty: any
     std::string meaning;
     std::vector<std::string> notes; ///< "required", "default 1", "1 to 64", "not with --width"
     bool argument = false;

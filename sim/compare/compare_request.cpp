@@ -22,7 +22,7 @@ struct Draft {
     ConfigNode tree;
 };
 
-/// A '=' may belong to the name of a file that is there.
+/// A '=' may belong to the name of an existing file.
 Named named(const std::string& word) {
     const std::size_t at = word.find('=');
     std::error_code ignored;

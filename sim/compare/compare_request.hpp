@@ -36,15 +36,15 @@ struct CompareRequest {
 /// Loads configurations, each written as FILE or NAME=FILE; without a name it is called like
 /// the file without folder and extension. A file with a list `points` is a study: every
 /// point is a configuration, called by its key `name`. An override is "path=value" for all
-/// or "NAME:path=value" for one. Throws InputError for a name that is empty, given twice or
-/// not known, else InputError.
+/// or "NAME:path=value" for one. Throws InputError for every mistake, also for a name that is
+/// empty, unknown or given twice.
 std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
                                       const std::vector<std::string>& overrides);
 
-/// "0,1,2" or "all", which is empty. InputError for anything else and for a number given twice.
+/// "0,1,2" or "all", which is empty. Throws InputError for anything else and for a number given twice.
 std::optional<std::vector<int>> parse_cameras(const std::string& text);
 
-/// "1080p,4k". InputError for an unknown name and one given twice.
+/// "1080p,4k". Throws InputError for an unknown name and one given twice.
 std::vector<ImageSize> parse_resolutions(const std::string& text);
 
 /// Throws InputError for a scene without a name and for one that is given twice.

@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kSlots = "slots.svg";
 constexpr const char* kUtilization = "utilization.svg";
 
-/// Fit for the name of a file on any system; the numbers in front of names keep them apart.
+/// A file name that any system accepts; the numbers in front of the names keep them apart.
 std::string file_name(const std::string& text) {
     constexpr std::size_t kLongest = 80; // systems hold 255 bytes, and files get endings
     std::string name = text.substr(0, kLongest);

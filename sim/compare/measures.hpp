@@ -70,8 +70,8 @@ private:
     std::array<std::optional<double>, kMeasures> values_;
 };
 
-/// Name of a measure: a column of compare.csv, and with '/' for '.' its place
-/// below a run of compare.json.
+/// Name of a measure: a column of compare.csv, and with '/' for '.' its place below a run of
+/// compare.json.
 std::string name_of(Measure measure);
 /// Whether its geometric mean over views says something.
 bool has_mean(Measure measure);

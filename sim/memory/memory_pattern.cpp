@@ -45,7 +45,7 @@ TrafficItem TrafficDealer::draw() {
     default:
         item.address = random_() % (room / 64 + 1) * 64;
     }
-    // By lot: taken in turn, reads and writes would go to different channels.
+    // Drawn by lot: taken in turn, reads and writes would go to different channels.
     const std::uint64_t reads = shape_.reads_per_write;
     item.write = reads != 0 && random_() % (reads + 1) == 0;
     return item;

@@ -30,7 +30,7 @@ struct TrafficItem {
 };
 
 /// One sequence, dealt to the channels: each takes its own requests in the order of the sequence,
-/// so that a full channel holds up nobody else.
+/// so that a full channel holds up no other.
 class TrafficDealer {
 public:
     TrafficDealer(const TrafficShape& shape, const dram::Mapping& mapping, std::size_t channels);
@@ -40,7 +40,7 @@ public:
     unsigned channel_of(const TrafficItem& item) const {
         return mapping_->place(item.address).channel;
     }
-    /// The next one of a channel; false if the sequence does not come there for long.
+    /// The next request of a channel; false if the sequence does not reach it for a long time.
     bool next_of(std::size_t channel, TrafficItem& item);
 
 private:

@@ -157,7 +157,7 @@ void MemoryTraffic::answered(const tlm::tlm_generic_payload& payload) {
     }
 }
 
-// The memory's statistics are asked outside of its own calls.
+// The memory's statistics must not be read within its own calls.
 void MemoryTraffic::watch() {
     (start_ ? end_ : start_) = snapshot();
     sending_ = !end_;

@@ -30,7 +30,7 @@ public:
     /// (x, y) is the anchor on the base line.
     void text(double x, double y, const std::string& words, const TextStyle& style = {});
 
-    /// Returns the whole file; a screen reader says `title`.
+    /// Returns the whole file; a screen reader reads `title` aloud.
     std::string document(double width, double height, const std::string& title) const;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What degs soc found out, as JSON and as words.
+// The results of degs soc, as JSON and as words.
 #include <nlohmann/json.hpp>
 
 #include "config/config_document.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// --explain: the cost of a run follows its work; here is the work that was left out. Every sentence
-// comes from whoever has left it out.
+// --explain: the cost of a run follows its work, and this is the work that was left out. Every
+// sentence comes from the part of the model that leaves it out.
 #include "sim/text/terminal.hpp"
 #include "splat/spherical_harmonics.hpp"
 

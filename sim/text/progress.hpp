@@ -22,8 +22,7 @@ public:
     /// Share of the step that is done, 0 .. 1.
     void done(double share) { share_ = share; }
 
-    /// Objects made from now on print nothing, for processes whose
-    /// parent shows the progress.
+    /// Objects made from now on print nothing, for processes whose parent shows the progress.
     static void silence();
 
 private:

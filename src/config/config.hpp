@@ -34,8 +34,8 @@ public:
     /// Begins a nested mapping; every begin has its end. `doc` describes the section.
     virtual void begin_section(const char* key, const char* doc) = 0;
     virtual void end_section() = 0;
-    /// Both bounds belong to the range. `doc` starts with the unit and gives
-    /// the reason for the default.
+    /// Both bounds belong to the range. `doc` starts with the unit and gives the reason for the
+    /// default.
     virtual void integer(const char* key, std::int64_t& value, std::int64_t low, std::int64_t high,
                          const char* doc) = 0;
     virtual void real(const char* key, double& value, double low, double high, const char* doc) = 0;

@@ -13,16 +13,15 @@
 
 namespace degs {
 
-/// The source is strict: load() throws InputError for every key that the struct does
-/// not have and for every value that it cannot take. Keys that the source does not
-/// name keep their defaults.
+/// The source is strict: load() throws InputError for every key that the struct does not have and
+/// for every value that it cannot take. Keys that the source does not name keep their defaults.
 ///
 /// Values: integers are decimal digits (no 1e3, no 0x10, no leading zero); reals are finite decimal
 /// numbers; booleans are true or false; choices go by name; a scalar in quotes is always text.
 class ConfigSource {
 public:
-    /// Each override reads `path.to.key=value`; a later one of the same key
-    /// wins over an earlier one.
+    /// Each override reads `path.to.key=value`; a later one of the same key wins over an earlier
+    /// one.
     static ConfigSource from_file(const std::filesystem::path& path,
                                   const std::vector<std::string>& overrides = {});
     /// `name` stands for the file in messages; includes are relative to its folder.

@@ -84,7 +84,8 @@ public:
     const Stats& stats() const { return stats_; }
     /// CK with a row open, up to `date`.
     Ck open_until(Ck date) const { return state_.banks.open_until(date); }
-    /// Called with every command; a copy of the channel has it too unless it is taken away.
+    /// Calls `observer` with every command. A copy of the channel calls it, too, until it gets
+    /// another one.
     void observe(std::function<void(const Issued&)> observer) { observer_ = std::move(observer); }
 
 private:

@@ -88,7 +88,7 @@ Ck Channels::due() const {
     return *std::min_element(due_.begin(), due_.end());
 }
 
-// Where a write may wait, a read may be answered from it at once, so nothing can stay behind.
+// Where a write may wait, a read may be answered from it at once, so the channel must not be behind.
 Ck Channels::due_of(bool write, Ck date) const {
     const bool at_once = exactly_ || write || writes_somewhere_;
     return at_once ? date : date + data_latency() - 1;
@@ -144,8 +144,8 @@ Ck Channels::data_latency() const {
                           : std::min(timing_.read_latency(), timing_.write_latency());
 }
 
-// Who waits for a queue may be answered, or noticed by its initiator, when it gets in; who is in
-// it, when the data come.
+// An access that waits for a queue may be answered, or noticed by its initiator, when it gets in;
+// an access in the queue is answered when its data come.
 Ck Channels::channel_due(Channel& channel) const {
     const Ck due = channel.next_date() + data_latency() - 1;
     return exactly_ || channel.answers_at_admission() ? std::min(due, channel.admission_bound())
@@ -186,7 +186,7 @@ void Channels::predict_channel(std::size_t channel) {
     }
 }
 
-/// Unless it is an answer to an earlier prediction, which has long been given.
+/// Takes an answer of a copy, unless it belongs to an earlier prediction, which is complete.
 void Channels::take_prediction(std::size_t channel, const Answer& answer) {
     const std::uint32_t index = (answer.id - first_ticket_) & ~kPredicted;
     if ((answer.id & kPredicted) != 0 && index < predictions_.size()) {

@@ -12,7 +12,7 @@
 
 namespace degs::dram {
 
-/// What the next command of a channel follows from.
+/// The state from which the next command of a channel follows.
 struct ChannelState {
     Ck clock = 0; ///< the next command comes here or later
     Banks banks;
@@ -37,7 +37,7 @@ public:
         keys_.rest.fill(~0U);
     }
 
-    /// Finds again what a bank would do next, or all banks; after whatever has changed that.
+    /// Updates what a bank, or every bank, would do next. Must be called after every such change.
     void update(unsigned bank, const ChannelState& state);
     void update_all(const ChannelState& state);
     /// The same for a bank that has got one more access, which leaves the choice among the others.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When requests are taken in and answered; what they carry and count is lpddr5_payload.cpp.
+// When requests are taken in and answered; their data and counters are in payload.cpp.
 #include "dram/lpddr5.hpp"
 
 #include <algorithm>

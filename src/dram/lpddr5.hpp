@@ -50,8 +50,9 @@ public:
     /// Counters of all channels, up to now.
     Channel::Stats commands() { return commands(sc_core::sc_time_stamp()); }
     Energy energy() { return energy(sc_core::sc_time_stamp()); }
-    /// The same up to another date: of a run that is over, which may end before or after the date
-    /// at which the kernel had nothing left to do. Not before the last request, and none follows.
+    /// The same up to another date, for a run that is over: it may end before or after the date at
+    /// which the kernel had nothing left to do. `until` is not before the last request, and no
+    /// request follows.
     Channel::Stats commands(const sc_core::sc_time& until);
     Energy energy(const sc_core::sc_time& until);
     const Channels& channels() const { return channels_; }
@@ -112,8 +113,8 @@ private:
     void schedule();
     void serve_by(Ck due);
     void schedule_responses();
-    /// Everything dated before `date`, in kernel time units, is in the
-    /// statistics; returns it in CK.
+    /// Everything dated before `date`, in kernel time units, is in the statistics; returns it in
+    /// CK.
     Ck settle(std::uint64_t date);
 
     tlm::tlm_response_status check(const Payload& payload) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What requests carry and how they are counted; the other half of lpddr5.cpp.
+// The data of requests and their counters; the other half of lpddr5.cpp.
 #include <limits>
 
 #include "dram/lpddr5.hpp"

@@ -24,7 +24,7 @@ struct Access {
 enum class RowState : std::uint8_t { Hit, Closed, Conflict };
 using ByRowState = std::array<std::uint64_t, 3>;
 
-/// Share that found its row open, 0 to 1; 0 of nothing.
+/// Share of accesses that found their row open, 0 to 1; 0 if there are none.
 inline double hit_rate(const ByRowState& counts) {
     const auto [hits, closed, conflicts] = counts;
     const double all = static_cast<double>(hits + closed + conflicts);
@@ -58,7 +58,7 @@ public:
     Entry& operator[](unsigned slot) { return entries_[slot]; }
     const Entry& operator[](unsigned slot) const { return entries_[slot]; }
 
-    /// Only if not full.
+    /// The queue must not be full.
     void push(const Access& access) {
         const auto slot = static_cast<std::uint8_t>(__builtin_ctzll(free_));
         free_ &= free_ - 1;

@@ -41,7 +41,7 @@ inline unsigned first_bank(std::uint32_t banks) {
     return __builtin_ctz(banks);
 }
 
-/// The counter, or whatever else, of one of several kinds.
+/// The element of one of several kinds, e.g. the counter of a command.
 template <class PerKind, class Kind>
 auto& of_kind(PerKind& each, Kind kind) {
     return each[static_cast<std::size_t>(kind)];
@@ -73,9 +73,8 @@ struct Timing {
     int rc() const { return ras + rp_pb; }
     int read_latency() const { return rl + burst(); }  ///< RD to its last beat
     int write_latency() const { return wl + burst(); } ///< WR to its last beat
-    double peak_gb_per_s() const {
-        return kBytesPerBeat * data_rate_mt_per_s / 1000.0;
-    } ///< of a channel, 1e9 B/s
+    /// Of a channel, 1e9 B/s.
+    double peak_gb_per_s() const { return kBytesPerBeat * data_rate_mt_per_s / 1000.0; }
 };
 
 /// The commands that a rule looks back at.

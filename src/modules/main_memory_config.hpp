@@ -8,8 +8,8 @@
 
 namespace degs {
 
-/// `Bus`: one data bus with latency, the fields of Memory::Config. `Lpddr5`:
-/// channels, banks and rows.
+/// `Bus`: one data bus with latency, the fields of Memory::Config. `Lpddr5`: channels, banks and
+/// rows.
 enum class MemoryModel { Bus, Lpddr5 };
 
 /// The off-chip memory of an accelerator: which model, and the parameters of each.

@@ -17,8 +17,8 @@ namespace degs {
 
 class MainMemory;
 
-/// An accelerator with its memory: built for a job, run by the kernel, and read
-/// out when no event is left.
+/// An accelerator with its memory: built for a job, run by the kernel, and read out when no event
+/// is left.
 class RenderEngine : public sc_core::sc_module {
 public:
     using sc_core::sc_module::sc_module;

@@ -11,8 +11,7 @@ namespace degs {
 /// The Gaussians whose SH coefficients are read: the visible ones, or all.
 enum class ShReads { Visible, All };
 
-/// Record layouts of the streams between accelerator and memory
-/// [assumed]; see docs/memory.md.
+/// Record layouts of the streams between accelerator and memory [assumed]; see docs/memory.md.
 struct TrafficConfig {
     int geometry_bytes = 22; ///< per Gaussian: 11 values of 2 B
     int sh_value_bytes = 2;  ///< per coefficient and channel

@@ -119,7 +119,7 @@ AcceleratorFault Accelerator::prepare() {
             return {AcceleratorError::LoadError, detail_of(answer)};
         }
         return make_workload();
-    } catch (const InputError&) { // what the checks of the registers let pass
+    } catch (const InputError&) { // a mistake that the checks of the registers let pass
         return {AcceleratorError::BadCamera, 0};
     } catch (const std::bad_alloc&) {
         return {AcceleratorError::OutOfMemory, 0};

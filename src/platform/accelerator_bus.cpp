@@ -91,7 +91,7 @@ void Accelerator::command(std::uint32_t bits, const sc_core::sc_time& delay) {
     start_.notify(delay);
 }
 
-// Whole words; reads everything, writes what can be written without anything happening.
+// Moves whole words. Reads every register, and writes those that start nothing.
 unsigned int Accelerator::debug(Payload& payload) {
     const std::uint64_t first = payload.get_address();
     const unsigned int bytes = payload.get_data_length();

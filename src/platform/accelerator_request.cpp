@@ -96,7 +96,7 @@ AcceleratorFault read_bases(const AcceleratorRegisters& regs, AcceleratorRequest
     return {};
 }
 
-// Of all bases, and of every pair of regions; the detail is the later one of the two.
+// Checks all bases and every pair of regions; the detail names the later region of the two.
 AcceleratorFault check_regions(const AcceleratorRequest& request) {
     const std::vector<MemoryGateway::Region> regions = request.regions();
     constexpr std::array<Register, 4> kBases{Register::Geometry, Register::Sh, Register::Workspace,

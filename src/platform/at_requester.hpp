@@ -11,7 +11,7 @@
 
 namespace degs {
 
-/// Blocking accesses of several processes over one socket, with the four phases of the TLM-2.0 base
+/// Performs blocking accesses of several processes over one socket, with the four phases of the TLM-2.0 base
 /// protocol, for AT targets without b_transport().
 ///
 /// BEGIN_REQ goes out at the date of the access without annotated delay, one at a time. The next one

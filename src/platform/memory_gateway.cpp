@@ -72,7 +72,7 @@ const MemoryGateway::Region* MemoryGateway::region_of(std::uint64_t address) con
     return home == regions_.end() ? nullptr : &*home;
 }
 
-// Up to the ends of regions, if it is to be kept in the one that it starts in, and of pieces.
+// Cuts at the end of the region in which the access starts, with `fold`, and at multiples of a piece.
 MemoryGateway::Pieces MemoryGateway::cut(const tlm::tlm_generic_payload& payload, bool fold) const {
     const Region* const home = fold ? region_of(payload.get_address()) : nullptr;
     const std::uint64_t grain = options_.transport == Transport::At ? options_.piece_bytes : 0;

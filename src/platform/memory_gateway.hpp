@@ -16,8 +16,8 @@
 
 namespace degs {
 
-/// All streams of an accelerator through one TLM-2.0 initiator socket, for memory that belongs to a
-/// platform: every access moves real bytes, and the platform arbitrates. An access that the
+/// Sends all streams of an accelerator through one TLM-2.0 initiator socket, for memory that belongs
+/// to a platform: every access moves real bytes, and the platform arbitrates. An access that the
 /// platform refuses is counted as an error and then treated as done: an accelerator ends its frame
 /// and reports the error in a register, and the simulation goes on.
 class MemoryGateway : public sc_core::sc_module, public MainMemory {
@@ -30,8 +30,8 @@ public:
         Transport transport = Transport::Lt;
         /// AT: transactions of all streams in flight at a time; at least 1.
         unsigned outstanding = 64;
-        /// AT: accesses are split at multiples of this and the pieces
-        /// overlap; 0 disables splitting.
+        /// AT: accesses are split at multiples of this and the pieces overlap; 0 disables
+        /// splitting.
         std::uint64_t piece_bytes = 0;
     };
 
@@ -69,7 +69,7 @@ public:
     void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
     unsigned int debug(tlm::tlm_generic_payload& payload) { return out->transport_dbg(payload); }
 
-    /// nullptr with LT.
+    /// The requester for AT; nullptr with LT.
     const AtRequester* requester() const { return requester_.get(); }
 
     /// Accesses that the platform refused since the last clear_errors().

@@ -59,7 +59,7 @@ tlm::tlm_response_status read_timed(MemoryGateway& memory, std::uint64_t address
     return tlm::TLM_OK_RESPONSE;
 }
 
-// Grows as it is read: what a wrong count promises need not be there.
+// Grows as it is read, because memory may hold less than a wrong count promises.
 tlm::tlm_response_status read(MemoryGateway& memory, std::uint64_t address, std::uint64_t bytes,
                               std::vector<unsigned char>& out) {
     out.clear();

@@ -15,7 +15,7 @@ constexpr double kMaxSide = 65536;       // px
 constexpr double kMaxFocal = 1e9;        // px
 constexpr double kOrthonormality = 1e-3; // largest deviation of an entry of R^T R from identity
 
-/// One entry of the array, and who to blame.
+/// One entry of the array, with the file and position for messages.
 class CameraEntry {
 public:
     CameraEntry(const std::string& path, std::size_t index, const Json& json)

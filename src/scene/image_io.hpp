@@ -12,10 +12,11 @@ constexpr int kMostImageSide = 1000000;
 
 /// Writes an OpenEXR file: float channels R, G, B as they are (display-referred; the attribute
 /// `colorSpace` says "srgb_rec709_display"), float `transmittance` and uint `fragments`. Values
-/// need not be finite. Atomic, and InputError if the place cannot be written, like `write_png`.
+/// need not be finite. Like write_png(), it writes the file whole or not at all, and throws
+/// InputError if the place cannot be written.
 void write_exr(const Image& image, const std::string& path);
 
-/// Reads R, G, B and, where present, `transmittance` and `fragments` (else 1 and 0). InputError if
+/// Reads R, G, B and, where present, `transmittance` and `fragments` (else 1 and 0). Throws InputError if
 /// this is not an EXR image of at most 2^28 pixels with these channels.
 Image read_exr(const std::string& path);
 

@@ -14,7 +14,7 @@ namespace degs {
 /// A regular file of known size, read in blocks. Every failure is an InputError that names it.
 class InputFile {
 public:
-    /// Missing, a directory, unreadable or empty: InputError.
+    /// Throws InputError if the file is missing, a directory, unreadable or empty.
     explicit InputFile(const std::string& path);
 
     const std::string& path() const { return path_; }
@@ -30,7 +30,7 @@ public:
     /// Exactly `bytes`; InputError if the file ends before (it shrank while we read).
     void read_exactly(char* destination, std::size_t bytes);
 
-    /// InputError if the file is larger.
+    /// Throws InputError if the file is larger.
     void require_at_most(std::uint64_t limit_bytes) const;
     /// For a parser that reads by itself; position() does not follow it.
     std::istream& stream() { return stream_; }

@@ -44,7 +44,7 @@ std::string allowed_extensions() {
 }
 
 GaussianCloud read_cloud(const std::string& path) {
-    const InputFile exists(path); // a missing file is the first thing to say
+    const InputFile exists(path); // a missing file is reported first
     for (const Reader& reader : kReaders) {
         if (extension_of(path) == reader.extension) {
             return reader.read(path);

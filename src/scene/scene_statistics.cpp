@@ -37,8 +37,8 @@ double share_of(const std::vector<float>& values, Predicate predicate) {
     return ratio_of(count, values.size());
 }
 
-/// Ascending; a flat Gaussian (scale 0) counts as the smallest normal float,
-/// so that ratios are finite.
+/// Ascending; a flat Gaussian (scale 0) counts as the smallest normal float, so that ratios are
+/// finite.
 std::array<double, 3> sorted_axes(const glm::vec3& scale) {
     constexpr float kSmallest = 1.17549435e-38F;
     std::array<double, 3> axes{std::max(scale.x, kSmallest), std::max(scale.y, kSmallest),

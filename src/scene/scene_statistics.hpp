@@ -39,7 +39,7 @@ struct SceneStatistics {
     glm::dvec3 high{0.0};                ///< 99th percentile
 };
 
-/// `dropped` is passed through: what `sanitize` removed before.
+/// `dropped`, the Gaussians that sanitize() has removed before, is passed through.
 SceneStatistics measure_scene(const GaussianCloud& cloud, const SanitizeReport& dropped = {});
 
 /// Statistics of a view of a scene; the counts of the reference renderer.

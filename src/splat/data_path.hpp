@@ -35,9 +35,8 @@ struct DataPathOptions {
 
 /// The number set of an arithmetic; that of Fp64 is `ideal`.
 NumberSet set_of(Arithmetic arithmetic);
-/// The numbers of that name with the span ends and the
-/// projection of their set; fp64 has exact ends. InputError
-/// lists the names for any other.
+/// The numbers of that name with the span ends and the projection of their set; fp64 has exact
+/// ends. Throws InputError, which lists the names, for any other.
 DataPathOptions named_numbers(const std::string& name);
 /// The same with parts changed ("key=value" of NumberSet::describe). fp32 and fp64 stay the
 /// machine's own operations if the projection alone is.
@@ -82,8 +81,8 @@ struct PixelTest {
     std::int16_t context = 0; ///< tile context of the Pixel Buffer
 };
 
-/// The result of the tasks: disjoint masks whose union is the mask of the request,
-/// and the pixels that ended.
+/// The result of the tasks: disjoint masks whose union is the mask of the request, and the pixels
+/// that ended.
 struct BlendOutcome {
     std::uint32_t useful = 0;     ///< inside the ellipse and blended
     std::uint32_t boundary = 0;   ///< outside the ellipse (alpha < 1/255)

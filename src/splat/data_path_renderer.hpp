@@ -21,9 +21,8 @@ struct DataPathCounts {
 
 struct DataPathRender {
     DataPathOptions numbers;
-    /// Rows per splat: all that its ellipse meets (slicing.rows: splat) or those
-    /// that it meets in the tile's columns (tile). The two differ for spans that
-    /// are wider than the ellipse.
+    /// Rows per splat: all that its ellipse meets (slicing.rows: splat) or those that it meets in
+    /// the tile's columns (tile). The two differ for spans that are wider than the ellipse.
     bool rows_in_columns = false;
     /// Is called now and then with the share that is done, 0 .. 1.
     std::function<void(double)> progress;

@@ -52,7 +52,7 @@ public:
         }
         return runs_;
     }
-    /// The same again.
+    /// The same tiles once more.
     const std::vector<TileRun>& covered() const { return runs_; }
     std::size_t tile(int row, int column) const { return row * grid_.tiles_x() + column; }
 

@@ -18,8 +18,8 @@ enum class InstructionSet {
     Widest, ///< 16 floats: AVX-512 F, BW, DQ and VL
 };
 
-/// The widest set that this build has code for and this machine can run.
-/// Results do not depend on it.
+/// The widest set that this build has code for and this machine can run. Results do not depend on
+/// it.
 InstructionSet instruction_set();
 
 /// Those of `variants`, one per instruction set from Narrow on, that this machine can run; the last

@@ -30,7 +30,7 @@ void make_consistent(ProjectedSplat& s, double alpha_min) {
     s.opacity = alpha_min * std::exp(s.q_threshold / 2);
 }
 
-/// What a view asks of every Gaussian, rounded once.
+/// The constants of a view that every Gaussian needs, rounded once.
 template <class Numbers>
 struct ViewConstants {
     using Scalar = typename Numbers::Scalar;

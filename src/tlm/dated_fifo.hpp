@@ -63,8 +63,8 @@ public:
         }
     }
     void put(Process& writer, const T& value) { put_at(writer, value, 0); }
-    /// Like put(), but the item may be read from `ready` on at the earliest
-    /// (data that is on its way).
+    /// Like put(), but the item may be read from `ready` on at the earliest (data that is on its
+    /// way).
     void put_at(Process& writer, const T& value, Cycle ready) {
         reserve(writer);
         tail_->value = value;
@@ -80,8 +80,8 @@ public:
         drop(reader);
         return value;
     }
-    /// Like get(), but leaves the item in its cell, so that large items
-    /// need no copy; drop() follows.
+    /// Like get(), but leaves the item in its cell, so that large items need no copy; drop()
+    /// follows.
     const T& arrive(Process& reader) {
         wait_for_item(reader);
         const Cycle ready = reader.local();

@@ -103,8 +103,8 @@ public:
 private:
     bool arrived_after_asking(FifoBase& input);
     Cycle quiet_until(FifoBase& input, Cycle date) const;
-    /// Date beyond which advance_to() has more to do, without alarms: strict
-    /// processes sleep to each date.
+    /// Date beyond which advance_to() has more to do, without alarms: strict processes sleep to
+    /// each date.
     Cycle no_alarm() const { return strict_ ? 0 : kNever; }
     void sleep();
     void sleep_until(Cycle half_after_date);

@@ -7,8 +7,8 @@
 
 namespace degs::test {
 
-/// A GBU of `engines` engines for tiles of `tile` px in double precision;
-/// buffers as large as needed.
+/// A GBU of `engines` engines for tiles of `tile` px in double precision; buffers as large as
+/// needed.
 inline GbuConfig gbu_of(int tile, int engines, int row_pes) {
     GbuConfig c;
     c.pipeline.numbers = Arithmetic::Fp64;

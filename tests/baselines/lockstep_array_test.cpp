@@ -193,8 +193,8 @@ TEST(LockstepArray, DoneSubtilesAreSkipped) {
     bench.expect_sound();
 }
 
-// The second tile has 4 of 16 columns in the image: its two left sub-tiles, half
-// of whose lanes are outside.
+// The second tile has 4 of 16 columns in the image: its two left sub-tiles, half of whose lanes are
+// outside.
 TEST(LockstepArray, LanesOutsideTheImageAreBoundary) {
     LockstepBench bench("bench", {}, make_frame({blanket(10, 8, 16)}, 20, 16, 16), {});
     bench.chunks_of_all_tiles();

@@ -146,8 +146,8 @@ TEST(Lpddr5At, WithheldEndReqIsTheBackPressure) {
     EXPECT_EQ(bench.at[0]->outstanding_most, 8 + 4 + 2); // one held back, one whose data return
 }
 
-// dram::Dates and answers must not depend on the order in which initiators
-// are built, and so called.
+// Dates and answers must not depend on the order in which initiators are built, and so
+// called.
 std::vector<std::uint64_t> answers_in_order(bool reversed) {
     dram::Lpddr5 memory("memory", test::lpddr5_config("lpddr5-6400x256", {"waiting_requests=3"}),
                         {}, 4);

@@ -8,8 +8,8 @@ namespace {
 
 using test::DegsRun;
 
-/// Two medium frames: many small splats (memory and front end matter), fewer
-/// large ones (the array does).
+/// Two medium frames: many small splats (memory and front end matter), fewer large ones (the array
+/// does).
 FrameWorkload medium_frame(bool large) {
     std::mt19937 random(large ? 21 : 22);
     std::uniform_real_distribution<double> unit(0, 1);

@@ -63,8 +63,8 @@ struct DispatcherBench : test::UnitBench {
             });
         }
     }
-    /// Engine e asks so that its request is readable at `first`, then
-    /// `work` cycles after each grant.
+    /// Engine e asks so that its request is readable at `first`, then `work` cycles after each
+    /// grant.
     void engine(std::size_t e, Cycle first, Cycle work) {
         script([this, e, first, work](Process& self) {
             requests[e]->connect_writer(self);

@@ -65,8 +65,8 @@ void draw_scene(Dice& dice, Trial& trial) {
     trial.array_only = dice.chance(0.2);
 }
 
-/// Where the image must be the reference's: double precision, exact ends,
-/// the reference's stop rule.
+/// Where the image must be the reference's: double precision, exact ends, the reference's stop
+/// rule.
 void make_exact(Trial& trial, const std::vector<Key>& keys) {
     put(trial, "pipeline.numbers", "fp64");
     put(trial, "pipeline.stop_rule", "refuse");

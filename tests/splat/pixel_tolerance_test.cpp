@@ -16,8 +16,8 @@ FrameWorkload bounded_view(unsigned seed) {
                                TileMode::Exact);
 }
 
-/// Pixels of an image in the numbers `drawn` beyond the bound for
-/// `claimed`, of those with an error.
+/// Pixels of an image in the numbers `drawn` beyond the bound for `claimed`, of those with an
+/// error.
 int beyond(const FrameWorkload& work, const char* drawn, const char* claimed, double& largest) {
     DataPathRender options;
     options.numbers = named_numbers(drawn);

@@ -177,8 +177,8 @@ TEST_P(QuantizedPaths, TestsAreTheDefinition) {
     EXPECT_LE(different, kTile * kTile / 3);
 }
 
-// No span outside the rows and columns that are named for it, in any tile;
-// and few rows for nothing.
+// No span outside the rows and columns that are named for it, in any tile; and few rows for
+// nothing.
 TEST_P(QuantizedPaths, ExtentsHoldEverySpan) {
     std::uint64_t named = 0;
     std::uint64_t covered = 0;

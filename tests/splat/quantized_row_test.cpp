@@ -116,8 +116,8 @@ double half(double x) {
     return std::ldexp(std::nearbyint(std::ldexp(x, -unit)), unit);
 }
 
-// Eq. 10-15 and 18 a second time, operation by operation in FP16; sqrt(1 -
-// x) is one, as in the paper.
+// Eq. 10-15 and 18 a second time, operation by operation in FP16; sqrt(1 - x) is one, as in the
+// paper.
 TEST(QuantizedRow, LiteralFp16RoundsEveryOperation) {
     std::mt19937 random(12);
     std::uniform_real_distribution<double> unit(0, 1);

@@ -41,8 +41,8 @@ TEST(SphericalHarmonics, BasisIsOrthonormal) {
     }
 }
 
-// Orthonormality says nothing about signs and order: each function at a
-// direction where it is known.
+// Orthonormality says nothing about signs and order: each function at a direction where it is
+// known.
 TEST(SphericalHarmonics, SignsFollowCondonShortley) {
     const double s = std::sqrt(0.5), t = std::sqrt(1.0 / 3);
     EXPECT_NEAR(sh_basis(3, {0, 0, 1})[0], std::sqrt(1 / (4 * kPi)), 1e-15);

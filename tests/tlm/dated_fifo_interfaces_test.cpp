@@ -221,8 +221,8 @@ TEST_P(DatedFifoInterfacesWith, APollingForeignWriterIsWokenByOkToPut) {
     EXPECT_EQ(dated.dates, expected.read);
 }
 
-// The writer leaves several items with dates ahead of the kernel; each of
-// them must wake the reader.
+// The writer leaves several items with dates ahead of the kernel; each of them must wake the
+// reader.
 TEST_P(DatedFifoInterfacesWith, APollingForeignReaderIsWokenByOkToGet) {
     std::vector<Cycle> read;
     PollingReader reader("reader", [&](tlm::tlm_nonblocking_get_peek_if<int>& in) {

@@ -71,8 +71,8 @@ public:
     FifoPort<SliceReport> tile_state;            ///< to the Tile Monitor, once per tile
     sc_core::sc_vector<FifoPort<BlockEnded>> block_ended; ///< to Stage III; may be empty
 
-    /// The job's tile size is at most 64 windows. `block`: side of the
-    /// blocks that are reported, px.
+    /// The job's tile size is at most 64 windows. `block`: side of the blocks that are reported,
+    /// px.
     WindowArray(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                 RenderJob& job, std::size_t inputs, int contexts, std::size_t listeners = 0,
                 int block = 8);

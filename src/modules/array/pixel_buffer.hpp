@@ -19,12 +19,11 @@ namespace degs {
 /// its rows back on its own.
 enum class ContextRelease { Tile, Bank };
 
-/// Holds the pixels of the tiles in flight (paper Table I, "Pixel Buffer")
-/// and writes finished tiles to the frame buffer in memory as RGBA8 or
-/// RGBA16F. A context is free again once every slice has finished its tile
-/// and the pixels have been read out; the write itself is posted. An instance
-/// serves a share of the pixels: all of them, one bank's rows, or the tiles
-/// that are granted to one engine.
+/// Holds the pixels of the tiles in flight (paper Table I, "Pixel Buffer") and writes finished
+/// tiles to the frame buffer in memory as RGBA8 or RGBA16F. A context is free again once every
+/// slice has finished its tile and the pixels have been read out; the write itself is posted. An
+/// instance serves a share of the pixels: all of them, one bank's rows, or the tiles that are
+/// granted to one engine.
 class PixelBuffer : public sc_core::sc_module {
 public:
     struct Config {

@@ -47,8 +47,8 @@ protected:
 
     /// Splat streams that the array reads; tile t comes on stream t modulo their number.
     std::size_t streams() const { return fetchers_.size(); }
-    /// Wires the ports of an array: `in` (one per stream), `context_free`,
-    /// `tile_done`, `tile_state`.
+    /// Wires the ports of an array: `in` (one per stream), `context_free`, `tile_done`,
+    /// `tile_state`.
     template <class Array>
     void connect(Array& array) {
         for (std::size_t i = 0; i < streams(); ++i) {

@@ -17,8 +17,8 @@ class NextUse {
 public:
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-    /// One backward pass over the lists. Throws std::length_error if there are
-    /// 2^32 - 1 entries or more.
+    /// One backward pass over the lists. Throws std::length_error if there are 2^32 - 1 entries or
+    /// more.
     explicit NextUse(const FrameWorkload& frame);
 
     /// Position in FrameWorkload::tile_splats, or kNone.

@@ -294,9 +294,9 @@ Cycle IssueBank::next_ready(Cycle now) const {
     return earliest;
 }
 
-// The next cycle in which anything can change, if there is nothing left to do at once:
-// a domain becomes ready, an open packet has to leave, a Feature Buffer entry is
-// freed, or a message arrives.
+// The next cycle in which anything can change, if there is nothing left to do at once: a domain
+// becomes ready, an open packet has to leave, a Feature Buffer entry is freed, or a message
+// arrives.
 Cycle IssueBank::next_date(Cycle now) {
     const Cycle next = now + 1;
     Cycle limit = packing->open_until();

@@ -36,7 +36,7 @@ struct HardCase {
     /// is not refused with a clear message, else nothing.
     std::string (*refuse)(const std::string& folder) = nullptr;
     bool spans = false; ///< compare the spans of fp32 with those of fp64
-    /// Instead of all of the above: the input or key that this version does not have.
+    /// Set instead of all of the above: the input or key that this version does not have.
     std::string not_applicable;
 };
 

@@ -14,7 +14,7 @@ const char* const kProperties[] = {"x",      "y",       "z",       "f_dc_0",  "f
                                    "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2",
                                    "rot_0",  "rot_1",   "rot_2",   "rot_3"};
 
-/// A file of `rows` rows that says it has `count`, without one of its properties.
+/// A file of `rows` rows whose header claims `count`, without one of the properties.
 std::string file_of(int count, int rows, const std::string& missing) {
     std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + "\n";
     std::string row;

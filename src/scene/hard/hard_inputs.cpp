@@ -57,7 +57,8 @@ std::vector<HardScene> make_degenerate_case(int width, int height) {
     return scenes;
 }
 
-// Everything nearer than the reference's 0.2: gone, or there if the near plane is moved.
+// All of these are nearer than the reference's 0.2: they are culled, or drawn if the near plane
+// is moved.
 std::vector<HardScene> make_tiny_scene_case(int width, int height) {
     std::vector<HardScene> scenes;
     for (const double near_plane : {0.2, 0.001}) {

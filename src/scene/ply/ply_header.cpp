@@ -107,7 +107,7 @@ private:
         return rest.substr(0, end);
     }
 
-    /// The next line that says something, in words.
+    /// The words of the next line that is neither empty nor a comment.
     Words next_line() {
         while (true) {
             Words words = split(raw_line());

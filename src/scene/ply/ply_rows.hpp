@@ -51,7 +51,7 @@ public:
 
     std::size_t row_bytes() const { return row_bytes_; }
     bool swap_bytes() const { return swap_; } ///< values are of the other endianness
-    /// Of a scalar property that exists.
+    /// The place of a scalar property, which must exist.
     PlyColumn column(const std::string& property) const;
     /// Reads the next `count` rows to `destination` (count * row_bytes() bytes).
     void read(char* destination, std::size_t count);

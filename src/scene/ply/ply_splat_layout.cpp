@@ -36,7 +36,7 @@ bool is_scalar(const PlyElement& vertex, const std::string& name) {
         [&](const PlyProperty& p) { return p.name == name && !p.list_count.has_value(); });
 }
 
-/// Neither opacity nor scales: no Gaussians at all, whatever else it is.
+/// A file with neither opacity nor scales holds no Gaussians at all.
 void refuse_ordinary_geometry(const std::string& path, const PlyHeader& header,
                               const PlyElement& vertex) {
     if (vertex.has("opacity") || vertex.has("scale_0") || vertex.has("f_dc_0")) {

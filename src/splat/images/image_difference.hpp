@@ -20,15 +20,15 @@ public:
     /// PSNR of the unclamped colours with peak 1, dB; infinite if they are equal.
     double psnr_db() const;
     double max_abs_error() const { return worst_; } ///< largest difference of a channel
-    /// Channels and transmittances of the test image that are not finite.
-    /// They enter no other result.
+    /// Channels and transmittances of the test image that are not finite. They enter no other
+    /// result.
     std::uint64_t nonfinite() const { return nonfinite_; }
     /// Pixels that another number of splats updated than in the reference.
     std::uint64_t recounted() const { return recounted_; }
     bool identical() const { return worst_ == 0 && alpha_max_ == 0 && nonfinite_ == 0; }
 
-    /// The pixel with the largest error, in the frame, or the first pixel that is
-    /// not finite if any is not.
+    /// The pixel with the largest error, in the frame, or the first pixel that is not finite if any
+    /// is not.
     int worst_x() const { return worst_x_; }
     int worst_y() const { return worst_y_; }
 

@@ -18,7 +18,8 @@ double within(double x, double low, double high) {
     return below > low ? below : low;
 }
 
-/// Of a normal number. The library's frexp and ldexp are calls, and rows are solved by the million.
+/// The exponent of a normal number. The library's frexp and ldexp are calls, and rows are solved by
+/// the million.
 int exponent_of(double x) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &x, sizeof bits);

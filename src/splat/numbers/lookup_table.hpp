@@ -50,12 +50,12 @@ inline TableSpec table_of(TableFunction function) {
     return spec;
 }
 
-/// One table, evaluated as a unit of the hardware evaluates it: every product and
-/// sum is rounded to `values`.
+/// One table, evaluated as a unit of the hardware evaluates it: every product and sum is rounded to
+/// `values`.
 class LookupTable {
 public:
     LookupTable() = default;
-    /// InputError if entries or range are not possible.
+    /// Throws InputError if entries or range are not possible.
     explicit LookupTable(const TableSpec& spec);
 
     double operator()(double x) const;

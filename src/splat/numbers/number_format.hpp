@@ -114,7 +114,7 @@ struct LaneRounding {
     float low = 0, high = 0; ///< Fixed: where values saturate
 
     LaneRounding() = default; ///< to fp32: keeps everything
-    /// InputError unless format.fits_float().
+    /// Throws InputError unless format.fits_float().
     explicit LaneRounding(const NumberFormat& format);
 };
 

@@ -92,7 +92,7 @@ struct NumberSet {
     void describe(ConfigVisitor& visitor);
 };
 
-/// What there is to say about a stage, in one place.
+/// Everything that is known about a stage, in one place.
 struct NumberStage {
     const char* key; ///< in configurations
     NumberFormat NumberSet::*format;
@@ -122,7 +122,7 @@ std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set)
 
 /// "ideal", "fp32", "fp16", "paper", "tuned".
 std::vector<std::string> number_set_names();
-/// InputError lists the names for any other.
+/// Throws InputError, which lists the names, for any other.
 NumberSet number_set(const std::string& name);
 /// The same with parts changed by "key=value" of NumberSet::describe, as `--numbers` has them.
 /// Throws InputError that names the key.

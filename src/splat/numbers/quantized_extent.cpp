@@ -23,7 +23,7 @@ double rounding_error(const NumberFormat& format, double magnitude) {
                : std::max(std::ldexp(magnitude, -format.fraction_bits - 1), format.quantum() / 2);
 }
 
-/// Of the double arithmetic below, px.
+/// Error of the double arithmetic below, px.
 double slack_of(double magnitude) {
     return 1e-6 + 1e-9 * magnitude;
 }

@@ -47,7 +47,7 @@ private:
     int cut(double dx, int direction) const;
 
     int first_row_ = 0, last_row_ = -1, first_column_ = 0, last_column_ = -1;
-    bool bounded_ = false; // is the ellipse below known to hold the spans?
+    bool bounded_ = false; // the ellipse below is known to hold the spans
     double x_ = 0, y_ = 0; // centre
     double slope_ = 0;     // m
     double radius_ = 0;    // of the larger ellipse: r_x

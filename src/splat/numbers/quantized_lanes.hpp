@@ -35,7 +35,7 @@ struct LaneNumbers {
     std::int32_t last_cell = 0;
     std::vector<float> values, falls; ///< of the table's cells
 
-    /// InputError unless lanes_can(set).
+    /// Throws InputError unless lanes_can(set).
     explicit LaneNumbers(const NumberSet& set);
 };
 
@@ -54,8 +54,8 @@ struct TestedPixels {
     std::uint32_t mask = 0;
     float q[32] = {}; ///< of mask bit i
 };
-/// A PE that blends where q <= q_limit, otherwise like
-/// QuantizedBlendFunction; all else is boundary.
+/// A PE that blends where q <= q_limit, otherwise like QuantizedBlendFunction; all else is
+/// boundary.
 using QuantizedTestFunction = BlendOutcome (*)(const TestedPixels& tested,
                                                const BlendRecord<float>& splat,
                                                const LaneNumbers& numbers, bool refuse,
