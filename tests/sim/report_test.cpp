@@ -207,6 +207,20 @@ TEST(SmallRunReport, WithoutReferenceItsNumbersAreNull) {
     EXPECT_EQ(with["slots"], without["slots"]);
 }
 
+// docs/gaussian-slicing-unit.md: an outward end adds a pixel on rows that end beside the tile.
+TEST(SmallRunReport, RowsOfTheTileChangeTheImageOfOutwardEndsAlone) {
+    const auto image_of = [](const std::string& ends, const std::string& rows) {
+        return reported_run({"--set", "pipeline.numbers=fp32", "--set",
+                             "pipeline.span_ends=" + ends, "--set", "slicing.rows=" + rows});
+    };
+    EXPECT_EQ(image_of("exact", "tile").exr, image_of("exact", "splat").exr);
+    const ReportedRun tile = image_of("outward", "tile");
+    const ReportedRun splat = image_of("outward", "splat");
+    EXPECT_NE(tile.exr, splat.exr);
+    EXPECT_GT(tile.report["image"]["psnr_db"], splat.report["image"]["psnr_db"]);
+    EXPECT_LT(tile.report["slots"]["boundary"], splat.report["slots"]["boundary"]);
+}
+
 TEST(SmallRunTerminal, SummaryAndExplanation) {
     const std::string text = reported_run({"--explain"}).text;
     for (const char* line : {"scene ", "design ", "frame ", "slots ", "stages ", "memory ",
