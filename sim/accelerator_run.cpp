@@ -72,7 +72,7 @@ void check_result(const AcceleratorResult& result) {
         require_equal(c.law, c.left, c.right);
     }
     require_equal("the slots must fill PEs x window", result.slots.total(),
-                  static_cast<std::uint64_t>(result.pes) * result.window.cycles());
+                  result.pes * result.window.cycles());
 }
 
 } // namespace degs::sim

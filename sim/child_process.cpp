@@ -215,7 +215,7 @@ bool ChildPool::wait_for_fewer_than(std::size_t count, const StoppingSignals& si
 
 void ChildPool::take(std::size_t place) {
     const std::unique_ptr<Child> child = std::move(running_[place]);
-    running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(place));
+    running_.erase(running_.begin() + place);
     ++ended_;
     watcher_.ended(child->index(), child->outcome());
 }

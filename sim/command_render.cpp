@@ -75,7 +75,7 @@ void run(const RenderOptions& options) {
     write_exr(result.image, out.path("image.exr"));
     write_png(result.image, out.path("image.png"));
     out.write_json("render.json", render_json(result, wall.seconds()));
-    const auto fragments = static_cast<double>(result.workload.reference->fragments);
+    const std::uint64_t fragments = result.workload.reference->fragments;
     print(layout({{"scene", scene_words(result.scene) + " · " + grouped(result.workload.visible) +
                                 " visible"},
                   {"frame", size_words(result.camera) + " · " + scaled(fragments) +

@@ -9,9 +9,9 @@ namespace degs::sim {
 /// as they always do. A signal that the program was started to ignore stays ignored.
 void announce_interruption();
 
-/// Makes `sentence` the one that is printed from now on, instead of "Interrupted."; more than some
+/// Makes `text` the one that is printed from now on, instead of "Interrupted."; more than some
 /// 500 bytes are cut.
-void set_interruption_sentence(const std::string& sentence);
+void set_interruption_sentence(const std::string& text);
 
 /// From now on the signals end this process without a sentence. For a forked child, whose parent
 /// prints it.

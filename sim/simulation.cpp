@@ -29,7 +29,7 @@ WorkloadFacts facts_of(const FrameWorkload& workload) {
 std::uint64_t peak_rss_bytes() {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+    return std::uint64_t{1024} * usage.ru_maxrss; // Linux counts in KiB
 }
 
 std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud,

@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "config/ratio.hpp"
 #include "sim/text/words.hpp"
 #include "splat/numbers/saturation.hpp"
 
@@ -12,8 +13,7 @@ std::vector<std::string> saturation_warnings(const DataPathOptions& options,
                                              const FrameWorkload& frame) {
     std::vector<std::string> warnings;
     for (const Saturation& found : saturated_stages(options, frame)) {
-        const double share =
-            static_cast<double>(found.splats) / static_cast<double>(frame.splats.size());
+        const double share = ratio_of(found.splats, frame.splats.size());
         warnings.push_back("Stage " + found.stage + " saturates: " + grouped(found.splats) +
                            " of " + grouped(frame.splats.size()) + " splats (" +
                            three_digits(100 * share) + " %) lie beyond " +

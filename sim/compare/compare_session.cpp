@@ -120,7 +120,7 @@ void CompareSession::run_scene(const std::string& spec) {
         return;
     }
     std::vector<int> cameras = request_.cameras.value_or(std::vector<int>{});
-    for (int c = 0; !request_.cameras && c < static_cast<int>(scene.cameras.size()); ++c) {
+    for (int c = 0; !request_.cameras && c < int(scene.cameras.size()); ++c) {
         cameras.push_back(c);
         progress_.plan(runs_per_camera());
     }
@@ -219,6 +219,7 @@ void CompareSession::end(std::size_t number, ChildOutcome&& outcome) {
 
 void CompareSession::show(const std::vector<std::size_t>& running) {
     std::vector<std::string> names;
+    names.reserve(running.size());
     for (std::size_t run : running) {
         names.push_back(started_[run].name);
     }
@@ -240,7 +241,8 @@ void CompareSession::take(const Started& started, ChildOutcome&& outcome) {
                       summary.report);
     summary.report.clear();
     for (const std::string& sentence : summary.warnings) {
-        const std::string warning = name + ": " + sentence;
+        std::string warning = name;
+        warning.append(": ").append(sentence);
         if (std::find(warnings_.begin(), warnings_.end(), warning) == warnings_.end()) {
             warnings_.push_back(warning);
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/compare/comparison.hpp"
+#include "config/ratio.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +36,7 @@ std::size_t find_view(std::vector<ComparedView>& views, const ComparedView& view
     const auto found = std::find_if(views.begin(), views.end(), [&view](const ComparedView& known) {
         return same_view(known, view);
     });
-    const auto position = static_cast<std::size_t>(found - views.begin());
+    const std::size_t position = found - views.begin();
     if (found == views.end()) {
         views.push_back(view);
     }
@@ -89,8 +90,7 @@ std::optional<double> geometric_mean(const std::vector<ComparisonRow>& rows, std
             ++count;
         }
     }
-    return count == views ? std::optional<double>(std::exp(sum / static_cast<double>(views)))
-                          : std::nullopt;
+    return count == views ? std::optional<double>(std::exp(mean_of(sum, views))) : std::nullopt;
 }
 
 std::vector<ComparisonRow> means_of(const Comparison& comparison) {
@@ -120,8 +120,7 @@ Comparison compare(const std::vector<std::string>& configs, const std::vector<Co
     }
     for (const ComparedRun& run : runs) {
         ComparisonRow row;
-        row.config = static_cast<std::size_t>(
-            std::find(configs.begin(), configs.end(), run.config) - configs.begin());
+        row.config = std::find(configs.begin(), configs.end(), run.config) - configs.begin();
         if (row.config == configs.size()) {
             throw std::logic_error("a run of '" + run.config + "' is none of the comparison");
         }

@@ -110,7 +110,7 @@ std::string heading(const ComparedView& view) {
     std::string words = view_words(view) + " · " + grouped(view.visible) + " of " +
                         grouped(view.gaussians) + " Gaussians visible";
     if (view.fragments) {
-        words += " · " + scaled(static_cast<double>(*view.fragments)) + " fragments";
+        words += " · " + scaled(*view.fragments) + " fragments";
     }
     return visible(words) + "\n";
 }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "config/error.hpp"
+#include "config/ratio.hpp"
 #include "config/statistics_document.hpp"
 #include "sim/report.hpp"
 
@@ -81,9 +82,9 @@ void read_statistics(const RunResult& result, Measures& measures) {
 }
 
 void read_slots(const SlotAccount& slots, Measures& measures) {
-    const auto total = static_cast<double>(slots.total());
+    const std::uint64_t total = slots.total();
     for (std::size_t c = 0; total != 0 && c < kSlotClasses.size(); ++c) {
-        measures[slot_measure(c)] = static_cast<double>(slots.*kSlotClasses[c].slots) / total;
+        measures[slot_measure(c)] = ratio_of(slots.*kSlotClasses[c].slots, total);
     }
 }
 

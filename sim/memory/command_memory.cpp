@@ -66,8 +66,7 @@ void run(const MemoryOptions& options) {
     }
     const OutputFolder out(options.out, files);
     dram::Lpddr5 memory("memory", config, Timebase(), config.channels);
-    if (static_cast<std::uint64_t>(options.shape.request_bytes) * 4 >
-        memory.channels().mapping().capacity()) {
+    if (std::uint64_t{4} * options.shape.request_bytes > memory.channels().mapping().capacity()) {
         throw InputError("Requests of " + std::to_string(options.shape.request_bytes) +
                          " bytes are too large for this memory.");
     }

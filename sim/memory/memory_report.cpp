@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/config_document.hpp"
+#include "config/ratio.hpp"
 #include "config/statistics_document.hpp"
 #include "sim/report.hpp"
 #include "sim/text/terminal.hpp"
@@ -17,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 /// pJ for each bit that was moved.
 double pj_per_bit(const TrafficResult& result) {
-    return 1e3 * result.energy.total_nj() / (8.0 * static_cast<double>(result.bytes));
+    return mean_of(1e3 * result.energy.total_nj(), 8 * result.bytes);
 }
 
 double mean_power_w(const TrafficResult& result) {
@@ -77,8 +78,8 @@ void describe_point(const TrafficResult& result, const dram::Config& memory, Sta
 void describe_host(const MemoryFacts& facts, StatsVisitor& v) {
     const TrafficResult& result = facts.saturated;
     v.begin_section("host", "The machine that simulated; differs between runs.");
-    v.real("requests_per_s", static_cast<double>(result.host_requests) / result.host_s,
-           "requests/s", "Speed of the simulation, warm-up included.");
+    v.real("requests_per_s", rate_of(result.host_requests, result.host_s), "requests/s",
+           "Speed of the simulation, warm-up included.");
     v.real("sim_s", result.host_s, "s", "The simulation of the saturated memory.");
     v.real("wall_s", facts.wall_s, "s", "All of it, without writing memory.json.");
     v.count("peak_rss_bytes", peak_rss_bytes(), "bytes", "Largest resident set.");
@@ -150,8 +151,7 @@ std::string memory_words(const MemoryFacts& facts) {
          {"energy", three_digits(pj_per_bit(result)) + " pJ/bit · " +
                         three_digits(mean_power_w(result)) + " W"},
          {"host", three_digits(facts.wall_s) + " s · " +
-                      scaled(static_cast<double>(result.host_requests) / result.host_s) +
-                      " requests/s"}});
+                      scaled(rate_of(result.host_requests, result.host_s)) + " requests/s"}});
     if (!facts.curve.empty()) {
         TextTable table({"offered %", "carried %", "mean ns", "p95 ns"});
         for (const TrafficResult& each : facts.curve) {

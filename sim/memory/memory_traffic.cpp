@@ -27,9 +27,9 @@ MemoryTraffic::MemoryTraffic(const sc_core::sc_module_name& name, dram::Lpddr5& 
       peak_gb_per_s_(config.peak_gb_per_s()), window_(traffic_window(config, shape.request_bytes)),
       dealer_(shape, memory.channels().mapping(), config.channels), lines_(config.channels),
       no_data_(shape.request_bytes) {
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        out[i].register_nb_transport_bw(this, &MemoryTraffic::backward, static_cast<int>(i));
-        out[i].bind(memory.in[i]);
+    for (int channel = 0; channel < config.channels; ++channel) {
+        out[channel].register_nb_transport_bw(this, &MemoryTraffic::backward, channel);
+        out[channel].bind(memory.in[channel]);
     }
     SC_HAS_PROCESS(MemoryTraffic);
     SC_METHOD(begin);
@@ -63,7 +63,7 @@ TrafficResult MemoryTraffic::measure(std::uint64_t requests, double offered) {
     result.host_requests = answered_ - before;
     result.seconds = (end_->time - start_->time).to_seconds();
     result.requests = end_->requests - start_->requests;
-    result.bytes = result.requests * static_cast<std::uint64_t>(shape_.request_bytes);
+    result.bytes = result.requests * shape_.request_bytes;
     result.reads = reads_;
     result.writes = writes_;
     result.commands = end_->commands;
@@ -176,8 +176,8 @@ tlm::tlm_generic_payload* MemoryTraffic::new_payload() {
     payloads_.push_back(std::make_unique<tlm::tlm_generic_payload>(&manager_));
     tlm::tlm_generic_payload* payload = payloads_.back().get();
     payload->set_data_ptr(no_data_.data());
-    payload->set_data_length(static_cast<unsigned>(no_data_.size()));
-    payload->set_streaming_width(static_cast<unsigned>(no_data_.size()));
+    payload->set_data_length(shape_.request_bytes);
+    payload->set_streaming_width(shape_.request_bytes);
     payload->set_extension(new Birth);
     payload->set_extension(new TimingOnly);
     return payload;

@@ -10,6 +10,7 @@
 #include <tlm>
 #include <tlm_utils/simple_initiator_socket.h>
 
+#include "config/ratio.hpp"
 #include "dram/lpddr5.hpp"
 #include "sim/memory/memory_pattern.hpp"
 
@@ -25,7 +26,7 @@ struct TrafficResult {
     dram::Energy energy;
     double host_s = 0;
     std::uint64_t host_requests = 0; ///< warm-up and end included
-    double gb_per_s() const { return static_cast<double>(bytes) / seconds / 1e9; }
+    double gb_per_s() const { return rate_of(bytes, seconds) / 1e9; }
 };
 
 /// Requests in flight per channel that saturate it: those that fill the read queue, and those whose

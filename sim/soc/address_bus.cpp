@@ -23,9 +23,10 @@ AddressBus::AddressBus(const sc_core::sc_module_name& name, std::size_t initiato
         first_.push_back(next);
         next += window.per_initiator ? initiators : 1;
     }
-    for (std::size_t i = 0; i < initiators; ++i) {
-        in[i].register_b_transport(this, &AddressBus::transport, static_cast<int>(i));
-        in[i].register_transport_dbg(this, &AddressBus::debug, static_cast<int>(i));
+    int tag = 0;
+    for (auto& socket : in) {
+        socket.register_b_transport(this, &AddressBus::transport, tag);
+        socket.register_transport_dbg(this, &AddressBus::debug, tag++);
     }
 }
 

@@ -50,7 +50,7 @@ void CpuTraffic::move_line() {
     if (oldest > sc_core::sc_time_stamp()) {
         sc_core::wait(oldest - sc_core::sc_time_stamp());
     }
-    const auto of = static_cast<std::uint64_t>(config_.reads_per_write) + 1;
+    const std::uint64_t of = config_.reads_per_write + 1;
     const bool write = of > 1 && random_() % of == 0;
     TimingOnly timing_only;
     tlm::tlm_generic_payload payload;

@@ -6,8 +6,7 @@
 namespace degs::sim {
 
 Display::Display(const sc_core::sc_module_name& name, const Config& config)
-    : sc_core::sc_module(name), out("out"), config_(config),
-      row_(static_cast<std::size_t>(config.width) * 4) {
+    : sc_core::sc_module(name), out("out"), config_(config), row_(4 * config.width) {
     SC_HAS_PROCESS(Display);
     SC_THREAD(run);
 }
@@ -31,8 +30,7 @@ void Display::run() {
                 sc_core::wait(due - sc_core::sc_time_stamp());
             }
             due += row_time;
-            const sc_core::sc_time there =
-                fetch_row(picture + static_cast<std::uint64_t>(y) * row_.size());
+            const sc_core::sc_time there = fetch_row(picture + y * row_.size());
             stats_.underruns += there > due ? 1 : 0;
         }
     }

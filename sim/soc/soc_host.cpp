@@ -27,7 +27,7 @@ void SocHost::run() {
 void SocHost::access(tlm::tlm_command command, std::uint64_t offset, std::uint32_t& value) {
     std::array<unsigned char, 4> bytes{};
     for (std::size_t i = 0; i < bytes.size(); ++i) {
-        bytes[i] = static_cast<unsigned char>(value >> 8 * i);
+        bytes[i] = value >> 8 * i & 0xFFU;
     }
     tlm::tlm_generic_payload payload;
     payload.set_command(command);
@@ -53,7 +53,7 @@ void SocHost::write(Register which, std::uint32_t value, std::uint32_t word) {
 }
 
 void SocHost::write_pair(Register which, std::uint64_t value, std::uint32_t pair) {
-    write(which, static_cast<std::uint32_t>(value), 2 * pair);
+    write(which, value & 0xFFFFFFFFU, 2 * pair);
     write(which, static_cast<std::uint32_t>(value >> 32U), 2 * pair + 1);
 }
 
@@ -145,8 +145,7 @@ AcceleratorError SocHost::start_and_wait() {
 
 // A frame without a workspace ends at once and reports the bytes that it needs.
 void SocHost::reserve_memory() {
-    const auto bytes =
-        static_cast<std::uint64_t>(camera_.width) * static_cast<std::uint64_t>(camera_.height) * 4;
+    const std::uint64_t bytes = camera_.pixels() * 4;
     for (std::uint64_t& buffer : frame_buffers_) {
         buffer = reserve(bytes);
     }
@@ -182,8 +181,7 @@ SocFrame SocHost::render() {
 }
 
 std::vector<unsigned char> SocHost::pixels(const SocFrame& frame) {
-    std::vector<unsigned char> bytes(static_cast<std::size_t>(camera_.width) *
-                                     static_cast<std::size_t>(camera_.height) * 4);
+    std::vector<unsigned char> bytes(camera_.pixels() * 4);
     debug(tlm::TLM_READ_COMMAND, frame.frame_buffer, bytes);
     return bytes;
 }

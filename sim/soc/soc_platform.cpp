@@ -14,7 +14,7 @@ std::uint64_t capacity_of(const dram::Config& config) {
 }
 
 std::size_t initiators(const SocRequest& request) {
-    return kFirstCore + static_cast<std::size_t>(request.cores);
+    return kFirstCore + request.cores;
 }
 
 } // namespace

@@ -82,7 +82,7 @@ private:
         point.offered_gb_per_s = load;
         point.frame = host.render();
         const double ns = point.frame.latency_ns;
-        const auto rate = [ns](std::uint64_t bytes) { return static_cast<double>(bytes) / ns; };
+        const auto rate = [ns](std::uint64_t bytes) { return rate_of(bytes, ns); };
         point.cpu_gb_per_s = rate(platform_.cpu_bytes() - cpu);
         point.display_gb_per_s = rate(platform_.display().stats().bytes - shown);
         point.accelerator_gb_per_s = rate(point.frame.bytes_read + point.frame.bytes_written);

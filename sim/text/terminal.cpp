@@ -45,13 +45,13 @@ std::string design_line(const RunResult& result) {
         bytes += buffer.bytes;
     }
     return run.name + kDot + std::to_string(run.pes) + " PEs" + kDot +
-           three_digits(static_cast<double>(bytes) / 1024.0) + " KB of SRAM";
+           three_digits(ratio_of(bytes, 1024)) + " KB of SRAM";
 }
 
 std::string frame_line(const RunResult& result) {
     const AcceleratorResult& run = result.accelerator;
     const Cycle latency = run.frames.empty() ? 0 : run.frames.front().finished;
-    const double ms = static_cast<double>(latency) / run.clock_ghz * 1e-6;
+    const double ms = rate_of(latency, run.clock_ghz) * 1e-6;
     const std::optional<double> steady = steady_fps(run);
     return size_words(result.camera) + kDot + three_digits(ms) + " ms" + kDot +
            (ms > 0 ? three_digits(1e3 / ms) : "-") + " fps" + kDot +
@@ -120,8 +120,8 @@ std::string host_line(const RunResult& result) {
         line += ", " + three_digits(host.sim_s / *host.render_s) + "× of rendering it";
     }
     if (host.sim_s > 0) {
-        line += kDot + scaled(static_cast<double>(result.accelerator.slots.useful) / host.sim_s) +
-                " fragments/s";
+        line +=
+            kDot + scaled(rate_of(result.accelerator.slots.useful, host.sim_s)) + " fragments/s";
     }
     return line + kDot + scaled(host.peak_rss_bytes) + "B" + kDot + three_digits(host.wall_s) +
            " s in all";

@@ -112,7 +112,8 @@ std::vector<std::string> ConfigChanges::assignments() const {
     std::vector<std::string> list;
     for (const auto& [path, value] : changes_) {
         if (value != kUnchanged) {
-            list.push_back(path + "=" + value);
+            list.push_back(path);
+            list.back().append("=").append(value);
         }
     }
     return list;

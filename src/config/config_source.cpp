@@ -41,7 +41,8 @@ ConfigSource::ConfigSource(ConfigNode root, const std::vector<std::string>& over
         override.value.kind = ConfigNode::Kind::kScalar;
         override.value.text = setting.substr(override.path.size() + 1);
         override.value.layer = 0;
-        override.value.place = option + " " + setting;
+        override.value.place = option;
+        override.value.place.append(" ").append(setting);
         overrides_.push_back(std::move(override));
     }
 }

@@ -15,4 +15,9 @@ inline double mean_of(double sum, std::uint64_t count) {
     return count == 0 ? 0.0 : sum / static_cast<double>(count);
 }
 
+/// `count` per `unit` of time or size, e.g. bytes per second; 0 if the unit is 0.
+inline double rate_of(std::uint64_t count, double unit) {
+    return unit == 0 ? 0.0 : static_cast<double>(count) / unit;
+}
+
 } // namespace degs

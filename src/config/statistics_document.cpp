@@ -80,6 +80,7 @@ std::vector<std::string> shared_names(const std::string& path) {
 
 [[noreturn]] void fail_unknown(const std::vector<Statistic>& list, const std::string& path) {
     std::vector<std::string> names;
+    names.reserve(list.size());
     for (const Statistic& row : list) {
         names.push_back(row.path);
     }

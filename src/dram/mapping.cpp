@@ -23,11 +23,12 @@ unsigned folded(std::uint64_t value, unsigned width) {
     if (width == 0) {
         return 0;
     }
-    unsigned result = 0;
+    const unsigned mask = (1U << width) - 1;
+    std::uint64_t result = 0;
     for (; value != 0; value >>= width) {
-        result ^= static_cast<unsigned>(value) & ((1U << width) - 1);
+        result ^= value;
     }
-    return result;
+    return static_cast<unsigned>(result & mask);
 }
 
 } // namespace
@@ -62,15 +63,12 @@ std::string Mapping::problem(const Config& config, const Timing& timing, int cha
 std::string Mapping::build(const Config& config, const Timing& timing, unsigned channels) {
     fold_channel_ = config.fold_channel;
     fold_bank_ = config.fold_bank;
-    const auto rows = static_cast<std::uint64_t>(timing.rows);
+    const std::uint64_t rows = timing.rows;
     capacity_ = channels * rows * kBanks * kPageBytes;
     const unsigned group_bits = log2_of(timing.groups());
-    bits_ = {static_cast<std::uint8_t>(log2_of(kPageBytes / kAccessBytes)),
-             static_cast<std::uint8_t>(group_bits),
-             static_cast<std::uint8_t>(log2_of(kBanks) - group_bits),
-             static_cast<std::uint8_t>(log2_of(rows)),
-             static_cast<std::uint8_t>(log2_of(channels))};
-    return read_order(config.order, log2_of(static_cast<std::uint64_t>(config.interleave_bytes)));
+    bits_ = {log2_of(kPageBytes / kAccessBytes), group_bits, log2_of(kBanks) - group_bits,
+             log2_of(rows), log2_of(channels)};
+    return read_order(config.order, log2_of(config.interleave_bytes));
 }
 
 std::string Mapping::read_order(const std::string& order, unsigned grain_bits) {
@@ -90,7 +88,7 @@ std::string Mapping::read_order(const std::string& order, unsigned grain_bits) {
             if (std::string problem = count_problem(count, field); !problem.empty()) {
                 return problem;
             }
-            bits = std::min(bits, static_cast<unsigned>(count[0] - '0'));
+            bits = std::min<unsigned>(bits, count[0] - '0');
         }
         place_field(field, bits, grain_bits);
     }

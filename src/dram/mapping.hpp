@@ -60,7 +60,7 @@ private:
     void fold(Values& values) const;
 
     bool fold_channel_ = false, fold_bank_ = false;
-    std::array<std::uint8_t, kFields> bits_{}; // of each field
+    std::array<unsigned, kFields> bits_{}; // of each field
     std::array<unsigned, kFields> taken_{};
     unsigned address_bits_ = 6;
     std::vector<Piece> pieces_; // from low to high

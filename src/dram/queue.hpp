@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "config/ratio.hpp"
 #include "dram/timing.hpp"
 
 namespace degs::dram {
@@ -27,8 +28,7 @@ using ByRowState = std::array<std::uint64_t, 3>;
 /// Share of accesses that found their row open, 0 to 1; 0 if there are none.
 inline double hit_rate(const ByRowState& counts) {
     const auto [hits, closed, conflicts] = counts;
-    const double all = static_cast<double>(hits + closed + conflicts);
-    return all == 0 ? 0 : static_cast<double>(hits) / all;
+    return ratio_of(hits, hits + closed + conflicts);
 }
 
 /// A controller queue of one direction: fixed slots, and a list per bank in the order of arrival.

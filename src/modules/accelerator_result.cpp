@@ -17,6 +17,7 @@ std::optional<double> ratio(std::uint64_t part, double whole) {
 
 std::vector<std::uint64_t> ends_of(const std::vector<FrameDates>& frames) {
     std::vector<std::uint64_t> ends;
+    ends.reserve(frames.size());
     for (const FrameDates& frame : frames) {
         ends.push_back(frame.finished);
     }

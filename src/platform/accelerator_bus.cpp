@@ -15,7 +15,7 @@ std::uint32_t word_from(const unsigned char* data) {
 
 void word_to(std::uint32_t value, unsigned char* data) {
     for (unsigned int i = 0; i < 4; ++i, value >>= 8U) {
-        data[i] = static_cast<unsigned char>(value);
+        data[i] = value & 0xFFU;
     }
 }
 

@@ -53,7 +53,7 @@ std::uint64_t AcceleratorRegisters::get_pair(Register which, std::uint32_t index
 }
 
 void AcceleratorRegisters::set_pair(Register which, std::uint64_t value) {
-    set_word(offset_of(which), static_cast<std::uint32_t>(value));
+    set_word(offset_of(which), value & 0xFFFFFFFFU);
     set_word(offset_of(which) + 4, static_cast<std::uint32_t>(value >> 32U));
 }
 

@@ -81,8 +81,9 @@ AcceleratorFault read_scene(const AcceleratorRegisters& regs, std::uint32_t max_
 }
 
 AcceleratorFault read_bases(const AcceleratorRegisters& regs, AcceleratorRequest& request) {
+    constexpr auto kHalfFloats = static_cast<std::uint32_t>(FrameFormat::Rgba16F);
     const std::uint32_t format = regs.get(Register::Format);
-    if (format > static_cast<std::uint32_t>(FrameFormat::Rgba16F)) {
+    if (format > kHalfFloats) {
         return fault(AcceleratorError::BadFormat, Register::Format);
     }
     MemoryBases& bases = request.bases;
@@ -91,7 +92,7 @@ AcceleratorFault read_bases(const AcceleratorRegisters& regs, AcceleratorRequest
     bases.sh = request.scene.sh;
     bases.workspace = regs.get_pair(Register::Workspace);
     bases.frame_buffer = regs.get_pair(Register::FrameBuffer);
-    bases.pixel_bytes = format == static_cast<std::uint32_t>(FrameFormat::Rgba16F) ? 8 : 4;
+    bases.pixel_bytes = format == kHalfFloats ? 8 : 4;
     request.workspace_bytes = regs.get_pair(Register::WorkspaceBytes);
     return {};
 }
@@ -130,8 +131,7 @@ AcceleratorFault AcceleratorRequest::read(const AcceleratorRegisters& registers,
 }
 
 std::uint64_t AcceleratorRequest::frame_bytes() const {
-    return static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height) *
-           static_cast<std::uint64_t>(bases.pixel_bytes);
+    return camera.pixels() * bases.pixel_bytes;
 }
 
 std::vector<MemoryGateway::Region> AcceleratorRequest::regions() const {

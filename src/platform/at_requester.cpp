@@ -87,8 +87,8 @@ AtRequester::Transaction& AtRequester::make(const Payload& access, const Piece& 
     part.set_command(access.get_command());
     part.set_address(piece.address);
     part.set_data_ptr(access.get_data_ptr() + piece.offset);
-    part.set_data_length(static_cast<unsigned int>(piece.bytes));
-    part.set_streaming_width(static_cast<unsigned int>(piece.bytes));
+    part.set_data_length(piece.bytes);
+    part.set_streaming_width(piece.bytes);
     part.set_byte_enable_ptr(nullptr);
     part.set_dmi_allowed(false);
     part.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);

@@ -25,7 +25,8 @@ public:
     using Payload = tlm::tlm_generic_payload;
     /// A part of an access; `offset` is that of its bytes in the data of the access.
     struct Piece {
-        std::uint64_t address = 0, offset = 0, bytes = 0;
+        std::uint64_t address = 0;
+        unsigned int offset = 0, bytes = 0; ///< inside the access, as TLM counts them
     };
 
     /// Sends through `out`, whose nb_transport_bw() must call backward(). `outstanding` > 0.

@@ -5,6 +5,15 @@
 
 namespace degs {
 
+namespace {
+
+/// A length of a transaction, limited to `room`, which may be longer than any transaction.
+unsigned int least(unsigned int bytes, std::uint64_t room) {
+    return static_cast<unsigned int>(std::min<std::uint64_t>(bytes, room));
+}
+
+} // namespace
+
 MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name)
     : MemoryGateway(name, Options()) {}
 
@@ -19,12 +28,13 @@ MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options&
 void MemoryGateway::connect(const std::vector<MemoryStream>& streams) {
     in_.init(streams.size());
     traffic_.resize(streams.size());
-    for (std::size_t i = 0; i < streams.size(); ++i) {
-        in_[i].register_b_transport(this, &MemoryGateway::serve, static_cast<int>(i));
-        in_[i].register_transport_dbg(this, &MemoryGateway::debug_of, static_cast<int>(i));
-        streams[i].port->out.bind(in_[i]);
-        if (scene_ && streams[i].kind.data == StreamData::Scene) {
-            streams[i].port->observe_reads(scene_);
+    int tag = 0;
+    for (const MemoryStream& stream : streams) {
+        in_[tag].register_b_transport(this, &MemoryGateway::serve, tag);
+        in_[tag].register_transport_dbg(this, &MemoryGateway::debug_of, tag);
+        stream.port->out.bind(in_[tag++]);
+        if (scene_ && stream.kind.data == StreamData::Scene) {
+            stream.port->observe_reads(scene_);
         }
     }
 }
@@ -78,15 +88,16 @@ MemoryGateway::Pieces MemoryGateway::cut(const tlm::tlm_generic_payload& payload
     const std::uint64_t grain = options_.transport == Transport::At ? options_.piece_bytes : 0;
     Pieces pieces;
     AtRequester::Piece piece{payload.get_address(), 0, 0};
-    for (std::uint64_t left = payload.get_data_length(); left != 0; left -= piece.bytes) {
+    for (unsigned int left = payload.get_data_length(); left != 0; left -= piece.bytes) {
         if (home != nullptr && piece.address - home->begin == home->bytes) {
             piece.address = home->begin;
         }
-        const std::uint64_t room =
-            home == nullptr ? left : home->bytes - (piece.address - home->begin);
-        piece.bytes = std::min(left, room);
+        piece.bytes = left;
+        if (home != nullptr) {
+            piece.bytes = least(piece.bytes, home->bytes - (piece.address - home->begin));
+        }
         if (grain != 0) {
-            piece.bytes = std::min(piece.bytes, grain - piece.address % grain);
+            piece.bytes = least(piece.bytes, grain - piece.address % grain);
         }
         pieces.push_back(piece);
         piece.address += piece.bytes;
@@ -110,8 +121,8 @@ void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Piece
         sc_core::sc_time wait = date > now ? date - now : sc_core::SC_ZERO_TIME;
         payload.set_address(piece.address);
         payload.set_data_ptr(data + piece.offset);
-        payload.set_data_length(static_cast<unsigned int>(piece.bytes));
-        payload.set_streaming_width(static_cast<unsigned int>(piece.bytes));
+        payload.set_data_length(piece.bytes);
+        payload.set_streaming_width(piece.bytes);
         payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
         out->b_transport(payload, wait);
         done = std::max(done, sc_core::sc_time_stamp() + wait);

@@ -28,7 +28,7 @@ void append(std::vector<unsigned char>& bytes, float value) {
     std::uint32_t bits = 0;
     std::memcpy(&bits, &value, sizeof bits);
     for (int i = 0; i < 4; ++i, bits >>= 8U) {
-        bytes.push_back(static_cast<unsigned char>(bits));
+        bytes.push_back(bits & 0xFFU);
     }
 }
 

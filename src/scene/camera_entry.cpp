@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double kMaxSide = 65536;       // px
+constexpr int kMaxSide = 65536;          // px
 constexpr double kMaxFocal = 1e9;        // px
 constexpr double kOrthonormality = 1e-3; // largest deviation of an entry of R^T R from identity
 
@@ -22,7 +22,7 @@ public:
         : path_(path), index_(index), json_(json) {}
 
     Camera parse() const {
-        constexpr double kMaxInt = std::numeric_limits<int>::max();
+        constexpr int kMaxInt = std::numeric_limits<int>::max();
         Camera camera;
         camera.id =
             json_.contains("id") ? integer("id", -kMaxInt, kMaxInt) : static_cast<int>(index_);
@@ -73,12 +73,12 @@ private:
         return number;
     }
 
-    int integer(const char* key, double low, double high) const {
+    int integer(const char* key, int low, int high) const {
         const double value = number(at(key), key);
         if (!(value >= low && value <= high) || value != std::floor(value)) {
             fail("has a " + std::string(key) + " of " + at(key).dump() +
-                 "; allowed are integers from " + std::to_string(static_cast<long>(low)) + " to " +
-                 std::to_string(static_cast<long>(high)) + ".");
+                 "; allowed are integers from " + std::to_string(low) + " to " +
+                 std::to_string(high) + ".");
         }
         return static_cast<int>(value);
     }

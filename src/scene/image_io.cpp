@@ -41,8 +41,7 @@ void check_not_empty(const Image& image, const std::string& path) {
 
 Imf::Slice slice(Imf::PixelType type, void* first, std::size_t values, int width, double fill) {
     const std::size_t pitch = values * 4; // all our channels have 4 bytes
-    return {type, static_cast<char*>(first), pitch, pitch * static_cast<std::size_t>(width), 1, 1,
-            fill};
+    return {type, static_cast<char*>(first), pitch, pitch * width, 1, 1, fill};
 }
 
 /// Describes the memory of an image whose data window starts at the origin.
@@ -105,8 +104,9 @@ Image read_pixels(const std::string& path, std::uint64_t file_bytes) {
     Imf::FrameBuffer buffer; // the library addresses pixels by their place in the data window
     for (auto it = at_origin.begin(); it != at_origin.end(); ++it) {
         Imf::Slice moved = it.slice();
-        moved.base -= window.min.x * static_cast<std::ptrdiff_t>(moved.xStride) +
-                      window.min.y * static_cast<std::ptrdiff_t>(moved.yStride);
+        const std::ptrdiff_t column = moved.xStride;
+        const std::ptrdiff_t row = moved.yStride;
+        moved.base -= window.min.x * column + window.min.y * row;
         buffer.insert(it.name(), moved);
     }
     file.setFrameBuffer(buffer);
@@ -156,8 +156,8 @@ void write_png(const Image& image, const std::string& path) {
     std::transform(image.rgb.begin(), image.rgb.end(), bytes.begin(), to_byte);
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
-    png.width = static_cast<png_uint_32>(image.width);
-    png.height = static_cast<png_uint_32>(image.height);
+    png.width = image.width;
+    png.height = image.height;
     png.format = PNG_FORMAT_RGB;
     png.flags = PNG_IMAGE_FLAG_FAST;
     write_atomically(path, [&](const std::string& temporary) {

@@ -13,8 +13,7 @@ constexpr double kNearPlane = 0.2; // scene units; the original rasteriser drops
 /// The value of this rank in ascending order; reorders them.
 template <class Value>
 Value ranked(std::vector<Value>& values, std::size_t rank) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rank),
-                     values.end());
+    std::nth_element(values.begin(), values.begin() + rank, values.end());
     return values[rank];
 }
 

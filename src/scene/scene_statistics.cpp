@@ -16,8 +16,7 @@ namespace {
 using Values = std::vector<double>;
 
 double nearest_rank(Values& values, double share) {
-    const auto rank =
-        static_cast<std::ptrdiff_t>(std::llround(share * static_cast<double>(values.size() - 1)));
+    const auto rank = std::llround(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + rank, values.end());
     return values[rank];
 }
@@ -94,7 +93,7 @@ void measure_extent(const GaussianCloud& cloud, SceneStatistics& out) {
 }
 
 double rest_rms(const GaussianCloud& cloud) {
-    const auto values = static_cast<std::size_t>(cloud.sh_coefficients()) * 3;
+    const std::size_t values = cloud.sh_coefficients() * 3;
     double sum = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         for (std::size_t k = 3; k < values; ++k) {

@@ -44,8 +44,8 @@ struct PixelPlanes {
     /// Makes room if need be, for lanes behind the last pixel, too.
     void clear(std::size_t first, std::size_t count) {
         hold(first + count + kLanePadding);
-        std::fill_n(transmittance.begin() + static_cast<std::ptrdiff_t>(first), count, T(1));
-        std::fill_n(live.begin() + static_cast<std::ptrdiff_t>(first), count, T(1));
+        std::fill_n(transmittance.begin() + first, count, T(1));
+        std::fill_n(live.begin() + first, count, T(1));
         for (std::vector<T>* plane : {&r, &g, &b}) {
             std::fill_n(&(*plane)[first], count, T(0));
         }

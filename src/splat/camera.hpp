@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <glm/glm.hpp>
@@ -19,6 +20,7 @@ struct Camera {
     glm::dvec3 position{0.0};        ///< camera centre in world space
     glm::dmat3 camera_to_world{1.0}; ///< columns are the view axes in world space
 
+    std::uint64_t pixels() const { return std::uint64_t{1} * width * height; }
     /// The same view at another width; height and focal lengths follow, height is rounded (at least
     /// 1). Throws InputError if either side leaves 1 .. 65536.
     Camera scaled_to_width(int new_width) const;

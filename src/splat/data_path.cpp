@@ -7,6 +7,7 @@
 
 #include "splat/blend_lanes.hpp"
 #include "splat/numbers/quantized_data_path.hpp"
+#include "splat/pixel_index.hpp"
 #include "splat/pixel_rows.hpp"
 
 namespace degs {
@@ -167,7 +168,7 @@ public:
         const T g0 = s.a * start * start + vertical - s.fold;
         const T d0 = s.a * (2 * start + 1);
         span.splat = splat;
-        span.y = static_cast<std::int16_t>(y - tile_y);
+        span.y = inside_tile(y - tile_y);
         // Beyond 2^24 px from the mean a float does not name single pixels, and left may be rounded
         // out of the tile.
         const int x0 = std::max(static_cast<std::int32_t>(left) + s.pixel_x, x_begin);
@@ -175,8 +176,8 @@ public:
         if (x0 > x1) {
             return false;
         }
-        span.x0 = static_cast<std::int16_t>(x0 - x_begin);
-        span.length = static_cast<std::int16_t>(x1 - x0 + 1);
+        span.x0 = inside_tile(x0 - x_begin);
+        span.length = inside_tile(x1 - x0 + 1);
         span.base = span.x0;
         span.g0 = g0;
         span.d0 = d0;
@@ -316,8 +317,7 @@ std::unique_ptr<DataPath> make_data_path(const DataPathOptions& options, int til
     if (numbers == Arithmetic::Fp64 || numbers == Arithmetic::Ideal) {
         return std::make_unique<DataPathOf<double>>(options, tile_size, contexts);
     }
-    const char* const name = arithmetic_names().at(static_cast<std::size_t>(numbers));
-    return make_quantized_data_path(number_set(name), options, tile_size, contexts);
+    return make_quantized_data_path(number_set(name_of(numbers)), options, tile_size, contexts);
 }
 
 } // namespace degs

@@ -17,6 +17,8 @@ namespace degs {
 enum class Arithmetic { Fp32, Fp64, Ideal, Fp16, Paper, Tuned };
 /// "fp32", "fp64", "ideal", "fp16", "paper", "tuned", in the order of Arithmetic.
 const std::vector<const char*>& arithmetic_names();
+/// The name among them.
+const char* name_of(Arithmetic arithmetic);
 
 /// `Refuse`: the splat that would push T under 1e-4 is not blended and ends the pixel (reference).
 /// `After`: it is blended, then the pixel ends (paper, Sec. II-A).
@@ -74,11 +76,11 @@ struct BlendTask {
 /// the lanes of a coupled "checking-while-blending" array do (paper, Sec. II-B).
 struct PixelTest {
     std::uint32_t splat = 0;
-    std::uint32_t mask = 0;   ///< bit i: the pixel at column + i is tested
-    int x = 0, y = 0;         ///< image pixel of mask bit 0
-    std::int16_t row = 0;     ///< inside the tile
-    std::int16_t column = 0;  ///< inside the tile, of mask bit 0
-    std::int16_t context = 0; ///< tile context of the Pixel Buffer
+    std::uint32_t mask = 0; ///< bit i: the pixel at column + i is tested
+    int x = 0, y = 0;       ///< image pixel of mask bit 0
+    int row = 0;            ///< inside the tile
+    int column = 0;         ///< inside the tile, of mask bit 0
+    int context = 0;        ///< tile context of the Pixel Buffer
 };
 
 /// The result of the tasks: disjoint masks whose union is the mask of the request, and the pixels

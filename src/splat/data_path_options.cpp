@@ -14,6 +14,10 @@ const std::vector<const char*>& arithmetic_names() {
     return names;
 }
 
+const char* name_of(Arithmetic arithmetic) {
+    return arithmetic_names().at(static_cast<std::size_t>(arithmetic));
+}
+
 namespace {
 
 Arithmetic arithmetic_of(const std::string& name) {
@@ -38,9 +42,7 @@ DataPathOptions options_of(const NumberSet& set) {
 }
 
 NumberSet set_of(Arithmetic arithmetic) {
-    return number_set(arithmetic == Arithmetic::Fp64
-                          ? "ideal"
-                          : arithmetic_names().at(static_cast<std::size_t>(arithmetic)));
+    return number_set(arithmetic == Arithmetic::Fp64 ? "ideal" : name_of(arithmetic));
 }
 
 DataPathOptions named_numbers(const std::string& name) {

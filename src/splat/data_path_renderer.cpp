@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "config/ratio.hpp"
+#include "splat/pixel_index.hpp"
 #include "splat/pixel_mask.hpp"
 
 namespace degs {
@@ -97,8 +98,8 @@ void DataPathRenderer::TileBlender::blend_span(const RowSpan& span) {
     task.row = span.y;
     for (int column = span.x0 / kRun * kRun; column <= end; column += kRun) {
         task.mask = bits_between(std::max(span.x0 - column, 0), std::min(end + 1 - column, kRun));
-        task.column = static_cast<std::int16_t>(column);
-        task.offset = static_cast<std::int16_t>(column - span.base);
+        task.column = inside_tile(column);
+        task.offset = inside_tile(column - span.base);
         const BlendOutcome outcome = path_->blend(task);
         counts_.useful += ones(outcome.useful);
         counts_.boundary += ones(outcome.boundary);

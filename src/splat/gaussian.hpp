@@ -25,7 +25,7 @@ struct GaussianCloud {
     /// Coefficients per channel: (degree + 1)^2.
     int sh_coefficients() const { return (sh_degree + 1) * (sh_degree + 1); }
     const float* sh_of(std::size_t gaussian) const {
-        return sh.data() + gaussian * static_cast<std::size_t>(sh_coefficients()) * 3;
+        return sh.data() + gaussian * sh_coefficients() * 3;
     }
 };
 

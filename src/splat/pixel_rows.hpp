@@ -14,8 +14,7 @@ class PixelRows {
 public:
     /// Rows are padded to 32 px, so that a block of lanes never leaves its row.
     PixelRows(int contexts, int tile_size)
-        : rows_(static_cast<std::size_t>(tile_size)), stride_((rows_ + 31) / 32 * 32),
-          place_(static_cast<std::size_t>(contexts) * rows_, kNowhere) {}
+        : rows_(tile_size), stride_((rows_ + 31) / 32 * 32), place_(contexts * rows_, kNowhere) {}
 
     std::size_t stride() const { return stride_; }
     /// The row has pixels; first_pixel() may be asked.
@@ -44,9 +43,7 @@ public:
 
 private:
     static constexpr std::uint32_t kNowhere = ~std::uint32_t{0};
-    std::size_t index(int context, int row) const {
-        return static_cast<std::size_t>(context) * rows_ + static_cast<std::size_t>(row);
-    }
+    std::size_t index(int context, int row) const { return context * rows_ + row; }
 
     std::size_t rows_, stride_;
     std::vector<std::uint32_t> place_; // by context and row, in rows of the planes

@@ -44,11 +44,13 @@ void HardBuilder::add_world(const glm::dvec3& mean, const glm::dvec3& scale,
 }
 
 void HardBuilder::look(double x, double y, int radius) {
+    const int column = static_cast<int>(x);
+    const int row = static_cast<int>(y);
     PixelBox box;
-    box.x0 = std::max(static_cast<int>(x) - radius, 0);
-    box.y0 = std::max(static_cast<int>(y) - radius, 0);
-    box.x1 = std::min(static_cast<int>(x) + radius, width() - 1);
-    box.y1 = std::min(static_cast<int>(y) + radius, height() - 1);
+    box.x0 = std::max(column - radius, 0);
+    box.y0 = std::max(row - radius, 0);
+    box.x1 = std::min(column + radius, width() - 1);
+    box.y1 = std::min(row + radius, height() - 1);
     if (!box.empty()) {
         scene.windows.push_back(box);
     }

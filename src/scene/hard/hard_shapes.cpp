@@ -112,7 +112,7 @@ std::vector<HardScene> make_giants_case(int width, int height) {
 }
 
 std::string check_giants(const HardScene& scene, const FrameWorkload& workload) {
-    const std::uint64_t wanted = scene.cloud.size() * static_cast<std::uint64_t>(workload.tiles());
+    const std::uint64_t wanted = scene.cloud.size() * workload.tiles();
     return workload.tile_pairs() == wanted
                ? ""
                : "The tiles list " + std::to_string(workload.tile_pairs()) +

@@ -54,7 +54,7 @@ private:
         cloud_.scales.resize(count_);
         cloud_.rotations.resize(count_);
         cloud_.opacities.resize(count_);
-        cloud_.sh.resize(count_ * static_cast<std::size_t>(cloud_.sh_coefficients()) * 3);
+        cloud_.sh.resize(count_ * cloud_.sh_coefficients() * 3);
         filters_.resize(layout.has_filter_3d ? count_ : 0);
     }
 
@@ -80,7 +80,7 @@ private:
     /// The file is channel-major (all of red, then green, then blue), the cloud interleaved.
     void bind_sh() {
         const int coefficients = cloud_.sh_coefficients();
-        const auto pitch = static_cast<std::size_t>(coefficients) * 3;
+        const std::size_t pitch = coefficients * 3;
         for (int channel = 0; channel < 3; ++channel) {
             bind_float("f_dc_" + std::to_string(channel), cloud_.sh.data() + channel, pitch);
             for (int k = 1; k < coefficients; ++k) {

@@ -96,8 +96,9 @@ SyntheticSpec parse_synthetic(const std::string& text) {
         parse_setting(setting, profile, spec);
         const std::string key = setting.substr(0, setting.find('='));
         if (!keys.insert(key).second) {
-            throw InputError("The synthetic scene '" + text + "' gives '" + key +
-                             "' twice; each setting may stand once.");
+            std::string message = "The synthetic scene '" + text + "' gives '";
+            message.append(key).append("' twice; each setting may stand once.");
+            throw InputError(message);
         }
     }
     return spec;

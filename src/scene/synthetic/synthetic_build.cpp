@@ -23,7 +23,7 @@ SyntheticBuilder::SyntheticBuilder(GaussianCloud& cloud, const SyntheticSpec& sp
     cloud.scales.reserve(spec.gaussians);
     cloud.rotations.reserve(spec.gaussians);
     cloud.opacities.reserve(spec.gaussians);
-    cloud.sh.reserve(spec.gaussians * static_cast<std::size_t>(cloud.sh_coefficients()) * 3);
+    cloud.sh.reserve(spec.gaussians * cloud.sh_coefficients() * 3);
 }
 
 void SyntheticBuilder::add(const SyntheticLook& look, const glm::dvec3& mean,

@@ -21,8 +21,8 @@ struct Image {
     Image(int w, int h)
         : width(w), height(h), rgb(pixels() * 3, 0.0F), transmittance(pixels(), 1.0F),
           fragments(pixels(), 0) {}
-    std::size_t pixels() const { return static_cast<std::size_t>(width) * height; }
-    std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * width + x; }
+    std::size_t pixels() const { return std::size_t{1} * width * height; }
+    std::size_t at(int x, int y) const { return std::size_t{1} * y * width + x; }
     /// Writes pixel i, rounded to single precision; `colour` are its three channels.
     void put(std::size_t i, const double* colour, double transmitted, std::uint32_t blended) {
         std::transform(colour, colour + 3, &rgb[3 * i],

@@ -7,6 +7,7 @@
 
 #include "splat/numbers/quantized_extent.hpp"
 #include "splat/numbers/quantized_pixels.hpp"
+#include "splat/pixel_index.hpp"
 #include "splat/pixel_rows.hpp"
 
 namespace degs {
@@ -65,10 +66,10 @@ public:
             return false;
         }
         span.splat = splat;
-        span.y = static_cast<std::int16_t>(y - tile_y);
-        span.x0 = static_cast<std::int16_t>(solved.x0 - x_begin);
-        span.length = static_cast<std::int16_t>(solved.x1 - solved.x0 + 1);
-        span.base = static_cast<std::int16_t>(solved.base - x_begin);
+        span.y = inside_tile(y - tile_y);
+        span.x0 = inside_tile(solved.x0 - x_begin);
+        span.length = inside_tile(solved.x1 - solved.x0 + 1);
+        span.base = inside_tile(solved.base - x_begin);
         span.g0 = solved.g0;
         span.d0 = solved.d0;
         return true;

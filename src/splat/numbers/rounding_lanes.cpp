@@ -21,7 +21,7 @@ constexpr int kLanes = 4;
 #pragma GCC target("avx2")
 namespace wide_rounding {
 constexpr int kLanes = 8;
-#include "splat/numbers/rounding.inc"
+#include "splat/numbers/rounding.inc" // NOLINT(readability-duplicate-include)
 } // namespace wide_rounding
 #pragma GCC pop_options
 #else

@@ -65,8 +65,7 @@ std::vector<Saturation> saturated_stages(const DataPathOptions& options,
     case Arithmetic::Ideal:
         return {};
     default:
-        return saturated_stages(
-            number_set(arithmetic_names().at(static_cast<std::size_t>(options.numbers))), frame);
+        return saturated_stages(number_set(name_of(options.numbers)), frame);
     }
 }
 
