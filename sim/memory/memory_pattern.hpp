@@ -20,8 +20,11 @@ struct TrafficShape {
     std::uint64_t seed = 1;
 };
 
-/// stream: one after the other; stream4: four streams 256 MiB apart, in turn; strided: the first
-/// bytes of every stride; random: uniform, aligned to 64 B.
+/// The names of the patterns of addresses:
+/// * stream: one request after the other
+/// * stream4: four streams 256 MiB apart, in turn
+/// * strided: the first bytes of every stride
+/// * random: uniform, aligned to 64 B
 const std::vector<std::string>& traffic_patterns();
 
 struct TrafficItem {

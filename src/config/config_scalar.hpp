@@ -11,8 +11,10 @@
 
 namespace degs::config_scalar {
 
-// Each kind has: read(), empty if the node is not of the kind; values(), the range or the choices
-// for documentation; allowed(), the same for the sentence "..., but must be <allowed>".
+// Each kind has three functions:
+// * read(): the value; empty if the node is not of the kind
+// * values(): the range or the choices, for documentation
+// * allowed(): the same for the sentence "..., but must be <allowed>"
 
 struct Integer {
     std::int64_t low, high;

@@ -16,8 +16,11 @@ namespace degs {
 /// The source is strict: load() throws InputError for every key that the struct does not have and
 /// for every value that it cannot take. Keys that the source does not name keep their defaults.
 ///
-/// Values: integers are decimal digits (no 1e3, no 0x10, no leading zero); reals are finite decimal
-/// numbers; booleans are true or false; choices go by name; a scalar in quotes is always text.
+/// Values:
+/// * Integers are decimal digits (no 1e3, no 0x10, no leading zero).
+/// * Reals are finite decimal numbers.
+/// * Booleans are true or false, and choices go by name.
+/// * A scalar in quotes is always text.
 class ConfigSource {
 public:
     /// Each override reads `path.to.key=value`; a later one of the same key wins over an earlier

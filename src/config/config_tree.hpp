@@ -18,8 +18,8 @@ struct ConfigNode {
     std::string text;    ///< of a scalar
     bool quoted = false; ///< a scalar in quotes is text, never a number
     std::string place;   ///< "file:line" of the key, or "--set path=value"
-    /// What it is written over: 0 an override, over all files; 1 the file itself, over what it
-    /// includes; 2 an included file, and so on.
+    /// A lower layer overrides a higher one. An override has 0, the file itself 1, a file that it
+    /// includes 2, and so on.
     int layer = 1;
     std::vector<ConfigNode> children; ///< in the order of the file
 

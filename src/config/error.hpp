@@ -8,8 +8,8 @@ namespace degs {
 
 /// A mistake of the user in a file, a configuration or on the command line: one full
 /// sentence that names the place, the reason and what is allowed. One class is enough,
-/// because whoever catches it only passes the sentence on; a type per room would have to be
-/// caught next to this one everywhere.
+/// because its catchers only pass the sentence on; a type per room would have to be caught next
+/// to this one everywhere.
 class InputError : public std::runtime_error {
 public:
     explicit InputError(const std::string& sentence) : std::runtime_error(sentence) {}

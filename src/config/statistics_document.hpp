@@ -32,8 +32,8 @@ nlohmann::ordered_json statistics_json(const std::vector<Statistic>& list);
 
 /// The statistic of this name. Throws InputError, which suggests a name, if there is none.
 const Statistic& find_statistic(const std::vector<Statistic>& list, const std::string& path);
-/// The section of this name and all that is in it; a single statistic if `path` names one; all if
-/// `path` is empty. Throws InputError likewise.
+/// The section of this name and all that is in it, or the single statistic that `path` names. An
+/// empty path stands for all. Throws InputError likewise.
 std::vector<Statistic> statistics_in(const std::vector<Statistic>& list, const std::string& path);
 
 /// Numbers that neighbouring sections have in common, "busy" of every stage, once: "stages.*.busy",

@@ -40,12 +40,16 @@ struct Outcome {
 /// pushed with dates, and run(until) issues every command dated up to `until`, each at the first CK
 /// in which it is legal and chosen. To see what would happen, run a copy.
 ///
-/// Modelled: read and write queue; FR-FCFS and simpler schedulers; open and closed page; writes in
-/// batches between two watermarks, at once when no read waits; forwarding of reads from queued
-/// writes and merging of writes; all-bank and per-bank refresh; one command per CK, ACT in two.
-/// Not modelled: postponed refreshes, a limit on how often a row hit overtakes, WCK start, power-
-/// down; a read that a queued write covers only in part does not wait for it (contents are kept in
-/// the order of arrival all the same).
+/// Modelled:
+/// * read and write queue, FR-FCFS and simpler schedulers, open and closed page
+/// * writes in batches between two watermarks, and at once when no read waits
+/// * forwarding of reads from queued writes, and merging of writes
+/// * all-bank and per-bank refresh
+/// * one command per CK, ACT in two
+///
+/// Not modelled: postponed refreshes, a limit on how often a row hit overtakes, WCK start,
+/// power-down. A read that a queued write covers only in part does not wait for it; contents are
+/// kept in the order of arrival all the same.
 class Channel {
 public:
     struct Stats {

@@ -18,10 +18,14 @@ struct Place {
     unsigned block = 0; ///< of 64 bytes in the row
 };
 
-/// Address to channel, bank group, bank, row and column. From low to high: 6 bits inside an access
-/// of 64 bytes; the bits of `order` that fit under the interleave grain; the channel; the rest of
-/// `order`. XOR folding then adds bits above a field to it, which spreads strides that are powers
-/// of two; it keeps the mapping one to one, since the bits above stay as they are.
+/// Maps an address to channel, bank group, bank, row and column. An address has, from low to high:
+/// * 6 bits inside an access of 64 bytes
+/// * the bits of `order` that fit under the interleave grain
+/// * the channel
+/// * the rest of `order`
+///
+/// XOR folding then adds bits above a field to it, which spreads strides that are powers of two. It
+/// keeps the mapping one to one, because the bits above stay as they are.
 class Mapping {
 public:
     struct Config {

@@ -11,9 +11,9 @@
 
 namespace degs::dram {
 
-/// The read queue and the write queue of a channel, what waits for its date or for room in them,
-/// and which of the two is served: reads first; writes in batches between two watermarks, or when
-/// no read waits.
+/// The read queue and the write queue of a channel, the accesses that wait for their date or for room
+/// in them, and the choice of the queue that is served. Reads go first. Writes go in batches between
+/// two watermarks, or when no read waits.
 class Queues {
 public:
     explicit Queues(const ControllerConfig& config);
@@ -50,7 +50,7 @@ public:
     void enqueue_read(const Access& access) { reads_.push(access); }
     /// Joins a write to one that waits for the same block; false if there is none.
     bool merge(const Access& access);
-    /// Does a waiting write hold all that this read wants?
+    /// True if a waiting write holds all bytes of this read.
     bool covered(const Access& access) const;
     /// Takes a served access out of the current queue.
     void remove(unsigned slot);

@@ -13,7 +13,7 @@
 
 namespace degs {
 
-/// The owner of the bytes of a stream. `Scene`: data that somebody has put into memory for the
+/// The owner of the bytes of a stream. `Scene`: data that a host has put into memory for the
 /// accelerator. `Own`: data that the accelerator itself writes, and may read back.
 enum class StreamData { Scene, Own };
 

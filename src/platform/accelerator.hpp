@@ -24,9 +24,9 @@ namespace degs {
 /// differ by then are an error, and so are refused accesses and bad registers. A frame always ends
 /// with Done or Error and, if enabled, the interrupt. Nothing throws.
 ///
-/// Not modelled: values of splat records and lists, which are written to the workspace as bytes
-/// without meaning; an abort of a running frame; power states. The host memory of a frame (about
-/// 200 B per visible splat) is kept until the end of the simulation.
+/// Not modelled: an abort of a running frame, power states, and the values of splat records and
+/// lists, which are written to the workspace as bytes without meaning. The host memory of a frame
+/// (about 200 B per visible splat) is kept until the end of the simulation.
 class Accelerator : public sc_core::sc_module {
 public:
     struct Options {

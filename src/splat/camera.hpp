@@ -8,8 +8,8 @@
 
 namespace degs {
 
-/// A pinhole camera in the convention of the original 3DGS code: view axes x right, y down,
-/// z forward; the principal point is the image centre; pixel (i, j) is sampled at its centre.
+/// A pinhole camera in the convention of the original 3DGS code. The view axes are x right, y down
+/// and z forward, the principal point is the image centre, and a pixel is sampled at its centre.
 struct Camera {
     int id = 0;
     std::string name;

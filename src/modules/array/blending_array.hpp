@@ -11,10 +11,10 @@
 
 namespace degs {
 
-/// One slice of the Blending Array: the PEs that serve one bank (paper, Sec. IV-C). Executes one
-/// packet per cycle, in order; q_n, alpha and the recurrence come from the data path; pixel state
-/// is written back after `writeback_cycles`, and so are the reports that a pixel or a whole segment
-/// has ended. The slice never stalls, because a packet is issued only when nothing can stop it.
+/// One slice of the Blending Array: the PEs that serve one bank (paper, Sec. IV-C). It executes one
+/// packet per cycle, in order. The data path computes q_n, alpha and the recurrence. Pixel state is
+/// written back after `writeback_cycles`, and the reports that a pixel or a whole segment has ended
+/// leave at the same date. The slice never stalls, because a packet is issued only when nothing can stop it.
 class ArraySlice : public sc_core::sc_module, private Pumped {
 public:
     struct Config {

@@ -36,8 +36,8 @@ struct TableSpec {
     int entries = 0;     ///< cells, 1 .. 4096; 0 if there is no table
     double range = 1;    ///< of x with Reduction::None; beyond it the last cell counts
     NumberFormat values; ///< of entries, of the product in Linear, and of their difference
-    /// Of x log2(e) / 2, which ExpHalf forms for Reduction::Binary; the constant is that of a fixed
-    /// multiplier in front of a table; without a table it is rounded to this format as well.
+    /// Format of x log2(e) / 2, which ExpHalf forms for Reduction::Binary. In front of a table the
+    /// constant is that of a fixed multiplier; without a table it is rounded to this format, too.
     NumberFormat argument;
 
     void describe(ConfigVisitor& visitor);

@@ -13,11 +13,12 @@ namespace degs {
 
 /// The values that a register, a record field or a result of the data path can take.
 ///
-/// Float: IEEE 754 in shape. Stored exponent 0 holds subnormals, the highest infinities and NaN;
-/// rounding is to nearest, ties to even; what is too large becomes infinite. Fixed: multiples of
-/// 2^-fraction_bits; too large saturates at the largest value of either sign (the lowest two's
-/// complement code is not used), NaN at the positive one. An unsigned format has no sign bit, and
-/// what is negative becomes 0.
+/// A `Float` has the shape of IEEE 754. Stored exponent 0 holds subnormals, the highest one infinities
+/// and NaN. Values are rounded to nearest, ties to even, and values that are too large become infinite.
+///
+/// A `Fixed` value is a multiple of 2^-fraction_bits. Values that are too large saturate at the largest
+/// value of either sign (the lowest two's complement code is not used), and NaN at the positive one.
+/// An unsigned format has no sign bit, and negative values become 0.
 struct NumberFormat {
     enum class Kind { Float, Fixed };
     Kind kind = Kind::Float;
@@ -50,9 +51,12 @@ inline bool operator!=(const NumberFormat& a, const NumberFormat& b) {
     return !(a == b);
 }
 
-/// "fp64", "fp32", "fp16", "bf16"; "e6m9", "e5m10b29", "ue5m11b29": exponent and mantissa bits,
-/// bias (2^(E-1) - 1 if not given), u without sign; "q4.12", "uq0.16": integer bits (sign included)
-/// and fraction bits. Throws InputError with what is allowed.
+/// Reads a name of one of these forms; a `u` in front means that there is no sign:
+/// * "fp64", "fp32", "fp16", "bf16"
+/// * "e6m9", "e5m10b29", "ue5m11b29": exponent bits, mantissa bits and bias (2^(E-1) - 1 if not given)
+/// * "q4.12", "uq0.16": integer bits (the sign included) and fraction bits
+///
+/// Throws InputError, which lists what is allowed.
 NumberFormat parse_format(const std::string& name);
 /// A key of a configuration that holds the name of a format.
 void describe_format(ConfigVisitor& visitor, const char* key, NumberFormat& format,

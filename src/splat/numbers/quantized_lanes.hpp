@@ -10,9 +10,11 @@
 namespace degs {
 
 /// How the lanes round. `Any`: in integer arithmetic. `Half`: every stage is fp16. `Fixed`: some
-/// results need no saturation, because four conditions hold: (1) every stage of the PE is a fixed
-/// format of at most 22 bits without the sign; (2) terms have a sign; (3) weights reach 0.99; (4)
-/// table values reach 1 and are never below 0.
+/// results need no saturation, because four conditions hold:
+/// * Every stage of the PE is a fixed format of at most 22 bits without the sign.
+/// * Terms have a sign.
+/// * Weights reach 0.99.
+/// * Table values reach 1 and are never below 0.
 enum class LaneFamily { Any, Fixed, Half };
 
 /// The PE of a number set as constants for lanes of floats: QuantizedRow::q, alpha and blend for
