@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# all_designs.sh: runs shipped designs on two scenes at 720p, 4K and 8K and prints a table. A run fails if it takes longer
-# than its limit (a hang), ends with an error (a broken invariant is one), or shows an image below the floor against the
-# double-precision reference. Exit code 1 if a run fails. What is run may be chosen by environment variables, which are
-# lists of words:
+# all_designs.sh: runs shipped designs on two scenes at 720p, 4K and 8K and prints a table. A run fails if it takes
+# longer than its limit (a hang), ends with an error (a broken invariant is one), or shows an image below the floor
+# against the double-precision reference. The exit code is 1 if a run fails. Environment variables choose what is run;
+# the first three are lists of words:
 #     DESIGNS      names of files in configs/ without .yaml (default: all)
-#     SCENES       scene files or synthetic scenes (default: synthetic:object, and flowers of DEGS_SCENES if it is there)
+#     SCENES       scene files or synthetic scenes (default: synthetic:object, and flowers of DEGS_SCENES if it exists)
 #     RESOLUTIONS  (default: 720p 4k 8k)
 #     SECONDS_EACH limit of a run in seconds of wall-clock time (default: 3600)
 #     REFERENCE    no: skip the reference image, which an 8K run spends much of its time with (default: yes)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # house_check.sh RULE [ROOT]: checks one rule about folders and sources, or `all`, and prints every violation as
-# "file:line: reason". Rules: arrows systemc printing namespaces length licence.
+# "file:line: reason". Rules: arrows systemc printing namespaces length width licence.
 set -euo pipefail
 
 rule=${1:?usage: house_check.sh RULE [ROOT]}
@@ -82,6 +82,18 @@ check_length() {
     done < <(sources src sim tests)
 }
 
+# In characters, not bytes. Code is wrapped by clang-format, comments by hand; pages have a check of their own.
+check_width() {
+    local wide
+    wide=$(find src sim tests configs scripts -type f -regex '.*\.\([hc]pp\|inc\|yaml\|sh\)' -print0 2>/dev/null |
+        LC_ALL=C.UTF-8 xargs -0r grep -nHE '^.{121}' | grep -E '[[:space:]:](//|///|///<|#) ' | sort || true)
+    [[ -n $wide ]] || return 0
+    while IFS= read -r hit; do
+        echo "$(cut -d: -f1,2 <<<"$hit"): more than 120 characters: $(cut -d: -f3- <<<"$hit" | cut -c1-60)"
+        violations=$((violations + 1))
+    done <<<"$wide"
+}
+
 check_licence() {
     local file first
     while IFS= read -r file; do
@@ -92,7 +104,7 @@ check_licence() {
     done < <(sources src sim tests)
 }
 
-rules=(arrows systemc printing namespaces length licence)
+rules=(arrows systemc printing namespaces length width licence)
 case " ${rules[*]} all " in
     *" $rule "*) ;;
     *) echo "unknown rule '$rule'; there are: ${rules[*]} all" >&2; exit 2 ;;
