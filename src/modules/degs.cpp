@@ -119,9 +119,8 @@ void Degs::build_scheduler() {
         packing_.push_back(
             std::make_unique<PackingUnit>(numbered("packing", packing_.size()).c_str(), packing));
         banks_.push_back(std::make_unique<IssueBank>(numbered("bank", banks_.size()).c_str(), bank,
-                                                     time_, job_, b, sources.size(),
-                                                     config_.contexts()));
-        banks_.back()->packing = packing_.back().get();
+                                                     time_, job_, *packing_.back(), b,
+                                                     sources.size(), config_.contexts()));
         for (std::size_t i = 0; i < sources.size(); ++i) {
             auto& vectors = ring(crossbar_rings_, "crossbar", config_.span.crossbar_depth,
                                  config_.span.latency_cycles);

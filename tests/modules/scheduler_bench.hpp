@@ -44,8 +44,8 @@ struct SchedulerBench {
     DatedFifo<Termination> terminated;
     DatedFifo<SliceReport> done, state;
     DatedFifo<TileNumber> contexts{"contexts", time, 8};
-    IssueBank bank;
     PackingUnit packing;
+    IssueBank bank;
     ArraySlice slice;
     Process feeder{time}, pixels{time}, monitor{time};
     std::vector<std::unique_ptr<Script>> scripts;
@@ -62,10 +62,9 @@ struct SchedulerBench {
           terminated("terminated", time, 4096, static_cast<Cycle>(s.writeback)),
           done("done", time, 8, static_cast<Cycle>(s.writeback)),
           state("state", time, 8, static_cast<Cycle>(s.writeback)),
-          bank("bank", bank_config(s), time, job, 0, 1, 1),
           packing("packing", PackingUnit::Config{s.width, s.packing_latency, s.packets}),
+          bank("bank", bank_config(s), time, job, packing, 0, 1, 1),
           slice("slice", slice_config(s), time, job, 0, 1, 16) {
-        bank.packing = &packing;
         bank.in[0].bind(crossbar);
         bank.terminated.bind(terminated);
         bank.context_free.bind(contexts);

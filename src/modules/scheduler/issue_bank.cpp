@@ -19,11 +19,11 @@ constexpr int kFirstTiles = 2;
 } // namespace
 
 IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
-                     const Timebase& time, const RenderJob& job, int index, std::size_t inputs,
-                     int contexts)
+                     const Timebase& time, const RenderJob& job, PackingUnit& packing, int index,
+                     std::size_t inputs, int contexts)
     : sc_core::sc_module(name), in("in", inputs), terminated("terminated"),
-      context_free("context_free"), config_(config), job_(job), contexts_(contexts),
-      tiles_in_flight_(tiles_in_queue(contexts)),
+      context_free("context_free"), config_(config), job_(job), packing_(packing),
+      contexts_(contexts), tiles_in_flight_(tiles_in_queue(contexts)),
       by_pixel_(config.termination == TerminationGrain::Pixel), self_(time),
       segmenter_(job.tile_size, config.segment_length, index, config.count, contexts),
       queue_(config.queue_depth, kFirstTiles,
@@ -43,7 +43,7 @@ void IssueBank::end_of_elaboration() {
     terminations_->connect_reader(self_);
     contexts_freed_ = context_free.operator->();
     contexts_freed_->connect_reader(self_);
-    packing->out->connect_writer(self_);
+    packing_.out->connect_writer(self_);
     watched_.resize(inputs_.size() + 2);
 }
 
@@ -55,23 +55,23 @@ void IssueBank::run() {
         accept(now);
         const bool worked = issue(now);
         const bool over = finish_tiles() && job_.over(oldest_tile_);
-        if (packing->due(now)) {
-            packing->send_due(self_, idle_cause());
+        if (packing_.due(now)) {
+            packing_.send_due(self_, idle_cause());
         }
         Cycle next = now + 1;
         if (over) {
-            const Cycle open = packing->open_until();
+            const Cycle open = packing_.open_until();
             next = open == kNever ? next : std::max(open, next);
         } else if (!worked && !(segmenter_.cutting() && !queue_.full())) {
             next = next_date(now);
         } // else work is left, whatever arrives; proof is asked for where it matters
-        if (packing->leaves_slots(next)) {
-            packing->close_cycles(self_, next, idle_cause());
+        if (packing_.leaves_slots(next)) {
+            packing_.close_cycles(self_, next, idle_cause());
         }
         self_.advance_to(next);
     }
-    packing->send_due(self_, Idle::Starved);
-    packing->close_cycles(self_, self_.local() + 1, Idle::Starved);
+    packing_.send_due(self_, Idle::Starved);
+    packing_.close_cycles(self_, self_.local() + 1, Idle::Starved);
     self_.finish();
 }
 
@@ -225,7 +225,7 @@ bool IssueBank::issue(Cycle now) {
 }
 
 bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile) {
-    const int domain = queue_.pick(tile, packing->next_execution(now));
+    const int domain = queue_.pick(tile, packing_.next_execution(now));
     if (domain < 0) {
         return false;
     }
@@ -233,13 +233,13 @@ bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile) {
     const std::uint32_t mask = segment.run.task.mask;
     const std::uint32_t wanted = mask & SegmentQueue::live(tile, domain);
     const int tasks = __builtin_popcount(wanted);
-    if (!packing->room(now, tasks)) {
+    if (!packing_.room(now, tasks)) {
         no_room_ = true;
         return false;
     }
     Cycle last = now;
     if (tasks != 0) {
-        last = packing->add(self_, segment.run, wanted) + config_.reuse_cycles;
+        last = packing_.add(self_, segment.run, wanted) + config_.reuse_cycles;
         if (config_.scoreboard) {
             queue_.set_ready_at(tile, domain, last);
         }
@@ -258,7 +258,7 @@ bool IssueBank::finish_tiles() {
     while (oldest_tile_ < entering_tile_ && !job_.over(oldest_tile_) && oldest_tile_ < startable_ &&
            SegmentQueue::waiting(queue_.tile(oldest_tile_)) == 0 &&
            !(segmenter_.cutting() && segmenter_.tile() == oldest_tile_)) {
-        packing->end_tile(self_, oldest_tile_);
+        packing_.end_tile(self_, oldest_tile_);
         queue_.clear(queue_.tile(oldest_tile_));
         ++oldest_tile_;
     }
@@ -299,8 +299,8 @@ Cycle IssueBank::next_ready(Cycle now) const {
 // arrives.
 Cycle IssueBank::next_date(Cycle now) {
     const Cycle next = now + 1;
-    Cycle limit = packing->open_until();
-    const Cycle latency = packing->next_execution(now) - now;
+    Cycle limit = packing_.open_until();
+    const Cycle latency = packing_.next_execution(now) - now;
     const Cycle ready = next_ready(now);
     if (ready != kNever) {
         limit = std::min(limit, std::max(next, ready > latency ? ready - latency : 0));

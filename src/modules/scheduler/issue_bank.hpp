@@ -62,10 +62,11 @@ public:
     sc_core::sc_vector<FifoPort<SpanItem>> in; ///< one per Span Unit that reaches this bank
     FifoPort<Termination> terminated;          ///< from the array slice
     FifoPort<TileNumber> context_free;         ///< from the Pixel Buffer: tiles that may start
-    PackingUnit* packing = nullptr;            ///< wired by the composer
 
+    /// `packing` takes what the bank issues; it must exist until the bank has finished.
     IssueBank(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
-              const RenderJob& job, int index, std::size_t inputs, int contexts);
+              const RenderJob& job, PackingUnit& packing, int index, std::size_t inputs,
+              int contexts);
 
     const Stats& stats() const { return stats_; }
     const FeatureBuffer& features() const { return features_; }
@@ -101,6 +102,7 @@ private:
 
     Config config_;
     const RenderJob& job_;
+    PackingUnit& packing_;
     int contexts_;
     int tiles_in_flight_;
     bool by_pixel_; // TerminationGrain::Pixel
