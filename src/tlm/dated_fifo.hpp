@@ -322,6 +322,12 @@ private:
 
 /// The port through which a block uses a FIFO.
 template <class T>
-using FifoPort = sc_core::sc_port<DatedFifo<T>>;
+class FifoPort : public sc_core::sc_port<DatedFifo<T>> {
+public:
+    using sc_core::sc_port<DatedFifo<T>>::sc_port;
+    /// The FIFO that the port is bound to, from the end of elaboration on; SystemC reports an
+    /// error if there is none. Blocks keep it, because asking the port costs a check every time.
+    DatedFifo<T>& ring() { return *this->operator->(); }
+};
 
 } // namespace degs

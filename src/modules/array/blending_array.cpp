@@ -33,7 +33,7 @@ ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config
 }
 
 void ArraySlice::end_of_elaboration() {
-    packets_ = in.operator->();
+    packets_ = &in.ring();
     packets_->connect_reader(self_);
     if (!self_.strict()) {
         self_.pump_with(*this, *packets_);

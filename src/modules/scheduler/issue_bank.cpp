@@ -36,12 +36,12 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
 
 void IssueBank::end_of_elaboration() {
     for (auto& port : in) {
-        inputs_.push_back(port.operator->());
+        inputs_.push_back(&port.ring());
         inputs_.back()->connect_reader(self_);
     }
-    terminations_ = terminated.operator->();
+    terminations_ = &terminated.ring();
     terminations_->connect_reader(self_);
-    contexts_freed_ = context_free.operator->();
+    contexts_freed_ = &context_free.ring();
     contexts_freed_->connect_reader(self_);
     packing_.out->connect_writer(self_);
     watched_.resize(inputs_.size() + 2);

@@ -74,7 +74,7 @@ public:
     const SlotAccount& idle() const { return idle_; }
 
 private:
-    void end_of_elaboration() override { ring_ = out.operator->(); }
+    void end_of_elaboration() override { ring_ = &out.ring(); }
     bool open() const { return tasks_ != 0; }
     bool started() const { return next_slot_ != 0; } // a packet has been sent or opened
     void open_packet(Process& bank);
