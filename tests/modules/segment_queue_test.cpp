@@ -24,13 +24,13 @@ TEST(SegmentQueue, HoldsAsManyTilesAsAreInFlight) {
     }
     for (std::size_t number = 5; number < 13; ++number) {
         SegmentQueue::Tile& tile = queue.tile(number);
-        ASSERT_EQ(queue.waiting(tile), 3U);
-        EXPECT_EQ(queue.front(tile, 1).sequence, 10 * number);
+        ASSERT_EQ(tile.waiting(), 3U);
+        EXPECT_EQ(tile.front(1).sequence, 10 * number);
         EXPECT_EQ(queue.next_ready(tile), 60 + number);
         EXPECT_EQ(queue.pick(tile, 59 + number), 2); // the other domain is within the distance
         EXPECT_EQ(queue.pick(tile, 60 + number), 1);
         queue.pop(tile, 1);
-        EXPECT_EQ(queue.front(tile, 1).sequence, 10 * number + 1);
+        EXPECT_EQ(tile.front(1).sequence, 10 * number + 1);
     }
 }
 
@@ -42,10 +42,10 @@ TEST(SegmentQueue, KeepsOrderInsideADomain) {
     }
     EXPECT_TRUE(queue.full());
     EXPECT_EQ(queue.size(), 4U);
-    EXPECT_EQ(queue.waiting(queue.tile(0)), 4U);
-    EXPECT_FALSE(queue.has_waiting(queue.tile(0), 0));
+    EXPECT_EQ(queue.tile(0).waiting(), 4U);
+    EXPECT_FALSE(queue.tile(0).has_waiting(0));
     for (std::uint64_t i = 0; i < 4; ++i) {
-        EXPECT_EQ(queue.front(queue.tile(0), 1).sequence, i);
+        EXPECT_EQ(queue.tile(0).front(1).sequence, i);
         queue.pop(queue.tile(0), 1);
     }
     EXPECT_TRUE(queue.empty());
@@ -101,23 +101,23 @@ TEST(SegmentQueue, BlockedAtTMinusOneLegalAtT) {
 
 TEST(SegmentQueue, LivePixelsAreTheBanksUntilTheTileIsCleared) {
     SegmentQueue queue(4, 2, 2, DomainScan::Oldest);
-    EXPECT_EQ(queue.live(queue.tile(1), 0), ~0U);
-    queue.set_live(queue.tile(1), 0, 0x5);
-    EXPECT_EQ(queue.live(queue.tile(3), 0), 0x5U) << "tiles two apart share a part";
-    EXPECT_EQ(queue.live(queue.tile(0), 0), ~0U);
+    EXPECT_EQ(queue.tile(1).live(0), ~0U);
+    queue.tile(1).set_live(0, 0x5);
+    EXPECT_EQ(queue.tile(3).live(0), 0x5U) << "tiles two apart share a part";
+    EXPECT_EQ(queue.tile(0).live(0), ~0U);
     queue.clear(queue.tile(1));
-    EXPECT_EQ(queue.live(queue.tile(1), 0), ~0U);
+    EXPECT_EQ(queue.tile(1).live(0), ~0U);
 }
 
 TEST(SegmentQueue, EndedPixelsAddUpUntilTheSlotIsCleared) {
     SegmentQueue queue(4, 2, 2, DomainScan::Oldest);
-    EXPECT_EQ(queue.end_pixels(queue.tile(1), 0, 0x3), 0x3U);
-    EXPECT_EQ(queue.end_pixels(queue.tile(1), 0, 0x6), 0x7U);
-    EXPECT_EQ(queue.end_pixels(queue.tile(0), 0, 0), 0U);
-    EXPECT_EQ(queue.end_pixels(queue.tile(1), 1, 0), 0U);
+    EXPECT_EQ(queue.tile(1).end_pixels(0, 0x3), 0x3U);
+    EXPECT_EQ(queue.tile(1).end_pixels(0, 0x6), 0x7U);
+    EXPECT_EQ(queue.tile(0).end_pixels(0, 0), 0U);
+    EXPECT_EQ(queue.tile(1).end_pixels(1, 0), 0U);
     queue.set_ready_at(queue.tile(1), 0, 50);
     queue.clear(queue.tile(1));
-    EXPECT_EQ(queue.end_pixels(queue.tile(1), 0, 0), 0U);
+    EXPECT_EQ(queue.tile(1).end_pixels(0, 0), 0U);
     queue.push(queue.tile(1), 0, 0);
     EXPECT_EQ(queue.pick(queue.tile(1), 1), 0); // nor is it within a reuse distance
 }
@@ -189,7 +189,7 @@ TEST_P(SegmentQueueOf, BehavesAsPlainLists) {
             ASSERT_EQ(queue.next_ready(queue.tile(1)), model.next_ready(date)) << step;
             if (domain >= 0 && random() % 4 != 0) {
                 Model::Domain& taken = model.domains[static_cast<std::size_t>(domain)];
-                ASSERT_EQ(queue.front(queue.tile(1), domain).sequence, taken.waiting.front());
+                ASSERT_EQ(queue.tile(1).front(domain).sequence, taken.waiting.front());
                 queue.pop(queue.tile(1), domain);
                 taken.waiting.pop_front();
                 taken.ready = date + 1 + random() % (SegmentQueue::kWheel - 1);

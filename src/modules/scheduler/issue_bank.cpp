@@ -95,8 +95,8 @@ void IssueBank::end_pixels(const Termination& message) {
     SegmentQueue::Tile& tile = queue_.tile(message.tile);
     const int domain = segmenter_.domain_of(message.row, message.column);
     if (end_pixels(tile, domain, message.mask) == kAllPixels) {
-        while (SegmentQueue::has_waiting(tile, domain)) {
-            const Segment& segment = SegmentQueue::front(tile, domain);
+        while (tile.has_waiting(domain)) {
+            const Segment& segment = tile.front(domain);
             features_.release(segment.feature, self_.local());
             drop(segment.run.task.mask);
             queue_.pop(tile, domain);
@@ -107,9 +107,9 @@ void IssueBank::end_pixels(const Termination& message) {
 // All pixels of the domain that have ended. The bank looks at single pixels or at whole segments.
 std::uint32_t IssueBank::end_pixels(SegmentQueue::Tile& tile, int domain,
                                     std::uint32_t mask) const {
-    const std::uint32_t ended = SegmentQueue::end_pixels(tile, domain, mask);
+    const std::uint32_t ended = tile.end_pixels(domain, mask);
     const bool all = ended == kAllPixels;
-    SegmentQueue::set_live(tile, domain, by_pixel_ || all ? ~ended : kAllPixels);
+    tile.set_live(domain, by_pixel_ || all ? ~ended : kAllPixels);
     return ended;
 }
 
@@ -186,7 +186,7 @@ bool IssueBank::cut_segment() {
     SegmentQueue::Tile& tile = queue_.tile(segmenter_.tile());
     const int domain = segmenter_.domain();
     const std::uint32_t mask = segmenter_.mask();
-    if ((mask & SegmentQueue::live(tile, domain)) == 0) {
+    if ((mask & tile.live(domain)) == 0) {
         drop(mask);
     } else {
         if (queue_.full()) {
@@ -212,7 +212,7 @@ bool IssueBank::issue(Cycle now) {
     const TileNumber end = first_unstarted();
     for (TileNumber number = oldest_tile_; number < end; ++number) {
         SegmentQueue::Tile& tile = queue_.tile(number);
-        while (SegmentQueue::waiting(tile) != 0 && issue_one(now, tile)) {
+        while (tile.waiting() != 0 && issue_one(now, tile)) {
             if (++issued == config_.issue_width) {
                 width_limited_ = true;
                 stats_.busy++;
@@ -229,9 +229,9 @@ bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile) {
     if (domain < 0) {
         return false;
     }
-    const Segment& segment = SegmentQueue::front(tile, domain);
+    const Segment& segment = tile.front(domain);
     const std::uint32_t mask = segment.run.task.mask;
-    const std::uint32_t wanted = mask & SegmentQueue::live(tile, domain);
+    const std::uint32_t wanted = mask & tile.live(domain);
     const int tasks = __builtin_popcount(wanted);
     if (!packing_.room(now, tasks)) {
         no_room_ = true;
@@ -256,7 +256,7 @@ bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile) {
 bool IssueBank::finish_tiles() {
     const TileNumber before = oldest_tile_;
     while (oldest_tile_ < entering_tile_ && !job_.over(oldest_tile_) && oldest_tile_ < startable_ &&
-           SegmentQueue::waiting(queue_.tile(oldest_tile_)) == 0 &&
+           queue_.tile(oldest_tile_).waiting() == 0 &&
            !(segmenter_.cutting() && segmenter_.tile() == oldest_tile_)) {
         packing_.end_tile(self_, oldest_tile_);
         queue_.clear(queue_.tile(oldest_tile_));
@@ -271,7 +271,7 @@ Idle IssueBank::idle_cause() const {
     }
     const TileNumber end = first_unstarted();
     for (TileNumber tile = oldest_tile_; tile < end; ++tile) {
-        if (SegmentQueue::waiting(queue_.tile(tile)) != 0) {
+        if (queue_.tile(tile).waiting() != 0) {
             return width_limited_ ? Idle::Starved : no_room_ ? Idle::Blocked : Idle::Conflict;
         }
     }
@@ -287,7 +287,7 @@ Cycle IssueBank::next_ready(Cycle now) const {
     const TileNumber end = first_unstarted();
     for (TileNumber number = oldest_tile_; number < end; ++number) {
         const SegmentQueue::Tile& tile = queue_.tile(number);
-        if (SegmentQueue::waiting(tile) != 0) {
+        if (tile.waiting() != 0) {
             earliest = std::min(earliest, queue_.next_ready(tile));
         }
     }

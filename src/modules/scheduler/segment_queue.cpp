@@ -24,11 +24,11 @@ void SegmentQueue::add_tiles(std::size_t count) {
     block.lists.resize(count * domains);
     for (std::size_t t = 0; t < count; ++t) {
         Tile& tile = tiles_.emplace_back();
-        tile.lists = &block.lists[t * domains];
-        tile.keys = &block.keys[t * domains];
-        tile.occupied = &block.bits[t * sets];
-        tile.cooling = tile.occupied + words_;
-        tile.wheel = tile.occupied + 2 * words_;
+        tile.lists_ = &block.lists[t * domains];
+        tile.keys_ = &block.keys[t * domains];
+        tile.occupied_ = &block.bits[t * sets];
+        tile.cooling_ = tile.occupied_ + words_;
+        tile.wheel_ = tile.occupied_ + 2 * words_;
         clear_lists(tile);
     }
     tile_mask_ = tiles_.size() - 1;
@@ -51,55 +51,55 @@ Segment& SegmentQueue::push(Tile& tile, int domain, std::uint64_t sequence) {
     Entry& entry = *free_;
     free_ = entry.next;
     size_++;
-    tile.waiting++;
+    tile.waiting_++;
     entry.segment.sequence = sequence;
     entry.next = nullptr;
-    List& list = tile.lists[domain];
+    List& list = tile.lists_[domain];
     *list.end = &entry;
     list.end = &entry.next;
     list.length++;
     if (scan_ != DomainScan::RoundRobin) {
-        tile.keys[domain] = key(list.head->segment.sequence, list.length);
+        tile.keys_[domain] = key(list.head->segment.sequence, list.length);
     }
-    tile.occupied[word_of(domain)] |= bit_of(domain);
+    tile.occupied_[word_of(domain)] |= bit_of(domain);
     return entry.segment;
 }
 
 void SegmentQueue::set_ready_at(Tile& tile, int domain, Cycle date) const {
-    tile.cooling[word_of(domain)] |= bit_of(domain);
-    tile.wheel[date % kWheel * words_ + word_of(domain)] |= bit_of(domain);
+    tile.cooling_[word_of(domain)] |= bit_of(domain);
+    tile.wheel_[date % kWheel * words_ + word_of(domain)] |= bit_of(domain);
 }
 
 void SegmentQueue::release_all(Tile& tile) const {
-    std::fill_n(tile.cooling, words_, 0);
-    std::fill_n(tile.wheel, words_ * kWheel, 0);
+    std::fill_n(tile.cooling_, words_, 0);
+    std::fill_n(tile.wheel_, words_ * kWheel, 0);
 }
 
 void SegmentQueue::turn_wheel(Tile& tile, Cycle date) const {
-    if (date <= tile.turned) {
+    if (date <= tile.turned_) {
         return;
     }
-    if (date >= tile.turned + kWheel) {
+    if (date >= tile.turned_ + kWheel) {
         release_all(tile);
-        tile.turned = date;
+        tile.turned_ = date;
         return;
     }
-    Cycle turned = tile.turned;
-    tile.turned = date;
+    Cycle turned = tile.turned_;
+    tile.turned_ = date;
     if (words_ == 1) {
-        std::uint64_t cooling = *tile.cooling;
+        std::uint64_t cooling = *tile.cooling_;
         do {
-            std::uint64_t& released = tile.wheel[++turned % kWheel];
+            std::uint64_t& released = tile.wheel_[++turned % kWheel];
             cooling &= ~released;
             released = 0;
         } while (turned < date);
-        *tile.cooling = cooling;
+        *tile.cooling_ = cooling;
         return;
     }
     do {
-        std::uint64_t* const released = tile.wheel + ++turned % kWheel * words_;
+        std::uint64_t* const released = tile.wheel_ + ++turned % kWheel * words_;
         for (std::size_t w = 0; w < words_; ++w) {
-            tile.cooling[w] &= ~released[w];
+            tile.cooling_[w] &= ~released[w];
             released[w] = 0;
         }
     } while (turned < date);
@@ -116,9 +116,9 @@ int SegmentQueue::pick_least(const Tile& tile) const {
     std::uint64_t best_key = ~std::uint64_t{0};
     int best = -1;
     for (std::size_t w = 0; w < words_; ++w) {
-        for (std::uint64_t bits = ready(tile, w); bits != 0; bits &= bits - 1) {
+        for (std::uint64_t bits = tile.ready(w); bits != 0; bits &= bits - 1) {
             const int domain = static_cast<int>(w) * 64 + __builtin_ctzll(bits);
-            const std::uint64_t head_key = tile.keys[domain];
+            const std::uint64_t head_key = tile.keys_[domain];
             best = head_key < best_key ? domain : best;
             best_key = head_key < best_key ? head_key : best_key;
         }
@@ -130,47 +130,47 @@ int SegmentQueue::pick_least(const Tile& tile) const {
 int SegmentQueue::pick_next(Tile& tile) const {
     int domain = -1;
     if (words_ == 1) { // as a rule: then without a branch that depends on the data
-        const unsigned cursor = tile.cursor;
-        const std::uint64_t bits = ready(tile, 0);
+        const unsigned cursor = tile.cursor_;
+        const std::uint64_t bits = tile.ready(0);
         if (bits == 0) {
             return -1;
         }
         const std::uint64_t rotated = bits >> cursor | bits << ((64 - cursor) % 64);
         domain = (__builtin_ctzll(rotated) + cursor) % 64;
     } else {
-        std::size_t w = word_of(tile.cursor);
-        std::uint64_t bits = ready(tile, w) & ~(bit_of(tile.cursor) - 1);
+        std::size_t w = word_of(tile.cursor_);
+        std::uint64_t bits = tile.ready(w) & ~(bit_of(tile.cursor_) - 1);
         for (std::size_t step = 0; bits == 0 && step < words_; ++step) {
             w = w + 1 < words_ ? w + 1 : 0;
-            bits = ready(tile, w); // last the cursor's word, where nothing is left above the cursor
+            bits = tile.ready(w); // last the cursor's word, where nothing is left above the cursor
         }
         if (bits == 0) {
             return -1;
         }
         domain = static_cast<int>(w) * 64 + __builtin_ctzll(bits);
     }
-    tile.cursor = domain + 1 < domains_ ? domain + 1 : 0;
+    tile.cursor_ = domain + 1 < domains_ ? domain + 1 : 0;
     return domain;
 }
 
 Cycle SegmentQueue::next_ready(const Tile& tile) const {
     std::uint64_t waiting = 0;
     for (std::size_t w = 0; w < words_; ++w) {
-        waiting |= tile.cooling[w] & tile.occupied[w];
+        waiting |= tile.cooling_[w] & tile.occupied_[w];
     }
     if (waiting == 0) {
         return kNever;
     }
-    Cycle date = tile.turned + 1;
+    Cycle date = tile.turned_ + 1;
     if (words_ == 1) {
-        while ((tile.wheel[date % kWheel] & waiting) == 0) {
+        while ((tile.wheel_[date % kWheel] & waiting) == 0) {
             ++date;
         }
         return date;
     }
     for (;; ++date) {
         for (std::size_t w = 0; w < words_; ++w) {
-            if ((tile.wheel[date % kWheel * words_ + w] & tile.occupied[w]) != 0) {
+            if ((tile.wheel_[date % kWheel * words_ + w] & tile.occupied_[w]) != 0) {
                 return date;
             }
         }
@@ -179,15 +179,15 @@ Cycle SegmentQueue::next_ready(const Tile& tile) const {
 
 void SegmentQueue::clear_lists(Tile& tile) const {
     for (int d = 0; d < domains_; ++d) {
-        tile.lists[d] = List{};
-        tile.lists[d].end = &tile.lists[d].head;
+        tile.lists_[d] = List{};
+        tile.lists_[d].end = &tile.lists_[d].head;
     }
 }
 
 void SegmentQueue::clear(Tile& tile) const {
     clear_lists(tile);
     release_all(tile);
-    tile.cursor = 0;
+    tile.cursor_ = 0;
 }
 
 } // namespace degs

@@ -40,16 +40,34 @@ class SegmentQueue {
 public:
     /// The part of a tile in flight. Bit sets run over domains, words_ words each.
     class Tile {
+    public:
+        /// Segments that wait, in all domains.
+        std::size_t waiting() const { return waiting_; }
+        bool has_waiting(int domain) const { return lists_[domain].head != nullptr; }
+        /// The oldest segment of the domain, which must have one.
+        Segment& front(int domain) { return lists_[domain].head->segment; }
+
+        /// Marks pixels as ended; returns all that have.
+        std::uint32_t end_pixels(int domain, std::uint32_t mask) {
+            return lists_[domain].ended |= mask;
+        }
+        /// Pixels of the domain that take tasks. Set by the bank; initially all pixels.
+        std::uint32_t live(int domain) const { return lists_[domain].live; }
+        void set_live(int domain, std::uint32_t mask) { lists_[domain].live = mask; }
+
+    private:
         friend class SegmentQueue;
-        std::size_t waiting = 0;
-        int cursor = 0;        // domain after the last that was picked
-        Cycle turned = 0;      // the wheel has released everything up to this date
-        List* lists = nullptr; // by domain
-        std::uint64_t* keys =
-            nullptr; // by domain: what pick() goes by, see key(); not for RoundRobin
-        std::uint64_t* occupied = nullptr; // has segments
-        std::uint64_t* cooling = nullptr;  // within the reuse distance
-        std::uint64_t* wheel = nullptr;    // kWheel sets: released at date mod kWheel
+        std::uint64_t ready(std::size_t word) const { return occupied_[word] & ~cooling_[word]; }
+
+        std::size_t waiting_ = 0;
+        int cursor_ = 0;        // domain after the last that was picked
+        Cycle turned_ = 0;      // the wheel has released everything up to this date
+        List* lists_ = nullptr; // by domain
+        // By domain: what pick() goes by, see key(); not for RoundRobin.
+        std::uint64_t* keys_ = nullptr;
+        std::uint64_t* occupied_ = nullptr; // has segments
+        std::uint64_t* cooling_ = nullptr;  // within the reuse distance
+        std::uint64_t* wheel_ = nullptr;    // kWheel sets: released at date mod kWheel
     };
 
     /// `tiles_in_flight`: a power of two; see hold().
@@ -71,29 +89,15 @@ public:
     bool full() const { return free_ == nullptr; }
     bool empty() const { return size_ == 0; }
     std::size_t size() const { return size_; }
-    static std::size_t waiting(const Tile& tile) { return tile.waiting; }
 
     /// Queues a segment that arrived as number `sequence`. The caller fills in its run and feature
     /// in place, because copying data that was just written costs more than all else in this class.
     Segment& push(Tile& tile, int domain, std::uint64_t sequence);
-    static Segment& front(Tile& tile, int domain) { return tile.lists[domain].head->segment; }
     inline void pop(Tile& tile, int domain);
 
-    /// Marks pixels as ended; returns all that have.
-    static std::uint32_t end_pixels(Tile& tile, int domain, std::uint32_t mask) {
-        return tile.lists[domain].ended |= mask;
-    }
-    /// Pixels of the domain that take tasks. Set by the bank; initially all pixels.
-    static std::uint32_t live(const Tile& tile, int domain) { return tile.lists[domain].live; }
-    static void set_live(Tile& tile, int domain, std::uint32_t mask) {
-        tile.lists[domain].live = mask;
-    }
     /// The array may touch the domain again from `date` on; at most kWheel - 1 cycles after the
     /// execution date of the next pick().
     void set_ready_at(Tile& tile, int domain, Cycle date) const;
-    static bool has_waiting(const Tile& tile, int domain) {
-        return tile.lists[domain].head != nullptr;
-    }
 
     /// A domain of `tile` that has a segment and may execute at `date`, chosen by the scan rule; -1
     /// if none. Dates of successive calls do not fall.
@@ -122,9 +126,6 @@ private:
     int pick_least(const Tile& tile) const;
     static std::uint64_t bit_of(int domain) { return std::uint64_t{1} << (domain % 64U); }
     static std::size_t word_of(int domain) { return static_cast<std::size_t>(domain) / 64; }
-    static std::uint64_t ready(const Tile& tile, std::size_t word) {
-        return tile.occupied[word] & ~tile.cooling[word];
-    }
 
     static constexpr int kSequenceBits = 48;
 
@@ -146,13 +147,13 @@ private:
 
 // Inlined in the hot loop, because a call costs as much as the work.
 inline __attribute__((always_inline)) void SegmentQueue::pop(Tile& tile, int domain) {
-    List& list = tile.lists[domain];
+    List& list = tile.lists_[domain];
     Entry& entry = *list.head;
     Entry* const second = entry.next;
     entry.next = free_;
     free_ = &entry;
     size_--;
-    tile.waiting--;
+    tile.waiting_--;
     list.head = second;
     list.length--;
     // There is no branch, because both outcomes are equally likely. The key of an empty list is never read.
@@ -160,9 +161,9 @@ inline __attribute__((always_inline)) void SegmentQueue::pop(Tile& tile, int dom
     const Entry& head = last ? entry : *second;
     list.end = last ? &list.head : list.end;
     if (scan_ != DomainScan::RoundRobin) {
-        tile.keys[domain] = key(head.segment.sequence, list.length);
+        tile.keys_[domain] = key(head.segment.sequence, list.length);
     }
-    tile.occupied[word_of(domain)] ^= std::uint64_t{last} << (domain % 64U);
+    tile.occupied_[word_of(domain)] ^= std::uint64_t{last} << (domain % 64U);
     __builtin_prefetch(head.next);
 }
 
