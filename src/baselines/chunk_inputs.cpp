@@ -38,7 +38,7 @@ void ChunkInputs::wait_for_rest() {
 // Each chunk is asked for anew: taking one does not make the next one certain.
 void ChunkInputs::discard_arrived() {
     for (std::size_t i = 0; i < stopped_.size() && stopped_count_ != 0; ++i) {
-        DatedFifo<SplatChunk>& ring = *ports_[i].operator->();
+        DatedFifo<SplatChunk>& ring = ports_[i].ring();
         while (stopped_[i] && self_.arrived(ring)) {
             discarded_ += ring.front().count;
             if (ring.front().last) {
@@ -56,7 +56,7 @@ Cycle ChunkInputs::next_arrival(FifoBase* wanted, Cycle limit) {
         watched_.push_back(wanted);
     }
     for (std::size_t i = 0; i < stopped_.size() && stopped_count_ != 0; ++i) {
-        FifoBase* const ring = ports_[i].operator->();
+        FifoBase* const ring = &ports_[i].ring();
         if (stopped_[i] && ring != wanted) {
             watched_.push_back(ring);
         }

@@ -20,9 +20,7 @@ public:
     /// `self` is the array's process; both must outlive this.
     ChunkInputs(Process& self, Ports& ports);
 
-    DatedFifo<SplatChunk>& of(TileNumber tile) {
-        return *ports_[tile % ports_.size()].operator->();
-    }
+    DatedFifo<SplatChunk>& of(TileNumber tile) { return ports_[tile % ports_.size()].ring(); }
     /// Drops the further chunks of `tile`, whose last chunk has not been taken.
     void stop(TileNumber tile);
     /// Moves the array to the date at which `wanted` has an item it may read, or to `limit`: false

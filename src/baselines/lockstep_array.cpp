@@ -151,7 +151,7 @@ bool LockstepArray::await_chunk(FifoBase& source) {
 void LockstepArray::await_context(TileNumber number) {
     const Cycle ready = self_.local();
     while (startable_ <= number) {
-        chunks_.wait_for(*context_free.operator->(), kNever);
+        chunks_.wait_for(context_free.ring(), kNever);
         startable_ = std::max(startable_, context_free->take(self_) + 1);
     }
     blocked_ += self_.local() - ready;

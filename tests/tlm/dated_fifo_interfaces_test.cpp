@@ -26,7 +26,7 @@ public:
     }
 
 private:
-    void run() { body_(*port.operator->()); }
+    void run() { body_(*port[0]); }
     std::function<void(Interface&)> body_;
 };
 using BlockingWriter = Foreign<tlm::tlm_blocking_put_if<int>>;

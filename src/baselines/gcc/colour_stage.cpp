@@ -74,7 +74,7 @@ void ColourStage::see_ended_blocks(TileNumber view) {
         mask_.begin();
     }
     for (auto& port : block_ended) {
-        while (fetcher_.arrived(*port.operator->())) {
+        while (fetcher_.arrived(port.ring())) {
             const BlockEnded block = port->take(fetcher_);
             if (block.view == view) {
                 mask_.end_block(block.row, block.column);

@@ -19,7 +19,7 @@ void ProjectionStage::Config::describe(ConfigVisitor& visitor) {
 
 bool gcc_cancelled(Process& self, FifoPort<TileNumber>& cancel, TileNumber& first,
                    TileNumber view) {
-    while (self.arrived(*cancel.operator->())) {
+    while (self.arrived(cancel.ring())) {
         first = std::max(first, cancel->take(self) + 1);
     }
     self.advance(); // what has arrived by a date is certain half a cycle after it

@@ -40,7 +40,7 @@ private:
     void run() {
         std::vector<FifoBase*> rings;
         for (auto& port : in) {
-            rings.push_back(port.operator->());
+            rings.push_back(&port.ring());
         }
         for (std::uint32_t f = 0; job_.has_frame(self_, f); ++f) {
             const std::uint64_t expected = job_.tiles_of_frame[f] * reports_ + 1;
@@ -57,7 +57,7 @@ private:
     }
     void take_reports() {
         for (auto& port : in) {
-            while (self_.arrived(*port.operator->())) {
+            while (self_.arrived(port.ring())) {
                 seen(port->take(self_))++;
             }
         }

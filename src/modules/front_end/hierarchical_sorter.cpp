@@ -116,7 +116,7 @@ void HierarchicalSorter::sort_chunks(TileNumber number) {
 
 // Asks before each chunk; the question takes a cycle.
 bool HierarchicalSorter::cancelled(TileNumber number) {
-    while (sorter_.arrived(*cancel.operator->())) {
+    while (sorter_.arrived(cancel.ring())) {
         cancelled_before_ = std::max(cancelled_before_, cancel->take(sorter_) + 1);
     }
     sorter_.advance();

@@ -55,7 +55,7 @@ SortedRun SplatFetcher::next_run() {
 
 // Asks before each request; the question takes a cycle.
 bool SplatFetcher::cancelled(TileNumber number) {
-    while (self_.arrived(*cancel.operator->())) {
+    while (self_.arrived(cancel.ring())) {
         cancelled_before_ = std::max(cancelled_before_, cancel->take(self_) + 1);
     }
     if (!instant_) {

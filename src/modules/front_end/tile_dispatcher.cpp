@@ -17,7 +17,7 @@ void TileDispatcher::end_of_elaboration() {
     }
     for (auto& port : request) {
         port->connect_reader(self_);
-        requests_.push_back(port.operator->());
+        requests_.push_back(&port.ring());
     }
     for (auto& port : out) {
         port->connect_writer(self_);

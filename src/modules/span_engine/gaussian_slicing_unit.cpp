@@ -52,7 +52,7 @@ void GaussianSlicingUnit::end_of_elaboration() {
         port->connect_reader(self_);
     }
     for (auto& port : out) {
-        lanes_.push_back(port.operator->());
+        lanes_.push_back(&port.ring());
         lanes_.back()->connect_writer(self_);
     }
 }
@@ -83,7 +83,7 @@ void GaussianSlicingUnit::run() {
 }
 
 bool GaussianSlicingUnit::cancelled(TileNumber number) {
-    while (self_.arrived(*cancel.operator->())) {
+    while (self_.arrived(cancel.ring())) {
         cancelled_before_ = std::max(cancelled_before_, cancel->take(self_) + 1);
     }
     return number < cancelled_before_;
@@ -91,7 +91,7 @@ bool GaussianSlicingUnit::cancelled(TileNumber number) {
 
 void GaussianSlicingUnit::see_ended_regions(TileNumber number) {
     for (auto& port : region_ended) {
-        while (self_.arrived(*port.operator->())) {
+        while (self_.arrived(port.ring())) {
             const RegionEnded message = port->take(self_);
             if (message.tile == number && message.segment < kLastBit) {
                 ended_[message.row] |= std::uint64_t{1} << message.segment;

@@ -36,13 +36,13 @@ SpanUnit::SpanUnit(const sc_core::sc_module_name& name, const Config& config, co
 }
 
 void SpanUnit::end_of_elaboration() {
-    rows_ = in.operator->();
+    rows_ = &in.ring();
     rows_->connect_reader(self_);
     if (!self_.strict()) {
         self_.pump_with(*this, *rows_);
     }
     for (auto& port : out) {
-        rings_.push_back(port.operator->());
+        rings_.push_back(&port.ring());
         rings_.back()->connect_writer(self_);
     }
 }
