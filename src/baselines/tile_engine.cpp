@@ -123,19 +123,15 @@ void TileEngine::work() {
 // The date moves to the cycle after the one in which the last row was pushed.
 void TileEngine::generate(std::uint32_t splat) {
     const Cycle now = self_.local();
-    int first = 0;
-    int last = 0;
-    job_.path->rows_in_columns(splat, tile_->x, tile_->x + tile_->width, first, last);
-    first = std::max(first, tile_->y);
-    last = std::min(last, tile_->y + tile_->height - 1);
+    const int x_end = tile_->x + tile_->width;
+    const PixelRange rows =
+        job_.path->rows_in_columns(splat, tile_->x, x_end).within(tile_->rows());
     Cycle pushed = now;
-    RowSpan span;
-    for (int y = first; y <= last; ++y) {
+    for (int y = rows.first; y <= rows.last; ++y) {
         if (rows_[y - tile_->y].ended <= now) {
             stats_.rows_skipped++;
-        } else if (job_.path->solve_row(splat, y, tile_->x, tile_->x + tile_->width, tile_->y,
-                                        span)) {
-            pushed = std::max(pushed, push(span, now));
+        } else if (const auto span = job_.path->solve_row(splat, y, tile_->x, x_end, tile_->y)) {
+            pushed = std::max(pushed, push(*span, now));
         }
     }
     stats_.queue_wait += pushed - now;

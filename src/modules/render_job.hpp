@@ -11,6 +11,7 @@
 #include "modules/traffic.hpp"
 #include "splat/frame_workload.hpp"
 #include "splat/images/image.hpp"
+#include "splat/pixel_index.hpp"
 #include "tlm/process.hpp"
 
 namespace degs {
@@ -23,6 +24,9 @@ struct JobTile {
     std::uint64_t first = 0;   ///< into the frame's tile_splats
     std::uint64_t count = 0;
     bool last_of_frame = false;
+
+    PixelRange columns() const { return {x, x + width - 1}; } ///< of the image
+    PixelRange rows() const { return {y, y + height - 1}; }   ///< of the image
 };
 
 /// Tiles that keep their place when others join, so that blocks may hold on to one.

@@ -21,13 +21,13 @@ template <class T>
 struct alignas(64) SpanRecord {
     std::int32_t pixel_x, pixel_y;
     T offset_x, offset_y;
-    T slope;       // m = -B/A = b/c (Eq. 10)
-    T c_prime;     // C' = C - B^2/A = 1/c, exactly, without the cancellation
-    T inverse_a;   // 1/A = det/c
-    T a;           // A
-    T q_threshold; // Q_th
-    T fold;        // 2 ln o, subtracted from g0 so that the PE needs exp(-q/2) alone
-    std::int32_t first_row, last_row, first_column, last_column;
+    T slope;                  // m = -B/A = b/c (Eq. 10)
+    T c_prime;                // C' = C - B^2/A = 1/c, exactly, without the cancellation
+    T inverse_a;              // 1/A = det/c
+    T a;                      // A
+    T q_threshold;            // Q_th
+    T fold;                   // 2 ln o, subtracted from g0 so that the PE needs exp(-q/2) alone
+    PixelRange rows, columns; // of the ellipse
 };
 
 /// For the part of the ellipse inside a tile's columns: the same shape solved for y.
@@ -65,11 +65,11 @@ SpanRecord<T> derive(const ProjectedSplat& splat) {
     record.q_threshold = rounded<T>(splat.q_threshold);
     record.fold = rounded<T>(2.0 * std::log(splat.opacity));
     const double reach = std::sqrt(splat.q_threshold * splat.cov_c);
-    record.first_row = nearest_pixel(std::ceil(splat.mu_y - reach));
-    record.last_row = nearest_pixel(std::floor(splat.mu_y + reach));
+    record.rows = {nearest_pixel(std::ceil(splat.mu_y - reach)),
+                   nearest_pixel(std::floor(splat.mu_y + reach))};
     const double reach_x = std::sqrt(splat.q_threshold * splat.cov_a);
-    record.first_column = nearest_pixel(std::ceil(splat.mu_x - reach_x));
-    record.last_column = nearest_pixel(std::floor(splat.mu_x + reach_x));
+    record.columns = {nearest_pixel(std::ceil(splat.mu_x - reach_x)),
+                      nearest_pixel(std::floor(splat.mu_x + reach_x))};
     return record;
 }
 
@@ -106,46 +106,41 @@ public:
         __builtin_prefetch(&blends_[splat]);
     }
 
-    void rows(std::uint32_t splat, int& first, int& last) const override {
-        first = spans_[splat].first_row;
-        last = spans_[splat].last_row;
-    }
+    PixelRange rows(std::uint32_t splat) const override { return spans_[splat].rows; }
 
-    void columns(std::uint32_t splat, int& first, int& last) const override {
+    PixelRange columns(std::uint32_t splat) const override {
         // A rounded span end may lie a pixel beyond the box; outward ends always do.
-        first = spans_[splat].first_column - 2 - options_.delta;
-        last = spans_[splat].last_column + 2 + options_.delta;
+        return spans_[splat].columns.widened(2 + options_.delta);
     }
 
     // The ellipse between two columns is convex, so its lowest row is that of the
     // ellipse's own lowest point if that lies between them, else where the nearer column
     // cuts it; likewise the highest.
-    void rows_in_columns(std::uint32_t splat, int x_begin, int x_end, int& first,
-                         int& last) const override {
+    PixelRange rows_in_columns(std::uint32_t splat, int x_begin, int x_end) const override {
         const SpanRecord<T>& s = spans_[splat];
         const auto offset = static_cast<float>(s.offset_x);
         const float left = static_cast<float>(x_begin - s.pixel_x) - offset;
         const float right = static_cast<float>(x_end - 1 - s.pixel_x) - offset;
-        first = s.first_row;
-        last = s.last_row;
+        PixelRange rows = s.rows;
         // Lowest row index = smallest y: at x offset -tip; largest y at +tip.
         const ColumnRecord& c = columns_[splat];
         if (-c.tip_offset < left || -c.tip_offset > right) {
-            first = std::max(first, cut(s, c, -c.tip_offset < left ? left : right, -1));
+            rows.first = std::max(rows.first, cut(s, c, -c.tip_offset < left ? left : right, -1));
         }
         if (c.tip_offset < left || c.tip_offset > right) {
-            last = std::min(last, cut(s, c, c.tip_offset < left ? left : right, +1));
+            rows.last = std::min(rows.last, cut(s, c, c.tip_offset < left ? left : right, +1));
         }
+        return rows;
     }
 
-    bool solve_row(std::uint32_t splat, int y, int x_begin, int x_end, int tile_y,
-                   RowSpan& span) const override {
+    std::optional<RowSpan> solve_row(std::uint32_t splat, int y, int x_begin, int x_end,
+                                     int tile_y) const override {
         const SpanRecord<T>& s = spans_[splat];
         const T dy = below_mean(s, y);
         const T vertical = s.c_prime * dy * dy;
         const T room = s.q_threshold - vertical;
         if (!(room >= 0)) {
-            return false;
+            return std::nullopt;
         }
         const T width = std::sqrt(room * s.inverse_a);
         const T centre = s.offset_x + s.slope * dy; // relative to pixel_x
@@ -162,26 +157,26 @@ public:
         left = std::max(left, static_cast<T>(x_begin - s.pixel_x));
         right = std::min(right, static_cast<T>(x_end - 1 - s.pixel_x));
         if (!(left <= right)) {
-            return false;
+            return std::nullopt;
         }
-        const T start = left - centre;
-        const T g0 = s.a * start * start + vertical - s.fold;
-        const T d0 = s.a * (2 * start + 1);
-        span.splat = splat;
-        span.y = inside_tile(y - tile_y);
         // Beyond 2^24 px from the mean a float does not name single pixels, and left may be rounded
         // out of the tile.
         const int x0 = std::max(static_cast<std::int32_t>(left) + s.pixel_x, x_begin);
         const int x1 = std::min(static_cast<std::int32_t>(right) + s.pixel_x, x_end - 1);
         if (x0 > x1) {
-            return false;
+            return std::nullopt;
         }
+        const T start = left - centre;
+        std::optional<RowSpan> solved{std::in_place};
+        RowSpan& span = *solved;
+        span.splat = splat;
+        span.y = inside_tile(y - tile_y);
         span.x0 = inside_tile(x0 - x_begin);
         span.length = inside_tile(x1 - x0 + 1);
         span.base = span.x0;
-        span.g0 = g0;
-        span.d0 = d0;
-        return true;
+        span.g0 = s.a * start * start + vertical - s.fold;
+        span.d0 = s.a * (2 * start + 1);
+        return solved;
     }
 
     void begin_row(int context, int row) override { rows_.release(context, row); }
@@ -210,14 +205,13 @@ public:
 
     // q falls towards the centre and rises behind it, rounded or not, so the pixel nearest to the
     // centre decides whether there are any; the solved ends are then moved until the test agrees.
-    bool tested_columns(std::uint32_t splat, int y, int x_begin, int x_end, int& first,
-                        int& last) const override {
+    PixelRange tested_columns(std::uint32_t splat, int y, int x_begin, int x_end) const override {
         const SpanRecord<T>& s = spans_[splat];
         const T dy = below_mean(s, y);
         const T rest = s.c_prime * dy * dy - s.fold;
         const T centre = s.offset_x + s.slope * dy;
         if (!(rest <= kLimit) || !std::isfinite(centre) || x_begin >= x_end) {
-            return false;
+            return {};
         }
         const auto inside = [&](int n) {
             const T u = static_cast<T>(n) - centre;
@@ -231,7 +225,7 @@ public:
         };
         const int nearest = std::clamp(column(std::nearbyint(centre)), low, high);
         if (!inside(nearest)) {
-            return false;
+            return {};
         }
         const T width = std::sqrt((kLimit - rest) * s.inverse_a);
         int left = std::clamp(column(std::ceil(centre - width)), low, nearest);
@@ -244,9 +238,7 @@ public:
         }
         for (; right < high && inside(right + 1); ++right) {
         }
-        first = left + s.pixel_x;
-        last = right + s.pixel_x;
-        return true;
+        return {left + s.pixel_x, right + s.pixel_x};
     }
 
     void read_row(int context, int row, int count, PixelValue* pixels) const override {

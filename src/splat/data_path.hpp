@@ -9,6 +9,7 @@
 
 #include "splat/frame_workload.hpp"
 #include "splat/numbers/number_set.hpp"
+#include "splat/pixel_index.hpp"
 
 namespace degs {
 
@@ -110,18 +111,17 @@ public:
     virtual std::uint32_t add_frame(const FrameWorkload& workload) = 0;
     /// A hint that the rows of the splat will be needed soon. It changes nothing but host time.
     virtual void expect(std::uint32_t splat) const = 0;
-    /// First and last image row (inclusive, unclipped) that the splat's ellipse meets.
-    virtual void rows(std::uint32_t splat, int& first, int& last) const = 0;
+    /// The image rows (unclipped) that the splat's ellipse meets.
+    virtual PixelRange rows(std::uint32_t splat) const = 0;
     /// The same for the part of the ellipse in columns [x_begin, x_end). May name a row too many at
-    /// either end (rounding), never one too few; first > last if the ellipse passes by.
-    virtual void rows_in_columns(std::uint32_t splat, int x_begin, int x_end, int& first,
-                                 int& last) const = 0;
-    /// First and last image column (inclusive, unclipped) that the splat's ellipse meets.
-    virtual void columns(std::uint32_t splat, int& first, int& last) const = 0;
+    /// either end (rounding), never one too few; empty if the ellipse passes by.
+    virtual PixelRange rows_in_columns(std::uint32_t splat, int x_begin, int x_end) const = 0;
+    /// The image columns (unclipped) that the splat's ellipse meets.
+    virtual PixelRange columns(std::uint32_t splat) const = 0;
     /// Solves image row `y` for the columns [x_begin, x_end) of a tile whose top row is `tile_y`
-    /// (paper Eq. 12-15, 19). False if no pixel of the tile is covered.
-    virtual bool solve_row(std::uint32_t splat, int y, int x_begin, int x_end, int tile_y,
-                           RowSpan& span) const = 0;
+    /// (paper Eq. 12-15, 19). Nothing if no pixel of the tile is covered.
+    virtual std::optional<RowSpan> solve_row(std::uint32_t splat, int y, int x_begin, int x_end,
+                                             int tile_y) const = 0;
 
     /// Makes a row of a context ready for a tile: T = 1, colour 0, nothing ended. All are at first.
     virtual void begin_row(int context, int row) = 0;
@@ -131,10 +131,9 @@ public:
     /// 10), and blends the live ones with q <= Q_th; the others keep their state. For number
     /// sets see QuantizedRow::check.
     virtual BlendOutcome test(const PixelTest& test) = 0;
-    /// First and last of the columns [x_begin, x_end) whose pixel on image row `y` passes test()'s
-    /// q <= Q_th, to the last rounding; between them all pixels do. False if none does.
-    virtual bool tested_columns(std::uint32_t splat, int y, int x_begin, int x_end, int& first,
-                                int& last) const = 0;
+    /// The columns among [x_begin, x_end) whose pixels on image row `y` pass test()'s q <= Q_th, to
+    /// the last rounding. They are neighbours; there may be none.
+    virtual PixelRange tested_columns(std::uint32_t splat, int y, int x_begin, int x_end) const = 0;
     /// The first `count` pixels of a row.
     virtual void read_row(int context, int row, int count, PixelValue* pixels) const = 0;
 };

@@ -70,20 +70,15 @@ bool DataPathRenderer::TileBlender::blend(int column, int row) {
 }
 
 void DataPathRenderer::TileBlender::blend_splat(std::uint32_t splat) {
-    int first = 0;
-    int last = 0;
-    if (rows_in_columns_) {
-        path_->rows_in_columns(splat, box_.x0, box_.x1 + 1, first, last);
-    } else {
-        path_->rows(splat, first, last);
-    }
-    first = std::max(first, box_.y0);
-    last = std::min(last, box_.y1);
-    RowSpan span;
-    for (int y = first; y <= last; ++y) {
-        if (live_in_row_[y - box_.y0] > 0 &&
-            path_->solve_row(splat, y, box_.x0, box_.x1 + 1, box_.y0, span)) {
-            blend_span(span);
+    const PixelRange met =
+        rows_in_columns_ ? path_->rows_in_columns(splat, box_.x0, box_.x1 + 1) : path_->rows(splat);
+    const PixelRange rows = met.within({box_.y0, box_.y1});
+    for (int y = rows.first; y <= rows.last; ++y) {
+        if (live_in_row_[y - box_.y0] == 0) {
+            continue;
+        }
+        if (const auto span = path_->solve_row(splat, y, box_.x0, box_.x1 + 1, box_.y0)) {
+            blend_span(*span);
         }
     }
 }

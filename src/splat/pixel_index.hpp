@@ -6,6 +6,23 @@
 
 namespace degs {
 
+/// Rows or columns of pixels, `first` to `last`, both included; empty if `last` < `first`.
+struct PixelRange {
+    int first = 0, last = -1;
+
+    bool empty() const { return last < first; }
+    int size() const { return empty() ? 0 : last - first + 1; }
+    bool holds(int pixel) const { return first <= pixel && pixel <= last; }
+    /// The part inside `bounds`.
+    PixelRange within(const PixelRange& bounds) const {
+        return {std::max(first, bounds.first), std::min(last, bounds.last)};
+    }
+    /// With `pixels` more at either end.
+    PixelRange widened(int pixels) const { return {first - pixels, last + pixels}; }
+    /// Counted from `origin`.
+    PixelRange relative_to(int origin) const { return {first - origin, last - origin}; }
+};
+
 /// A coordinate as an index within low .. high: towards zero, after it has been limited.
 inline int index_within(double coordinate, double low, double high) {
     return static_cast<int>(std::clamp(coordinate, low, high));

@@ -7,19 +7,14 @@
 namespace degs {
 namespace {
 
-/// Pixels first .. last of a row.
-struct Interval {
-    int first = 0, last = -1;
-    int length() const { return std::max(0, last - first + 1); }
-};
-
-Interval solve(const DataPath& path, std::uint32_t splat, int y, int width, bool& inside) {
-    RowSpan span;
-    if (!path.solve_row(splat, y, 0, width, y, span)) {
+/// The pixels of a row; `inside` becomes false if there are some and not all lie in the image.
+PixelRange solve(const DataPath& path, std::uint32_t splat, int y, int width, bool& inside) {
+    const std::optional<RowSpan> span = path.solve_row(splat, y, 0, width, y);
+    if (!span) {
         return {};
     }
-    inside = inside && span.length >= 1 && span.x0 >= 0 && span.x0 + span.length <= width;
-    return {span.x0, span.x0 + span.length - 1};
+    inside = inside && span->length >= 1 && span->x0 >= 0 && span->x0 + span->length <= width;
+    return {span->x0, span->x0 + span->length - 1};
 }
 
 double off_threshold(const ProjectedSplat& s, int x, int y) {
@@ -30,10 +25,10 @@ double off_threshold(const ProjectedSplat& s, int x, int y) {
 }
 
 /// Counts what `one` has and `other` has not.
-void count_flips(const ProjectedSplat& splat, int y, const Interval& one, const Interval& other,
+void count_flips(const ProjectedSplat& splat, int y, const PixelRange& one, const PixelRange& other,
                  SpanDifference& difference) {
     for (int x = one.first; x <= one.last; ++x) {
-        if (x >= other.first && x <= other.last) {
+        if (other.holds(x)) {
             x = other.last;
             continue;
         }
@@ -53,16 +48,12 @@ SpanDifference compare_spans(const FrameWorkload& workload, const DataPathOption
     const int width = workload.camera.width;
     SpanDifference difference;
     for (std::uint32_t i = 0; i < workload.splats.size(); ++i) {
-        int top = 0;
-        int bottom = 0;
-        one->rows(i, top, bottom);
-        top = std::max(top - 1, 0);
-        bottom = std::min(bottom + 1, workload.camera.height - 1);
-        for (int y = top; y <= bottom; ++y) {
-            const Interval a = solve(*one, i, y, width, difference.inside);
-            const Interval b = solve(*two, i, y, width, difference.inside);
-            difference.spans += a.length() > 0 ? 1 : 0;
-            difference.pixels += a.length();
+        const PixelRange rows = one->rows(i).widened(1).within({0, workload.camera.height - 1});
+        for (int y = rows.first; y <= rows.last; ++y) {
+            const PixelRange a = solve(*one, i, y, width, difference.inside);
+            const PixelRange b = solve(*two, i, y, width, difference.inside);
+            difference.spans += a.empty() ? 0 : 1;
+            difference.pixels += a.size();
             count_flips(workload.splats[i], y, a, b, difference);
             count_flips(workload.splats[i], y, b, a, difference);
         }

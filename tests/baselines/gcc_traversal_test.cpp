@@ -111,17 +111,17 @@ std::vector<Place> traverse(gcc::Traversal& traversal, const gcc::Footprint& foo
                             const JobTile& view, Place seed, int& seeds) {
     const int side = footprint.side();
     std::vector<Place> order;
-    gcc::Traversal::Window window{seed.first, seed.second, 0};
     traversal.begin(footprint, (view.width + side - 1) / side, (view.height + side - 1) / side);
     seeds = 0;
-    do {
-        traversal.seed(window);
+    std::optional<gcc::Traversal::Window> start{{seed.first, seed.second}};
+    for (; start; start = traversal.find_missed()) {
+        traversal.seed(*start);
         ++seeds;
-        while (traversal.next(window)) {
-            order.emplace_back(window.row, window.column);
-            traversal.expand(window, 0);
+        while (const auto window = traversal.next()) {
+            order.emplace_back(window->row, window->column);
+            traversal.expand(*window, 0);
         }
-    } while (traversal.find_missed(window));
+    }
     return order;
 }
 
@@ -178,7 +178,7 @@ TEST(GccFootprint, RowsAndWindowsHoldTheValidPixels) {
         footprint.solve(*path, i, view);
         std::vector<bool> named(kView * kView, false);
         for (const gcc::Footprint::Row& row : footprint.rows()) {
-            for (int x = row.first; x <= row.last; ++x) {
+            for (int x = row.columns.first; x <= row.columns.last; ++x) {
                 named[static_cast<std::size_t>(row.y * kView + x)] = true;
             }
         }

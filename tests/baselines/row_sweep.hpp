@@ -65,10 +65,10 @@ private:
         test.context = static_cast<std::int16_t>(chunk.tile % static_cast<TileNumber>(contexts_));
         for (std::uint32_t i = 0; i < chunk.count; ++i, ++splats) {
             test.splat = job_.first_splat[tile.frame] + list[i];
-            int first = 0, last = -1;
-            job_.path->rows_in_columns(test.splat, tile.x, tile.x + tile.width, first, last);
-            const int end = std::min(last + 1, tile.y + tile.height);
-            for (test.y = std::max(first, tile.y); test.y < end; ++test.y) {
+            const PixelRange rows =
+                job_.path->rows_in_columns(test.splat, tile.x, tile.x + tile.width);
+            const int end = std::min(rows.last + 1, tile.y + tile.height);
+            for (test.y = std::max(rows.first, tile.y); test.y < end; ++test.y) {
                 test.row = static_cast<std::int16_t>(test.y - tile.y);
                 account(job_.path->test(test));
             }

@@ -164,17 +164,15 @@ private:
         stats.splats++;
         waiting_ = true;
         pending_.clear();
-        int first = 0;
-        int last = 0;
-        job_.path->rows_in_columns(splat, tile_->x, tile_->x + tile_->width, first, last);
-        for (int y = std::max(first, tile_->y); y <= std::min(last, tile_->y + tile_->height - 1);
-             ++y) {
-            RowSpan span;
+        const int x_end = tile_->x + tile_->width;
+        const PixelRange rows = job_.path->rows_in_columns(splat, tile_->x, x_end);
+        for (int y = std::max(rows.first, tile_->y);
+             y <= std::min(rows.last, tile_->y + tile_->height - 1); ++y) {
             if (rows_[static_cast<std::size_t>(y - tile_->y)].ended <= now_) {
                 stats.rows_skipped++;
-            } else if (job_.path->solve_row(splat, y, tile_->x, tile_->x + tile_->width, tile_->y,
-                                            span)) {
-                pending_.push_back(span);
+            } else if (const auto span =
+                           job_.path->solve_row(splat, y, tile_->x, x_end, tile_->y)) {
+                pending_.push_back(*span);
             }
         }
     }

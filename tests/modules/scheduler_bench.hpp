@@ -149,8 +149,9 @@ struct SchedulerBench {
             SpanItem item;
             item.tile = f.tile;
             const JobTile& t = job.tiles[f.tile];
-            ASSERT_TRUE(
-                job.path->solve_row(f.splat, t.y + f.row, t.x, t.x + t.width, t.y, item.span));
+            const auto span = job.path->solve_row(f.splat, t.y + f.row, t.x, t.x + t.width, t.y);
+            ASSERT_TRUE(span);
+            item.span = *span;
             crossbar.put(feeder, item);
         }
         while (tile < job.tiles.size()) {

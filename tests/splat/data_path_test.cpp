@@ -16,14 +16,14 @@ TEST(DataPath, OpacityIsFoldedIntoTheStartValue) {
     for (const double opacity : {1.0 / 255 + 1e-6, 0.1, 0.5, 0.985}) {
         const ProjectedSplat s = make_splat(8, 8, 4, 4, 0, opacity);
         const auto path = path_of({s}, path_options(Arithmetic::Fp64));
-        RowSpan span;
-        ASSERT_TRUE(path->solve_row(0, 8, 0, 64, 0, span));
+        const auto span = path->solve_row(0, 8, 0, 64, 0);
+        ASSERT_TRUE(span);
         BlendTask task;
-        task.g0 = span.g0;
-        task.d0 = span.d0;
+        task.g0 = span->g0;
+        task.d0 = span->d0;
         task.row = 8;
         task.mask = 0xFFFFFFFFU;
-        task.offset = static_cast<std::int16_t>(-span.x0);
+        task.offset = static_cast<std::int16_t>(-span->x0);
         path->blend(task);
         std::vector<PixelValue> row(32);
         path->read_row(0, 8, 32, row.data());
@@ -63,9 +63,8 @@ TEST(DataPath, FramesFollowEachOther) {
     const auto path = path_of({make_splat(8, 8, 2, 2, 0, 1), make_splat(9, 9, 2, 2, 0, 1)},
                               path_options(Arithmetic::Fp32));
     EXPECT_EQ(path->add_frame(frame_of({make_splat(50, 50, 1, 1, 0, 1)})), 2U);
-    RowSpan span;
-    EXPECT_TRUE(path->solve_row(2, 50, 0, 64, 0, span));
-    EXPECT_FALSE(path->solve_row(1, 50, 0, 64, 0, span));
+    EXPECT_TRUE(path->solve_row(2, 50, 0, 64, 0));
+    EXPECT_FALSE(path->solve_row(1, 50, 0, 64, 0));
 }
 
 } // namespace

@@ -25,14 +25,13 @@ TEST(NamedNumbers, IdealIsFp64) {
     const auto fp64 = path_of(splats, named_numbers("fp64"), kTile);
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
         for (int y = 0; y < kTile; ++y) {
-            RowSpan a;
-            RowSpan b;
-            const bool covered = ideal->solve_row(i, kY + y, kX, kX + kTile, kY, a);
-            ASSERT_EQ(covered, fp64->solve_row(i, kY + y, kX, kX + kTile, kY, b));
-            for (const BlendTask& task : covered ? tasks_of(a) : std::vector<BlendTask>{}) {
+            const auto a = ideal->solve_row(i, kY + y, kX, kX + kTile, kY);
+            const auto b = fp64->solve_row(i, kY + y, kX, kX + kTile, kY);
+            ASSERT_EQ(a.has_value(), b.has_value());
+            for (const BlendTask& task : a ? tasks_of(*a) : std::vector<BlendTask>{}) {
                 ideal->blend(task);
             }
-            for (const BlendTask& task : covered ? tasks_of(b) : std::vector<BlendTask>{}) {
+            for (const BlendTask& task : b ? tasks_of(*b) : std::vector<BlendTask>{}) {
                 fp64->blend(task);
             }
         }
@@ -142,30 +141,22 @@ TEST_P(HostilePaths, StayFinite) {
         const auto path =
             path_of(splats, options_of(with_ends(number_set(GetParam()), ends)), kTile);
         for (std::uint32_t i = 0; i < splats.size(); ++i) {
-            int top = 0;
-            int bottom = 0;
-            int left = 0;
-            int right = 0;
-            path->rows_in_columns(i, kX, kX + kTile, top, bottom);
-            path->columns(i, left, right);
+            const PixelRange rows = path->rows_in_columns(i, kX, kX + kTile);
+            const PixelRange columns = path->columns(i);
             for (int y = kY; y < kY + kTile; ++y) {
-                RowSpan span;
-                if (path->solve_row(i, y, kX, kX + kTile, kY, span)) {
-                    ASSERT_TRUE(y >= top && y <= bottom) << i;
-                    ASSERT_GE(span.x0, 0);
-                    ASSERT_GE(span.length, 1);
-                    ASSERT_LE(span.x0 + span.length, kTile);
-                    ASSERT_LE(left, kX + span.x0);
-                    ASSERT_GE(right, kX + span.x0 + span.length - 1);
-                    for (const BlendTask& task : tasks_of(span)) {
+                if (const auto span = path->solve_row(i, y, kX, kX + kTile, kY)) {
+                    ASSERT_TRUE(rows.holds(y)) << i;
+                    ASSERT_GE(span->x0, 0);
+                    ASSERT_GE(span->length, 1);
+                    ASSERT_LE(span->x0 + span->length, kTile);
+                    ASSERT_TRUE(columns.holds(kX + span->x0));
+                    ASSERT_TRUE(columns.holds(kX + span->x0 + span->length - 1));
+                    for (const BlendTask& task : tasks_of(*span)) {
                         path->blend(task);
                     }
                 }
-                int first = 0;
-                int last = 0;
-                if (path->tested_columns(i, y, kX, kX + kTile, first, last)) {
-                    ASSERT_TRUE(kX <= first && first <= last && last < kX + kTile);
-                }
+                const PixelRange tested = path->tested_columns(i, y, kX, kX + kTile);
+                ASSERT_TRUE(tested.empty() || (kX <= tested.first && tested.last < kX + kTile));
             }
         }
         std::vector<PixelValue> pixels(kTile);

@@ -151,19 +151,19 @@ TEST(PixelCheck, Fp64AgainstBruteForce) {
 
 /// The same row by its span.
 BlendOutcome blend_span(DataPath& path, std::uint32_t splat, int y, int context) {
-    RowSpan span;
-    if (!path.solve_row(splat, y, 0, kTileSize, 0, span)) {
+    const auto span = path.solve_row(splat, y, 0, kTileSize, 0);
+    if (!span) {
         return {};
     }
     BlendTask task;
     task.splat = splat;
-    task.g0 = span.g0;
-    task.d0 = span.d0;
+    task.g0 = span->g0;
+    task.d0 = span->d0;
     task.row = static_cast<std::int16_t>(y);
     task.context = static_cast<std::int16_t>(context);
-    task.offset = static_cast<std::int16_t>(-span.x0);
-    const std::uint32_t run = span.length == 32 ? ~0U : (1U << span.length) - 1U;
-    task.mask = run << span.x0;
+    task.offset = static_cast<std::int16_t>(-span->x0);
+    const std::uint32_t run = span->length == 32 ? ~0U : (1U << span->length) - 1U;
+    task.mask = run << span->x0;
     return path.blend(task);
 }
 

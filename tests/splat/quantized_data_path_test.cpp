@@ -103,27 +103,26 @@ TEST_P(QuantizedPaths, SpansAndPixelsAreTheDefinition) {
     int off_start = 0;
     for (std::uint32_t i = 0; i < splats_.size(); ++i) {
         for (int y = 0; y < kTile; ++y) {
-            RowSpan span;
-            const bool covered = path_->solve_row(i, kY + y, kX, kX + kTile, kY, span);
+            const auto span = path_->solve_row(i, kY + y, kX, kX + kTile, kY);
             const QuantizedSpan solved = row_.solve(records_[i], kY + y, kX, kX + kTile);
-            ASSERT_EQ(covered, !solved.empty());
-            if (!covered) {
+            ASSERT_EQ(span.has_value(), !solved.empty());
+            if (!span) {
                 continue;
             }
             ++spans;
-            ASSERT_EQ(span.splat, i);
-            ASSERT_EQ(span.y, y);
-            ASSERT_EQ(kX + span.x0, solved.x0);
-            ASSERT_EQ(kX + span.x0 + span.length - 1, solved.x1);
-            ASSERT_EQ(kX + span.base, solved.base);
-            ASSERT_EQ(span.g0, solved.g0);
-            ASSERT_EQ(span.d0, solved.d0);
-            off_start += static_cast<int>(span.base != span.x0);
-            for (const BlendTask& task : tasks_of(span)) {
+            ASSERT_EQ(span->splat, i);
+            ASSERT_EQ(span->y, y);
+            ASSERT_EQ(kX + span->x0, solved.x0);
+            ASSERT_EQ(kX + span->x0 + span->length - 1, solved.x1);
+            ASSERT_EQ(kX + span->base, solved.base);
+            ASSERT_EQ(span->g0, solved.g0);
+            ASSERT_EQ(span->d0, solved.d0);
+            off_start += static_cast<int>(span->base != span->x0);
+            for (const BlendTask& task : tasks_of(*span)) {
                 path_->blend(task);
             }
-            for (int x = span.x0; x < span.x0 + span.length; ++x) {
-                const double q = row_.q(records_[i].a, span.g0, span.d0, x - span.base);
+            for (int x = span->x0; x < span->x0 + span->length; ++x) {
+                const double q = row_.q(records_[i].a, span->g0, span->d0, x - span->base);
                 expected[static_cast<std::size_t>(y * kTile + x)].update(row_, records_[i], q,
                                                                          GetParam().stop);
             }
@@ -183,30 +182,22 @@ TEST_P(QuantizedPaths, ExtentsHoldEverySpan) {
     std::uint64_t named = 0;
     std::uint64_t covered = 0;
     for (std::uint32_t i = 0; i < splats_.size(); ++i) {
-        int top = 0;
-        int bottom = 0;
-        int left = 0;
-        int right = 0;
-        path_->rows(i, top, bottom);
-        path_->columns(i, left, right);
+        const PixelRange all_rows = path_->rows(i);
+        const PixelRange columns = path_->columns(i);
         for (int tile = -3; tile <= 3; ++tile) {
             const int x = kX + tile * kTile + static_cast<int>(i % 7);
             const int width = 1 + static_cast<int>(i % kTile);
-            int first = 0;
-            int last = 0;
-            path_->rows_in_columns(i, x, x + width, first, last);
-            ASSERT_GE(first, top);
-            ASSERT_LE(last, bottom);
+            const PixelRange rows = path_->rows_in_columns(i, x, x + width);
+            ASSERT_GE(rows.first, all_rows.first);
+            ASSERT_LE(rows.last, all_rows.last);
             for (int y = kY - 60; y < kY + 90; ++y) {
-                RowSpan span;
-                const bool there = path_->solve_row(i, y, x, x + width, kY - 60, span);
-                const bool inside = y >= first && y <= last;
-                named += static_cast<std::uint64_t>(inside);
-                covered += static_cast<std::uint64_t>(there);
-                if (there) {
-                    ASSERT_TRUE(inside) << "splat " << i << " row " << y << " columns " << x;
-                    ASSERT_GE(x + span.x0, left) << i;
-                    ASSERT_LE(x + span.x0 + span.length - 1, right) << i;
+                const auto span = path_->solve_row(i, y, x, x + width, kY - 60);
+                named += rows.holds(y) ? 1 : 0;
+                if (span) {
+                    ++covered;
+                    ASSERT_TRUE(rows.holds(y)) << "splat " << i << " row " << y << " columns " << x;
+                    ASSERT_TRUE(columns.holds(x + span->x0)) << i;
+                    ASSERT_TRUE(columns.holds(x + span->x0 + span->length - 1)) << i;
                 }
             }
         }

@@ -30,17 +30,17 @@ TEST_P(RowExtents, TheLeastOpacityCoversItsCentreAlone) {
     ProjectedSplat beside = on;
     beside.mu_x = 20.25;
     const auto path = path_of({on, beside}, path_options(GetParam()));
-    RowSpan span;
     for (int y = 0; y < 64; ++y) {
-        EXPECT_EQ(path->solve_row(0, y, 0, 64, 0, span), y == 12);
-        EXPECT_FALSE(path->solve_row(1, y, 0, 64, 0, span));
+        EXPECT_EQ(path->solve_row(0, y, 0, 64, 0).has_value(), y == 12);
+        EXPECT_FALSE(path->solve_row(1, y, 0, 64, 0));
     }
-    ASSERT_TRUE(path->solve_row(0, 12, 0, 64, 0, span));
-    EXPECT_EQ(span.x0, 20);
-    EXPECT_EQ(span.length, 1);
+    const auto span = path->solve_row(0, 12, 0, 64, 0);
+    ASSERT_TRUE(span);
+    EXPECT_EQ(span->x0, 20);
+    EXPECT_EQ(span->length, 1);
     BlendTask task;
-    task.g0 = span.g0;
-    task.d0 = span.d0;
+    task.g0 = span->g0;
+    task.d0 = span->d0;
     task.row = 12;
     task.column = 16;
     task.offset = -4;
@@ -57,13 +57,10 @@ TEST_P(RowExtents, FarAwaySplatsMissAndNeverLeaveTheTile) {
         }
     }
     const auto path = path_of(splats, path_options(GetParam()));
-    RowSpan span;
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
-        int first = 0;
-        int last = 0;
-        path->rows(i, first, last);
+        path->rows(i);
         for (int y = 0; y < 64; ++y) {
-            ASSERT_FALSE(path->solve_row(i, y, 0, 64, 0, span)) << i << ", row " << y;
+            ASSERT_FALSE(path->solve_row(i, y, 0, 64, 0)) << i << ", row " << y;
         }
     }
 }
@@ -83,12 +80,11 @@ TEST_P(RowExtents, GiantsFarAwayStayInsideTheTile) {
         int spans = 0;
         for (std::uint32_t i = 0; i < splats.size(); ++i) {
             for (int y = 0; y < 64; y += 7) {
-                RowSpan span;
-                if (path->solve_row(i, y, 17, 17 + 45, 0, span)) {
+                if (const auto span = path->solve_row(i, y, 17, 17 + 45, 0)) {
                     ++spans;
-                    ASSERT_GE(span.x0, 0) << i;
-                    ASSERT_GE(span.length, 1) << i;
-                    ASSERT_LE(span.x0 + span.length, 45) << i;
+                    ASSERT_GE(span->x0, 0) << i;
+                    ASSERT_GE(span->length, 1) << i;
+                    ASSERT_LE(span->x0 + span->length, 45) << i;
                 }
             }
         }
@@ -100,18 +96,18 @@ TEST_P(RowExtents, GiantsFarAwayStayInsideTheTile) {
 TEST_P(RowExtents, TheLargestTile) {
     const auto path =
         path_of({make_splat(512, 512, 2000, 2000, 0, 1)}, path_options(GetParam()), 1024);
-    RowSpan span;
-    ASSERT_TRUE(path->solve_row(0, 1023, 0, 1024, 0, span));
-    EXPECT_EQ(span.y, 1023);
-    EXPECT_EQ(span.x0, 0);
-    EXPECT_EQ(span.length, 1024);
+    const auto span = path->solve_row(0, 1023, 0, 1024, 0);
+    ASSERT_TRUE(span);
+    EXPECT_EQ(span->y, 1023);
+    EXPECT_EQ(span->x0, 0);
+    EXPECT_EQ(span->length, 1024);
     BlendTask task;
     task.row = 1023;
     task.column = 992;
     task.offset = 992;
     task.mask = ~0U;
-    task.g0 = span.g0;
-    task.d0 = span.d0;
+    task.g0 = span->g0;
+    task.d0 = span->d0;
     EXPECT_EQ(path->blend(task).useful, ~0U);
     std::vector<PixelValue> row(1024);
     path->read_row(0, 1023, 1024, row.data());
@@ -128,13 +124,11 @@ TEST_P(RowExtents, RowsAreThoseThatTheEllipseMeets) {
     }
     const auto path = path_of(splats, path_options(GetParam()));
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
-        int first = 0;
-        int last = 0;
-        path->rows(i, first, last);
-        for (const int y : {first - 1, first, last, last + 1}) {
+        const PixelRange rows = path->rows(i);
+        for (const int y : {rows.first - 1, rows.first, rows.last, rows.last + 1}) {
             const long double room = splats[i].q_threshold - vertical_q(splats[i], y);
-            if (std::abs(room) > 1e-9 && first <= last) {
-                EXPECT_EQ(room > 0, y >= first && y <= last) << i << ", row " << y;
+            if (std::abs(room) > 1e-9 && !rows.empty()) {
+                EXPECT_EQ(room > 0, rows.holds(y)) << i << ", row " << y;
             }
         }
     }
@@ -151,17 +145,15 @@ TEST_P(RowExtents, ColumnsHoldEverySpan) {
     for (const int delta : {0, 2}) {
         const auto path = path_of(splats, path_options(GetParam(), SpanEnds::Outward, delta));
         for (std::uint32_t i = 0; i < splats.size(); ++i) {
-            int first = 0;
-            int last = 0;
-            path->columns(i, first, last);
+            const PixelRange columns = path->columns(i);
             const double reach = std::sqrt(splats[i].q_threshold * splats[i].cov_a) + delta;
-            EXPECT_GE(first, splats[i].mu_x - reach - 4) << i;
-            EXPECT_LE(last, splats[i].mu_x + reach + 4) << i;
+            EXPECT_GE(columns.first, splats[i].mu_x - reach - 4) << i;
+            EXPECT_LE(columns.last, splats[i].mu_x + reach + 4) << i;
             for (int y = 80; y < 180; ++y) {
-                RowSpan span;
-                if (path->solve_row(i, y, -400, 600, 0, span)) {
-                    ASSERT_GE(span.x0 - 400, first) << i << ", row " << y;
-                    ASSERT_LE(span.x0 - 400 + span.length - 1, last) << i << ", row " << y;
+                if (const auto span = path->solve_row(i, y, -400, 600, 0)) {
+                    ASSERT_GE(span->x0 - 400, columns.first) << i << ", row " << y;
+                    ASSERT_LE(span->x0 - 400 + span->length - 1, columns.last)
+                        << i << ", row " << y;
                 }
             }
         }
@@ -194,14 +186,11 @@ TEST_P(RowExtents, RowsInColumnsNeverMissAPixel) {
     }
     const auto path = path_of(splats, path_options(GetParam()));
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
-        int first = 0;
-        int last = 0;
-        path->rows_in_columns(i, columns[i].first, columns[i].second, first, last);
+        const PixelRange rows = path->rows_in_columns(i, columns[i].first, columns[i].second);
         for (int y = 470; y < 570; ++y) {
-            RowSpan span;
-            if (path->solve_row(i, y, columns[i].first, columns[i].second, 470, span)) {
-                ASSERT_TRUE(y >= first && y <= last)
-                    << "splat " << i << ", row " << y << " is not in " << first << " .. " << last;
+            if (path->solve_row(i, y, columns[i].first, columns[i].second, 470)) {
+                ASSERT_TRUE(rows.holds(y)) << "splat " << i << ", row " << y << " is not in "
+                                           << rows.first << " .. " << rows.last;
             }
         }
     }
@@ -222,9 +211,7 @@ TEST_P(RowExtents, RowsInColumnsAreTight) {
         const ProjectedSplat& s = splats[i];
         const int x_begin = 100 + static_cast<int>(random() % 64);
         const int x_end = x_begin + 2 + static_cast<int>(random() % 30);
-        int first = 0;
-        int last = 0;
-        path->rows_in_columns(i, x_begin, x_end, first, last);
+        const PixelRange rows = path->rows_in_columns(i, x_begin, x_end);
         // The ellipse between the columns, sampled: its lowest and highest y.
         double low = std::numeric_limits<double>::infinity();
         double high = -low;
@@ -238,10 +225,10 @@ TEST_P(RowExtents, RowsInColumnsAreTight) {
             }
         }
         if (low <= high) {
-            EXPECT_GE(first, static_cast<int>(std::ceil(low)) - 1) << i;
-            EXPECT_LE(last, static_cast<int>(std::floor(high)) + 1) << i;
+            EXPECT_GE(rows.first, std::ceil(low) - 1) << i;
+            EXPECT_LE(rows.last, std::floor(high) + 1) << i;
         } else {
-            EXPECT_LE(last - first, 2) << i;
+            EXPECT_LE(rows.last - rows.first, 2) << i;
         }
     }
 }

@@ -48,12 +48,11 @@ struct Tile {
 /// Pixels of one row of the tile: by brute force inside, outside, or too close to tell.
 void expect_row_is_brute_force(const DataPath& path, std::uint32_t index, const ProjectedSplat& s,
                                const Tile& tile, int y, bool single) {
-    RowSpan span;
-    const bool any = path.solve_row(index, y, tile.x, tile.x + tile.width, tile.y, span);
+    const auto span = path.solve_row(index, y, tile.x, tile.x + tile.width, tile.y);
     const Row row(s, y);
     int inside = 0;
     for (int x = 0; x < tile.width; ++x) {
-        const bool covered = any && x >= span.x0 && x < span.x0 + span.length;
+        const bool covered = span && x >= span->x0 && x < span->x0 + span->length;
         const long double q = exact_q(s, tile.x + x, y);
         const long double reach = std::abs(tile.x + x - row.centre);
         const long double slack = single ? float_slack(s, row, y, reach) : kDoubleSlack;
@@ -64,11 +63,11 @@ void expect_row_is_brute_force(const DataPath& path, std::uint32_t index, const 
         }
         inside += covered ? 1 : 0;
     }
-    ASSERT_EQ(any, inside > 0);
-    if (any) {
-        EXPECT_EQ(inside, span.length); // all of it inside the tile
-        EXPECT_EQ(span.y, y - tile.y);
-        EXPECT_EQ(span.splat, index);
+    ASSERT_EQ(span.has_value(), inside > 0);
+    if (span) {
+        EXPECT_EQ(inside, span->length); // all of it inside the tile
+        EXPECT_EQ(span->y, y - tile.y);
+        EXPECT_EQ(span->splat, index);
     }
 }
 
@@ -123,13 +122,12 @@ TEST_P(RowSpans, OutwardEndsAreWhatTheFormulaSays) {
                 const long double x0 = std::max<long double>(std::floor(left) - delta, tile.x);
                 const long double x1 =
                     std::min<long double>(std::ceil(right) + delta, tile.x + tile.width - 1);
-                RowSpan span;
-                const bool any = path->solve_row(i, y, tile.x, tile.x + tile.width, tile.y, span);
-                ASSERT_EQ(any, room >= 0 && x0 <= x1) << i << ", row " << y;
-                if (any) {
+                const auto span = path->solve_row(i, y, tile.x, tile.x + tile.width, tile.y);
+                ASSERT_EQ(span.has_value(), room >= 0 && x0 <= x1) << i << ", row " << y;
+                if (span) {
                     ++spans;
-                    ASSERT_EQ(span.x0, static_cast<int>(x0) - tile.x) << i << ", row " << y;
-                    ASSERT_EQ(span.length, static_cast<int>(x1 - x0) + 1) << i << ", row " << y;
+                    ASSERT_EQ(span->x0, static_cast<int>(x0) - tile.x) << i << ", row " << y;
+                    ASSERT_EQ(span->length, static_cast<int>(x1 - x0) + 1) << i << ", row " << y;
                 }
             }
         }
@@ -154,10 +152,11 @@ TEST_P(RowSpans, ClosedFormIsTheDirectForm) {
         const ProjectedSplat& s = splats[i];
         const double a = single ? static_cast<float>(s.conic_a()) : s.conic_a();
         for (int y = tile.y; y < tile.y + tile.height; ++y) {
-            RowSpan span;
-            if (!path->solve_row(i, y, tile.x, tile.x + tile.width, tile.y, span)) {
+            const auto solved = path->solve_row(i, y, tile.x, tile.x + tile.width, tile.y);
+            if (!solved) {
                 continue;
             }
+            const RowSpan& span = *solved;
             const Row row(s, y);
             const int x0 = tile.x + span.x0;
             const long double reach =

@@ -24,16 +24,14 @@ std::uint32_t tested(DataPath& path, std::uint32_t splat, int x, int y) {
 }
 
 std::uint32_t named(const DataPath& path, std::uint32_t splat, int x, int y, int width) {
-    int first = 0;
-    int last = 0;
-    if (!path.tested_columns(splat, y, x, x + width, first, last)) {
+    const PixelRange columns = path.tested_columns(splat, y, x, x + width);
+    if (columns.empty()) {
         return 0;
     }
-    EXPECT_LE(x, first);
-    EXPECT_LE(first, last);
-    EXPECT_LT(last, x + width);
+    EXPECT_LE(x, columns.first);
+    EXPECT_LT(columns.last, x + width);
     std::uint32_t mask = 0;
-    for (int i = first; i <= last; ++i) {
+    for (int i = columns.first; i <= columns.last; ++i) {
         mask |= 1U << (i - x);
     }
     return mask;
@@ -88,11 +86,9 @@ TEST_P(TestedColumns, NothingToName) {
     broken.cov_b = std::nan("");
     const auto path =
         path_of({make_splat(3, 3, 2, 2, 0, 0.5), broken}, path_options(GetParam()), kTestedTile);
-    int first = 0;
-    int last = 0;
-    EXPECT_FALSE(path->tested_columns(0, 3, 5, 5, first, last));
-    EXPECT_FALSE(path->tested_columns(1, 3, 0, kTestedTile, first, last));
-    EXPECT_TRUE(path->tested_columns(0, 3, 0, kTestedTile, first, last));
+    EXPECT_TRUE(path->tested_columns(0, 3, 5, 5).empty());
+    EXPECT_TRUE(path->tested_columns(1, 3, 0, kTestedTile).empty());
+    EXPECT_FALSE(path->tested_columns(0, 3, 0, kTestedTile).empty());
 }
 
 std::string format_name(const ::testing::TestParamInfo<Arithmetic>& row) {

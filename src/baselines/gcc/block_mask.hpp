@@ -24,20 +24,15 @@ public:
     /// True if, inside the view, a live block meets the bounding box of the splat, which is a pixel
     /// wider than the ellipse for rounding.
     bool reaches(const DataPath& path, std::uint32_t splat, const JobTile& view) const {
-        int top = 0, bottom = 0, left = 0, right = 0;
-        path.rows(splat, top, bottom);
-        path.columns(splat, left, right);
-        top = std::max(top - 1, view.y) - view.y;
-        bottom = std::min(bottom + 1, view.y + view.height - 1) - view.y;
-        left = std::max(left, view.x) - view.x;
-        right = std::min(right, view.x + view.width - 1) - view.x;
-        if (top > bottom || left > right) {
+        const PixelRange rows = path.rows(splat).widened(1).within(view.rows()).relative_to(view.y);
+        const PixelRange columns = path.columns(splat).within(view.columns()).relative_to(view.x);
+        if (rows.empty() || columns.empty()) {
             return false;
         }
-        const std::uint64_t below =
-            ((std::uint64_t{2} << right / block_) - 1) & ~((std::uint64_t{1} << left / block_) - 1);
+        const std::uint64_t below = ((std::uint64_t{2} << columns.last / block_) - 1) &
+                                    ~((std::uint64_t{1} << columns.first / block_) - 1);
         std::uint64_t met = 0;
-        for (int row = top / block_; row <= bottom / block_; ++row) {
+        for (int row = rows.first / block_; row <= rows.last / block_; ++row) {
             met |= live_[row] & below;
         }
         return met != 0;

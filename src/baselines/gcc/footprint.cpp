@@ -25,17 +25,13 @@ void Footprint::solve(const DataPath& path, std::uint32_t splat, const JobTile& 
         }
     }
     rows_.clear();
-    int first = 0;
-    int last = 0;
-    path.rows_in_columns(splat, view.x, view.x + view.width, first, last);
     // Solved ends are rounded in their own way: the alpha test may accept one row more.
-    first = std::max(first - 1, view.y);
-    last = std::min(last + 1, view.y + view.height - 1);
-    for (int y = first; y <= last; ++y) {
-        int left = 0;
-        int right = 0;
-        if (path.tested_columns(splat, y, view.x, view.x + view.width, left, right)) {
-            add({y - view.y, left - view.x, right - view.x});
+    const PixelRange rows =
+        path.rows_in_columns(splat, view.x, view.x + view.width).widened(1).within(view.rows());
+    for (int y = rows.first; y <= rows.last; ++y) {
+        const PixelRange columns = path.tested_columns(splat, y, view.x, view.x + view.width);
+        if (!columns.empty()) {
+            add({y - view.y, columns.relative_to(view.x)});
         }
     }
     first_row_ = rows_.empty() ? 0 : window_of(rows_.front().y);
@@ -46,8 +42,8 @@ void Footprint::add(const Row& row) {
     rows_.push_back(row);
     const int window_row = window_of(row.y);
     const std::size_t i = window_row;
-    const int first = window_of(row.first);
-    const int last = window_of(row.last);
+    const int first = window_of(row.columns.first);
+    const int last = window_of(row.columns.last);
     const WindowMask windows = windows_between(first, last);
     valid_[i] |= windows;
     if (row.y == window_row * side_) {
@@ -57,11 +53,11 @@ void Footprint::add(const Row& row) {
         border_[kBottom][i] |= windows;
     }
     WindowMask left = windows;
-    if (row.first != first * side_) {
+    if (row.columns.first != first * side_) {
         left &= ~(WindowMask{1} << first);
     }
     WindowMask right = windows;
-    if (row.last != last * side_ + side_ - 1) {
+    if (row.columns.last != last * side_ + side_ - 1) {
         right &= ~(WindowMask{1} << last);
     }
     border_[kLeft][i] |= left;

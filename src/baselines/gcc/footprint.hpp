@@ -25,9 +25,10 @@ public:
     enum Side { kLeft, kRight, kTop, kBottom };
     static constexpr int kMaxWindows = 64; ///< in a row of windows
 
-    /// Valid pixels first .. last of row y, all inside the view.
+    /// The valid pixels of row y, all inside the view.
     struct Row {
-        int y = 0, first = 0, last = 0;
+        int y = 0;
+        PixelRange columns;
     };
 
     /// view_size <= kMaxWindows * side.

@@ -23,12 +23,11 @@ void Traversal::push(const Window& window) {
     frontier_.push_back(window);
 }
 
-bool Traversal::next(Window& window) {
+std::optional<Traversal::Window> Traversal::next() {
     if (head_ == frontier_.size()) {
-        return false;
+        return std::nullopt;
     }
-    window = frontier_[head_++];
-    return true;
+    return frontier_[head_++];
 }
 
 void Traversal::expand(const Window& window, Cycle known) {
@@ -55,16 +54,14 @@ void Traversal::push_new(int row, int column, Cycle known) {
     }
 }
 
-bool Traversal::find_missed(Window& window) const {
+std::optional<Traversal::Window> Traversal::find_missed() const {
     for (int row = splat_->first_window_row(); row <= splat_->last_window_row(); ++row) {
         const WindowMask missed = splat_->valid(row) & ~seen_[row];
         if (missed != 0) {
-            window.row = row;
-            window.column = __builtin_ctzll(missed);
-            return true;
+            return Window{row, __builtin_ctzll(missed)};
         }
     }
-    return false;
+    return std::nullopt;
 }
 
 } // namespace degs::gcc

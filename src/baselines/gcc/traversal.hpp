@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "baselines/gcc/footprint.hpp"
@@ -26,12 +27,12 @@ public:
     void begin(const Footprint& splat, int columns, int rows);
     /// Adds a window that no border has led to.
     void seed(const Window& window) { push(window); }
-    /// The oldest window of the frontier; false if there is none.
-    bool next(Window& window);
+    /// Takes the oldest window of the frontier, if there is one.
+    std::optional<Window> next();
     /// Adds the neighbours to which the borders of `window` lead and that are new.
     void expand(const Window& window, Cycle known);
     /// First window, row by row, that holds a valid pixel and was never in the frontier.
-    bool find_missed(Window& window) const;
+    std::optional<Window> find_missed() const;
 
 private:
     void push(const Window& window);

@@ -142,31 +142,30 @@ void WindowArray::evaluate(std::uint32_t splat) {
     ended_.clear();
     const int side = config_.window;
     for (const Footprint::Row& row : footprint_.rows()) {
-        WindowMask live =
-            live_windows_[footprint_.window_of(row.y)] &
-            windows_between(footprint_.window_of(row.first), footprint_.window_of(row.last));
+        WindowMask live = live_windows_[footprint_.window_of(row.y)] &
+                          windows_between(footprint_.window_of(row.columns.first),
+                                          footprint_.window_of(row.columns.last));
         while (live != 0) {
             const int first = __builtin_ctzll(live);
             const WindowMask behind = ~(live >> first);
             const int last = behind == 0 ? 63 : first + __builtin_ctzll(behind) - 1;
-            evaluate_run(splat, row.y, std::max(row.first, first * side),
-                         std::min(row.last, last * side + side - 1));
+            evaluate_run(splat, row.y, row.columns.within({first * side, last * side + side - 1}));
             live &= ~windows_between(first, last);
         }
     }
 }
 
-void WindowArray::evaluate_run(std::uint32_t splat, int y, int first, int last) {
+void WindowArray::evaluate_run(std::uint32_t splat, int y, const PixelRange& columns) {
     PixelTest test;
     test.splat = splat;
     test.y = view_->y + y;
     test.row = static_cast<std::int16_t>(y);
     test.context = static_cast<std::int16_t>(context_);
-    stats_.valid_pixels += last - first + 1;
-    for (int column = first; column <= last; column += kLanes) {
+    stats_.valid_pixels += columns.size();
+    for (int column = columns.first; column <= columns.last; column += kLanes) {
         test.x = view_->x + column;
         test.column = static_cast<std::int16_t>(column);
-        test.mask = ~0U >> (kLanes - std::min(kLanes, last - column + 1));
+        test.mask = ~0U >> (kLanes - std::min(kLanes, columns.last - column + 1));
         const BlendOutcome outcome = job_.path->test(test);
         stats_.slots.useful += __builtin_popcount(outcome.useful);
         stats_.slots.terminated += __builtin_popcount(outcome.terminated);
@@ -199,21 +198,20 @@ Traversal::Window WindowArray::centre_window(const ProjectedSplat& splat) const 
 void WindowArray::traverse(const ProjectedSplat& splat) {
     const Cycle latency = config_.discovery_cycles - 1;
     traversal_.begin(footprint_, columns_, rows_);
-    Traversal::Window window = centre_window(splat);
-    do {
-        window.known = self_.local();
-        traversal_.seed(window);
-        while (traversal_.next(window)) {
-            wait_until(window.known);
-            visit(window);
-            traversal_.expand(window, self_.local() + latency);
+    for (std::optional<Traversal::Window> seed = centre_window(splat); seed; seed = missed()) {
+        seed->known = self_.local();
+        traversal_.seed(*seed);
+        while (const auto window = traversal_.next()) {
+            wait_until(window->known);
+            visit(*window);
+            traversal_.expand(*window, self_.local() + latency);
         }
         wait_until(self_.local() + latency); // only then is it known that nothing follows
-    } while (missed(window));
+    }
 }
 
-bool WindowArray::missed(Traversal::Window& window) {
-    const bool found = traversal_.find_missed(window);
+std::optional<Traversal::Window> WindowArray::missed() {
+    const std::optional<Traversal::Window> found = traversal_.find_missed();
     stats_.extra_seeds += found ? 1 : 0;
     return found;
 }

@@ -94,11 +94,11 @@ private:
     void end_view(TileNumber number);
     void render(std::uint32_t splat, const ProjectedSplat& projected);
     void evaluate(std::uint32_t splat);
-    void evaluate_run(std::uint32_t splat, int y, int first, int last);
+    void evaluate_run(std::uint32_t splat, int y, const PixelRange& columns);
     void note_ended(int y, int column, std::uint32_t ended);
     Traversal::Window centre_window(const ProjectedSplat& splat) const;
     void traverse(const ProjectedSplat& splat);
-    bool missed(Traversal::Window& window);
+    std::optional<Traversal::Window> missed();
     void visit(const Traversal::Window& window);
     void end_pixels(std::size_t window);
     void report_block(int block);

@@ -89,20 +89,24 @@ void PixelBuffer::end_of_elaboration() {
 }
 
 void PixelBuffer::run() {
-    TileNumber number = 0;
-    while ((share_.granted || !job_.over(stats_.tiles)) && take_tile(number)) {
+    while (share_.granted || !job_.over(stats_.tiles)) {
+        const TileNumber number = next_tile();
+        if (number == kNoTile) {
+            break;
+        }
         finish_tile(number);
     }
     frames_written_.resize(std::max(frames_written_.size(), job_.frames.size()), 0);
     self_.finish();
 }
 
-// False: there are no more tiles.
-bool PixelBuffer::take_tile(TileNumber& number) {
+// kNoTile: there are no more tiles.
+TileNumber PixelBuffer::next_tile() {
+    TileNumber number = kNoTile;
     for (auto& port : in) {
         number = port->get(self_).tile;
     }
-    return number != kNoTile;
+    return number;
 }
 
 // Of a granted tile: before it is counted.

@@ -83,7 +83,7 @@ private:
     void end_of_elaboration() override;
     void run();
     void clear(int context);
-    bool take_tile(TileNumber& number);
+    TileNumber next_tile();
     void finish_tile(TileNumber number);
     int context_of(TileNumber number) const;
     Cycle write_rows(TileNumber number);

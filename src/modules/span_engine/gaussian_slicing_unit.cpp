@@ -116,38 +116,29 @@ void GaussianSlicingUnit::slice(const SplatChunk& chunk) {
 
 // The segments of a row that the splat's box covers inside the tile.
 std::uint64_t GaussianSlicingUnit::segments_below(const JobTile& tile, std::uint32_t splat) const {
-    int first = 0;
-    int last = 0;
-    job_.path->columns(splat, first, last);
-    first = std::max(first, tile.x) - tile.x;
-    last = std::min(last, tile.x + tile.width - 1) - tile.x;
-    if (first > last) {
+    const PixelRange columns = job_.path->columns(splat).within(tile.columns()).relative_to(tile.x);
+    if (columns.empty()) {
         return 0;
     }
     const auto upto = [](int n) { return (std::uint64_t{2} << n) - 1; }; // bits 0 .. n
-    const int first_bit = std::min(first / segment_length_, kLastBit);
-    const int last_bit = std::min(last / segment_length_, kLastBit);
+    const int first_bit = std::min(columns.first / segment_length_, kLastBit);
+    const int last_bit = std::min(columns.last / segment_length_, kLastBit);
     return upto(last_bit) & ~(upto(first_bit) >> 1);
 }
 
 void GaussianSlicingUnit::slice_splat(TileNumber number, std::uint32_t splat) {
     const JobTile& tile = job_.tiles[number];
-    int first = 0;
-    int last = 0;
-    if (config_.rows == SlicedRows::Tile) {
-        job_.path->rows_in_columns(splat, tile.x, tile.x + tile.width, first, last);
-    } else {
-        job_.path->rows(splat, first, last);
-    }
-    first = std::max(first, tile.y) - tile.y;
-    last = std::min(last, tile.y + tile.height - 1) - tile.y;
-    first += (index_ - first % config_.count + config_.count) % config_.count; // first row of ours
+    const PixelRange met = config_.rows == SlicedRows::Tile
+                               ? job_.path->rows_in_columns(splat, tile.x, tile.x + tile.width)
+                               : job_.path->rows(splat);
+    const PixelRange rows = met.within(tile.rows()).relative_to(tile.y);
+    const int others = (index_ - rows.first % config_.count + config_.count) % config_.count;
     const std::uint64_t below =
         config_.skip_dead_rows ? segments_below(tile, splat) : ~std::uint64_t{0};
     int emitted = 0;
     int left = config_.rows_per_cycle; // of this cycle
     Cycle busy = 1;
-    for (int row = first; row <= last; row += config_.count) {
+    for (int row = rows.first + others; row <= rows.last; row += config_.count) {
         if ((below & ~ended_[row]) == 0) {
             stats_.rows_skipped++;
             continue;

@@ -81,19 +81,21 @@ void SpanUnit::take() {
     holding_ = ring.full();
     SpanItem& result = holding_ ? held_ : ring.staged();
     const JobTile& tile = job_.tiles[tile_number];
+    const auto span =
+        job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y);
     stats_.rows++;
     stats_.busy += config_.cycles_per_row;
-    if (!job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y,
-                              result.span)) {
+    if (!span) {
         stats_.empty_rows++;
         holding_ = false;
         self_.advance(config_.cycles_per_row);
         return;
     }
+    result.span = *span;
     result.tile = tile_number;
     result.end = false;
     stats_.spans++;
-    stats_.tasks += result.span.length;
+    stats_.tasks += span->length;
     if (!holding_) {
         ring.reserve(self_);
         ring.put_staged(self_);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <optional>
 
 #include "scene/ply/ply_values.hpp"
 
@@ -16,17 +17,18 @@ bool is_blank(char c) {
 
 /// Decimal text of any magnitude. Through long double, so that 1e-400 is 0 and 1e400 is infinite
 /// (and dropped later, with a count) and not a syntax error.
-bool parse_number(std::string_view text, double& value) {
+std::optional<double> parse_number(std::string_view text) {
     const char* begin = text.data();
     const char* const end = begin + text.size();
     begin += text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0;
+    double value = 0;
     auto [stop, error] = std::from_chars(begin, end, value);
     if (error == std::errc::result_out_of_range) {
         long double wide = 0;
         error = std::from_chars(begin, end, wide).ec;
         value = static_cast<double>(wide);
     }
-    return error == std::errc() && stop == end;
+    return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
 }
 
 } // namespace
@@ -197,11 +199,11 @@ double PlyRows::next_number(const PlyProperty& property) {
         fail_at(property,
                 "the file ends here, before the rows its header promises; it is truncated.");
     }
-    double value = 0;
-    if (!parse_number(word, value)) {
+    const std::optional<double> value = parse_number(word);
+    if (!value) {
         fail_at(property, "this is not a number; ASCII PLY files hold decimal numbers only.");
     }
-    return value;
+    return *value;
 }
 
 void PlyRows::fail_at(const PlyProperty& property, const std::string& sentence) const {

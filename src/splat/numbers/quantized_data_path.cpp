@@ -44,27 +44,22 @@ public:
         __builtin_prefetch(&extents_[splat]);
     }
 
-    void rows(std::uint32_t splat, int& first, int& last) const override {
-        first = extents_[splat].first_row();
-        last = extents_[splat].last_row();
+    PixelRange rows(std::uint32_t splat) const override { return extents_[splat].rows(); }
+
+    PixelRange columns(std::uint32_t splat) const override { return extents_[splat].columns(); }
+
+    PixelRange rows_in_columns(std::uint32_t splat, int x_begin, int x_end) const override {
+        return extents_[splat].rows_in_columns(x_begin, x_end);
     }
 
-    void columns(std::uint32_t splat, int& first, int& last) const override {
-        first = extents_[splat].first_column();
-        last = extents_[splat].last_column();
-    }
-
-    void rows_in_columns(std::uint32_t splat, int x_begin, int x_end, int& first,
-                         int& last) const override {
-        extents_[splat].rows_in_columns(x_begin, x_end, first, last);
-    }
-
-    bool solve_row(std::uint32_t splat, int y, int x_begin, int x_end, int tile_y,
-                   RowSpan& span) const override {
+    std::optional<RowSpan> solve_row(std::uint32_t splat, int y, int x_begin, int x_end,
+                                     int tile_y) const override {
         const QuantizedSpan solved = row_.solve(splats_[splat], y, x_begin, x_end);
         if (solved.empty()) {
-            return false;
+            return std::nullopt;
         }
+        std::optional<RowSpan> result{std::in_place};
+        RowSpan& span = *result;
         span.splat = splat;
         span.y = inside_tile(y - tile_y);
         span.x0 = inside_tile(solved.x0 - x_begin);
@@ -72,7 +67,7 @@ public:
         span.base = inside_tile(solved.base - x_begin);
         span.g0 = solved.g0;
         span.d0 = solved.d0;
-        return true;
+        return result;
     }
 
     void begin_row(int context, int row) override { rows_.release(context, row); }
@@ -99,12 +94,11 @@ public:
     }
 
     // The pixel nearest to the centre decides whether there are any; away from it q' never falls.
-    bool tested_columns(std::uint32_t splat, int y, int x_begin, int x_end, int& first,
-                        int& last) const override {
+    PixelRange tested_columns(std::uint32_t splat, int y, int x_begin, int x_end) const override {
         const QuantizedSplat& s = splats_[splat];
         const QuantizedCheck row = row_.check(s, y);
         if (!row.possible || !std::isfinite(row.centre) || x_begin >= x_end) {
-            return false;
+            return {};
         }
         const auto inside = [&](int x) { return row_.checked_q(s, row, x) <= row_.q_inside(); };
         const double low = x_begin - s.pixel_x;
@@ -112,7 +106,7 @@ public:
         const int nearest =
             x_begin + static_cast<int>(std::clamp(std::nearbyint(row.centre), low, high) - low);
         if (!inside(nearest)) {
-            return false;
+            return {};
         }
         const auto outermost = [&](int beyond) { // inside, and its neighbour towards `beyond` not
             int in = nearest;
@@ -122,9 +116,7 @@ public:
             }
             return in;
         };
-        first = outermost(x_begin - 1);
-        last = outermost(x_end);
-        return true;
+        return {outermost(x_begin - 1), outermost(x_end)};
     }
 
     void read_row(int context, int row, int count, PixelValue* pixels) const override {

@@ -78,11 +78,11 @@ double QuantizedSlack::ends(const QuantizedSplat& splat, double reach) const {
 QuantizedExtent::QuantizedExtent(const QuantizedRow& row, const QuantizedSlack& slack,
                                  const QuantizedSplat& splat)
     : x_(splat.pixel_x + splat.mean_x), y_(splat.pixel_y + splat.mean_y), slope_(splat.slope) {
-    find_rows(row, splat);
-    if (first_row_ > last_row_) {
+    rows_ = rows_of(row, splat, y_);
+    if (rows_.empty()) {
         return;
     }
-    const double reach = std::max(std::abs(first_row_ - y_), std::abs(last_row_ - y_));
+    const double reach = std::max(std::abs(rows_.first - y_), std::abs(rows_.last - y_));
     // sqrt(1 + e - x) is the half-width of an ellipse that is 1 + e times as large, squared.
     const double growth = 1 + slack.ratio(splat, reach);
     radius_ = splat.radius * std::sqrt(growth);
@@ -90,27 +90,27 @@ QuantizedExtent::QuantizedExtent(const QuantizedRow& row, const QuantizedSlack& 
     steepness_ = slope_ * slope_ + radius_ * radius_ * inverse_;
     margin_ = slack.ends(splat, reach);
     bounded_ = steepness_ > 0 && std::isfinite(steepness_ + radius_ + margin_ + x_ + reach);
-    first_column_ = -kFarPixel;
-    last_column_ = kFarPixel;
+    columns_ = {-kFarPixel, kFarPixel};
     if (bounded_) {
         const double width =
             std::min(std::sqrt(steepness_ / inverse_), std::abs(slope_) * reach + radius_) +
             margin_;
         const double rounding = slack_of(std::abs(x_) + width);
-        first_column_ = to_pixel(std::ceil(x_ - width - rounding));
-        last_column_ = to_pixel(std::floor(x_ + width + rounding));
+        columns_ = {to_pixel(std::ceil(x_ - width - rounding)),
+                    to_pixel(std::floor(x_ + width + rounding))};
     }
 }
 
 // Rows are accepted up to a distance from the mean and refused beyond it, rounded or not.
-void QuantizedExtent::find_rows(const QuantizedRow& row, const QuantizedSplat& splat) {
-    const int nearest = to_pixel(std::nearbyint(y_));
+PixelRange QuantizedExtent::rows_of(const QuantizedRow& row, const QuantizedSplat& splat,
+                                    double centre) {
+    const int nearest = to_pixel(std::nearbyint(centre));
     if (!row.meets(splat, nearest)) {
-        return;
+        return {};
     }
     const double reach = 1 / std::sqrt(splat.inverse_radius2);
     const auto last_in = [&](int direction) {
-        const int guess = to_pixel(y_ + direction * (reach < kFarPixel ? reach : kFarPixel));
+        const int guess = to_pixel(centre + direction * (reach < kFarPixel ? reach : kFarPixel));
         const auto meets = [&](int distance) {
             return row.meets(splat, nearest + direction * distance);
         };
@@ -123,16 +123,14 @@ void QuantizedExtent::find_rows(const QuantizedRow& row, const QuantizedSplat& s
         }
         return nearest + direction * in;
     };
-    first_row_ = last_in(-1);
-    last_row_ = last_in(+1);
+    return {last_in(-1), last_in(+1)};
 }
 
-void QuantizedExtent::rows_in_columns(int x_begin, int x_end, int& first, int& last) const {
-    first = first_row_;
-    last = last_row_;
+PixelRange QuantizedExtent::rows_in_columns(int x_begin, int x_end) const {
     if (!bounded_) {
-        return;
+        return rows_;
     }
+    PixelRange rows = rows_;
     const double rounding = slack_of(std::abs(x_) + std::abs(static_cast<double>(x_begin)));
     const double left = x_begin - x_ - margin_ - rounding;
     const double right = x_end - 1 - x_ + margin_ + rounding;
@@ -140,11 +138,12 @@ void QuantizedExtent::rows_in_columns(int x_begin, int x_end, int& first, int& l
     // that lies there, else where the nearer column cuts it; likewise the highest.
     const double tip = slope_ / std::sqrt(inverse_);
     if (-tip < left || -tip > right) {
-        first = std::max(first, cut(-tip < left ? left : right, -1));
+        rows.first = std::max(rows.first, cut(-tip < left ? left : right, -1));
     }
     if (tip < left || tip > right) {
-        last = std::min(last, cut(tip < left ? left : right, +1));
+        rows.last = std::min(rows.last, cut(tip < left ? left : right, +1));
     }
+    return rows;
 }
 
 /// Row at which column dx (from the mean) leaves the ellipse, upwards (-1) or downwards (+1);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "splat/numbers/quantized_row.hpp"
+#include "splat/pixel_index.hpp"
 
 namespace degs {
 
@@ -35,18 +36,16 @@ public:
     QuantizedExtent(const QuantizedRow& row, const QuantizedSlack& slack,
                     const QuantizedSplat& splat);
 
-    int first_row() const { return first_row_; }
-    int last_row() const { return last_row_; }
-    int first_column() const { return first_column_; }
-    int last_column() const { return last_column_; }
+    const PixelRange& rows() const { return rows_; }
+    const PixelRange& columns() const { return columns_; }
     /// See DataPath::rows_in_columns.
-    void rows_in_columns(int x_begin, int x_end, int& first, int& last) const;
+    PixelRange rows_in_columns(int x_begin, int x_end) const;
 
 private:
-    void find_rows(const QuantizedRow& row, const QuantizedSplat& splat);
+    static PixelRange rows_of(const QuantizedRow& row, const QuantizedSplat& splat, double centre);
     int cut(double dx, int direction) const;
 
-    int first_row_ = 0, last_row_ = -1, first_column_ = 0, last_column_ = -1;
+    PixelRange rows_, columns_;
     bool bounded_ = false; // the ellipse below is known to hold the spans
     double x_ = 0, y_ = 0; // centre
     double slope_ = 0;     // m
