@@ -73,7 +73,7 @@ TEST(SmallRunWarnings, KeysWithoutEffectAreNamed) {
     const Outcome outcome = degs(run);
     EXPECT_EQ(outcome.code, 0);
     EXPECT_EQ(outcome.err, "degs: warning: " + sentence + "\n");
-    EXPECT_EQ(report_in(folder / "run")["warnings"], json::array({sentence}));
+    EXPECT_EQ(report_in(folder / "run")["warnings"], nlohmann::json::array({sentence}));
 
     std::vector<std::string> compare{"compare",         config("degs-16"),
                                      "--scene",         "synthetic:object,gaussians=50",
@@ -85,6 +85,36 @@ TEST(SmallRunWarnings, KeysWithoutEffectAreNamed) {
 
     const Outcome silent = degs({"config", config("degs-16"), "--set", "memory.model=lpddr5"});
     EXPECT_EQ(silent.err, ""); // the file's bandwidth is that of its own model
+}
+
+TEST(SmallRunWarnings, AnAreaOfAnotherNumberOfPesIsNamed) {
+    const Folder folder;
+    std::ofstream(folder / "degs-128.yaml")
+        << "include: " << config("degs-64") << "\nname: degs-128\nslicing: { count: 4 }\n"
+        << "span: { count: 16 }\nscheduler: { banks: 16 }\npacking: { bytes: 65536 }\n";
+    const std::string scene = "synthetic:object,gaussians=50";
+    const auto run = [&](const std::string& file, const std::string& own_area) {
+        std::vector<std::string> command{"run",         file, "--scene",        scene,
+                                         "--width",     "32", "--no-reference", "--out",
+                                         folder / "out"};
+        if (!own_area.empty()) {
+            command.insert(command.end(), {"--set", own_area});
+        }
+        const Outcome outcome = degs(command);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return outcome.err;
+    };
+    const std::string design = folder / "degs-128.yaml";
+    EXPECT_EQ(run(design, "")
+                  .rfind("degs: warning: " + design +
+                             ":5: 'area' does not follow key 'scheduler.banks' and is "
+                             "still that of " +
+                             config("degs-64"),
+                         0),
+              0U);
+    EXPECT_EQ(report_in(folder / "out").at("warnings").size(), 1U);
+    EXPECT_EQ(run(design, "area.array_mm2=2.88"), "");
+    EXPECT_EQ(run(config("degs-64"), ""), "");
 }
 
 TEST(HostileMemory, SixteenBanksEndAt3200) {
