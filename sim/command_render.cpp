@@ -93,7 +93,7 @@ void add_render_command(CLI::App& program) {
     add_view_options(*command, options->view);
     command
         ->add_option("--tiles", options->tiles,
-                     "exact: tiles that the ellipse touches; ref: the 3-sigma square's")
+                     "exact: tiles that the ellipse touches; ref: tiles of the 3-sigma square")
         ->check(CLI::IsMember({"exact", "ref"}))
         ->capture_default_str();
     command->add_option("--tile-size", options->tile_size, "pixels")

@@ -91,9 +91,11 @@ void add_generate(CLI::App& scene) {
         names += (names.empty() ? "" : "; ") + profile.name + ": " + profile.meaning;
     }
     command->add_option("name", options->profile, names)->required();
-    command->add_option("--gaussians", options->gaussians, "how many; the profile has a default")
+    command
+        ->add_option("--gaussians", options->gaussians,
+                     "number of Gaussians; default: the profile's")
         ->type_name("UINT");
-    command->add_option("--seed", options->seed, "of the random numbers")
+    command->add_option("--seed", options->seed, "seed of the random numbers")
         ->type_name("UINT")
         ->capture_default_str();
     command->add_option("--out", options->out, "file to write (.ply)")

@@ -77,7 +77,7 @@ void add_traffic_options(CLI::App& command, SocOptions& options) {
         ->capture_default_str();
     command
         .add_option("--reads-per-write", options.reads_per_write,
-                    "of the cores, on average, in random order; 0: reads only")
+                    "reads of a core per write, on average; 0: reads only")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
     command

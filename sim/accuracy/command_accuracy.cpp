@@ -180,7 +180,7 @@ void add_scene_options(CLI::App& command, AccuracyOptions& options) {
         ->take_all();
     command
         .add_option("--span-ends", options.span_ends,
-                    "of all number sets; without it each has its own")
+                    "span ends of all number sets; without it each has its own")
         ->check(CLI::IsMember(span_end_names()));
     command
         .add_option("--tile-size", options.tile_size,
@@ -213,9 +213,9 @@ void add_accuracy_command(CLI::App& program) {
         ->take_all()
         ->capture_default_str();
     add_scene_options(*command, *options);
-    command->add_option("--seed", options->seed, "of the random numbers of single Gaussians")
+    command->add_option("--seed", options->seed, "seed of the random numbers of single Gaussians")
         ->capture_default_str();
-    command->add_option("--splats", options->splats, "single Gaussians of each kind")
+    command->add_option("--splats", options->splats, "number of single Gaussians of each kind")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
     add_out_option(*command, options->out, "folder for accuracy.json, the plot and the images");

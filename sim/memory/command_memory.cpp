@@ -104,10 +104,10 @@ void add_traffic_options(CLI::App& command, TrafficShape& shape) {
         ->capture_default_str();
     command
         .add_option("--reads-per-write", shape.reads_per_write,
-                    "on average, in random order; 0: reads only")
+                    "reads per write, on average and in random order; 0: reads only")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
-    command.add_option("--seed", shape.seed, "of the random numbers")->capture_default_str();
+    command.add_option("--seed", shape.seed, "seed of the random numbers")->capture_default_str();
 }
 
 } // namespace
@@ -124,7 +124,7 @@ void add_memory_command(CLI::App& program) {
         ->add_option("--queue", options->queue,
                      "depth of each controller queue per channel, in 64 B; default: the file's")
         ->check(CLI::Range(1, static_cast<int>(dram::Queue::kSlots)));
-    command->add_option("--requests", options->requests, "to measure, after the warm-up")
+    command->add_option("--requests", options->requests, "requests to measure after the warm-up")
         ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40U))
         ->capture_default_str();
     command->add_flag("--no-curve", options->no_curve, "do not measure latency over load");
