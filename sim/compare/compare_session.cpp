@@ -31,8 +31,8 @@ std::string file_name(const std::string& text) {
     return name;
 }
 
-/// What frames depend on: format of the projection (empty for fp64, whose frames are the
-/// reference's and come first), side of a tile, tile mode.
+/// Frames depend on these: the format of the projection (empty for fp64, whose frames are the
+/// reference's and come first), the side of a tile and the tile mode.
 using FrameKind = std::tuple<std::string, int, TileMode>;
 
 /// Configurations that want the same frames.

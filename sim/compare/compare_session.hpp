@@ -38,7 +38,7 @@ public:
     Comparison run();
     /// The failure that kept the comparison from being complete.
     std::optional<Failure> failure() const;
-    /// What the runs warned of, each sentence once for each configuration.
+    /// The warnings of the runs, each sentence once for each configuration.
     const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:

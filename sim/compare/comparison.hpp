@@ -11,7 +11,7 @@
 
 namespace degs::sim {
 
-/// What has become of one configuration on one view.
+/// The results of one configuration on one view.
 struct ComparedRun {
     std::string config;             ///< what the user calls it
     RunSummary frame;               ///< one frame alone

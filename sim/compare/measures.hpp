@@ -13,7 +13,7 @@
 
 namespace degs::sim {
 
-/// What is compared. A ratio is above 1 for what is better than the first configuration.
+/// The numbers that are compared. A ratio above 1 is better than the first configuration.
 enum class Measure {
     Cycles,
     LatencyMs,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a comparison needs of a run, and how it comes back from the process that ran it.
+// The results of a run that a comparison needs, and the message in which they come back from the
+// process that ran it.
 #pragma once
 
 #include <cstddef>

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// pJ for each bit that was moved.
+/// Energy per bit that was moved.
 double pj_per_bit(const TrafficResult& result) {
     return mean_of(1e3 * result.energy.total_nj(), 8 * result.bytes);
 }
@@ -51,7 +51,7 @@ void describe_energy(const TrafficResult& result, StatsVisitor& v) {
     v.end_section();
 }
 
-/// Of the saturated memory.
+/// Results of the saturated memory.
 void describe_results(const MemoryFacts& facts, StatsVisitor& v) {
     const TrafficResult& result = facts.saturated;
     describe_traffic(facts, v);

@@ -98,7 +98,7 @@ void TileEngine::take_context() {
     }
 }
 
-// Of an abandoned tile a chunk per cycle is thrown away.
+// The rest of an abandoned tile is thrown away, a chunk per cycle.
 void TileEngine::work() {
     const std::uint32_t first_splat = job_.first_splat[tile_->frame];
     const FrameWorkload& frame = job_.frame_of(*tile_);

@@ -113,7 +113,7 @@ private:
     std::vector<RowPe> pes_;
     std::vector<Cycle> loaded_; // per PE and queue cell: date at which its last entry was loaded
     std::vector<std::size_t> pe_of_row_;
-    // Of the tile being worked on.
+    // State of the present tile.
     TileNumber number_ = kNoTile;
     const JobTile* tile_ = nullptr;
     std::vector<Row> rows_;

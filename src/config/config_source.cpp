@@ -17,7 +17,7 @@ ConfigNode empty_root() {
     return root;
 }
 
-/// The path of `path.to.key=value`, or a InputError.
+/// The path of `path.to.key=value`, or an InputError.
 std::string path_of(const std::string& setting, const std::string& option) {
     const std::size_t equals = setting.find('=');
     std::string path = setting.substr(0, equals);

@@ -67,7 +67,7 @@ private:
 
     ConfigSource(ConfigNode root, const std::vector<std::string>& overrides,
                  const std::string& option = "--set");
-    /// What the source says most strongly of a path, or of keys below it.
+    /// The strongest statement of the source about a path, or about keys below it.
     struct Given {
         const ConfigNode* node = nullptr; ///< nullptr: nothing
         std::string path;

@@ -22,9 +22,9 @@ struct Statistic {
 };
 
 using DescribeStats = std::function<void(StatsVisitor&)>;
-/// What this run has.
+/// The statistics that this run has.
 std::vector<Statistic> list_statistics(const DescribeStats& describe);
-/// What any run of the kind may have.
+/// The statistics that any run of the kind may have.
 std::vector<Statistic> document_statistics(const DescribeStats& describe);
 
 /// Values nested by section; what does not exist is null, infinity the string "inf".

@@ -77,7 +77,7 @@ struct AcceleratorResult {
     std::vector<StreamUse> streams;
     double memory_utilization = 0; ///< share of the run in which the data bus was occupied
     double memory_gb_per_s = 0;    ///< peak; 0: unlimited
-    // Only of a memory with banks and rows.
+    // These exist only for a memory with banks and rows.
     std::optional<double> row_hit_rate; ///< share of accesses that found their row open
     std::optional<dram::Energy> dram_energy;
     std::uint64_t tiles_listed = 0; ///< that the accelerator has to render

@@ -130,7 +130,7 @@ struct DegsConfig : AcceleratorConfig {
     int feature_entries() const {
         return feature_buffer.bytes / feature_buffer.entry_bytes / scheduler.banks;
     }
-    /// What a Sorting Unit has of the Gaussian Buffer: for sorted splats, and for lists.
+    /// The shares of a Sorting Unit in the Gaussian Buffer, for sorted splats and for lists.
     BufferShare splat_share() const { return {1.0 - gaussian_buffer.sort_share, sorting.count}; }
     BufferShare sort_share() const { return {gaussian_buffer.sort_share, sorting.count}; }
     /// Splat chunks that a Sorting Unit's share of the Gaussian Buffer holds.

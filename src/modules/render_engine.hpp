@@ -65,8 +65,8 @@ struct AcceleratorConfig {
 
     virtual std::unique_ptr<AcceleratorConfig> clone() const = 0;
     virtual void describe(ConfigVisitor& visitor) = 0;
-    /// What is wrong with a configuration that a program has filled: the first range or rule of
-    /// describe() that does not hold, as one sentence; empty if all do.
+    /// Checks a configuration that a program has filled. Returns the first range or rule of
+    /// describe() that does not hold, as one sentence, or nothing if all do.
     std::string problem() const;
 
     virtual int pes() const = 0;

@@ -51,7 +51,7 @@ private:
     std::size_t size_ = 0;        // likewise
 };
 
-/// What an accelerator is asked to render, and the arithmetic it renders with.
+/// The frames that an accelerator is asked to render, and the arithmetic that it uses.
 struct RenderJob {
     std::vector<const FrameWorkload*> frames;
     std::vector<std::uint32_t> first_splat; ///< DataPath index of each frame's splat 0

@@ -13,7 +13,7 @@
 namespace degs {
 namespace {
 
-/// What the Gaussian Slicing Unit and the Span Unit need of a splat (paper: Temporary Gaussian
+/// The record of a splat for the Gaussian Slicing Unit and the Span Unit (paper: Temporary Gaussian
 /// Parameter). The mean is its nearest pixel plus an offset in [-0.5, 0.5]: a plain fp32 coordinate
 /// would lose 2^-13 px beyond x = 1024, which is enough to move span ends. In single precision all
 /// of it is one cache line: splats of a tile lie anywhere in memory.
@@ -253,7 +253,7 @@ public:
     }
 
 private:
-    // Of a row, in pixels.
+    // Distance of a row from the mean, px.
     static T below_mean(const SpanRecord<T>& s, int y) {
         return static_cast<T>(y - s.pixel_y) - s.offset_y;
     }

@@ -21,7 +21,7 @@ struct Pixel {
     bool done = false; ///< a splat was refused
 };
 
-/// What the pixel loop needs of a splat. q = A (dx - (b/c) dy)^2 + dy^2 / c is the completed square
+/// The terms of a splat for the pixel loop. q = A (dx - (b/c) dy)^2 + dy^2 / c is the completed square
 /// of the conic form: the same q, but a sum of non-negative terms that stays exact for needles.
 struct SplatTerms {
     double conic_a, slope, inverse_c, det_over_c, q_limit;

@@ -9,7 +9,7 @@ OrientedBox::OrientedBox(const ProjectedSplat& splat) : mu_x_(splat.mu_x), mu_y_
     const double half_difference = 0.5 * (splat.cov_a - splat.cov_c);
     const double root = std::hypot(half_difference, splat.cov_b);
     const double largest = 0.5 * (splat.cov_a + splat.cov_c) + root;
-    // Not mid - root, which loses all digits for needles; det has them.
+    // The other eigenvalue is det / largest, because mid - root loses all digits for needles.
     major_ = std::sqrt(splat.q_threshold * largest);
     minor_ = std::sqrt(splat.q_threshold * (splat.det / largest));
     if (root > 0) {

@@ -19,7 +19,7 @@ void Engine::collect(AcceleratorResult& result) const {
         }
     }
     collect_stages(result);
-    // Of the groups on their way the ring in front of the array is looked at.
+    // Only the ring in front of the array is reported, not the groups on their way to it.
     add_buffer(result, {"group_buffer", "Groups of splats in front of the array."},
                config_.group_buffer_bytes, config_.chunks_ahead(), use_of(splat_rings_));
     add_pixel_buffer(result, config_.image_buffer.bytes, config_.tile_contexts(), image_buffers_);

@@ -109,7 +109,7 @@ TileNumber PixelBuffer::next_tile() {
     return number;
 }
 
-// Of a granted tile: before it is counted.
+// For a granted tile this must be called before the tile is counted.
 int PixelBuffer::context_of(TileNumber number) const {
     const std::uint64_t turn = share_.granted ? stats_.tiles : number;
     return share_.first_context + static_cast<int>(turn % contexts_);

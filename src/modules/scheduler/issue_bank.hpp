@@ -106,7 +106,7 @@ private:
     int contexts_;
     int tiles_in_flight_;
     bool by_pixel_; // TerminationGrain::Pixel
-    // What the ports are bound to.
+    // The rings to which the ports are bound.
     std::vector<DatedFifo<SpanItem>*> inputs_;
     DatedFifo<Termination>* terminations_ = nullptr;
     DatedFifo<TileNumber>* contexts_freed_ = nullptr;

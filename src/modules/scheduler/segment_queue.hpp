@@ -129,7 +129,7 @@ private:
 
     static constexpr int kSequenceBits = 48;
 
-    /// What some tiles point at; entries point at lists, so they stay where they are.
+    /// The storage of some tiles. Entries point at lists, so the lists stay where they are.
     struct Block {
         std::vector<std::uint64_t> bits, keys;
         std::vector<List> lists;

@@ -53,7 +53,7 @@ private:
     Config config_;
     const RenderJob& job_;
     Process self_;
-    // What the ports are bound to.
+    // The rings to which the ports are bound.
     DatedFifo<RowItem>* rows_ = nullptr;
     std::vector<DatedFifo<SpanItem>*> rings_;
     std::vector<std::size_t> port_of_row_; // by row inside the tile

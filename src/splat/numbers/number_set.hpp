@@ -117,7 +117,7 @@ std::vector<RecordField> splat_record(const NumberSet& set);
 /// Bits of the record without padding.
 int record_bits(const NumberSet& set);
 
-/// What each unit costs, for a cost model: unit and key, e.g. {"pe.q", "add.uq3.13"}.
+/// The cost of each unit, for a cost model, as unit and key, e.g. {"pe.q", "add.uq3.13"}.
 std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set);
 
 /// "ideal", "fp32", "fp16", "paper", "tuned".
