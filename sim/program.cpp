@@ -13,7 +13,7 @@
 #include "sim/command_line/suggestion.hpp"
 #include "sim/commands.hpp"
 #include "sim/failure.hpp"
-#include "sim/interruption.hpp"
+#include "sim/process/interruption.hpp"
 #include "sim/text/standard_output.hpp"
 
 namespace degs::sim {

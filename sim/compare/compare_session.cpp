@@ -11,7 +11,7 @@
 #include "scene/camera_path.hpp"
 #include "sim/compare/comparison_output.hpp"
 #include "sim/compare/shared_view.hpp"
-#include "sim/interruption.hpp"
+#include "sim/process/interruption.hpp"
 #include "sim/stopwatch.hpp"
 
 namespace degs::sim {

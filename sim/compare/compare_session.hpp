@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "sim/child_process.hpp"
 #include "sim/compare/compare_request.hpp"
 #include "sim/compare/comparison.hpp"
 #include "sim/compare/run_progress.hpp"
 #include "sim/output_folder.hpp"
+#include "sim/process/child_process.hpp"
 #include "sim/simulation.hpp"
 
 namespace degs::sim {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "splat/blend_lanes.hpp"
+#include "splat/lanes/blend_lanes.hpp"
 #include "splat/numbers/quantized_data_path.hpp"
 #include "splat/pixel_index.hpp"
 #include "splat/pixel_rows.hpp"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # house_check.sh RULE [ROOT]: checks one rule about folders and sources, or `all`, and prints every violation as
-# "file:line: reason". Rules: arrows systemc printing namespaces length width licence.
+# "file:line: reason". Rules: arrows systemc printing namespaces length width casts folders licence.
 set -euo pipefail
 
 rule=${1:?usage: house_check.sh RULE [ROOT]}
@@ -94,6 +94,28 @@ check_width() {
     done <<<"$wide"
 }
 
+# A type that fits needs no cast, and where there are few, each of them says something.
+check_casts() {
+    local casts lines
+    mapfile -t files < <(find src sim -type f -regex '.*\.\([hc]pp\|inc\)' 2>/dev/null)
+    lines=$(cat "${files[@]}" | wc -l)
+    casts=$(cat "${files[@]}" | grep -o 'static_cast<' | wc -l || true)
+    [[ $((casts * 1000)) -gt $((lines * 8)) ]] || return 0
+    grep -cH 'static_cast<' "${files[@]}" | sort -t: -k2 -nr | awk -F: '$2 > 0 && NR <= 10 { print $1 ":1: " $2 " casts" }'
+    echo "src and sim have $casts static_casts in $lines lines; 8 per 1000 lines are allowed"
+    violations=$((violations + 1))
+}
+
+check_folders() {
+    local folder files
+    while IFS= read -r folder; do
+        files=$(find "$folder" -maxdepth 1 -type f | wc -l)
+        [[ $files -le 40 ]] && continue
+        echo "$folder:1: $files files in one folder, 40 are allowed"
+        violations=$((violations + 1))
+    done < <(find src sim tests -type d 2>/dev/null | sort)
+}
+
 check_licence() {
     local file first
     while IFS= read -r file; do
@@ -104,7 +126,7 @@ check_licence() {
     done < <(sources src sim tests)
 }
 
-rules=(arrows systemc printing namespaces length width licence)
+rules=(arrows systemc printing namespaces length width casts folders licence)
 case " ${rules[*]} all " in
     *" $rule "*) ;;
     *) echo "unknown rule '$rule'; there are: ${rules[*]} all" >&2; exit 2 ;;

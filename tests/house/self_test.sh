@@ -62,7 +62,15 @@ finds namespaces src/tlm/a.hpp 5 'using namespace sc_core;'
 finds length src/tlm/a.hpp 505 "$(printf '// %.0s\n' {1..501})"
 finds width src/tlm/a.hpp 5 "// $(printf 'x%.0s' {1..118})"
 finds width src/tlm/a.hpp 5 "int i; ///< $(printf 'ü%.0s' {1..110})"
+finds casts src/tlm/a.hpp 1 'int i = static_cast<int>(d);'
 finds licence src/tlm/bare.hpp 1 '#pragma once'
+
+clean_tree
+touch "$tree"/sim/{1..41}.txt
+if output=$("$check" folders "$tree") || ! grep -qF "sim:1: 42 files" <<<"$output"; then
+    echo "house folders missed 42 files; it said: $output"
+    failures=$((failures + 1))
+fi
 
 # The check of links, likewise.
 links=$(dirname "$check")/links_check.sh

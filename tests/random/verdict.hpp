@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/child_process.hpp"
+#include "sim/process/child_process.hpp"
 #include "tests/random/trial.hpp"
 
 namespace degs::trials {

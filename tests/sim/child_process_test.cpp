@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/child_process.hpp"
+#include "sim/process/child_process.hpp"
 
 #include <algorithm>
 #include <csignal>

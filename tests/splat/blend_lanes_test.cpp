@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "splat/blend_lanes.hpp"
+#include "splat/lanes/blend_lanes.hpp"
 
 #include <cmath>
 #include <cstring>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "splat/blend_lanes.hpp"
+#include "splat/lanes/blend_lanes.hpp"
 #include "tests/splat/data_path_fixture.hpp"
 
 namespace degs {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "config/error.hpp"
-#include "splat/instruction_set.hpp"
+#include "splat/lanes/instruction_set.hpp"
 
 #ifdef DEGS_HAS_WIDE_LANES
 #include <immintrin.h>

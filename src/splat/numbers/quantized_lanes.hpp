@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "splat/blend_lanes.hpp"
+#include "splat/lanes/blend_lanes.hpp"
 #include "splat/numbers/quantized_row.hpp"
 
 namespace degs {

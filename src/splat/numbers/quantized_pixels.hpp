@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "splat/blend_lanes.hpp"
+#include "splat/lanes/blend_lanes.hpp"
 #include "splat/numbers/quantized_row.hpp"
 
 namespace degs {

@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "splat/data_path.hpp"
-#include "splat/instruction_set.hpp"
+#include "splat/lanes/instruction_set.hpp"
 #include "splat/numbers/number_format.hpp"
 
 #ifdef DEGS_HAS_WIDE_LANES

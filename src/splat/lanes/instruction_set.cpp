@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "splat/instruction_set.hpp"
+#include "splat/lanes/instruction_set.hpp"
 
 #ifdef DEGS_HAS_WIDE_LANES
 #include <cpuid.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/interruption.hpp"
+#include "sim/process/interruption.hpp"
 
 #include <algorithm>
 #include <array>

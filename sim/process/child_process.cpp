@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/child_process.hpp"
+#include "sim/process/child_process.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,8 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "sim/interruption.hpp"
-#include "sim/stopping_signals.hpp"
+#include "sim/process/interruption.hpp"
+#include "sim/process/stopping_signals.hpp"
 
 namespace degs::sim {
 namespace {

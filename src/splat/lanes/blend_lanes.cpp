@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "splat/blend_lanes.hpp"
+#include "splat/lanes/blend_lanes.hpp"
 
 #include <cmath>
 #include <cstring>
 
-#include "splat/instruction_set.hpp"
+#include "splat/lanes/instruction_set.hpp"
 
 #ifdef DEGS_HAS_WIDE_LANES
 #include <immintrin.h>
@@ -13,7 +13,7 @@
 namespace degs {
 namespace narrow {
 constexpr int kLanes = 4;
-#include "splat/blend_kernel.inc"
+#include "splat/lanes/blend_kernel.inc"
 } // namespace narrow
 
 #ifdef DEGS_HAS_WIDE_LANES
@@ -22,7 +22,7 @@ constexpr int kLanes = 4;
 #define DEGS_WIDE_MOVEMASK
 namespace wide {
 constexpr int kLanes = 8;
-#include "splat/blend_kernel.inc"
+#include "splat/lanes/blend_kernel.inc"
 } // namespace wide
 #undef DEGS_WIDE_MOVEMASK
 #pragma GCC pop_options

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/stopping_signals.hpp"
+#include "sim/process/stopping_signals.hpp"
 
 #include <cerrno>
 #include <system_error>
