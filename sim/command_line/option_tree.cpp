@@ -77,7 +77,7 @@ Words notes_of(const CLI::Option& option, const std::string& type) {
     return notes;
 }
 
-OptionEntry describe(const CLI::Option& option) {
+OptionEntry describe_option(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     OptionEntry entry;
     entry.argument = option.get_positional();
@@ -109,7 +109,7 @@ CommandEntry describe(const CLI::App& command, const std::string& above) {
     entry.path = above.empty() ? command.get_name() : above + " " + command.get_name();
     entry.meaning = command.get_description();
     for (const CLI::Option* option : command.get_options()) {
-        entry.options.push_back(describe(*option));
+        entry.options.push_back(describe_option(*option));
     }
     std::stable_partition(entry.options.begin(), entry.options.end(),
                           [](const OptionEntry& option) { return option.argument; });
