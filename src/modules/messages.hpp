@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "splat/data_path.hpp"
 #include "tlm/clock_domain.hpp"
@@ -50,9 +51,8 @@ struct RowItem {
 
 /// Span Unit -> Issue Bank.
 struct SpanItem {
-    RowSpan span;
+    std::optional<RowSpan> span; ///< none: the end of the tile
     TileNumber tile = 0;
-    bool end = false; ///< end of the tile instead of a span
 };
 
 /// Tasks of one segment on their way to the array. A packet may carry a part of them; the others

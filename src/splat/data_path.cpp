@@ -135,12 +135,13 @@ public:
 
     std::optional<RowSpan> solve_row(std::uint32_t splat, int y, int x_begin, int x_end,
                                      int tile_y) const override {
+        std::optional<RowSpan> solved; // named by every return: built in the place of the call
         const SpanRecord<T>& s = spans_[splat];
         const T dy = below_mean(s, y);
         const T vertical = s.c_prime * dy * dy;
         const T room = s.q_threshold - vertical;
         if (!(room >= 0)) {
-            return std::nullopt;
+            return solved;
         }
         const T width = std::sqrt(room * s.inverse_a);
         const T centre = s.offset_x + s.slope * dy; // relative to pixel_x
@@ -157,18 +158,17 @@ public:
         left = std::max(left, static_cast<T>(x_begin - s.pixel_x));
         right = std::min(right, static_cast<T>(x_end - 1 - s.pixel_x));
         if (!(left <= right)) {
-            return std::nullopt;
+            return solved;
         }
         // Beyond 2^24 px from the mean a float does not name single pixels, and left may be rounded
         // out of the tile.
         const int x0 = std::max(static_cast<std::int32_t>(left) + s.pixel_x, x_begin);
         const int x1 = std::min(static_cast<std::int32_t>(right) + s.pixel_x, x_end - 1);
         if (x0 > x1) {
-            return std::nullopt;
+            return solved;
         }
         const T start = left - centre;
-        std::optional<RowSpan> solved{std::in_place};
-        RowSpan& span = *solved;
+        RowSpan& span = solved.emplace();
         span.splat = splat;
         span.y = inside_tile(y - tile_y);
         span.x0 = inside_tile(x0 - x_begin);

@@ -138,7 +138,6 @@ struct SchedulerBench {
         const auto end_tile = [this, &tile] {
             SpanItem item;
             item.tile = tile++;
-            item.end = true;
             crossbar.put(feeder, item);
         };
         for (const Feed& f : feeds) {
@@ -149,9 +148,8 @@ struct SchedulerBench {
             SpanItem item;
             item.tile = f.tile;
             const JobTile& t = job.tiles[f.tile];
-            const auto span = job.path->solve_row(f.splat, t.y + f.row, t.x, t.x + t.width, t.y);
-            ASSERT_TRUE(span);
-            item.span = *span;
+            item.span = job.path->solve_row(f.splat, t.y + f.row, t.x, t.x + t.width, t.y);
+            ASSERT_TRUE(item.span);
             crossbar.put(feeder, item);
         }
         while (tile < job.tiles.size()) {

@@ -49,10 +49,10 @@ TEST(SpanUnit, ARowPerIntervalAndTheLatencyOfThePipeline) {
     ASSERT_EQ(odd.size(), 3U); // rows 1 and 3 belong to bank 1, and the end
     EXPECT_EQ(odd[0].first, 20U + 6);
     EXPECT_EQ(odd[1].first, 20U + 2 * 3 + 6);
-    EXPECT_EQ(odd[0].second.span.length, 8);
-    EXPECT_TRUE(odd[2].second.end);
+    EXPECT_EQ(odd[0].second.span->length, 8);
+    EXPECT_FALSE(odd[2].second.span);
     ASSERT_EQ(even.size(), 1U);
-    EXPECT_TRUE(even[0].second.end);
+    EXPECT_FALSE(even[0].second.span);
     EXPECT_EQ(unit.stats().rows, 3U);
     EXPECT_EQ(unit.stats().empty_rows, 1U);
     EXPECT_EQ(unit.stats().tasks, 16U);

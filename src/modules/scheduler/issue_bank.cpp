@@ -155,18 +155,18 @@ bool IssueBank::open_span(Cycle now) {
             return false;
         }
         const SpanItem& item = source->front();
-        features_full_ = !item.end && !features_.admit(item.tile, item.span.splat, now);
+        features_full_ = item.span && !features_.admit(item.tile, item.span->splat, now);
         if (features_full_) {
             return false;
         }
         if (!entered_) {
             enter_tile();
         }
-        const bool span = !item.end;
+        const bool span = item.span.has_value();
         if (span) {
             segmenter_.start(item);
             stats_.spans++;
-            stats_.tasks_in += item.span.length;
+            stats_.tasks_in += item.span->length;
         }
         source->drop(self_);
         if (span) {

@@ -44,8 +44,9 @@ public:
         return first_domain_of_row_[row] + segment_of_column_[column];
     }
 
+    /// Begins with a span; the end of a tile is not one.
     void start(const SpanItem& item) {
-        const RowSpan& span = item.span;
+        const RowSpan& span = *item.span;
         const int first = segment_of_column_[span.x0];
         column_ = first * length_;
         domain_ = first_domain_of_row_[span.y] + first;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/span_engine/span_unit.hpp"
 
+#include <new>
+
 #include "modules/row_map.hpp"
 
 namespace degs {
@@ -71,7 +73,7 @@ void SpanUnit::take() {
     rows_->drop(self_);
     if (end) {
         held_.tile = tile_number;
-        held_.end = true;
+        held_.span.reset();
         next_port_ = 0;
         holding_ = true;
         return;
@@ -81,8 +83,8 @@ void SpanUnit::take() {
     holding_ = ring.full();
     SpanItem& result = holding_ ? held_ : ring.staged();
     const JobTile& tile = job_.tiles[tile_number];
-    const auto span =
-        job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y);
+    const auto& span = *new (&result.span) std::optional<RowSpan>(
+        job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y));
     stats_.rows++;
     stats_.busy += config_.cycles_per_row;
     if (!span) {
@@ -91,9 +93,7 @@ void SpanUnit::take() {
         self_.advance(config_.cycles_per_row);
         return;
     }
-    result.span = *span;
     result.tile = tile_number;
-    result.end = false;
     stats_.spans++;
     stats_.tasks += span->length;
     if (!holding_) {
@@ -113,8 +113,8 @@ bool SpanUnit::deliver() {
         }
         self_.hold_for(nullptr);
         ring.put(self_, held_);
-        holding_ = held_.end && ++next_port_ < rings_.size();
-        if (!held_.end) {
+        holding_ = !held_.span && ++next_port_ < rings_.size();
+        if (held_.span) {
             self_.advance(config_.cycles_per_row);
         } else if (!holding_ && job_.over(++tiles_done_)) {
             self_.finish();

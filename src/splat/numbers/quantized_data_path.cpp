@@ -54,12 +54,12 @@ public:
 
     std::optional<RowSpan> solve_row(std::uint32_t splat, int y, int x_begin, int x_end,
                                      int tile_y) const override {
+        std::optional<RowSpan> result; // named by every return: built in the place of the call
         const QuantizedSpan solved = row_.solve(splats_[splat], y, x_begin, x_end);
         if (solved.empty()) {
-            return std::nullopt;
+            return result;
         }
-        std::optional<RowSpan> result{std::in_place};
-        RowSpan& span = *result;
+        RowSpan& span = result.emplace();
         span.splat = splat;
         span.y = inside_tile(y - tile_y);
         span.x0 = inside_tile(solved.x0 - x_begin);
