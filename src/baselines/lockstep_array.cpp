@@ -113,7 +113,7 @@ void LockstepArray::render_tile(TileNumber number) {
 
 void LockstepArray::start_tile(TileNumber number) {
     tile_ = &job_.tiles[number];
-    context_ = number % static_cast<TileNumber>(contexts_);
+    context_ = context_in_turn(number, contexts_);
     inside_ = grid_.inside(tile_->width, tile_->height);
     live_subtiles_ = 0;
     for (int s = 0; s < grid_.count(); ++s) {
@@ -187,9 +187,9 @@ SubtileMask LockstepArray::bitmap(const ProjectedSplat& splat, std::uint32_t ind
 
 /// Does a slot from `begin` on see every sub-tile done?
 bool LockstepArray::all_done(Cycle begin) {
-    for (std::size_t s = 0; s < subtiles_.size(); ++s) {
+    for (int s = 0; s < grid_.count(); ++s) {
         if ((inside_ >> s & 1U) != 0 &&
-            std::max(begin, cluster_of(static_cast<int>(s)).free) < subtiles_[s].done_from) {
+            std::max(begin, cluster_of(s).free) < subtiles_[s].done_from) {
             return false;
         }
     }
@@ -212,7 +212,7 @@ bool LockstepArray::issue(std::uint32_t splat, SubtileMask mask, Cycle begin) {
 void LockstepArray::pass(int subtile, std::uint32_t splat, Cycle at) {
     Cluster& cluster = cluster_of(subtile);
     account_wait(cluster, at);
-    const Cycle end = at + static_cast<Cycle>(config_.clusters);
+    const Cycle end = at + config_.clusters;
     stats_.passes++;
     stats_.window.include(at);
     stats_.window.include(end - 1);
@@ -224,7 +224,7 @@ void LockstepArray::pass(int subtile, std::uint32_t splat, Cycle at) {
         state.live -= ended;
         stats_.pixels_ended += ended;
         if (state.live == 0) {
-            state.done_from = end - 1 + static_cast<Cycle>(config_.termination_cycles);
+            state.done_from = end - 1 + config_.termination_cycles;
             --live_subtiles_;
         }
     }
@@ -238,12 +238,12 @@ int LockstepArray::evaluate(int subtile, std::uint32_t splat) {
     test.splat = splat;
     test.mask = width == 32 ? ~0U : (1U << width) - 1U;
     test.x = tile_->x + box.x0;
-    test.column = static_cast<std::int16_t>(box.x0);
-    test.context = static_cast<std::int16_t>(context_);
+    test.column = box.x0;
+    test.context = context_;
     int useful = 0, terminated = 0, ended = 0;
     for (int row = box.y0; row <= box.y1; ++row) {
         test.y = tile_->y + row;
-        test.row = static_cast<std::int16_t>(row);
+        test.row = row;
         const BlendOutcome outcome = job_.path->test(test);
         useful += __builtin_popcount(outcome.useful);
         terminated += __builtin_popcount(outcome.terminated);

@@ -37,7 +37,7 @@ TileEngine::TileEngine(const sc_core::sc_module_name& name, const Config& config
     : sc_core::sc_module(name), in("in"), context_free("context_free"), tile_done("tile_done"),
       tile_state("tile_state"), config_(config), job_(job), first_context_(first_context),
       contexts_(contexts), self_(time), pes_(config.row_pes),
-      loaded_(pes_.size() * static_cast<std::size_t>(config.queue_depth), 0), rows_(job.tile_size) {
+      loaded_(pes_.size() * config.queue_depth, 0), rows_(job.tile_size) {
     for (std::size_t row = 0; row < rows_.size(); ++row) {
         pe_of_row_.push_back(row % pes_.size());
     }
@@ -67,7 +67,7 @@ void TileEngine::run() {
 // Generation is a pipeline: what has long been there has passed through it up to the last stage.
 const SplatChunk& TileEngine::next_chunk() {
     in->wait_for_item(self_);
-    const Cycle generated = in->head_date() + static_cast<Cycle>(config_.generation_latency);
+    const Cycle generated = in->head_date() + config_.generation_latency;
     const SplatChunk& chunk = in->arrive(self_);
     self_.advance_to(generated);
     return chunk;
@@ -82,16 +82,16 @@ void TileEngine::start_tile(TileNumber number) {
     last_end_ = 0;
     ended_ = kNever;
     reported_ = false;
-    for (std::size_t row = 0; row < rows_.size(); ++row) {
-        const bool inside = static_cast<int>(row) < tile_->height;
+    for (int row = 0; row < job_.tile_size; ++row) {
+        const bool inside = row < tile_->height;
         rows_[row] = {inside ? kNever : 0, inside ? tile_->width : 0};
     }
 }
 
 void TileEngine::take_context() {
-    const std::uint64_t turn = contexts_;
-    context_ = first_context_ + static_cast<int>(stats_.tiles % turn);
-    if (stats_.tiles >= turn) {
+    const std::uint64_t contexts = contexts_;
+    context_ = first_context_ + context_in_turn(stats_.tiles, contexts_);
+    if (stats_.tiles >= contexts) {
         const Cycle ready = self_.local();
         context_free->get(self_);
         blocked_ += stats_.window.empty() ? 0 : (self_.local() - ready) * pes_.size();
@@ -171,10 +171,10 @@ Cycle TileEngine::execute(const RowSpan& span, Cycle load) {
     test.splat = span.splat;
     test.y = tile_->y + span.y;
     test.row = span.y;
-    test.context = static_cast<std::int16_t>(context_);
+    test.context = context_;
     SlotAccount& slots = stats_.slots;
     for (int done = 0; done < span.length; done += kLaneBlock) {
-        test.column = static_cast<std::int16_t>(span.x0 + done);
+        test.column = span.x0 + done;
         test.x = tile_->x + test.column;
         test.mask = first_bits(span.length - done);
         const BlendOutcome outcome = job_.path->test(test);
@@ -186,14 +186,14 @@ Cycle TileEngine::execute(const RowSpan& span, Cycle load) {
             stats_.pixels_ended += ended;
             row.live -= ended;
             if (row.live == 0) {
-                row_ended(row, load + static_cast<Cycle>(done + 31 - __builtin_clz(outcome.ended)));
+                row_ended(row, load + done + 31 - __builtin_clz(outcome.ended));
             }
         }
     }
     stats_.entries++;
     stats_.pixels += span.length;
     slots.boundary += config_.end_probe ? 1 : 0;
-    const auto taken = static_cast<Cycle>(span.length) + (config_.end_probe ? 1 : 0);
+    const Cycle taken = span.length + (config_.end_probe ? 1 : 0);
     stats_.window.include(load);
     stats_.window.include(load + taken - 1);
     return taken;
@@ -210,7 +210,7 @@ void TileEngine::row_ended(Row& row, Cycle slot) {
 
 // No pixel changes any more: what may still be executed finds none alive.
 void TileEngine::report_tile(Cycle last_slot) {
-    const Cycle written = last_slot + static_cast<Cycle>(config_.row_pe_latency);
+    const Cycle written = last_slot + config_.row_pe_latency;
     const bool all_ended = live_rows_ == 0;
     tile_state->put_at(self_, {number_, all_ended}, written);
     tile_done->put_at(self_, {number_, all_ended}, written);

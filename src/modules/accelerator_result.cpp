@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "config/ratio.hpp"
+
 namespace degs {
 namespace {
 
@@ -11,8 +13,8 @@ std::optional<double> ratio(double part, double whole) {
     return whole == 0 ? std::nullopt : std::optional<double>(part / whole);
 }
 
-std::optional<double> ratio(std::uint64_t part, double whole) {
-    return ratio(static_cast<double>(part), whole);
+std::optional<double> share(std::uint64_t part, std::uint64_t whole) {
+    return whole == 0 ? std::nullopt : std::optional<double>(ratio_of(part, whole));
 }
 
 std::vector<std::uint64_t> ends_of(const std::vector<FrameDates>& frames) {
@@ -27,7 +29,7 @@ std::vector<std::uint64_t> ends_of(const std::vector<FrameDates>& frames) {
 /// The first frame has the accelerator to itself until the next one's preprocessing starts.
 void describe_timing(const AcceleratorResult& run, StatsVisitor& v) {
     const FrameDates first = run.frames.empty() ? FrameDates() : run.frames.front();
-    const double frame_ns = static_cast<double>(first.finished) / run.clock_ghz;
+    const double frame_ns = rate_of(first.finished, run.clock_ghz);
     v.begin_section("timing", "Dates count from the start of the run.");
     v.count("cycles", run.cycles, "cycles", "Last pixel of the last frame in memory.");
     v.real("latency_ms", frame_ns * 1e-6, "ms", "Last pixel of the first frame in memory.");
@@ -57,8 +59,6 @@ void describe_stages(const AcceleratorResult& run, StatsVisitor& v) {
 }
 
 void describe_slots(const AcceleratorResult& run, StatsVisitor& v) {
-    const auto total = static_cast<double>(run.slots.total());
-    const auto whole_run = run.pes * static_cast<double>(run.cycles);
     const auto date = [&run](Cycle cycle) {
         return run.window.empty() ? std::nullopt : std::optional<std::uint64_t>(cycle);
     };
@@ -67,9 +67,9 @@ void describe_slots(const AcceleratorResult& run, StatsVisitor& v) {
     v.count("total", run.slots.total(), "PE-cycles",
             "PEs x timing.blending_cycles, and the sum of the next seven.");
     run.slots.describe(v);
-    v.real("utilization", ratio(run.slots.useful, total), "share",
+    v.real("utilization", share(run.slots.useful, run.slots.total()), "share",
            "useful / total; null if nothing was blended.");
-    v.real("frame_utilization", ratio(run.slots.useful, whole_run), "share",
+    v.real("frame_utilization", share(run.slots.useful, run.pes * run.cycles), "share",
            "useful / (PEs x timing.cycles).");
     v.count("window_first", date(run.window.first), "cycles",
             "Date of the first executed task; null if there is none.");

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "config/grouped_number.hpp"
+#include "config/ratio.hpp"
 
 namespace degs {
 
@@ -44,9 +45,7 @@ void add_stage(AcceleratorResult& result, const Title& title, std::size_t units,
     stage.sentence = title.sentence;
     stage.units = static_cast<int>(units);
     stage.busy_cycles = static_cast<double>(busy_cycles);
-    if (result.cycles != 0) {
-        stage.busy = stage.busy_cycles / (stage.units * static_cast<double>(result.cycles));
-    }
+    stage.busy = ratio_of(busy_cycles, units * result.cycles);
     stage.counters = std::move(counters);
     result.stages.push_back(std::move(stage));
 }
@@ -65,10 +64,7 @@ void add_buffer(AcceleratorResult& result, const Title& title, std::int64_t byte
     buffer.depth = depth;
     buffer.rings = use.depth / buffer.depth;
     buffer.high_water = use.high_water;
-    if (result.cycles != 0 && use.depth != 0) {
-        buffer.mean_fill = static_cast<double>(use.occupied_cycles) /
-                           (static_cast<double>(use.depth) * static_cast<double>(result.cycles));
-    }
+    buffer.mean_fill = ratio_of(use.occupied_cycles, use.depth * result.cycles);
     buffer.full_cycles = use.full_cycles;
     buffer.empty_cycles = use.empty_cycles;
 }

@@ -85,9 +85,8 @@ inline std::string numbered(const char* name, std::size_t index) {
 template <class T>
 DatedFifo<T>& add_ring(std::vector<std::unique_ptr<DatedFifo<T>>>& rings, const char* name,
                        const Timebase& time, int depth, int latency) {
-    rings.push_back(std::make_unique<DatedFifo<T>>(numbered(name, rings.size()).c_str(), time,
-                                                   static_cast<std::size_t>(depth),
-                                                   static_cast<Cycle>(latency)));
+    rings.push_back(
+        std::make_unique<DatedFifo<T>>(numbered(name, rings.size()).c_str(), time, depth, latency));
     return *rings.back();
 }
 
@@ -96,7 +95,7 @@ template <class T>
 DatedFifo<T>& add_wire(std::vector<std::unique_ptr<DatedFifo<T>>>& rings, const char* name,
                        const Timebase& time, int latency) {
     rings.push_back(std::make_unique<DatedFifo<T>>(numbered(name, rings.size()).c_str(), time,
-                                                   FifoBase::kWire, static_cast<Cycle>(latency)));
+                                                   FifoBase::kWire, latency));
     return *rings.back();
 }
 

@@ -79,7 +79,7 @@ void Degs::build_span_engine() {
             unit.in[s].bind(splats);
         }
         auto& cancel = wire(cancel_rings_, "cancel", config_.monitor.latency_cycles);
-        monitor_->out[sorters + static_cast<std::size_t>(g)].bind(cancel);
+        monitor_->out[sorters + g].bind(cancel);
         unit.cancel.bind(cancel);
     }
     for (int u = 0; u < lanes; ++u) {
@@ -141,7 +141,7 @@ void Degs::build_array() {
     // every tile in flight waits there.
     const int tile_ends = std::max(4, config_.contexts());
     for (int b = 0; b < config_.scheduler.banks; ++b) {
-        const auto i = static_cast<std::size_t>(b);
+        const std::size_t i = b;
         slices_.push_back(std::make_unique<ArraySlice>(numbered("slice", i).c_str(), slice, time_,
                                                        job_, b, config_.scheduler.banks,
                                                        config_.scheduler.segment_length));
@@ -186,9 +186,8 @@ void Degs::connect_region_feedback(int slice, int listeners) {
     for (int g = 0; g < listeners; ++g) {
         if (shares_row(slice, config_.scheduler.banks, g, listeners)) {
             auto& rows = wire(region_rings_, "region_ended", config_.slicing.feedback_cycles);
-            slices_[static_cast<std::size_t>(slice)]->region_ended[port++].bind(rows);
-            const auto listener = static_cast<std::size_t>(g);
-            slicing_[listener]->region_ended[next_region_port_[listener]++].bind(rows);
+            slices_[slice]->region_ended[port++].bind(rows);
+            slicing_[g]->region_ended[next_region_port_[g]++].bind(rows);
         }
     }
 }

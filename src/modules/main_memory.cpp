@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "config/ratio.hpp"
+
 namespace degs {
 namespace {
 
@@ -88,7 +90,7 @@ public:
         for (std::size_t i = 0; i < initiators_; ++i) {
             bytes += dram_->stats(i).bytes_read + dram_->stats(i).bytes_written;
         }
-        return static_cast<double>(bytes) / peak_gb_per_s();
+        return rate_of(bytes, peak_gb_per_s());
     }
     const LatencyHistogram* read_latency(std::size_t initiator) const override {
         return &dram_->stats(initiator).read_latency;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "config/ratio.hpp"
+
 namespace degs {
 
 void MemoryStreams::build(const char* name, const MainMemoryConfig& config, const Timebase& time,
@@ -47,7 +49,7 @@ void MemoryStreams::collect_streams(AcceleratorResult& result) const {
 void MemoryStreams::collect(AcceleratorResult& result) const {
     collect_streams(result);
     result.memory_gb_per_s = memory_->peak_gb_per_s();
-    const double run_ns = static_cast<double>(result.cycles) / result.clock_ghz;
+    const double run_ns = rate_of(result.cycles, result.clock_ghz);
     if (run_ns > 0 && result.memory_gb_per_s > 0) {
         result.memory_utilization = memory_->busy_ns() / run_ns;
     }

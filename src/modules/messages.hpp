@@ -16,6 +16,16 @@ using TileNumber = std::uint32_t;
 /// In place of a tile: nothing follows.
 constexpr TileNumber kNoTile = ~TileNumber{0};
 
+/// The tile context that number `turn` gets: `contexts` of them are used in turn.
+inline std::int16_t context_in_turn(std::uint64_t turn, int contexts) {
+    return static_cast<std::int16_t>(turn % contexts);
+}
+
+/// Items of the next chunk of at most `chunk` when `left` are left.
+inline std::uint32_t next_chunk_of(std::uint32_t chunk, std::uint64_t left) {
+    return left < chunk ? static_cast<std::uint32_t>(left) : chunk;
+}
+
 /// Visible splats of one chunk of Gaussians, Projection Unit -> Tile Binner.
 struct ProjectedChunk {
     std::uint32_t frame = 0;

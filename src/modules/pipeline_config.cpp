@@ -22,8 +22,7 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
 }
 
 DataPathOptions PipelineConfig::options(SpanEnds ends, int delta) const {
-    const char* const name = arithmetic_names().at(static_cast<std::size_t>(numbers));
-    const DataPathOptions named = named_numbers(name, formats.assignments());
+    const DataPathOptions named = named_numbers(name_of(numbers), formats.assignments());
     return {numbers, ends, delta, stop_rule, named.set, named.projection};
 }
 

@@ -70,6 +70,10 @@ struct RenderJob {
     std::uint64_t pairs_before(std::uint32_t frame, std::uint32_t visible_rank) const {
         return pair_prefix[frame][visible_rank];
     }
+    bool has_more_frames_than(int count) const {
+        const std::size_t limit = count;
+        return frames.size() > limit;
+    }
     const FrameWorkload& frame_of(const JobTile& tile) const { return *frames[tile.frame]; }
     /// Bytes of a frame-buffer pixel.
     int pixel_bytes(std::uint32_t frame, const TrafficConfig& traffic) const {

@@ -164,6 +164,11 @@ void fill_lists(Binner& binner, FrameWorkload& work) {
 
 } // namespace
 
+std::uint32_t FrameWorkload::visible_among(std::uint64_t first_gaussians) const {
+    const auto end = std::lower_bound(visible_of.begin(), visible_of.end(), first_gaussians);
+    return static_cast<std::uint32_t>(end - visible_of.begin());
+}
+
 FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& camera, int tile_size,
                                   TileMode mode, const ProjectionOptions& options) {
     check(cloud, camera, tile_size, options);

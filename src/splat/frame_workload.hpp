@@ -41,6 +41,8 @@ struct FrameWorkload {
 
     int tiles() const { return tiles_x * tiles_y; }
     std::uint64_t tile_pairs() const { return tile_splats.size(); }
+    /// Visible Gaussians among the first `first_gaussians` of the scene.
+    std::uint32_t visible_among(std::uint64_t first_gaussians) const;
 };
 
 /// Projects, shades, sorts and bins a scene, in the format of `options`; culling, lists and order

@@ -33,11 +33,11 @@ public:
     double largest_ns() const { return largest_ns_; }
     /// The smallest value that `share` (0 .. 1) of the samples do not exceed; 0 without samples.
     double percentile_ns(double share) const {
-        const double wanted = share * static_cast<double>(samples_);
+        const std::uint64_t wanted = std::llround(std::ceil(share * static_cast<double>(samples_)));
         std::uint64_t seen = 0;
         for (std::size_t b = 0; b < kBuckets; ++b) {
             seen += counts_[b];
-            if (counts_[b] != 0 && static_cast<double>(seen) >= wanted) {
+            if (counts_[b] != 0 && seen >= wanted) {
                 const double upper = upper_end(b);
                 return upper < largest_ns_ ? upper : largest_ns_;
             }

@@ -6,7 +6,17 @@
 #include <cstring>
 #include <tuple>
 
+#include "config/ratio.hpp"
+
 namespace degs {
+namespace {
+
+/// Kernel time units, as the fractional time of the bus counts them.
+double units_of(const sc_core::sc_time& time) {
+    return time / sc_core::sc_time::from_value(1);
+}
+
+} // namespace
 
 void Memory::Config::describe(ConfigVisitor& visitor) {
     visitor.real("bandwidth_gb_per_s", bandwidth_gb_per_s, 0.01, 1e5,
@@ -22,11 +32,12 @@ Memory::Memory(const sc_core::sc_module_name& name, const Config& config, const 
                std::size_t initiators)
     : sc_core::sc_module(name), in("in", initiators), config_(config),
       half_cycle_(sc_core::sc_time::from_value(time.clock.period().value() / 2)),
-      units_per_ns_(static_cast<double>(sc_core::sc_time(1, sc_core::SC_NS).value())),
-      stats_(initiators) {
-    for (std::size_t i = 0; i < initiators; ++i) {
-        in[i].register_b_transport(this, &Memory::transport, static_cast<int>(i));
-        in[i].register_transport_dbg(this, &Memory::debug, static_cast<int>(i));
+      units_per_ns_(units_of(sc_core::sc_time(1, sc_core::SC_NS))), stats_(initiators) {
+    int initiator = 0;
+    for (auto& socket : in) {
+        socket.register_b_transport(this, &Memory::transport, initiator);
+        socket.register_transport_dbg(this, &Memory::debug, initiator);
+        ++initiator;
     }
 }
 
@@ -57,9 +68,8 @@ void Memory::transport(int initiator, tlm::tlm_generic_payload& payload, sc_core
                                         : tlm::TLM_BURST_ERROR_RESPONSE);
         return;
     }
-    const sc_core::sc_time date = sc_core::sc_time_stamp() + delay;
     Request request;
-    request.date = date.value();
+    request.date = sc_core::sc_time_stamp() + delay;
     request.initiator = initiator;
     request.sequence = sequence_++;
     request.payload = &payload;
@@ -73,9 +83,9 @@ void Memory::transport(int initiator, tlm::tlm_generic_payload& payload, sc_core
     payload.set_response_status(tlm::TLM_OK_RESPONSE);
 }
 
-void Memory::serve_until(std::uint64_t date) {
+void Memory::serve_until(const sc_core::sc_time& date) {
     const auto due = std::partition(pending_.begin(), pending_.end(),
-                                    [date](const Request* r) { return r->date > date; });
+                                    [&date](const Request* r) { return r->date > date; });
     std::sort(due, pending_.end(), [](const Request* a, const Request* b) {
         return std::tie(a->date, a->initiator, a->sequence) <
                std::tie(b->date, b->initiator, b->sequence);
@@ -92,20 +102,21 @@ void Memory::serve(Request& request) {
     const std::uint64_t first = payload.get_address() / granule;
     const std::uint64_t last = (payload.get_address() + payload.get_data_length() - 1) / granule;
     const std::uint64_t bytes = (last - first + 1) * granule;
-    const double transfer_ns = static_cast<double>(bytes) / config_.bandwidth_gb_per_s;
-    const double start = std::max(bus_free_, static_cast<double>(request.date));
+    const double transfer_ns = rate_of(bytes, config_.bandwidth_gb_per_s);
+    const double asked = units_of(request.date);
+    const double start = std::max(bus_free_, asked);
     bus_free_ = start + transfer_ns * units_per_ns_;
     // Rounded up to the kernel's resolution, but not because of the rounding of a double: a whole
     // cycle may hang on it.
     constexpr double kRounding = 1e-3;
-    request.done = sc_core::sc_time::from_value(static_cast<std::uint64_t>(
-        std::ceil(bus_free_ + config_.latency_ns * units_per_ns_ - kRounding)));
+    request.done = sc_core::sc_time::from_value(
+        std::llround(std::ceil(bus_free_ + config_.latency_ns * units_per_ns_ - kRounding)));
     request.served = true;
     Stats& stats = stats_[request.initiator];
     (payload.is_read() ? stats.reads : stats.writes)++;
     (payload.is_read() ? stats.bytes_read : stats.bytes_written) += bytes;
     stats.busy_ns += transfer_ns;
-    stats.waited_ns += (start - static_cast<double>(request.date)) / units_per_ns_;
+    stats.waited_ns += (start - asked) / units_per_ns_;
     if (payload.get_extension<TimingOnly>() == nullptr) {
         copy(payload);
     }

@@ -48,7 +48,7 @@ public:
 private:
     static constexpr std::uint64_t kPageBytes = 4096;
     struct Request {
-        std::uint64_t date = 0; // kernel time units
+        sc_core::sc_time date;
         std::size_t initiator = 0;
         std::uint64_t sequence = 0;
         tlm::tlm_generic_payload* payload = nullptr;
@@ -57,7 +57,7 @@ private:
     };
     void transport(int initiator, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
     unsigned int debug(int initiator, tlm::tlm_generic_payload& payload);
-    void serve_until(std::uint64_t date);
+    void serve_until(const sc_core::sc_time& date);
     void serve(Request& request);
     void copy(tlm::tlm_generic_payload& payload);
 

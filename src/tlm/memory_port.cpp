@@ -5,6 +5,21 @@
 #include <string>
 
 namespace degs {
+namespace {
+
+/// Makes `payload` an access to `bytes` bytes; TLM-2.0 has 32 bits for their number.
+void set_access(tlm::tlm_generic_payload& payload, tlm::tlm_command command, std::uint64_t address,
+                unsigned char* data, std::uint64_t bytes) {
+    const auto length = static_cast<unsigned int>(bytes);
+    payload.set_command(command);
+    payload.set_address(address);
+    payload.set_data_ptr(data);
+    payload.set_data_length(length);
+    payload.set_streaming_width(length);
+    payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+}
+
+} // namespace
 
 Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64_t address,
                          unsigned char* data, std::uint64_t bytes) {
@@ -19,13 +34,7 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
             payload.set_extension(&timing_only_);
         }
     }
-    payload.set_command(command);
-    payload.set_address(address);
-    payload.set_data_ptr(data);
-    payload.set_data_length(static_cast<unsigned int>(bytes));
-    payload.set_streaming_width(static_cast<unsigned int>(bytes));
-    payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
-
+    set_access(payload, command, address, data, bytes);
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     const sc_core::sc_time date = clock_->at(process.local());
     sc_core::sc_time delay = date > now ? date - now : sc_core::SC_ZERO_TIME;
@@ -48,10 +57,8 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
 
 void MemoryPort::poke(std::uint64_t address, const std::vector<unsigned char>& data) {
     tlm::tlm_generic_payload payload;
-    payload.set_command(tlm::TLM_WRITE_COMMAND);
-    payload.set_address(address);
-    payload.set_data_ptr(const_cast<unsigned char*>(data.data()));
-    payload.set_data_length(static_cast<unsigned int>(data.size()));
+    set_access(payload, tlm::TLM_WRITE_COMMAND, address, const_cast<unsigned char*>(data.data()),
+               data.size());
     if (out->transport_dbg(payload) != data.size()) {
         throw std::runtime_error(std::string(name()) + ": the memory did not take " +
                                  std::to_string(data.size()) + " bytes at address " +

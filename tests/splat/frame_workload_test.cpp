@@ -57,6 +57,19 @@ TEST_P(Workload, VisibleGaussiansAreListedInCloudOrder) {
     EXPECT_EQ(sorted, work.visible_of);
 }
 
+TEST_P(Workload, VisibleGaussiansAreCountedUpToAnyGaussian) {
+    const FrameWorkload work =
+        make_frame_workload(test::random_cloud(500, 12), make_camera(90, 50, 60), 8, GetParam());
+    ASSERT_LT(work.visible_of.size(), 500U);
+    std::size_t seen = 0;
+    for (std::uint32_t first = 0; first <= 500; ++first) {
+        ASSERT_EQ(work.visible_among(first), seen);
+        seen += seen < work.visible_of.size() && work.visible_of[seen] == first ? 1 : 0;
+    }
+    EXPECT_EQ(seen, work.visible_of.size());
+    EXPECT_EQ(work.visible_among(~std::uint64_t{0}), seen);
+}
+
 TEST_P(Workload, SplatsAreShadedAndSortedByFloatDepth) {
     const GaussianCloud cloud = test::random_cloud(500, 13, 3);
     const Camera camera = make_camera(90, 50, 60);

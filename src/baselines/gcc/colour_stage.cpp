@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "baselines/gcc/projection_stage.hpp"
+#include "tlm/ceil_div.hpp"
 
 namespace degs::gcc {
 
@@ -86,6 +87,7 @@ void ColourStage::see_ended_blocks(TileNumber view) {
 ColourStage::Survivors ColourStage::filter(const SplatChunk& group) {
     const JobTile& view = job_.tiles[group.tile];
     const FrameWorkload& frame = job_.frame_of(view);
+    const std::uint32_t chunk = config_.chunk;
     Survivors left;
     left.group = group;
     for (std::uint64_t i = group.first; i < group.first + group.count; ++i) {
@@ -97,7 +99,7 @@ ColourStage::Survivors ColourStage::filter(const SplatChunk& group) {
         ++left.count;
         const bool joins = !left.runs.empty() &&
                            left.runs.back().first + left.runs.back().count == i &&
-                           left.runs.back().count < static_cast<std::uint32_t>(config_.chunk);
+                           left.runs.back().count < chunk;
         if (joins) {
             left.runs.back().count++;
         } else {
@@ -126,8 +128,7 @@ void ColourStage::shade() {
     for (TileNumber views = 0; !job_.over(views);) {
         const Survivors survivors = fetched_.get(shader_);
         views += survivors.group.last ? 1 : 0;
-        const Cycle colour =
-            (survivors.count + units - 1) / units * static_cast<Cycle>(config_.cycles_per_colour);
+        const Cycle colour = ceil_div(survivors.count, units) * config_.cycles_per_colour;
         const Cycle sort = sort_cycles(survivors.count);
         stats_.colour_busy += colour;
         stats_.sort_busy += sort;

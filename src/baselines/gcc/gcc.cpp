@@ -27,8 +27,7 @@ std::unique_ptr<RenderEngine> Config::build(const char* module, const Timebase& 
 Engine::Engine(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                RenderJob& job, const BuildOptions& options)
     : RenderEngine(name), config_(config), time_(time), job_(job), options_(options),
-      gated_(!options.array_only &&
-             job.frames.size() > static_cast<std::size_t>(config.frames_in_flight)) {
+      gated_(!options.array_only && job.has_more_frames_than(config.frames_in_flight)) {
     build_array();
     if (options_.array_only) {
         build_source();

@@ -31,9 +31,9 @@ Grouping::Grouping(const sc_core::sc_module_name& name, const Config& config,
     : sc_core::sc_module(name), out("out"), listed("listed", listeners),
       frame_free("frame_free", frames_in_flight == 0 ? 0 : 1), means("means", time),
       lists("lists", time), config_(config), traffic_(traffic), job_(job),
-      frames_in_flight_(static_cast<std::uint32_t>(frames_in_flight)), fetcher_(time),
-      grouper_(time), fetched_("fetched", time, static_cast<std::size_t>(config.chunks_in_flight)),
-      acknowledged_(static_cast<std::size_t>(config.writes_in_flight), 0) {
+      frames_in_flight_(frames_in_flight), fetcher_(time), grouper_(time),
+      fetched_("fetched", time, config.chunks_in_flight),
+      acknowledged_(config.writes_in_flight, 0) {
     SC_HAS_PROCESS(Grouping);
     SC_THREAD(fetch);
     SC_THREAD(group);
@@ -75,8 +75,7 @@ void Grouping::group() {
     for (std::uint32_t f = 0; job_.has_frame(grouper_, f); ++f) {
         const FrameWorkload& frame = *job_.frames[f];
         region_written_ = 0;
-        const std::uint64_t chunks =
-            ceil_div(frame.gaussians, static_cast<std::uint64_t>(config_.chunk));
+        const std::uint64_t chunks = ceil_div(frame.gaussians, config_.chunk);
         for (std::uint64_t c = 0; c < chunks; ++c) {
             group_chunk(f, fetched_.get(grouper_));
         }
@@ -97,19 +96,14 @@ void Grouping::group() {
 void Grouping::group_chunk(std::uint32_t f, const Chunk& chunk) {
     const FrameWorkload& frame = *job_.frames[f];
     const MemoryMap map(traffic_, job_, f);
-    const auto& ids = frame.visible_of;
-    const auto rank = [&](std::uint64_t id) {
-        return static_cast<std::uint32_t>(std::lower_bound(ids.begin(), ids.end(), id) -
-                                          ids.begin());
-    };
-    const std::uint32_t begin = rank(chunk.first);
-    const std::uint32_t end = rank(chunk.first + chunk.count);
+    const std::uint32_t begin = frame.visible_among(chunk.first);
+    const std::uint32_t end = frame.visible_among(chunk.first + chunk.count);
     const bool by_view = config_.lists == Lists::Direct || frame.tiles() == 1;
     const std::uint64_t entries =
         by_view ? job_.pairs_before(f, end) - job_.pairs_before(f, begin) : end - begin;
     stats_.gaussians += chunk.count;
     write(by_view ? map.views : map.groups, entries,
-          ceil_div(chunk.count, static_cast<std::uint64_t>(config_.means_per_cycle)));
+          ceil_div(chunk.count, config_.means_per_cycle));
 }
 
 // Entries of the image's groups come back near to far, as many requests ahead as for the means.
@@ -141,8 +135,7 @@ void Grouping::regroup(std::uint32_t f) {
 }
 
 void Grouping::write(std::uint64_t region, std::uint64_t entries, Cycle least_cycles) {
-    const Cycle busy = std::max<Cycle>(
-        least_cycles, ceil_div(entries, static_cast<std::uint64_t>(config_.entries_per_cycle)));
+    const Cycle busy = std::max(least_cycles, ceil_div(entries, config_.entries_per_cycle));
     grouper_.advance(busy);
     stats_.busy += busy;
     stats_.entries_written += entries;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tlm/ceil_div.hpp"
+
 namespace degs::gcc {
 
 void ProjectionStage::Config::describe(ConfigVisitor& visitor) {
@@ -74,8 +76,7 @@ void ProjectionStage::load_view(TileNumber number) {
             stats_.entries_cancelled += view.count - done;
             done = view.count;
         } else {
-            group.count = static_cast<std::uint32_t>(
-                std::min<std::uint64_t>(config_.group, view.count - done));
+            group.count = next_chunk_of(config_.group, view.count - done);
             ready = lists.read(loader_, map.views + group.first * traffic_.entry_bytes(),
                                group.count * traffic_.entry_bytes());
             done += group.count;
@@ -120,8 +121,7 @@ void ProjectionStage::project() {
     for (TileNumber views = 0; !job_.over(views);) {
         const SplatChunk group = fetched_.get(projector_);
         views += group.last ? 1 : 0;
-        const Cycle busy =
-            (group.count + units - 1) / units * static_cast<Cycle>(config_.cycles_per_gaussian);
+        const Cycle busy = ceil_div(group.count, units) * config_.cycles_per_gaussian;
         projector_.advance(busy);
         stats_.busy += busy;
         stats_.shapes += group.count;

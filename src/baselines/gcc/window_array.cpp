@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "splat/pixel_index.hpp"
 #include "tlm/ceil_div.hpp"
 
 namespace degs::gcc {
@@ -93,7 +94,7 @@ void WindowArray::start_view(TileNumber number) {
     const JobTile& view = job_.tiles[number];
     view_ = &view;
     number_ = number;
-    context_ = static_cast<int>(number) % contexts_;
+    context_ = context_in_turn(number, contexts_);
     columns_ = ceil_div(view.width, config_.window);
     rows_ = ceil_div(view.height, config_.window);
     live_pixels_ = view.width * view.height;
@@ -103,11 +104,11 @@ void WindowArray::start_view(TileNumber number) {
         const int height = std::clamp(view.height - index / per_row * side, 0, side);
         return width * height;
     };
-    for (std::size_t w = 0; w < live_in_window_.size(); ++w) {
-        live_in_window_[w] = inside(static_cast<int>(w), grid_, config_.window);
+    for (int w = 0; w < grid_ * grid_; ++w) {
+        live_in_window_[w] = inside(w, grid_, config_.window);
     }
-    for (std::size_t b = 0; b < live_in_block_.size(); ++b) {
-        live_in_block_[b] = inside(static_cast<int>(b), blocks_, block_);
+    for (int b = 0; b < blocks_ * blocks_; ++b) {
+        live_in_block_[b] = inside(b, blocks_, block_);
     }
     std::fill_n(live_windows_.begin(), rows_, windows_between(0, columns_ - 1));
 }
@@ -132,8 +133,7 @@ void WindowArray::render(std::uint32_t splat, const ProjectedSplat& projected) {
     evaluate(splat);
     traverse(projected);
     stats_.slots.boundary +=
-        (stats_.windows - windows) * static_cast<std::uint64_t>(config_.pes()) -
-        (stats_.valid_pixels - valid);
+        (stats_.windows - windows) * config_.pes() - (stats_.valid_pixels - valid);
 }
 
 // Every window is visited at most once per splat, so that the order of the windows does not matter
@@ -159,12 +159,12 @@ void WindowArray::evaluate_run(std::uint32_t splat, int y, const PixelRange& col
     PixelTest test;
     test.splat = splat;
     test.y = view_->y + y;
-    test.row = static_cast<std::int16_t>(y);
-    test.context = static_cast<std::int16_t>(context_);
+    test.row = y;
+    test.context = context_;
     stats_.valid_pixels += columns.size();
     for (int column = columns.first; column <= columns.last; column += kLanes) {
         test.x = view_->x + column;
-        test.column = static_cast<std::int16_t>(column);
+        test.column = column;
         test.mask = ~0U >> (kLanes - std::min(kLanes, columns.last - column + 1));
         const BlendOutcome outcome = job_.path->test(test);
         stats_.slots.useful += __builtin_popcount(outcome.useful);
@@ -187,7 +187,7 @@ void WindowArray::note_ended(int y, int column, std::uint32_t ended) {
 Traversal::Window WindowArray::centre_window(const ProjectedSplat& splat) const {
     const auto clamped = [&](double centre, int begin, int size) {
         const double pixel = std::floor(centre + 0.5) - begin;
-        return footprint_.window_of(static_cast<int>(std::clamp(pixel, 0.0, size - 1.0)));
+        return footprint_.window_of(index_within(pixel, 0.0, size - 1.0));
     };
     Traversal::Window window;
     window.row = clamped(splat.mu_y, view_->y, view_->height);
@@ -251,8 +251,7 @@ void WindowArray::end_pixels(std::size_t window) {
         }
     }
     if (live_in_window_[window] == 0) {
-        live_windows_[window / static_cast<std::size_t>(grid_)] &=
-            ~(WindowMask{1} << window % static_cast<std::size_t>(grid_));
+        live_windows_[window / grid_] &= ~(WindowMask{1} << window % grid_);
     }
     if (live_pixels_ == 0) {
         reported_ = true;
@@ -262,8 +261,7 @@ void WindowArray::end_pixels(std::size_t window) {
 
 void WindowArray::report_block(int block) {
     for (auto& port : block_ended) {
-        port->put(self_, {number_, static_cast<std::int16_t>(block / blocks_),
-                          static_cast<std::int16_t>(block % blocks_)});
+        port->put(self_, {number_, inside_tile(block / blocks_), inside_tile(block % blocks_)});
     }
 }
 
@@ -275,13 +273,13 @@ void WindowArray::wait_until(Cycle date) {
 }
 
 void WindowArray::idle(Idle cause, Cycle cycles) {
-    pending_idle_.idle(cause, cycles * static_cast<std::uint64_t>(config_.pes()));
+    pending_idle_.idle(cause, cycles * config_.pes());
     idle_pending_ = true;
 }
 
 // Idle time lies inside the window of activity only if a slot follows it, and one has gone before.
 void WindowArray::settle_idle() {
-    pending_idle_.terminated += pending_skips_ * static_cast<std::uint64_t>(config_.pes());
+    pending_idle_.terminated += pending_skips_ * config_.pes();
     if (!stats_.window.empty()) {
         stats_.slots += pending_idle_;
         stats_.skip_cycles += pending_skips_;

@@ -135,9 +135,9 @@ void ArraySlice::start_tile(TileNumber number) {
     context.live_pixels = 0;
     context.reported = false;
     std::fill(context.ended_in_segment.begin(), context.ended_in_segment.end(), 0U);
-    for (std::size_t s = 0; s < context.live_in_segment.size(); ++s) {
-        const int row = static_cast<int>(s) / segments_per_row_ * slices_ + index_;
-        const int column = static_cast<int>(s) % segments_per_row_ * segment_length_;
+    for (int s = 0; s < segments_; ++s) {
+        const int row = s / segments_per_row_ * slices_ + index_;
+        const int column = s % segments_per_row_ * segment_length_;
         const int width = std::clamp(tile.width - column, 0, segment_length_);
         context.live_in_segment[s] = row < tile.height ? width : 0;
         context.live_pixels += context.live_in_segment[s];
@@ -147,7 +147,8 @@ void ArraySlice::start_tile(TileNumber number) {
 // The invariant the scoreboard exists for; see the tests that switch it off.
 void ArraySlice::check_reuse(const TaskRun& run, Cycle date) {
     Recent& recent = context_of(run.tile).recent[run.domain];
-    const bool late = date - recent.date >= static_cast<Cycle>(config_.writeback_cycles);
+    const Cycle writeback = config_.writeback_cycles;
+    const bool late = date - recent.date >= writeback;
     const std::uint32_t busy = late ? 0 : recent.mask;
     stats_.hazards += __builtin_popcount(busy & run.part);
     recent.mask = busy | run.part;
@@ -182,7 +183,7 @@ void ArraySlice::pixels_ended(const TaskRun& run, std::uint32_t ended) {
 
 void ArraySlice::report_region(const Context& context, const TaskRun& run) {
     const std::size_t listener = run.task.row % config_.region_listeners;
-    const auto segment = static_cast<std::int16_t>(run.task.column / segment_length_);
+    const std::int16_t segment = inside_tile(run.task.column / segment_length_);
     region_ended[port_of_listener_[listener]]->put(self_, {context.tile, run.task.row, segment});
 }
 

@@ -80,7 +80,7 @@ private:
     Process self_;
     DatedFifo<TaskPacket>* packets_ = nullptr; // what `in` is bound to
     std::vector<Context> contexts_; // as many as tiles have been in flight, a power of two
-    std::size_t segments_;          // of a context
+    int segments_;                  // of a context
     std::vector<std::size_t> port_of_listener_;
     BlendOutcome outcome_; // of the segment whose tasks execute
     TileNumber tiles_done_ = 0;

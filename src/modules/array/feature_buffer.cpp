@@ -5,9 +5,11 @@
 
 namespace degs {
 
-FeatureBuffer::FeatureBuffer(int entries) : entries_(entries), free_count_(entries_.size()) {
-    for (int i = 0; i < entries; ++i) {
-        free_.push_back({0, static_cast<std::uint16_t>(i)});
+FeatureBuffer::FeatureBuffer(int entries)
+    : entries_(entries), free_(entries), free_count_(entries_.size()) {
+    std::uint16_t entry = 0;
+    for (Free& place : free_) {
+        place = {0, entry++};
     }
 }
 

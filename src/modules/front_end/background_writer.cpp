@@ -77,11 +77,12 @@ Cycle BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, 
     const int bottom = std::min(top + work.tile_size, work.camera.height);
     // Rows as wide as the image follow each other.
     const int rows = width == work.camera.width ? bottom - top : 1;
+    const std::uint64_t pitch = work.camera.width;
     const std::uint64_t pixel_bytes = job_.pixel_bytes(frame, traffic_);
     const std::vector<unsigned char> zeros((rows * width) * pixel_bytes, 0);
     const std::uint64_t base = job_.map(frame, traffic_).frame_buffer;
     for (int y = top; y < bottom; y += rows) {
-        const std::uint64_t pixel = y * static_cast<std::uint64_t>(work.camera.width) + left;
+        const std::uint64_t pixel = y * pitch + left;
         self_.advance_to(next_write_);
         next_write_ = self_.local() + cycles_per_write_;
         done = std::max(done, frame_buffer.write(self_, base + pixel * pixel_bytes, zeros));

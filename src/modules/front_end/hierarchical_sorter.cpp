@@ -32,7 +32,8 @@ void HierarchicalSorter::Config::describe(ConfigVisitor& visitor) {
 
 HierarchicalSorter::HierarchicalSorter(const sc_core::sc_module_name& name, const Config& config,
                                        const TrafficConfig& traffic, const Timebase& time,
-                                       const RenderJob& job, int index, std::uint64_t capacity)
+                                       const RenderJob& job, TileNumber index,
+                                       std::uint64_t capacity)
     : sc_core::sc_module(name), start("start"), cancel("cancel"), sorted("sorted"),
       loader("loader", traffic, time, job, index, config.count), lists("lists", time),
       chunks("chunks", time), config_(config), traffic_(traffic), job_(job), index_(index),
@@ -93,8 +94,7 @@ void HierarchicalSorter::sort_chunks(TileNumber number) {
     const JobTile& tile = job_.tiles[number];
     const std::uint64_t entry = traffic_.list_entry_bytes;
     for (std::uint64_t done = 0; done < tile.count;) {
-        const std::uint64_t count =
-            std::min(static_cast<std::uint64_t>(config_.chunk), tile.count - done);
+        const std::uint64_t count = std::min<std::uint64_t>(config_.chunk, tile.count - done);
         if (cancelled(number)) {
             stats_.keys_cancelled += tile.count - done;
             done = tile.count; // the fetcher knows, too, and reads nothing of it

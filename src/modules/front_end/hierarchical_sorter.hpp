@@ -52,7 +52,7 @@ public:
     /// `capacity`: keys that fit the unit's share of the buffer.
     HierarchicalSorter(const sc_core::sc_module_name& name, const Config& config,
                        const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
-                       int index, std::uint64_t capacity);
+                       TileNumber index, std::uint64_t capacity);
 
     const Stats& stats() const { return stats_; }
 
@@ -67,7 +67,7 @@ private:
     Config config_;
     TrafficConfig traffic_;
     const RenderJob& job_;
-    std::size_t index_;
+    TileNumber index_;
     std::uint64_t capacity_;
     Process partitioner_, sorter_;
     DatedFifo<TileNumber> loaded_, partitioned_;

@@ -4,7 +4,8 @@
 namespace degs {
 
 ListLoader::ListLoader(const sc_core::sc_module_name& name, const TrafficConfig& traffic,
-                       const Timebase& time, const RenderJob& job, int first, int stride)
+                       const Timebase& time, const RenderJob& job, TileNumber first,
+                       TileNumber stride)
     : sc_core::sc_module(name), start("start"), out("out"), lists("lists", time), traffic_(traffic),
       job_(job), first_(first), stride_(stride), self_(time) {
     SC_HAS_PROCESS(ListLoader);
@@ -19,7 +20,7 @@ void ListLoader::end_of_elaboration() {
 void ListLoader::run() {
     const std::uint64_t entry = traffic_.list_entry_bytes;
     std::uint32_t frames_started = 0;
-    for (std::size_t t = first_; job_.has_tile(self_, t); t += stride_) {
+    for (TileNumber t = first_; job_.has_tile(self_, t); t += stride_) {
         const JobTile& tile = job_.tiles[t];
         while (frames_started <= tile.frame) {
             start->get(self_);
@@ -28,7 +29,7 @@ void ListLoader::run() {
         const MemoryMap map = job_.map(tile.frame, traffic_);
         out->reserve(self_);
         const Cycle ready = lists.read(self_, map.lists + tile.first * entry, tile.count * entry);
-        out->put_at(self_, static_cast<TileNumber>(t), ready);
+        out->put_at(self_, t, ready);
         self_.advance();
     }
     self_.finish();

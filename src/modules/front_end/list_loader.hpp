@@ -20,7 +20,7 @@ public:
 
     /// Tiles first, first + stride, ...
     ListLoader(const sc_core::sc_module_name& name, const TrafficConfig& traffic,
-               const Timebase& time, const RenderJob& job, int first, int stride);
+               const Timebase& time, const RenderJob& job, TileNumber first, TileNumber stride);
 
 private:
     void end_of_elaboration() override;
@@ -28,7 +28,7 @@ private:
 
     TrafficConfig traffic_;
     const RenderJob& job_;
-    std::size_t first_, stride_;
+    TileNumber first_, stride_;
     Process self_;
 };
 

@@ -15,7 +15,7 @@ public:
     FifoPort<SortedRun> sorted;
 
     ListSource(const sc_core::sc_module_name& name, const Timebase& time, const RenderJob& job,
-               std::size_t index, std::size_t sources)
+               TileNumber index, TileNumber sources)
         : sc_core::sc_module(name), sorted("sorted"), job_(job), index_(index), sources_(sources),
           self_(time) {
         SC_HAS_PROCESS(ListSource);
@@ -25,15 +25,15 @@ public:
 private:
     void end_of_elaboration() override { sorted->connect_writer(self_); }
     void run() {
-        for (std::size_t t = index_; job_.has_tile(self_, t); t += sources_) {
-            sorted->put(self_, {static_cast<TileNumber>(t), job_.tiles[t].count});
+        for (TileNumber t = index_; job_.has_tile(self_, t); t += sources_) {
+            sorted->put(self_, {t, job_.tiles[t].count});
         }
         sorted->put(self_, {kNoTile, 0});
         self_.finish();
     }
 
     const RenderJob& job_;
-    std::size_t index_, sources_;
+    TileNumber index_, sources_;
     Process self_;
 };
 

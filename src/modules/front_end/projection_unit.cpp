@@ -73,13 +73,10 @@ void ProjectionUnit::project() {
         for (std::uint64_t first = chunk * index_; first < frame.gaussians;
              first += chunk * config_.count) {
             const Chunk in = fetched_.get(projector_);
-            const auto& ids = frame.visible_of;
-            const auto begin = std::lower_bound(ids.begin(), ids.end(), in.first);
-            const auto end = std::lower_bound(begin, ids.end(), in.first + in.count);
             ProjectedChunk result;
             result.frame = f;
-            result.first_visible = static_cast<std::uint32_t>(begin - ids.begin());
-            result.visible = static_cast<std::uint32_t>(end - begin);
+            result.first_visible = frame.visible_among(in.first);
+            result.visible = frame.visible_among(in.first + in.count) - result.first_visible;
             result.tile_pairs = job_.pairs_before(f, result.first_visible + result.visible) -
                                 job_.pairs_before(f, result.first_visible);
             const Cycle busy = in.count * config_.cycles_per_gaussian;
@@ -121,12 +118,13 @@ std::uint64_t ProjectionUnit::sh_bursts(const FrameWorkload& frame,
 }
 
 void ProjectionUnit::shade() {
+    const Cycle cycles = config_.cycles_per_colour;
     for (std::uint32_t f = 0; job_.has_frame(shader_, f); ++f) {
         const std::uint64_t chunk = config_.chunk;
         for (std::uint64_t first = chunk * index_; first < job_.frames[f]->gaussians;
              first += chunk * config_.count) {
             const ProjectedChunk in = projected_.get(shader_);
-            const Cycle busy = in.visible * static_cast<Cycle>(config_.cycles_per_colour);
+            const Cycle busy = in.visible * cycles;
             shader_.advance(busy);
             stats_.shade_busy += busy;
             stats_.visible += in.visible;

@@ -34,7 +34,7 @@ public:
     explicit NextUses(const RenderJob& job) : job_(job) {}
     /// The reference is valid until the next call with another new frame.
     const NextUse& of(std::uint32_t frame) {
-        for (auto f = static_cast<std::uint32_t>(frames_.size()); f <= frame; ++f) {
+        for (std::size_t f = frames_.size(); f <= frame; ++f) {
             frames_.emplace_back(*job_.frames[f]);
         }
         return frames_[frame];

@@ -16,7 +16,7 @@ void SortingUnit::Config::describe(ConfigVisitor& visitor) {
 
 SortingUnit::SortingUnit(const sc_core::sc_module_name& name, const Config& config,
                          const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
-                         int index, std::uint64_t sort_capacity)
+                         TileNumber index, std::uint64_t sort_capacity)
     : sc_core::sc_module(name), start("start"), sorted("sorted"),
       loader("loader", traffic, time, job, index, config.count), lists("lists", time),
       config_(config), traffic_(traffic), job_(job), index_(index), sort_capacity_(sort_capacity),

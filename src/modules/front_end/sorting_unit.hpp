@@ -39,8 +39,8 @@ public:
 
     /// `sort_capacity`: keys that fit the unit's share of the Gaussian Buffer.
     SortingUnit(const sc_core::sc_module_name& name, const Config& config,
-                const TrafficConfig& traffic, const Timebase& time, const RenderJob& job, int index,
-                std::uint64_t sort_capacity);
+                const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
+                TileNumber index, std::uint64_t sort_capacity);
 
     const Stats& stats() const { return stats_; }
 
@@ -52,7 +52,7 @@ private:
     Config config_;
     TrafficConfig traffic_;
     const RenderJob& job_;
-    std::size_t index_;
+    TileNumber index_;
     std::uint64_t sort_capacity_;
     Process sorter_;
     DatedFifo<TileNumber> loaded_;

@@ -108,8 +108,7 @@ void SplatFetcher::fetch(const SortedRun& run) {
             skipped_ = run.tile;
             done_ = tile.count;
         } else {
-            chunk.count =
-                static_cast<std::uint32_t>(std::min<std::uint64_t>(config_.chunk, run.end - done_));
+            chunk.count = next_chunk_of(config_.chunk, run.end - done_);
             done_ += chunk.count;
             stats_.records += chunk.count;
             ready = read(tile, chunk);

@@ -20,10 +20,9 @@ TileFrontEnd::TileFrontEnd(const sc_core::sc_module_name& name, const Config& co
 }
 
 void TileFrontEnd::build_sources(const Timebase& time, const RenderJob& job) {
-    const std::size_t count = sorted.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        sources_.push_back(
-            std::make_unique<ListSource>(numbered("lists", i).c_str(), time, job, i, count));
+    for (TileNumber i = 0; i < sorted.size(); ++i) {
+        sources_.push_back(std::make_unique<ListSource>(numbered("lists", i).c_str(), time, job, i,
+                                                        sorted.size()));
         sources_.back()->sorted.bind(sorted[i]);
     }
 }
@@ -31,9 +30,9 @@ void TileFrontEnd::build_sources(const Timebase& time, const RenderJob& job) {
 void TileFrontEnd::build_units(const Config& config, const Timebase& time, const RenderJob& job) {
     const std::size_t sorters = sorted.size();
     const int waits_for = frame_free.size() == 0 ? 0 : config.frames_in_flight;
-    binner_ = std::make_unique<TileBinner>(
-        "binner", config.binning, config.traffic, time, job, config.projection.chunk,
-        static_cast<std::size_t>(config.projection.count), sorters + listed.size());
+    binner_ = std::make_unique<TileBinner>("binner", config.binning, config.traffic, time, job,
+                                           config.projection.chunk, config.projection.count,
+                                           sorters + listed.size());
     for (std::size_t i = 0; i < listed.size(); ++i) {
         binner_->out[sorters + i].bind(listed[i]);
     }
@@ -48,26 +47,26 @@ void TileFrontEnd::build_units(const Config& config, const Timebase& time, const
             projection_.back()->frame_free[0].bind(frame_free[i]);
         }
     }
-    for (std::size_t i = 0; i < sorters; ++i) {
+    for (TileNumber i = 0; i < sorters; ++i) {
         auto& frames = add_wire(frames_, "frames", time, 1);
         binner_->out[i].bind(frames);
         build_sorter(i, config, time, job, frames);
     }
 }
 
-void TileFrontEnd::build_sorter(std::size_t index, const Config& config, const Timebase& time,
+void TileFrontEnd::build_sorter(TileNumber index, const Config& config, const Timebase& time,
                                 const RenderJob& job, DatedFifo<std::uint32_t>& frames) {
     const std::string name = numbered("sorting", index);
-    const int i = static_cast<int>(index);
     if (config.on_demand) {
-        hierarchical_.push_back(std::make_unique<HierarchicalSorter>(
-            name.c_str(), config.hierarchical, config.traffic, time, job, i, config.sort_capacity));
+        hierarchical_.push_back(
+            std::make_unique<HierarchicalSorter>(name.c_str(), config.hierarchical, config.traffic,
+                                                 time, job, index, config.sort_capacity));
         hierarchical_.back()->start.bind(frames);
         hierarchical_.back()->cancel.bind(cancel[index]);
         hierarchical_.back()->sorted.bind(sorted[index]);
     } else {
         sorting_.push_back(std::make_unique<SortingUnit>(
-            name.c_str(), config.sorting, config.traffic, time, job, i, config.sort_capacity));
+            name.c_str(), config.sorting, config.traffic, time, job, index, config.sort_capacity));
         sorting_.back()->start.bind(frames);
         sorting_.back()->sorted.bind(sorted[index]);
     }

@@ -51,8 +51,7 @@ public:
 
     /// True if frames have to wait for each other; frame_free must then be connected.
     static bool gated(const Config& config, const RenderJob& job) {
-        return !config.instant &&
-               job.frames.size() > static_cast<std::size_t>(config.frames_in_flight);
+        return !config.instant && job.has_more_frames_than(config.frames_in_flight);
     }
     /// Connects the memory ports, also those of the fetchers behind it.
     void connect_memory(MemoryStreams& streams,
@@ -71,7 +70,7 @@ public:
 private:
     void build_sources(const Timebase& time, const RenderJob& job);
     void build_units(const Config& config, const Timebase& time, const RenderJob& job);
-    void build_sorter(std::size_t index, const Config& config, const Timebase& time,
+    void build_sorter(TileNumber index, const Config& config, const Timebase& time,
                       const RenderJob& job, DatedFifo<std::uint32_t>& frames);
 
     std::vector<std::unique_ptr<ListSource>> sources_;

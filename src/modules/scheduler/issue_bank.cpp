@@ -117,10 +117,11 @@ std::uint32_t IssueBank::end_pixels(SegmentQueue::Tile& tile, int domain,
 void IssueBank::enter_tile() {
     queue_.hold(oldest_tile_, entering_tile_);
     const int width = job_.tiles[entering_tile_].width;
-    const std::vector<Segmenter::Domain>& domains = segmenter_.domains();
-    for (std::size_t d = 0; d < domains.size(); ++d) {
-        const int inside = std::clamp(width - domains[d].column, 0, config_.segment_length);
-        end_pixels(queue_.tile(entering_tile_), static_cast<int>(d), ~bits_between(0, inside));
+    SegmentQueue::Tile& tile = queue_.tile(entering_tile_);
+    int domain = 0;
+    for (const Segmenter::Domain& place : segmenter_.domains()) {
+        const int inside = std::clamp(width - place.column, 0, config_.segment_length);
+        end_pixels(tile, domain++, ~bits_between(0, inside));
     }
     entered_ = true;
 }
@@ -172,7 +173,7 @@ bool IssueBank::open_span(Cycle now) {
         if (span) {
             return true;
         }
-        if (++ends_seen_ == static_cast<int>(inputs_.size())) {
+        if (++ends_seen_ == inputs_.size()) {
             features_.close(now);
             ends_seen_ = 0;
             ++entering_tile_;

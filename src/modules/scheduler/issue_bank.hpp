@@ -119,7 +119,7 @@ private:
     TileNumber startable_ = 0;
     TileNumber entering_tile_ = 0; // tile whose spans are accepted: one at a time, in order
     bool entered_ = false;         // something of entering_tile_ has been taken
-    int ends_seen_ = 0;            // inputs that have delivered everything of entering_tile_
+    std::size_t ends_seen_ = 0;    // inputs that have delivered everything of entering_tile_
     std::uint64_t sequence_ = 0;   // segments so far
     bool no_room_ = false;         // a ready segment waits for room in the Packing Buffer
     bool width_limited_ = false;

@@ -5,8 +5,8 @@
 
 namespace degs {
 SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan)
-    : domains_(domains_per_tile), words_((static_cast<std::size_t>(domains_per_tile) + 63) / 64),
-      scan_(scan), entries_(depth) {
+    : domains_(domains_per_tile), words_((domains_per_tile + 63) / 64), scan_(scan),
+      entries_(depth) {
     add_tiles(tiles_in_flight);
     for (int i = depth - 1; i >= 0; --i) {
         Entry& entry = entries_[i];
@@ -17,7 +17,7 @@ SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile,
 
 void SegmentQueue::add_tiles(std::size_t count) {
     const std::size_t sets = words_ * (2 + kWheel);
-    const auto domains = static_cast<std::size_t>(domains_);
+    const std::size_t domains = domains_;
     Block& block = blocks_.emplace_back();
     block.bits.resize(count * sets);
     block.keys.resize(count * domains);
@@ -117,7 +117,7 @@ int SegmentQueue::pick_least(const Tile& tile) const {
     int best = -1;
     for (std::size_t w = 0; w < words_; ++w) {
         for (std::uint64_t bits = tile.ready(w); bits != 0; bits &= bits - 1) {
-            const int domain = static_cast<int>(w) * 64 + __builtin_ctzll(bits);
+            const int domain = first_of(w, bits);
             const std::uint64_t head_key = tile.keys_[domain];
             best = head_key < best_key ? domain : best;
             best_key = head_key < best_key ? head_key : best_key;
@@ -147,7 +147,7 @@ int SegmentQueue::pick_next(Tile& tile) const {
         if (bits == 0) {
             return -1;
         }
-        domain = static_cast<int>(w) * 64 + __builtin_ctzll(bits);
+        domain = first_of(w, bits);
     }
     tile.cursor_ = domain + 1 < domains_ ? domain + 1 : 0;
     return domain;

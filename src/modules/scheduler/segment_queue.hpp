@@ -125,7 +125,11 @@ private:
     int pick_next(Tile& tile) const;
     int pick_least(const Tile& tile) const;
     static std::uint64_t bit_of(int domain) { return std::uint64_t{1} << (domain % 64U); }
-    static std::size_t word_of(int domain) { return static_cast<std::size_t>(domain) / 64; }
+    static std::size_t word_of(std::size_t domain) { return domain / 64; }
+    /// The first domain that is set in word `word` of a set, which is `bits`.
+    static int first_of(std::size_t word, std::uint64_t bits) {
+        return static_cast<int>(word) * 64 + __builtin_ctzll(bits);
+    }
 
     static constexpr int kSequenceBits = 48;
 

@@ -16,7 +16,7 @@ namespace degs {
 class Segmenter {
 public:
     struct Domain {
-        std::int16_t row, column; ///< inside the tile; the column is that of its first pixel
+        int row, column; ///< inside the tile; the column is that of its first pixel
     };
 
     /// For bank `index` of `banks`, which owns every row y with y mod banks = index.
@@ -29,8 +29,7 @@ public:
         }
         for (int row = index; row < tile_size; row += banks) {
             for (int s = 0; s < per_row; ++s) {
-                domains_.push_back(
-                    {static_cast<std::int16_t>(row), static_cast<std::int16_t>(s * length)});
+                domains_.push_back({row, s * length});
             }
         }
     }
@@ -59,7 +58,7 @@ public:
         row_ = span.y;
         if (tile_ != item.tile) {
             tile_ = item.tile;
-            context_ = static_cast<std::int16_t>(item.tile % contexts_);
+            context_ = context_in_turn(item.tile, contexts_);
         }
     }
     /// True if a segment of the span is left.
@@ -80,8 +79,8 @@ public:
         run.task.splat = splat_;
         run.task.mask = mask;
         run.task.row = row_;
-        run.task.column = static_cast<std::int16_t>(column_);
-        run.task.offset = static_cast<std::int16_t>(column_ - base_);
+        run.task.column = inside_tile(column_);
+        run.task.offset = inside_tile(column_ - base_);
         run.task.context = context_;
     }
     void next() {
@@ -90,8 +89,7 @@ public:
     }
 
 private:
-    int length_;
-    TileNumber contexts_;
+    int length_, contexts_;
     // Tables replace divisions in the hot loop.
     std::vector<Domain> domains_;
     std::vector<int> first_domain_of_row_, segment_of_column_;

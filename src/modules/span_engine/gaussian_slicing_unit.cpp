@@ -153,7 +153,7 @@ void GaussianSlicingUnit::slice_splat(TileNumber number, std::uint32_t splat) {
         RowItem& item = lane.staged();
         item.tile = number;
         item.splat = splat;
-        item.row = static_cast<std::int16_t>(row);
+        item.row = inside_tile(row);
         item.end = false;
         lane.put_staged(self_);
         ++emitted;
