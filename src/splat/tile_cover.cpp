@@ -20,8 +20,8 @@ public:
     /// Moving down, the centre moves to the right (or stays).
     bool leans_right() const { return slope_ >= 0; }
 
-    /// Pixels x0 .. x1 of row y inside the ellipse, clipped to the image; false if there is none.
-    bool solve(int y, int& x0, int& x1) const {
+    /// The pixels of row y inside the ellipse, clipped to the image.
+    PixelRange solve(int y) const {
         const double dy = y - mu_y_;
         const double centre = mu_x_ + slope_ * dy;
         const double rest = std::max(0.0, q_threshold_ - dy * dy * inverse_c_);
@@ -30,11 +30,9 @@ public:
         const double low = std::max(0.0, std::ceil(centre - wide));
         const double high = std::min(width_ - 1.0, std::floor(centre + wide));
         if (!(low <= high)) {
-            return false;
+            return {};
         }
-        x0 = static_cast<int>(low);
-        x1 = static_cast<int>(high);
-        return true;
+        return {static_cast<int>(low), static_cast<int>(high)};
     }
 
 private:
@@ -84,9 +82,9 @@ void cover_tile_row(const RowSolver& solver, int tile_size, int top, int bottom,
     const int step = solver.leans_right() ? 1 : -1;
     int y = step > 0 ? top : bottom;
     for (int left = bottom - top; left >= 0 && !collector.complete(); --left, y += step) {
-        int x0 = 0, x1 = 0;
-        if (solver.solve(y, x0, x1)) {
-            collector.add(x0 / tile_size, x1 / tile_size);
+        const PixelRange columns = solver.solve(y);
+        if (!columns.empty()) {
+            collector.add(columns.first / tile_size, columns.last / tile_size);
         }
     }
     collector.close();

@@ -114,13 +114,9 @@ double QuantizedRow::checked_q(const QuantizedSplat& splat, const QuantizedCheck
         return {};
     }
     const double centre = centre_of(splat, row);
-    double left = 0;
-    double right = 0;
-    if (!ends(splat, row, centre, left, right)) {
-        return {};
-    }
-    left = std::max(left, x_begin - splat.pixel_x);
-    right = std::min(right, x_end - 1 - splat.pixel_x);
+    const Ends whole = ends(splat, row, centre);
+    const double left = std::max(whole.left, x_begin - splat.pixel_x);
+    const double right = std::min(whole.right, x_end - 1 - splat.pixel_x);
     return left <= right ? span_vector(splat, row, centre, left, right) : QuantizedSpan{};
 }
 
@@ -140,28 +136,24 @@ QuantizedSpan QuantizedRow::span_vector(const QuantizedSplat& splat, const Row& 
     return span;
 }
 
-/// First and last pixel of the whole row, from the splat's own pixel; false if there is none.
-bool QuantizedRow::ends(const QuantizedSplat& splat, const Row& row, double centre, double& left,
-                        double& right) const {
+/// Of the whole row.
+QuantizedRow::Ends QuantizedRow::ends(const QuantizedSplat& splat, const Row& row,
+                                      double centre) const {
     const double root = sqrt_(row.x);
     const double width = edge_(splat.radius * root);
-    left = edge_(centre - width);
-    right = edge_(centre + width);
+    const double left = edge_(centre - width);
+    const double right = edge_(centre + width);
     if (set_.ends == SpanEnds::Exact) {
-        left = std::ceil(left - set_.guard);
-        right = std::floor(right + set_.guard);
-    } else {
-        double delta = set_.delta;
-        if (set_.ends == SpanEnds::Slope) {
-            // |dw/dy| = r_x |dy| inv_ry^2 / sqrt(1 - x), for an error of half a unit of dy; at the
-            // tips, where it grows without bounds, the span is no longer than a pixel or two.
-            const double steep = splat.radius * std::abs(row.dy) * splat.inverse_radius2;
-            delta += root > 0 ? std::min(1.0, std::nearbyint(steep / root * half_unit_)) : 1.0;
-        }
-        left = std::floor(left) - delta;
-        right = std::ceil(right) + delta;
+        return {std::ceil(left - set_.guard), std::floor(right + set_.guard)};
     }
-    return left <= right;
+    double delta = set_.delta;
+    if (set_.ends == SpanEnds::Slope) {
+        // |dw/dy| = r_x |dy| inv_ry^2 / sqrt(1 - x), for an error of half a unit of dy; at the
+        // tips, where it grows without bounds, the span is no longer than a pixel or two.
+        const double steep = splat.radius * std::abs(row.dy) * splat.inverse_radius2;
+        delta += root > 0 ? std::min(1.0, std::nearbyint(steep / root * half_unit_)) : 1.0;
+    }
+    return {std::floor(left) - delta, std::ceil(right) + delta};
 }
 
 /// C' dy^2 - 2 ln o: what a row's q' is at the vertex.

@@ -78,12 +78,15 @@ private:
     struct Row {
         double dy, x;
     };
+    /// First and last pixel of a span, from the splat's own pixel; without any, left > right.
+    struct Ends {
+        double left, right;
+    };
     Row row_at(const QuantizedSplat& splat, int y) const;
     double centre_of(const QuantizedSplat& splat, const Row& row) const;
     void derive(const ProjectedSplat& splat, QuantizedSplat& out) const;
     void derive_literally(const ProjectedSplat& splat, QuantizedSplat& out) const;
-    bool ends(const QuantizedSplat& splat, const Row& row, double centre, double& left,
-              double& right) const;
+    Ends ends(const QuantizedSplat& splat, const Row& row, double centre) const;
     QuantizedSpan span_vector(const QuantizedSplat& splat, const Row& row, double centre,
                               double left, double right) const;
     double level(const QuantizedSplat& splat, const Row& row) const;
