@@ -78,15 +78,17 @@ void Gbu::collect_laws(AcceleratorResult& result) const {
     const std::uint64_t fetched = sum_of(fetchers_, &F::records);
     const std::uint64_t probes = config_.engines.end_probe ? sum_of(engines_, &E::entries) : 0;
     const SlotAccount& s = result.slots;
-    result.conservation = {
-        {"splats listed = fetched + cancelled", listed,
-         fetched + sum_of(fetchers_, &F::records_cancelled)},
-        {"splats fetched = taken by Row Generation + abandoned", fetched,
-         sum_of(engines_, &E::splats) + sum_of(engines_, &E::splats_abandoned)},
-        {"pixels of row entries + end probes = slots executed",
-         sum_of(engines_, &E::pixels) + probes, s.useful + s.boundary + s.terminated},
-        {"tiles granted = worked on", dispatcher_->stats().tiles, sum_of(engines_, &E::tiles)},
-    };
+    result.conservation.insert(
+        result.conservation.end(),
+        {
+            {"splats listed = fetched + cancelled", listed,
+             fetched + sum_of(fetchers_, &F::records_cancelled)},
+            {"splats fetched = taken by Row Generation + abandoned", fetched,
+             sum_of(engines_, &E::splats) + sum_of(engines_, &E::splats_abandoned)},
+            {"pixels of row entries + end probes = slots executed",
+             sum_of(engines_, &E::pixels) + probes, s.useful + s.boundary + s.terminated},
+            {"tiles granted = worked on", dispatcher_->stats().tiles, sum_of(engines_, &E::tiles)},
+        });
 }
 
 void Gbu::collect(AcceleratorResult& result) const {

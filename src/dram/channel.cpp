@@ -18,6 +18,8 @@ void each_counter(Channel::Stats& stats, const Channel::Stats& other, const Chan
     }
     change(stats.forwarded, other.forwarded);
     change(stats.merged, other.merged);
+    change(stats.forwarded_bursts, other.forwarded_bursts);
+    change(stats.merged_bursts, other.merged_bursts);
     change(stats.drains, other.drains);
     change(stats.open, other.open);
 }
@@ -89,8 +91,9 @@ void Channel::admit(Ck date, Outcome& outcome) {
         if (posted_writes_) {
             outcome.answers.push_back({access.id, date + 1});
         }
-        if (posted_writes_ && state_.queues.merge(access)) {
+        if (const auto shared = posted_writes_ ? state_.queues.merge(access) : std::nullopt) {
             ++stats_.merged;
+            stats_.merged_bursts += *shared;
             continue;
         }
         state_.queues.enqueue_write(access);
@@ -103,6 +106,7 @@ void Channel::admit(Ck date, Outcome& outcome) {
         outcome.admitted.push_back(access.id);
         if (access.after_write && state_.queues.covered(access)) {
             ++stats_.forwarded;
+            stats_.forwarded_bursts += bursts_of(access.bursts);
             outcome.answers.push_back({access.id, date + 1});
             continue;
         }

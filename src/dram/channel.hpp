@@ -57,8 +57,9 @@ public:
         ByRowState bursts{};   ///< first burst of an access as it found the row, others hit
         ByRowState accesses{}; ///< of up to 64 B
         std::uint64_t forwarded = 0, merged = 0; ///< accesses that never reached the DRAM
-        std::uint64_t drains = 0;                ///< turns from reads to writes
-        Ck open = 0;                             ///< CK with a row open, up to the last change
+        std::uint64_t forwarded_bursts = 0, merged_bursts = 0; ///< the same in bursts
+        std::uint64_t drains = 0;                              ///< turns from reads to writes
+        Ck open = 0; ///< CK with a row open, up to the last change
         void add(const Stats& other);
         void subtract(const Stats& earlier);
         /// All but `drains` and `open`, from which the energy follows.
@@ -80,6 +81,8 @@ public:
 
     /// True if nothing is queued and nothing waits for a queue.
     bool idle() const { return state_.queues.idle(); }
+    /// Bursts of all accesses so far that have not been issued.
+    std::uint64_t bursts_left() const { return state_.queues.bursts_left(); }
     /// Accesses that wait for room in a queue, or for their date.
     std::size_t waiting() const { return state_.queues.waiting(); }
     bool has_writes() const { return state_.queues.has_writes(); }

@@ -11,6 +11,7 @@
 
 #include "dram/channels.hpp"
 #include "dram/sparse_storage.hpp"
+#include "dram/transfer_account.hpp"
 #include "tlm/latency_histogram.hpp"
 #include "tlm/process.hpp"
 
@@ -55,6 +56,7 @@ public:
     /// request follows.
     Channel::Stats commands(const sc_core::sc_time& until);
     Energy energy(const sc_core::sc_time& until);
+    TransferAccount transfers(const sc_core::sc_time& until);
     const Channels& channels() const { return channels_; }
     /// Calls `observer` with every command. Set it before the simulation starts.
     void observe(const std::function<void(unsigned channel, const Issued&)>& observer);

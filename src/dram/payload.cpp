@@ -122,6 +122,21 @@ Channel::Stats Lpddr5::commands(const sc_core::sc_time& until) {
     return sum;
 }
 
+TransferAccount Lpddr5::transfers(const sc_core::sc_time& until) {
+    const Channel::Stats stats = commands(until);
+    const std::uint64_t burst = config_.timing.burst_bytes();
+    TransferAccount bytes;
+    for (const Command command : {Command::Rd, Command::RdA, Command::Wr, Command::WrA}) {
+        bytes.on_bus += burst * of_kind(stats.commands, command);
+    }
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        bytes.queued += burst * channels_[c].bursts_left();
+    }
+    bytes.merged = burst * stats.merged_bursts;
+    bytes.forwarded = burst * stats.forwarded_bursts;
+    return bytes;
+}
+
 Energy Lpddr5::energy(const sc_core::sc_time& until) {
     const Ck elapsed = settle(until.value());
     Energy sum;

@@ -21,6 +21,11 @@ struct Access {
     bool after_write = false; ///< a read: an older write to the block may be waiting
 };
 
+/// Bursts that a mask names.
+constexpr unsigned bursts_of(unsigned mask) {
+    return __builtin_popcount(mask);
+}
+
 /// State of the row buffer when an access was first served.
 enum class RowState : std::uint8_t { Hit, Closed, Conflict };
 using ByRowState = std::array<std::uint64_t, 3>;
@@ -101,6 +106,17 @@ public:
             slot = entries_[slot].next;
         }
         return slot;
+    }
+    /// Bursts that have not been issued, of all entries.
+    std::uint64_t bursts_left() const {
+        std::uint64_t bursts = 0;
+        for (std::uint32_t rest = banks_; rest != 0; rest &= rest - 1) {
+            for (std::uint8_t slot = head_[first_bank(rest)]; slot != kNone;
+                 slot = entries_[slot].next) {
+                bursts += bursts_of(entries_[slot].left);
+            }
+        }
+        return bursts;
     }
     /// The bank that holds the oldest entry of all; only if not empty.
     unsigned oldest_bank() const {

@@ -36,15 +36,16 @@ bool Queues::covered(const Access& access) const {
     return slot != Queue::kNone && (access.bursts & ~writes_[slot].access.bursts) == 0;
 }
 
-bool Queues::merge(const Access& access) {
+std::optional<unsigned> Queues::merge(const Access& access) {
     const std::uint8_t slot = writes_.find(access.bank, access.row, access.block);
     if (slot == Queue::kNone) {
-        return false;
+        return {};
     }
+    const unsigned shared = bursts_of(writes_[slot].left & access.bursts);
     writes_[slot].access.bursts |= access.bursts;
     writes_[slot].left |= access.bursts;
     --writes_of_hash_[hash(access)];
-    return true;
+    return shared;
 }
 
 void Queues::remove(unsigned slot) {
@@ -52,6 +53,16 @@ void Queues::remove(unsigned slot) {
         --writes_of_hash_[hash(writes_[slot].access)];
     }
     current().remove(slot);
+}
+
+std::uint64_t Queues::bursts_left() const {
+    std::uint64_t bursts = reads_.bursts_left() + writes_.bursts_left();
+    for (const auto* waiting : {&reads_in_, &writes_in_}) {
+        for (const Access& access : *waiting) {
+            bursts += bursts_of(access.bursts);
+        }
+    }
+    return bursts;
 }
 
 bool Queues::idle() const {

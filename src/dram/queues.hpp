@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "dram/controller.hpp"
 #include "dram/queue.hpp"
@@ -48,8 +49,9 @@ public:
 
     void enqueue_write(const Access& access) { writes_.push(access); }
     void enqueue_read(const Access& access) { reads_.push(access); }
-    /// Joins a write to one that waits for the same block; false if there is none.
-    bool merge(const Access& access);
+    /// Joins a write to one that waits for the same block. Returns how many of its bursts that one
+    /// was to transfer anyway; empty if there is none.
+    std::optional<unsigned> merge(const Access& access);
     /// True if a waiting write holds all bytes of this read.
     bool covered(const Access& access) const;
     /// Takes a served access out of the current queue.
@@ -75,6 +77,8 @@ public:
     bool idle() const;
     /// Accesses that wait for room in a queue, or for their date.
     std::size_t waiting() const { return reads_in_.size() + writes_in_.size(); }
+    /// Bursts of all accesses that have not been issued, whether they wait in a queue or for one.
+    std::uint64_t bursts_left() const;
     /// Something waits for room in a full queue.
     bool held_up() const {
         return (reads_.full() && !reads_in_.empty()) || (writes_.full() && !writes_in_.empty());

@@ -94,10 +94,14 @@ void describe_dram(const AcceleratorResult& run, StatsVisitor& v) {
     v.begin_section("dram", "Traffic of the main memory, as transferred: whole accesses.");
     v.count("bytes_read", read, "bytes", "Bytes read.");
     v.count("bytes_written", written, "bytes", "Bytes written.");
+    v.count("window_cycles",
+            limited ? std::optional<std::uint64_t>(run.memory_window) : std::nullopt, "cycles",
+            "Over which this section counts: the run, or up to the memory's last answer if that is "
+            "later; null with --array-only.");
     v.real("peak_gb_per_s", if_limited(run.memory_gb_per_s), "GB/s",
            "Configured bandwidth; null with --array-only, when memory is unlimited.");
     v.real("utilization", if_limited(run.memory_utilization), "share",
-           "Time in which the data bus was occupied; null with --array-only.");
+           "Share of the window in which the data bus was occupied; null with --array-only.");
     v.real("row_hit_rate", run.row_hit_rate, "share",
            "Accesses that found their row open; null with the model bus, which has no rows.");
     if (v.wants(run.dram_energy.has_value())) {
@@ -105,6 +109,12 @@ void describe_dram(const AcceleratorResult& run, StatsVisitor& v) {
                   "Energy of the DRAM by event; null with the model bus.");
     } else {
         v.nothing("energy_nj", "Energy of the DRAM by event.");
+    }
+    if (v.wants(run.dram_transfers.has_value())) {
+        v.section(
+            "transfers", run.dram_transfers.value_or(dram::TransferAccount()),
+            "What has become of bytes_read + bytes_written by the end of the run; with lpddr5 "
+            "only.");
     }
     v.begin_section("streams", "Traffic by kind of record.");
     for (const StreamUse& stream : run.streams) {

@@ -9,6 +9,7 @@
 
 #include "config/statistics.hpp"
 #include "dram/energy.hpp"
+#include "dram/transfer_account.hpp"
 #include "modules/array/slot_account.hpp"
 #include "splat/images/image.hpp"
 #include "tlm/latency_histogram.hpp"
@@ -75,13 +76,16 @@ struct AcceleratorResult {
     std::vector<StageUse> stages;
     std::vector<BufferUse> buffers;
     std::vector<StreamUse> streams;
-    double memory_utilization = 0; ///< share of the run in which the data bus was occupied
+    double memory_utilization = 0; ///< share of memory_window in which the data bus was busy
     double memory_gb_per_s = 0;    ///< peak; 0: unlimited
+    /// Cycles over which memory is counted: the run, or up to its last answer if that is later.
+    Cycle memory_window = 0;
     // These exist only for a memory with banks and rows.
     std::optional<double> row_hit_rate; ///< share of accesses that found their row open
     std::optional<dram::Energy> dram_energy;
-    std::uint64_t tiles_listed = 0; ///< that the accelerator has to render
-    std::uint64_t tiles = 0;        ///< that it has rendered
+    std::optional<dram::TransferAccount> dram_transfers; ///< by the end of the run
+    std::uint64_t tiles_listed = 0;                      ///< that the accelerator has to render
+    std::uint64_t tiles = 0;                             ///< that it has rendered
     std::uint64_t background_tiles = 0, tiles_cancelled = 0;
     Cycle stopped = 0; ///< nothing was left to happen at this date
     std::vector<Conservation> conservation;

@@ -75,14 +75,16 @@ void Degs::collect_laws(AcceleratorResult& result) const {
     const std::uint64_t dropped = sum_of(banks_, &B::tasks_dropped);
     const std::uint64_t packed = sum_of(packing_, &PackingUnit::Stats::tasks);
     const SlotAccount& s = result.slots;
-    result.conservation = {
-        {"tasks solved = tasks into the banks", sum_of(spans_, &SpanUnit::Stats::tasks), in},
-        {"tasks into the banks = issued + dropped", in, issued + dropped},
-        {"tasks issued = packed", issued, packed},
-        {"tasks packed = executed", packed, s.useful + s.boundary + s.terminated},
-        {"packets packed = executed", sum_of(packing_, &PackingUnit::Stats::packets),
-         sum_of(slices_, &ArraySlice::Stats::packets)},
-    };
+    result.conservation.insert(
+        result.conservation.end(),
+        {
+            {"tasks solved = tasks into the banks", sum_of(spans_, &SpanUnit::Stats::tasks), in},
+            {"tasks into the banks = issued + dropped", in, issued + dropped},
+            {"tasks issued = packed", issued, packed},
+            {"tasks packed = executed", packed, s.useful + s.boundary + s.terminated},
+            {"packets packed = executed", sum_of(packing_, &PackingUnit::Stats::packets),
+             sum_of(slices_, &ArraySlice::Stats::packets)},
+        });
 }
 
 void Degs::explain(AcceleratorResult& result) const {

@@ -24,6 +24,24 @@ MemoryTraffic traffic_of(const Stats& stats) {
     return {stats.reads, stats.writes, stats.bytes_read, stats.bytes_written};
 }
 
+/// Sets the window over which memory is counted and returns its end: reads of cancelled tiles may
+/// still be answered when the last pixel is in memory.
+sc_core::sc_time set_window(AcceleratorResult& result, const sc_core::sc_time& last_answer) {
+    const ClockDomain clock(result.clock_ghz);
+    const sc_core::sc_time end = std::max(clock.at(result.cycles), last_answer);
+    result.memory_window = clock.ceil(end);
+    return end;
+}
+
+/// In cycles as they were simulated, whose length is a whole number of kernel time units.
+double share_of_window(const AcceleratorResult& result, double busy_ns) {
+    const std::uint64_t cycle = ClockDomain(result.clock_ghz).period().value();
+    const double window_ns =
+        rate_of(result.memory_window * cycle,
+                static_cast<double>(sc_core::sc_time(1, sc_core::SC_NS).value()));
+    return window_ns > 0 ? busy_ns / window_ns : 0;
+}
+
 /// One data bus with latency.
 class BusMemory : public MainMemory {
 public:
@@ -37,7 +55,11 @@ public:
         return traffic_of(bus_->stats(initiator));
     }
     double peak_gb_per_s() const override { return config_.bandwidth_gb_per_s; }
-    double busy_ns() const override { return bus_->total().busy_ns; }
+    void collect(AcceleratorResult& result) const override {
+        const Memory::Stats requests = bus_->total();
+        set_window(result, requests.last_answer);
+        result.memory_utilization = share_of_window(result, requests.busy_ns);
+    }
     std::vector<std::string> explain() const override {
         return {"The memory is a shared data bus with latency: its banks, rows and refresh are not "
                 "modelled, so it has no row hit rate and no energy.",
@@ -56,6 +78,7 @@ class UnlimitedMemory : public BusMemory {
 public:
     UnlimitedMemory(const char* name, const Timebase& time) : BusMemory(name, unlimited(), time) {}
     double peak_gb_per_s() const override { return 0; }
+    void collect(AcceleratorResult& /*result*/) const override {}
     std::vector<std::string> explain() const override {
         return {"The array runs alone: its lists and records are there at once, and the memory has "
                 "neither latency nor a limit of bandwidth.",
@@ -78,29 +101,26 @@ public:
         : name_(name), config_(config), time_(time) {}
     void connect(const std::vector<MemoryStream>& streams) override {
         dram_ = std::make_unique<dram::Lpddr5>(name_, config_, time_, streams.size());
-        initiators_ = streams.size();
         bind_each(streams, dram_->in);
     }
     MemoryTraffic traffic(std::size_t initiator) const override {
         return traffic_of(dram_->stats(initiator));
     }
     double peak_gb_per_s() const override { return config_.peak_gb_per_s(); }
-    double busy_ns() const override {
-        std::uint64_t bytes = 0;
-        for (std::size_t i = 0; i < initiators_; ++i) {
-            bytes += dram_->stats(i).bytes_read + dram_->stats(i).bytes_written;
-        }
-        return rate_of(bytes, peak_gb_per_s());
-    }
     const LatencyHistogram* read_latency(std::size_t initiator) const override {
         return &dram_->stats(initiator).read_latency;
     }
     void collect(AcceleratorResult& result) const override {
-        // Reads of cancelled tiles may still be answered when the last pixel is in memory.
-        const sc_core::sc_time end =
-            std::max(ClockDomain(result.clock_ghz).at(result.cycles), dram_->total().last_answer);
+        const dram::Lpddr5::Stats requests = dram_->total();
+        const sc_core::sc_time end = set_window(result, requests.last_answer);
+        const dram::TransferAccount bytes = dram_->transfers(end);
+        result.memory_utilization = share_of_window(result, rate_of(bytes.on_bus, peak_gb_per_s()));
         result.row_hit_rate = dram::hit_rate(dram_->commands(end).accesses);
         result.dram_energy = dram_->energy(end);
+        result.dram_transfers = bytes;
+        result.conservation.push_back(
+            {"bytes read and written = on the bus + queued + merged + forwarded",
+             requests.bytes_read + requests.bytes_written, bytes.total()});
     }
     std::vector<std::string> explain() const override {
         return {"The memory is LPDDR5 with channels, banks, rows and refresh; the interconnect in "
@@ -114,7 +134,6 @@ private:
     const char* name_;
     dram::Config config_;
     const Timebase& time_;
-    std::size_t initiators_ = 0;
     std::unique_ptr<dram::Lpddr5> dram_;
 };
 

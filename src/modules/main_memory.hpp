@@ -52,13 +52,12 @@ public:
     virtual MemoryTraffic traffic(std::size_t initiator) const = 0;
     /// Peak bandwidth in 1e9 B/s; 0: unlimited, or not known.
     virtual double peak_gb_per_s() const = 0;
-    /// Nanoseconds in which the data bus, or the mean channel, was occupied; 0: not known.
-    virtual double busy_ns() const = 0;
     /// From the date of a read to its last byte; nullptr: not measured.
     virtual const LatencyHistogram* read_latency(std::size_t /*initiator*/) const {
         return nullptr;
     }
-    /// Fills in what only this memory knows.
+    /// Fills in the utilization and what only this memory knows; the cycles and the clock of
+    /// `result` must be known.
     virtual void collect(AcceleratorResult& /*result*/) const {}
     /// What this memory leaves out, one sentence each, for --explain.
     virtual std::vector<std::string> explain() const = 0;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "config/ratio.hpp"
-
 namespace degs {
 
 void MemoryStreams::build(const char* name, const MainMemoryConfig& config, const Timebase& time,
@@ -49,10 +47,6 @@ void MemoryStreams::collect_streams(AcceleratorResult& result) const {
 void MemoryStreams::collect(AcceleratorResult& result) const {
     collect_streams(result);
     result.memory_gb_per_s = memory_->peak_gb_per_s();
-    const double run_ns = rate_of(result.cycles, result.clock_ghz);
-    if (run_ns > 0 && result.memory_gb_per_s > 0) {
-        result.memory_utilization = memory_->busy_ns() / run_ns;
-    }
     memory_->collect(result);
     const std::vector<std::string> sentences = memory_->explain();
     result.left_out.insert(result.left_out.end(), sentences.begin(), sentences.end());

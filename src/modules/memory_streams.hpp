@@ -25,7 +25,6 @@ public:
     const char* name(std::size_t initiator) const { return streams_[initiator].kind.name; }
     Traffic traffic(std::size_t initiator) const { return memory_->traffic(initiator); }
     Traffic total() const;
-    double busy_ns() const { return memory_->busy_ns(); } ///< see MainMemory
     /// Fills in the results of the memory; the cycles of `result` must be known.
     void collect(AcceleratorResult& result) const;
 

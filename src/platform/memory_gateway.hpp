@@ -49,7 +49,6 @@ public:
     void connect(const std::vector<MemoryStream>& streams) override;
     MemoryTraffic traffic(std::size_t initiator) const override { return traffic_[initiator]; }
     double peak_gb_per_s() const override { return 0; }
-    double busy_ns() const override { return 0; }
     std::vector<std::string> explain() const override;
 
     /// A part of memory that belongs to the accelerator.

@@ -49,6 +49,7 @@ Memory::Stats Memory::total() const {
         sum.bytes_read += s.bytes_read;
         sum.bytes_written += s.bytes_written;
         sum.busy_ns += s.busy_ns;
+        sum.last_answer = std::max(sum.last_answer, s.last_answer);
         sum.waited_ns += s.waited_ns;
     }
     return sum;
@@ -116,6 +117,7 @@ void Memory::serve(Request& request) {
     (payload.is_read() ? stats.reads : stats.writes)++;
     (payload.is_read() ? stats.bytes_read : stats.bytes_written) += bytes;
     stats.busy_ns += transfer_ns;
+    stats.last_answer = std::max(stats.last_answer, request.done);
     stats.waited_ns += (start - asked) / units_per_ns_;
     if (payload.get_extension<TimingOnly>() == nullptr) {
         copy(payload);

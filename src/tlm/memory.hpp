@@ -34,6 +34,7 @@ public:
         std::uint64_t reads = 0, writes = 0;             ///< transactions
         std::uint64_t bytes_read = 0, bytes_written = 0; ///< as occupied on the bus
         double busy_ns = 0;                              ///< data bus occupied
+        sc_core::sc_time last_answer;
         double waited_ns = 0; ///< sum over transactions: date to start of transfer
     };
 

@@ -20,7 +20,7 @@ public:
               const std::vector<const FrameWorkload*>& frames, Fidelity fidelity = Fidelity::Exact,
               const BuildOptions& options = {})
         : time_{ClockDomain(config.clock_ghz), fidelity}, job_(make_render_job(frames, config)),
-          pes_(config.pes()) {
+          pes_(config.pes()), clock_ghz_(config.clock_ghz) {
         EXPECT_EQ(config.problem(), "");
         engine_ = config.build(name.c_str(), time_, job_, options);
     }
@@ -28,6 +28,7 @@ public:
     const Image& image(std::size_t frame = 0) const { return job_.images[frame]; }
     AcceleratorResult result() const {
         AcceleratorResult result;
+        result.clock_ghz = clock_ghz_;
         engine_->collect(result);
         return result;
     }
@@ -45,6 +46,7 @@ private:
     Timebase time_;
     RenderJob job_;
     int pes_;
+    double clock_ghz_;
     std::unique_ptr<RenderEngine> engine_;
 };
 

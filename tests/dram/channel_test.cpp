@@ -199,6 +199,7 @@ TEST(Lpddr5Channel, ReadsAreAnsweredFromQueuedWrites) {
     EXPECT_GT(bench.answers[whole], 20U) << "half of it is not in the queue";
     EXPECT_GT(bench.answers[other], 20U);
     EXPECT_EQ(bench.channel.stats().forwarded, 1U);
+    EXPECT_EQ(bench.channel.stats().forwarded_bursts, 1U);
 }
 
 TEST(Lpddr5Channel, WritesToOnePlaceBecomeOne) {
@@ -211,6 +212,8 @@ TEST(Lpddr5Channel, WritesToOnePlaceBecomeOne) {
     }
     bench.run_out();
     EXPECT_EQ(bench.channel.stats().merged, 4U);
+    EXPECT_EQ(bench.channel.stats().merged_bursts, 3U) << "the second burst was new once";
+    EXPECT_EQ(bench.channel.bursts_left(), 0U);
     EXPECT_EQ(bench.channel.stats().commands[static_cast<std::size_t>(Command::Wr)], 2U);
     EXPECT_EQ(bench.answers.size(), bench.pushed());
 }

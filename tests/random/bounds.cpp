@@ -89,10 +89,15 @@ void check_memory(const Finished& run, Complaints& complaints) {
         bytes += stream.bytes_read + stream.bytes_written;
     }
     complaints.at_most("share of time in which memory is busy", r.memory_utilization, kRounding);
+    if (r.dram_transfers) {
+        complaints.equal("bytes that memory accounts for", r.dram_transfers->total(), bytes);
+        bytes -= r.dram_transfers->not_on_bus();
+    }
     if (r.memory_gb_per_s > 0) {
-        const double peak = r.memory_gb_per_s / r.clock_ghz; // bytes per cycle
-        complaints.at_most("bytes through memory", static_cast<double>(bytes),
-                           peak * static_cast<double>(r.cycles) * kRounding);
+        const sc_core::sc_time window = ClockDomain(r.clock_ghz).at(r.memory_window);
+        complaints.at_most("bytes on the data bus", static_cast<double>(bytes),
+                           r.memory_gb_per_s * 1e9 * window.to_seconds() * kRounding);
+        complaints.at_most("the run within the window of its memory", r.cycles, r.memory_window);
     }
     std::uint64_t pixels = 0;
     std::uint64_t gaussians = 0;
