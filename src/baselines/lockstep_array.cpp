@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "splat/tested_pixels.hpp"
+
 namespace degs {
 
 void LockstepArray::Config::describe(ConfigVisitor& visitor) {
@@ -11,7 +13,7 @@ void LockstepArray::Config::describe(ConfigVisitor& visitor) {
                     {"lanes", "must be a square of 4, 8, 16 or 32 px", "16, 64, 256 or 1024"});
     visitor.choice("subtile_skip", subtile_skip, {"obb", "exact", "none"},
                    "which sub-tiles a splat's bitmap names: those its oriented box meets (GSCore), "
-                   "those with a pixel inside the ellipse, or all");
+                   "those with a pixel that passes the lanes' check, or all");
     visitor.integer("clusters", clusters, 1, 4,
                     "groups of lanes with a place in the list of their own; a group owns the "
                     "sub-tiles s = c mod clusters and takes `clusters` cycles for one; 1 keeps one "
@@ -167,22 +169,33 @@ void LockstepArray::work(const SplatChunk& chunk, Cycle begin) {
             return;
         }
         stats_.splats++;
-        const SubtileMask mask = bitmap(frame.splats[list[i]], first_splat + list[i]);
-        if (!issue(first_splat + list[i], mask, begin)) {
+        const std::uint32_t splat = first_splat + list[i];
+        if (!issue(splat, bitmap(splat), begin)) {
             stats_.splats_skipped++;
         }
     }
 }
 
-SubtileMask LockstepArray::bitmap(const ProjectedSplat& splat, std::uint32_t index) {
+SubtileMask LockstepArray::bitmap(std::uint32_t splat) const {
     switch (config_.subtile_skip) {
     case SubtileTest::Obb:
-        return grid_.meeting(boxes_[index], tile_->x, tile_->y) & inside_;
+        return (grid_.meeting(boxes_[splat], tile_->x, tile_->y) & inside_) |
+               (job_.path->rounds_coarsely() ? tested(splat) : 0);
     case SubtileTest::Exact:
-        return grid_.covered(splat, tile_->x, tile_->y, tile_->width, tile_->height);
+        return tested(splat);
     default:
         return inside_;
     }
+}
+
+/// The sub-tiles with a pixel that passes the lanes' check.
+SubtileMask LockstepArray::tested(std::uint32_t splat) const {
+    SubtileMask mask = 0;
+    each_tested_row(*job_.path, splat, tile_->columns(), tile_->rows(),
+                    [&](int y, const PixelRange& columns) {
+                        mask |= grid_.of_pixels(y - tile_->y, columns.relative_to(tile_->x));
+                    });
+    return mask;
 }
 
 /// Does a slot from `begin` on see every sub-tile done?

@@ -89,7 +89,8 @@ private:
     bool await_chunk(FifoBase& source);
     void await_context(TileNumber number);
     void work(const SplatChunk& chunk, Cycle begin);
-    SubtileMask bitmap(const ProjectedSplat& splat, std::uint32_t index);
+    SubtileMask bitmap(std::uint32_t splat) const;
+    SubtileMask tested(std::uint32_t splat) const;
     bool all_done(Cycle begin);
     bool issue(std::uint32_t splat, SubtileMask mask, Cycle begin);
     void pass(int subtile, std::uint32_t splat, Cycle at);

@@ -124,14 +124,17 @@ void TileEngine::work() {
 void TileEngine::generate(std::uint32_t splat) {
     const Cycle now = self_.local();
     const int x_end = tile_->x + tile_->width;
-    const PixelRange rows =
-        job_.path->rows_in_columns(splat, tile_->x, x_end).within(tile_->rows());
+    const PixelRange rows = job_.path->tested_rows(splat, tile_->columns(), tile_->rows());
     Cycle pushed = now;
     for (int y = rows.first; y <= rows.last; ++y) {
         if (rows_[y - tile_->y].ended <= now) {
             stats_.rows_skipped++;
-        } else if (const auto span = job_.path->solve_row(splat, y, tile_->x, x_end, tile_->y)) {
-            pushed = std::max(pushed, push(*span, now));
+            continue;
+        }
+        const PixelRange pixels = job_.path->tested_columns(splat, y, tile_->x, x_end);
+        if (!pixels.empty()) {
+            const Entry entry{splat, y - tile_->y, pixels.first - tile_->x, pixels.size()};
+            pushed = std::max(pushed, push(entry, now));
         }
     }
     stats_.queue_wait += pushed - now;
@@ -143,9 +146,9 @@ void TileEngine::generate(std::uint32_t splat) {
 
 // The date at which generation is done with the entry: once the cell it takes has been loaded from,
 // or the row is known to have ended.
-Cycle TileEngine::push(const RowSpan& span, Cycle now) {
-    Row& row = rows_[span.y];
-    const std::size_t index = pe_of_row_[span.y];
+Cycle TileEngine::push(const Entry& entry, Cycle now) {
+    Row& row = rows_[entry.row];
+    const std::size_t index = pe_of_row_[entry.row];
     RowPe& pe = pes_[index];
     const std::size_t depth = config_.queue_depth;
     Cycle& cell = loaded_[index * depth + pe.next];
@@ -159,24 +162,24 @@ Cycle TileEngine::push(const RowSpan& span, Cycle now) {
     if (row.live == 0) {
         stats_.entries_dropped++;
     } else {
-        pe.free = cell + execute(span, cell);
+        pe.free = cell + execute(entry, cell);
     }
     return pushed;
 }
 
 // The slots that the entry takes from `load` on.
-Cycle TileEngine::execute(const RowSpan& span, Cycle load) {
-    Row& row = rows_[span.y];
+Cycle TileEngine::execute(const Entry& entry, Cycle load) {
+    Row& row = rows_[entry.row];
     PixelTest test;
-    test.splat = span.splat;
-    test.y = tile_->y + span.y;
-    test.row = span.y;
+    test.splat = entry.splat;
+    test.y = tile_->y + entry.row;
+    test.row = entry.row;
     test.context = context_;
     SlotAccount& slots = stats_.slots;
-    for (int done = 0; done < span.length; done += kLaneBlock) {
-        test.column = span.x0 + done;
+    for (int done = 0; done < entry.length; done += kLaneBlock) {
+        test.column = entry.column + done;
         test.x = tile_->x + test.column;
-        test.mask = first_bits(span.length - done);
+        test.mask = first_bits(entry.length - done);
         const BlendOutcome outcome = job_.path->test(test);
         slots.useful += __builtin_popcount(outcome.useful);
         slots.boundary += __builtin_popcount(outcome.boundary);
@@ -191,9 +194,9 @@ Cycle TileEngine::execute(const RowSpan& span, Cycle load) {
         }
     }
     stats_.entries++;
-    stats_.pixels += span.length;
+    stats_.pixels += entry.length;
     slots.boundary += config_.end_probe ? 1 : 0;
-    const Cycle taken = span.length + (config_.end_probe ? 1 : 0);
+    const Cycle taken = entry.length + (config_.end_probe ? 1 : 0);
     stats_.window.include(load);
     stats_.window.include(load + taken - 1);
     return taken;

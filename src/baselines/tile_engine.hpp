@@ -21,7 +21,8 @@ namespace degs {
 /// when generation has finished and all queues are empty.
 ///
 /// GBU makes the conic a circle and turns it so that a row is parallel to an axis, which leaves
-/// x''^2 <= threshold - y''^2 per pixel. That is the completed square that the data path solves.
+/// x''^2 <= threshold - y''^2 per pixel. That is the completed square of DataPath::test, so an
+/// entry holds exactly the pixels that pass the Row PE's own check, in every number format.
 ///
 /// An entry is evaluated when it is pushed: a Row PE depends on nothing but its own queue, so the
 /// dates of the entry's slots follow from those of the entries before it, and it is already known
@@ -86,6 +87,10 @@ private:
         Cycle free = 0;       // first cycle without work, as far as entries have been pushed
         std::size_t next = 0; // queue cell of the next entry
     };
+    struct Entry { // of a row's queue; row and column inside the tile
+        std::uint32_t splat = 0;
+        int row = 0, column = 0, length = 0;
+    };
     struct Row {
         Cycle ended = 0; // from this date on generation leaves it out; kNever while pixels live
         int live = 0;    // pixels
@@ -99,8 +104,8 @@ private:
     void work();
     bool abandoned() const { return self_.local() >= ended_; }
     void generate(std::uint32_t splat);
-    Cycle push(const RowSpan& span, Cycle now);
-    Cycle execute(const RowSpan& span, Cycle load);
+    Cycle push(const Entry& entry, Cycle now);
+    Cycle execute(const Entry& entry, Cycle load);
     void row_ended(Row& row, Cycle slot);
     void report_tile(Cycle last_slot);
     void finish_tile();

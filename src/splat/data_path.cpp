@@ -190,7 +190,7 @@ public:
         const SpanRecord<T>& s = spans_[test.splat];
         const T dy = below_mean(s, test.y);
         TestRow<T> row;
-        row.rest = s.c_prime * dy * dy - s.fold;
+        row.rest = lowest_q(s, dy);
         if (row.rest > kLimit) { // adding A u^2 >= 0 cannot round below
             BlendOutcome outcome;
             outcome.boundary = test.mask;
@@ -203,12 +203,28 @@ public:
         return test_(row, blends_[test.splat], options_.stop == StopRule::Refuse, pixels_, first);
     }
 
+    // The rows of rows_in_columns(), whose ends were found in double: rounding may add some to the
+    // ellipse's own.
+    PixelRange tested_rows(std::uint32_t splat, const PixelRange& columns,
+                           const PixelRange& rows) const override {
+        const SpanRecord<T>& s = spans_[splat];
+        PixelRange found = rows_in_columns(splat, columns.first, columns.last + 1).within(rows);
+        const auto passes = [&](int y) { return lowest_q(s, below_mean(s, y)) <= kLimit; };
+        while (found.first > rows.first && found.first <= s.rows.first && passes(found.first - 1)) {
+            --found.first;
+        }
+        while (found.last < rows.last && found.last >= s.rows.last && passes(found.last + 1)) {
+            ++found.last;
+        }
+        return found;
+    }
+
     // q falls towards the centre and rises behind it, rounded or not, so the pixel nearest to the
     // centre decides whether there are any; the solved ends are then moved until the test agrees.
     PixelRange tested_columns(std::uint32_t splat, int y, int x_begin, int x_end) const override {
         const SpanRecord<T>& s = spans_[splat];
         const T dy = below_mean(s, y);
-        const T rest = s.c_prime * dy * dy - s.fold;
+        const T rest = lowest_q(s, dy);
         const T centre = s.offset_x + s.slope * dy;
         if (!(rest <= kLimit) || !std::isfinite(centre) || x_begin >= x_end) {
             return {};
@@ -241,6 +257,8 @@ public:
         return {left + s.pixel_x, right + s.pixel_x};
     }
 
+    bool rounds_coarsely() const override { return false; }
+
     void read_row(int context, int row, int count, PixelValue* pixels) const override {
         if (!rows_.placed(context, row)) {
             std::fill_n(pixels, count, PixelValue{});
@@ -257,6 +275,8 @@ private:
     static T below_mean(const SpanRecord<T>& s, int y) {
         return static_cast<T>(y - s.pixel_y) - s.offset_y;
     }
+    // q' at the centre of a row.
+    static T lowest_q(const SpanRecord<T>& s, T dy) { return s.c_prime * dy * dy - s.fold; }
     // Row at which column dx (from the mean) leaves the ellipse, upwards (-1) or downwards (+1),
     // with a row of slack; beyond every row if the column misses the ellipse.
     static int cut(const SpanRecord<T>& s, const ColumnRecord& c, float dx, int direction) {

@@ -131,9 +131,16 @@ public:
     /// 10), and blends the live ones with q <= Q_th; the others keep their state. For number
     /// sets see QuantizedRow::check.
     virtual BlendOutcome test(const PixelTest& test) = 0;
+    /// The rows among `rows` on which test() may find a pixel of `columns` inside. May name rows too
+    /// many, never one too few.
+    virtual PixelRange tested_rows(std::uint32_t splat, const PixelRange& columns,
+                                   const PixelRange& rows) const = 0;
     /// The columns among [x_begin, x_end) whose pixels on image row `y` pass test()'s q <= Q_th, to
     /// the last rounding. They are neighbours; there may be none.
     virtual PixelRange tested_columns(std::uint32_t splat, int y, int x_begin, int x_end) const = 0;
+    /// True if rounding may let test() find pixels inside that lie visibly outside the ellipse of
+    /// the splat as it was projected: number sets.
+    virtual bool rounds_coarsely() const = 0;
     /// The first `count` pixels of a row.
     virtual void read_row(int context, int row, int count, PixelValue* pixels) const = 0;
 };

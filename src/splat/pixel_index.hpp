@@ -17,6 +17,13 @@ struct PixelRange {
     PixelRange within(const PixelRange& bounds) const {
         return {std::max(first, bounds.first), std::min(last, bounds.last)};
     }
+    /// The smallest range that holds both.
+    PixelRange joined(const PixelRange& other) const {
+        return empty() ? other
+               : other.empty()
+                   ? *this
+                   : PixelRange{std::min(first, other.first), std::max(last, other.last)};
+    }
     /// With `pixels` more at either end.
     PixelRange widened(int pixels) const { return {first - pixels, last + pixels}; }
     /// Counted from `origin`.

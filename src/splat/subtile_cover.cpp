@@ -62,19 +62,11 @@ SubtileMask SubtileGrid::meeting(const OrientedBox& box, int x, int y) const {
     return mask;
 }
 
-// The tile is an image of its own, its sub-tiles are the tiles.
-SubtileMask SubtileGrid::covered(const ProjectedSplat& splat, int x, int y, int width, int height) {
-    ProjectedSplat moved = splat;
-    moved.mu_x -= x;
-    moved.mu_y -= y;
-    cover_ellipse(moved, {width, height, side_}, runs_);
-    SubtileMask mask = 0;
-    for (const TileRun& run : runs_) {
-        for (int column = run.first; column <= run.last; ++column) {
-            mask |= SubtileMask{1} << (run.row * per_side_ + column);
-        }
-    }
-    return mask;
+SubtileMask SubtileGrid::of_pixels(int row, const PixelRange& columns) const {
+    const int row_begin = row / side_ * per_side_;
+    const auto below = [](int bit) { return (SubtileMask{1} << bit) - 1; };
+    const SubtileMask up_to_last = below(row_begin + columns.last / side_) * 2 + 1;
+    return up_to_last & ~below(row_begin + columns.first / side_);
 }
 
 } // namespace degs

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
-#include "splat/tile_cover.hpp"
+#include "splat/pixel_index.hpp"
+#include "splat/projection.hpp"
 
 namespace degs {
 
@@ -27,7 +27,7 @@ private:
 };
 
 /// How a design finds the sub-tiles that a splat touches. `Obb`: its oriented box meets the pixels'
-/// areas. `Exact`: at least one pixel of the image is inside the ellipse. `None`: all of them.
+/// areas. `Exact`: at least one pixel of the image passes DataPath::test. `None`: all of them.
 enum class SubtileTest { Obb, Exact, None };
 
 /// Bit r * per_side + c stands for sub-tile (r, c) of a tile.
@@ -46,13 +46,11 @@ public:
     SubtileMask inside(int width, int height) const;
     /// Those of the tile at (x, y) whose areas meet the box.
     SubtileMask meeting(const OrientedBox& box, int x, int y) const;
-    /// Those with a pixel of the ellipse (closed, widened by `pixel_slack`), of the part width x
-    /// height of the tile that lies in the image.
-    SubtileMask covered(const ProjectedSplat& splat, int x, int y, int width, int height);
+    /// Those with a pixel among `columns` of a row of the tile.
+    SubtileMask of_pixels(int row, const PixelRange& columns) const;
 
 private:
     int side_, per_side_;
-    std::vector<TileRun> runs_;
 };
 
 } // namespace degs

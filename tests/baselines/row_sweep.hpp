@@ -65,10 +65,8 @@ private:
         test.context = static_cast<std::int16_t>(chunk.tile % static_cast<TileNumber>(contexts_));
         for (std::uint32_t i = 0; i < chunk.count; ++i, ++splats) {
             test.splat = job_.first_splat[tile.frame] + list[i];
-            const PixelRange rows =
-                job_.path->rows_in_columns(test.splat, tile.x, tile.x + tile.width);
-            const int end = std::min(rows.last + 1, tile.y + tile.height);
-            for (test.y = std::max(rows.first, tile.y); test.y < end; ++test.y) {
+            const PixelRange rows = job_.path->tested_rows(test.splat, tile.columns(), tile.rows());
+            for (test.y = rows.first; test.y <= rows.last; ++test.y) {
                 test.row = static_cast<std::int16_t>(test.y - tile.y);
                 account(job_.path->test(test));
             }

@@ -34,9 +34,13 @@ public:
     }
 
 private:
+    struct Interval { // row and column inside the tile
+        std::uint32_t splat = 0;
+        int row = 0, column = 0, length = 0;
+    };
     struct Entry {
-        RowSpan span;
-        Cycle visible;
+        Interval pixels;
+        Cycle visible = 0;
     };
     struct Pe {
         std::deque<Entry> queue;
@@ -55,7 +59,7 @@ private:
             pe.current = pe.queue.front();
             pe.queue.pop_front();
             pe.done = 0;
-            pe.busy = rows_[static_cast<std::size_t>(pe.current.span.y)].live != 0;
+            pe.busy = rows_[static_cast<std::size_t>(pe.current.pixels.row)].live != 0;
             stats.entries += pe.busy ? 1 : 0;
             stats.entries_dropped += pe.busy ? 0 : 1;
         }
@@ -64,29 +68,29 @@ private:
             return;
         }
         stats.window.include(now_);
-        if (pe.done == pe.current.span.length) {
+        if (pe.done == pe.current.pixels.length) {
             stats.slots.boundary++;
         } else {
             stats.pixels++;
-            pixel(pe.current.span, pe.done);
+            pixel(pe.current.pixels, pe.done);
         }
         ++pe.done;
-        pe.busy = pe.done < pe.current.span.length + (config_.end_probe ? 1 : 0);
+        pe.busy = pe.done < pe.current.pixels.length + (config_.end_probe ? 1 : 0);
     }
-    void pixel(const RowSpan& span, int n) {
+    void pixel(const Interval& pixels, int n) {
         PixelTest test;
-        test.splat = span.splat;
+        test.splat = pixels.splat;
         test.mask = 1;
-        test.row = span.y;
-        test.column = static_cast<std::int16_t>(span.x0 + n);
+        test.row = static_cast<std::int16_t>(pixels.row);
+        test.column = static_cast<std::int16_t>(pixels.column + n);
         test.x = tile_->x + test.column;
-        test.y = tile_->y + span.y;
+        test.y = tile_->y + pixels.row;
         const BlendOutcome outcome = job_.path->test(test);
         stats.slots.useful += outcome.useful;
         stats.slots.boundary += outcome.boundary;
         stats.slots.terminated += outcome.terminated;
         stats.pixels_ended += outcome.ended;
-        Row& row = rows_[static_cast<std::size_t>(span.y)];
+        Row& row = rows_[static_cast<std::size_t>(pixels.row)];
         if (outcome.ended != 0 && --row.live == 0) {
             row.ended = now_ + static_cast<Cycle>(config_.termination_cycles);
             if (--live_rows_ == 0) {
@@ -165,27 +169,26 @@ private:
         waiting_ = true;
         pending_.clear();
         const int x_end = tile_->x + tile_->width;
-        const PixelRange rows = job_.path->rows_in_columns(splat, tile_->x, x_end);
-        for (int y = std::max(rows.first, tile_->y);
-             y <= std::min(rows.last, tile_->y + tile_->height - 1); ++y) {
+        const PixelRange rows = job_.path->tested_rows(splat, tile_->columns(), tile_->rows());
+        for (int y = rows.first; y <= rows.last; ++y) {
+            const PixelRange pixels = job_.path->tested_columns(splat, y, tile_->x, x_end);
             if (rows_[static_cast<std::size_t>(y - tile_->y)].ended <= now_) {
                 stats.rows_skipped++;
-            } else if (const auto span =
-                           job_.path->solve_row(splat, y, tile_->x, x_end, tile_->y)) {
-                pending_.push_back(*span);
+            } else if (!pixels.empty()) {
+                pending_.push_back({splat, y - tile_->y, pixels.first - tile_->x, pixels.size()});
             }
         }
     }
     void push() {
-        std::vector<RowSpan> left;
-        for (const RowSpan& span : pending_) {
-            Pe& pe = pes_[static_cast<std::size_t>(span.y % config_.row_pes)];
-            if (rows_[static_cast<std::size_t>(span.y)].ended <= now_) {
+        std::vector<Interval> left;
+        for (const Interval& pixels : pending_) {
+            Pe& pe = pes_[static_cast<std::size_t>(pixels.row % config_.row_pes)];
+            if (rows_[static_cast<std::size_t>(pixels.row)].ended <= now_) {
                 stats.entries_dropped++;
             } else if (pe.queue.size() < static_cast<std::size_t>(config_.queue_depth)) {
-                pe.queue.push_back({span, now_ + 1});
+                pe.queue.push_back({pixels, now_ + 1});
             } else {
-                left.push_back(span);
+                left.push_back(pixels);
             }
         }
         pending_ = left;
@@ -205,7 +208,7 @@ private:
     std::size_t chunk_ = 0;
     std::uint32_t taken_ = 0;
     bool loaded_ = false, generated_ = false, waiting_ = false;
-    std::vector<RowSpan> pending_;
+    std::vector<Interval> pending_;
     // The tile
     const JobTile* tile_ = nullptr;
     int live_rows_ = 0;

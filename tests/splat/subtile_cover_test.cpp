@@ -13,14 +13,14 @@ using test::exact_q;
 using test::make_splat;
 using test::random_splat;
 
-/// Sub-tiles of the tile at (x0, y0) with a pixel q <= limit, one pixel at a time; only pixels of
-/// the first `width` x `height`.
-SubtileMask brute_mask(const ProjectedSplat& s, long double limit, int x0, int y0, int side,
-                       int per_side, int width, int height) {
+/// Sub-tiles of the tile at (x0, y0) with a pixel inside the ellipse, one pixel at a time; only
+/// pixels of the first `width` x `height`.
+SubtileMask brute_mask(const ProjectedSplat& s, int x0, int y0, int side, int per_side, int width,
+                       int height) {
     SubtileMask mask = 0;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            if (exact_q(s, x0 + x, y0 + y) <= limit) {
+            if (exact_q(s, x0 + x, y0 + y) <= s.q_threshold) {
                 mask |= SubtileMask{1} << (y / side * per_side + x / side);
             }
         }
@@ -39,7 +39,7 @@ class SubtileCover : public ::testing::TestWithParam<SubtileShape> {};
 // No sub-tile with a valid pixel is ever missed, and the box is never tighter than the ellipse.
 TEST_P(SubtileCover, RandomSplatsAgainstBruteForce) {
     const SubtileShape shape = GetParam();
-    SubtileGrid grid(shape.tile, shape.side);
+    const SubtileGrid grid(shape.tile, shape.side);
     std::mt19937 random(31);
     int skipped_by_box = 0, skipped_by_both = 0;
     for (int trial = 0; trial < 4000; ++trial) {
@@ -48,15 +48,8 @@ TEST_P(SubtileCover, RandomSplatsAgainstBruteForce) {
         const ProjectedSplat s = random_splat(random, x0, y0, shape.tile);
         const int width = 1 + static_cast<int>(random() % static_cast<unsigned>(shape.tile));
         const int height = trial % 2 == 0 ? shape.tile : width;
-        const SubtileMask exact = grid.covered(s, x0, y0, width, height);
         const SubtileMask box = grid.meeting(OrientedBox(s), x0, y0);
-        // Pixels within the slack of the ellipse (1e-6 px) may count as covered or not; q moves by
-        // less than 1e-4 over that distance for the splats here (gradient 2 sqrt(Q / lambda_min)).
-        const auto brute = [&](long double limit) {
-            return brute_mask(s, limit, x0, y0, shape.side, grid.per_side(), width, height);
-        };
-        ASSERT_EQ(brute(s.q_threshold) & ~exact, 0U) << "trial " << trial;
-        ASSERT_EQ(exact & ~brute(s.q_threshold + 1e-4), 0U) << "trial " << trial;
+        const SubtileMask exact = brute_mask(s, x0, y0, shape.side, grid.per_side(), width, height);
         ASSERT_EQ(exact & ~box, 0U) << "trial " << trial;
         ASSERT_EQ(exact & ~grid.inside(width, height), 0U) << "trial " << trial;
         skipped_by_both += exact != grid.inside(width, height) ? 1 : 0;
@@ -103,6 +96,17 @@ TEST(OrientedBox, AxesOfUprightSplats) {
     const OrientedBox tall(make_splat(0, 0, 10, 1, kPi / 2, 1.0));
     EXPECT_FALSE(tall.meets(30, 0, 1));
     EXPECT_TRUE(tall.meets(0, 30, 1));
+}
+
+TEST(SubtileGrid, NamesTheSubtilesOfPixelsInARow) {
+    const SubtileGrid four(16, 8);
+    EXPECT_EQ(four.of_pixels(0, {0, 15}), 0x3U);
+    EXPECT_EQ(four.of_pixels(7, {0, 7}), 0x1U);
+    EXPECT_EQ(four.of_pixels(8, {7, 8}), 0xCU);
+    EXPECT_EQ(four.of_pixels(15, {8, 8}), 0x8U);
+    const SubtileGrid sixteen(16, 4);
+    EXPECT_EQ(sixteen.of_pixels(15, {4, 11}), 0x6000U);
+    EXPECT_EQ(sixteen.of_pixels(4, {15, 15}), 0x80U);
 }
 
 TEST(SubtileGrid, BitsRunByRowsAndStopAtTheImage) {

@@ -62,6 +62,39 @@ TEST_P(TestedColumns, AreThoseThatPassTheTest) {
     EXPECT_GT(covered, 100'000);
 }
 
+// No row with a pixel that passes is left out, whatever part of the tile is asked for; of whole
+// splats in double precision, hardly any without one is named.
+TEST_P(TestedColumns, LieInTheTestedRows) {
+    std::mt19937 random(32);
+    const int corners[] = {0, 1900, 40'000, 20'000'000};
+    int named_rows = 0, needed_rows = 0;
+    for (const int corner : corners) {
+        std::vector<ProjectedSplat> splats;
+        for (int i = 0; i < 400; ++i) {
+            splats.push_back(random_splat(random, corner, corner / 2, kTestedTile));
+        }
+        const auto path = path_of(splats, path_options(GetParam()), kTestedTile);
+        for (std::uint32_t i = 0; i < splats.size(); ++i) {
+            const int width = i % 3 == 0 ? 1 + static_cast<int>(random() % kTestedTile) : 32;
+            const int y0 = corner / 2 + static_cast<int>(random() % 8);
+            const PixelRange area{y0, corner / 2 + kTestedTile - 1};
+            const PixelRange rows = path->tested_rows(i, {corner, corner + width - 1}, area);
+            named_rows += rows.size();
+            for (int y = area.first; y <= area.last; ++y) {
+                if (named(*path, i, corner, y, width) != 0) {
+                    ASSERT_TRUE(rows.holds(y)) << corner << " " << i;
+                    ++needed_rows;
+                }
+            }
+            ASSERT_TRUE(rows.empty() || (area.holds(rows.first) && area.holds(rows.last)));
+        }
+    }
+    EXPECT_GT(needed_rows, 5'000);
+    if (GetParam() == Arithmetic::Fp64) {
+        EXPECT_LT(named_rows, 1.1 * needed_rows);
+    }
+}
+
 // Pixels exactly on the rim, where one rounding decides.
 TEST_P(TestedColumns, OnTheRim) {
     std::vector<ProjectedSplat> splats;
@@ -89,6 +122,9 @@ TEST_P(TestedColumns, NothingToName) {
     EXPECT_TRUE(path->tested_columns(0, 3, 5, 5).empty());
     EXPECT_TRUE(path->tested_columns(1, 3, 0, kTestedTile).empty());
     EXPECT_FALSE(path->tested_columns(0, 3, 0, kTestedTile).empty());
+    const PixelRange columns{0, kTestedTile - 1};
+    EXPECT_TRUE(path->tested_rows(0, columns, {20, kTestedTile - 1}).empty());
+    EXPECT_TRUE(path->tested_rows(0, columns, {3, 2}).empty());
 }
 
 std::string format_name(const ::testing::TestParamInfo<Arithmetic>& row) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "modules/render_job.hpp"
+#include "splat/tested_pixels.hpp"
 
 namespace degs::gcc {
 
@@ -22,13 +23,22 @@ public:
     void begin() { std::fill(live_.begin(), live_.end(), ~std::uint64_t{0}); }
     void end_block(int row, int column) { live_[row] &= ~(std::uint64_t{1} << column); }
     /// True if, inside the view, a live block meets the bounding box of the splat, which is a pixel
-    /// wider than the ellipse for rounding.
+    /// wider than the ellipse for rounding, and as wide as a number set's rounding makes it.
     bool reaches(const DataPath& path, std::uint32_t splat, const JobTile& view) const {
-        const PixelRange rows = path.rows(splat).widened(1).within(view.rows()).relative_to(view.y);
-        const PixelRange columns = path.columns(splat).within(view.columns()).relative_to(view.x);
+        PixelRange rows = path.rows(splat).widened(1).within(view.rows());
+        PixelRange columns = path.columns(splat).within(view.columns());
+        if (path.rounds_coarsely()) {
+            each_tested_row(path, splat, view.columns(), view.rows(),
+                            [&](int y, const PixelRange& tested) {
+                                rows = rows.joined({y, y});
+                                columns = columns.joined(tested);
+                            });
+        }
         if (rows.empty() || columns.empty()) {
             return false;
         }
+        rows = rows.relative_to(view.y);
+        columns = columns.relative_to(view.x);
         const std::uint64_t below = ((std::uint64_t{2} << columns.last / block_) - 1) &
                                     ~((std::uint64_t{1} << columns.first / block_) - 1);
         std::uint64_t met = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/gcc/footprint.hpp"
 
-#include <algorithm>
+#include "splat/tested_pixels.hpp"
 
 namespace degs::gcc {
 
@@ -25,15 +25,10 @@ void Footprint::solve(const DataPath& path, std::uint32_t splat, const JobTile& 
         }
     }
     rows_.clear();
-    // Solved ends are rounded in their own way: the alpha test may accept one row more.
-    const PixelRange rows =
-        path.rows_in_columns(splat, view.x, view.x + view.width).widened(1).within(view.rows());
-    for (int y = rows.first; y <= rows.last; ++y) {
-        const PixelRange columns = path.tested_columns(splat, y, view.x, view.x + view.width);
-        if (!columns.empty()) {
-            add({y - view.y, columns.relative_to(view.x)});
-        }
-    }
+    each_tested_row(path, splat, view.columns(), view.rows(),
+                    [&](int y, const PixelRange& columns) {
+                        add({y - view.y, columns.relative_to(view.x)});
+                    });
     first_row_ = rows_.empty() ? 0 : window_of(rows_.front().y);
     last_row_ = rows_.empty() ? -1 : window_of(rows_.back().y);
 }

@@ -19,6 +19,16 @@ NumberSet with_ends(NumberSet set, const DataPathOptions& options) {
     return set;
 }
 
+/// The last that is inside on the way from `in`, which is, to `beyond`, which is not.
+template <class Inside>
+int outermost(const Inside& inside, int in, int beyond) {
+    while (std::abs(beyond - in) > 1) {
+        const int middle = in + (beyond - in) / 2;
+        (inside(middle) ? in : beyond) = middle;
+    }
+    return in;
+}
+
 class QuantizedDataPath final : public DataPath {
 public:
     QuantizedDataPath(const NumberSet& set, const DataPathOptions& options, int tile_size,
@@ -93,6 +103,23 @@ public:
                              at(test.context, test.row, test.column));
     }
 
+    // Rounding keeps order, so the row nearest to the mean decides whether there are any.
+    PixelRange tested_rows(std::uint32_t splat, const PixelRange& /*columns*/,
+                           const PixelRange& rows) const override {
+        const QuantizedSplat& s = splats_[splat];
+        const auto possible = [&](int y) { return row_.check(s, y).possible; };
+        if (rows.empty()) {
+            return {};
+        }
+        const int nearest =
+            index_within(std::nearbyint(s.pixel_y + s.mean_y), rows.first, rows.last);
+        if (!possible(nearest)) {
+            return {};
+        }
+        return {outermost(possible, nearest, rows.first - 1),
+                outermost(possible, nearest, rows.last + 1)};
+    }
+
     // The pixel nearest to the centre decides whether there are any; away from it q' never falls.
     PixelRange tested_columns(std::uint32_t splat, int y, int x_begin, int x_end) const override {
         const QuantizedSplat& s = splats_[splat];
@@ -108,16 +135,10 @@ public:
         if (!inside(nearest)) {
             return {};
         }
-        const auto outermost = [&](int beyond) { // inside, and its neighbour towards `beyond` not
-            int in = nearest;
-            for (int out = beyond; std::abs(out - in) > 1;) {
-                const int middle = in + (out - in) / 2;
-                (inside(middle) ? in : out) = middle;
-            }
-            return in;
-        };
-        return {outermost(x_begin - 1), outermost(x_end)};
+        return {outermost(inside, nearest, x_begin - 1), outermost(inside, nearest, x_end)};
     }
+
+    bool rounds_coarsely() const override { return true; }
 
     void read_row(int context, int row, int count, PixelValue* pixels) const override {
         if (!rows_.placed(context, row)) {
