@@ -258,16 +258,26 @@ TEST(SmallRun, ManyTinyTilesInFlight) {
     run(config, frame);
 }
 
-// Banks whose rows are never inside have nothing to pack between the ends of tiles, which must not
-// wait for each other.
+// A bank has long been at work on one tile when the next hundred, of which it has no row, end with
+// it in one cycle. The ends take no room of its few packets: if they waited for each other, PE slots
+// would be lost until its next tile.
 TEST(SmallRun, MoreTilesEndThanPacketsFit) {
     DegsConfig config = exact_arithmetic();
     config.tile_size = 4;
     config.pixel_buffer.bytes = config.pixel_buffer.state_bytes * 16 * 200;
-    config.packing.lead_packets = 4;
-    const FrameWorkload frame = random_frame(9, 90, 70, 4, 40);
-    const auto result = run(config, frame);
-    EXPECT_GT(result->job().tiles.size(), 200U);
+    config.packing.bytes =
+        config.scheduler.banks * (config.queue_depth() * config.scheduler.segment_bytes +
+                                  4 * config.packing.task_bytes * config.array.pes_per_bank);
+    ASSERT_EQ(config.packing_depth(), 4);
+    constexpr int kOthers = 100;
+    constexpr int kTiles = 120;
+    std::vector<ProjectedSplat> splats(250, one_pixel(0, 0, 0.02)); // one per reuse distance
+    for (int tile = 1; tile < kTiles; ++tile) {
+        const bool other = tile <= kOthers; // a row of another bank
+        splats.insert(splats.end(), other ? 1 : 20, one_pixel(4 * tile, other ? 1 : 0, 0.1));
+    }
+    const FrameWorkload frame = make_frame(splats, 4 * kTiles, 4, 4);
+    run(config, frame);
 }
 
 // Two frames: the second is projected while the first is rendered, and both are right.
