@@ -39,7 +39,7 @@ DatedFifo<T>& Degs::wire(Rings<T>& rings, const char* name, int latency) {
 
 void Degs::build_front_end() {
     const std::size_t sorters = config_.sorting.count;
-    const std::size_t slicers = config_.slicing.count;
+    const std::size_t slicers = config_.slicing.modules();
     TileFrontEnd::Config front;
     front.projection = config_.projection;
     front.binning = config_.binning;
@@ -67,10 +67,11 @@ void Degs::build_front_end() {
 void Degs::build_span_engine() {
     const auto sorters = fetchers_.size();
     const int lanes = config_.span.count;
-    for (int g = 0; g < config_.slicing.count; ++g) {
+    const int slicers = config_.slicing.modules();
+    for (int g = 0; g < slicers; ++g) {
         slicing_.push_back(std::make_unique<GaussianSlicingUnit>(
             numbered("slicing", slicing_.size()).c_str(), config_.slicing, time_, job_, g, sorters,
-            lanes, reachable(g, config_.slicing.count, config_.scheduler.banks),
+            lanes, reachable(g, slicers, config_.scheduler.banks),
             config_.scheduler.segment_length));
         GaussianSlicingUnit& unit = *slicing_.back();
         for (std::size_t s = 0; s < sorters; ++s) {
@@ -87,8 +88,7 @@ void Degs::build_span_engine() {
                                                     config_.span, time_, job_, u,
                                                     config_.scheduler.banks));
         auto& rows = ring(span_rings_, "span_buffer", config_.span_lane_depth(), 1);
-        const int g = u % config_.slicing.count;
-        slicing_[g]->out[u / config_.slicing.count].bind(rows);
+        slicing_[u % slicers]->out[u / slicers].bind(rows);
         spans_.back()->in.bind(rows);
     }
 }
@@ -103,6 +103,7 @@ void Degs::build_scheduler() {
     bank.issue_width = s.issue_width;
     bank.reuse_cycles = s.reuse_cycles;
     bank.feature_entries = config_.feature_entries();
+    bank.open_splats = config_.slicing.units_per_module();
     bank.scoreboard = s.scoreboard;
     bank.termination = s.termination;
     bank.scan = s.scan;
@@ -135,7 +136,7 @@ void Degs::build_array() {
     const int writeback = config_.array.writeback_cycles;
     const ArraySlice::Config slice{config_.array.pes_per_bank, writeback,
                                    config_.scheduler.termination,
-                                   config_.slicing.skip_dead_rows ? config_.slicing.count : 0};
+                                   config_.slicing.skip_dead_rows ? config_.slicing.modules() : 0};
     next_region_port_.assign(slicing_.size(), 0);
     // The end of a tile takes no room of the Packing Buffer, but a cell of its ring. At most one of
     // every tile in flight waits there.

@@ -156,13 +156,14 @@ void DegsConfig::require_packing(ConfigVisitor& visitor) const {
 }
 
 void DegsConfig::require_counts(ConfigVisitor& visitor) const {
-    int divisor = slicing.count;
+    int divisor = slicing.modules();
     while (divisor > 1 && span.count % divisor != 0) {
         --divisor;
     }
-    visitor.require(
-        divisor == slicing.count,
-        {"slicing.count", "must divide span.count", std::to_string(divisor), {"span.count"}});
+    visitor.require(divisor == slicing.modules(), {"slicing.count",
+                                                   "must divide span.count",
+                                                   std::to_string(divisor),
+                                                   {"span.count", "slicing.distribution"}});
     visitor.require_at_least("scheduler.reuse_cycles", scheduler.reuse_cycles,
                              array.writeback_cycles, "to cover array.writeback_cycles",
                              {"array.writeback_cycles"});

@@ -33,7 +33,7 @@ void Degs::collect_stages(AcceleratorResult& result) const {
     add_stage(result, kFetching, fetchers_.size(), sum_of(fetchers_, &SplatFetcher::Stats::busy),
               Counters().add(fetchers_));
     add_stage(result, {"slicing", "Gaussian Slicing Units, without their waiting."},
-              slicing_.size(), sum_of(slicing_, &GaussianSlicingUnit::Stats::busy),
+              config_.slicing.count, sum_of(slicing_, &GaussianSlicingUnit::Stats::busy),
               Counters().add(slicing_));
     add_stage(result, {"span", "Span Units, without their waiting."}, spans_.size(),
               sum_of(spans_, &SpanUnit::Stats::busy), Counters().add(spans_));

@@ -59,6 +59,33 @@ TEST(FeatureBuffer, AnOpenSplatKeepsItsEntry) {
     EXPECT_EQ(buffer.next_free(), 12U); // not before it was closed
 }
 
+// Rows of three splats in turn keep one entry each; the fourth splat closes the first one.
+TEST(FeatureBuffer, SplatsWhoseRowsComeInTurnKeepTheirEntries) {
+    FeatureBuffer buffer(4, 3);
+    std::vector<std::uint16_t> entries;
+    for (std::uint32_t splat = 0; splat < 3; ++splat) {
+        ASSERT_TRUE(buffer.admit(0, splat, splat));
+        entries.push_back(buffer.current());
+    }
+    for (std::uint32_t splat = 0; splat < 3; ++splat) {
+        ASSERT_TRUE(buffer.admit(0, splat, 5));
+        EXPECT_EQ(buffer.current(), entries[splat]);
+    }
+    ASSERT_TRUE(buffer.admit(0, 3, 9)); // the fourth entry; splat 0 gives its own back
+    EXPECT_EQ(buffer.next_free(), 9U);
+    ASSERT_TRUE(buffer.admit(0, 1, 10));
+    EXPECT_EQ(buffer.current(), entries[1]);
+    EXPECT_EQ(buffer.stats().waits, 0U);
+}
+
+// With fewer entries than splats in turn, the oldest one makes room, and nothing locks up.
+TEST(FeatureBuffer, OneEntryServesSplatsInTurn) {
+    FeatureBuffer buffer(1, 8);
+    for (std::uint32_t splat = 0; splat < 20; ++splat) {
+        EXPECT_TRUE(buffer.admit(0, splat % 3, splat));
+    }
+}
+
 TEST(FeatureBuffer, HoldsAsManySplatsAsItHasEntries) {
     FeatureBuffer buffer(5);
     std::vector<std::uint16_t> entries;

@@ -94,6 +94,8 @@ private:
         c.fetching.chunk = among({16, 1, 4});
         c.fetching.chunks_in_flight = among({8, 1, 2});
         c.slicing.rows_per_cycle = among({1, 4, 8});
+        c.slicing.splats_per_cycle = among({1, 1, 2, 3});
+        c.slicing.distribution = static_cast<SliceDistribution>(among({0, 1, 2}));
         c.slicing.skip_dead_rows = chance(2);
         c.slicing.feedback_cycles = among({1, 4, 20});
         c.slicing.rows = chance(2) ? SlicedRows::Tile : SlicedRows::Splat;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slicing Units, Span Units, Tile Monitor and Pixel Buffer, one at a time:
+// Span Units, Tile Monitor and Pixel Buffer, one at a time:
 // dates against closed formulas.
 #include "modules/array/pixel_buffer.hpp"
-#include "modules/span_engine/gaussian_slicing_unit.hpp"
 #include "modules/span_engine/span_unit.hpp"
 #include "modules/span_engine/tile_monitor.hpp"
 #include "tests/modules/unit_bench.hpp"
@@ -57,84 +56,6 @@ TEST(SpanUnit, ARowPerIntervalAndTheLatencyOfThePipeline) {
     EXPECT_EQ(unit.stats().empty_rows, 1U);
     EXPECT_EQ(unit.stats().tasks, 16U);
     EXPECT_EQ(unit.stats().busy, 9U);
-}
-
-class Slicing : public ::testing::TestWithParam<int> {};
-
-// `rows_per_cycle` rows of a splat per cycle, a new splat in a new cycle.
-TEST_P(Slicing, RowsPerCycle) {
-    UnitBench bench(
-        make_frame({blanket(8, 8, 32), one_pixel(3, 4), blanket(8, 8, 32)}, 16, 16, 16));
-    GaussianSlicingUnit::Config config;
-    config.count = 1;
-    config.rows_per_cycle = GetParam();
-    GaussianSlicingUnit unit("unit", config, bench.time, bench.job, 0, 1, 1, 0, 16);
-    DatedFifo<SplatChunk> chunks("chunks", bench.time, 4);
-    DatedFifo<TileNumber> cancel("cancel", bench.time, 4);
-    DatedFifo<RowItem> rows("rows", bench.time, 256);
-    unit.in[0].bind(chunks);
-    unit.cancel.bind(cancel);
-    unit.out[0].bind(rows);
-    bench.script([&](Process& self) {
-        chunks.connect_writer(self);
-        self.advance(9);
-        SplatChunk chunk;
-        chunk.count = 3;
-        chunk.last = true;
-        chunks.put(self, chunk);
-    });
-    bench.script([&](Process& self) { cancel.connect_writer(self); });
-    const auto& got = bench.drain(rows);
-    sc_core::sc_start();
-    ASSERT_EQ(got.size(), 16U + 1 + 16 + 1);
-    const auto per_cycle = static_cast<Cycle>(GetParam());
-    const Cycle blanket_cycles = (16 + per_cycle - 1) / per_cycle;
-    for (Cycle i = 0; i < 16; ++i) {
-        EXPECT_EQ(got[i].first, 10 + i / per_cycle + 1); // the ring takes a cycle
-        EXPECT_EQ(got[i].second.row, static_cast<int>(i));
-        EXPECT_EQ(got[17 + i].first, 10 + blanket_cycles + 1 + i / per_cycle + 1);
-    }
-    EXPECT_EQ(got[16].first, 10 + blanket_cycles + 1);
-    EXPECT_EQ(got[16].second.row, 4);
-    EXPECT_TRUE(got.back().second.end);
-    EXPECT_EQ(unit.stats().rows, 33U);
-    EXPECT_EQ(unit.stats().busy, 2 * blanket_cycles + 1);
-}
-
-INSTANTIATE_TEST_SUITE_P(Rates, Slicing, ::testing::Values(1, 3, 4, 16));
-
-// A cancelled tile's chunks go by at one per cycle and send nothing but the end.
-TEST(GaussianSlicingUnit, DropsWhatWasCancelled) {
-    UnitBench bench(make_frame({blanket(8, 8, 32)}, 16, 16, 16));
-    GaussianSlicingUnit::Config config;
-    config.count = 1;
-    GaussianSlicingUnit unit("unit", config, bench.time, bench.job, 0, 1, 1, 0, 16);
-    DatedFifo<SplatChunk> chunks("chunks", bench.time, 8);
-    DatedFifo<TileNumber> cancel("cancel", bench.time, 4, 8);
-    DatedFifo<RowItem> rows("rows", bench.time, 256);
-    unit.in[0].bind(chunks);
-    unit.cancel.bind(cancel);
-    unit.out[0].bind(rows);
-    bench.script([&](Process& self) {
-        chunks.connect_writer(self);
-        SplatChunk chunk;
-        chunk.count = 1;
-        self.advance(26);
-        chunks.put(self, chunk); // read at 27: not cancelled yet
-        chunk.last = true;
-        self.advance(1);
-        chunks.put(self, chunk); // read at 28 at the earliest: cancelled
-    });
-    bench.script([&](Process& self) {
-        cancel.connect_writer(self);
-        self.advance(20);
-        cancel.put(self, 0); // known at 28
-    });
-    const auto& got = bench.drain(rows);
-    sc_core::sc_start();
-    EXPECT_EQ(got.size(), 16U + 1);
-    EXPECT_EQ(unit.stats().splats, 1U);
-    EXPECT_EQ(unit.stats().splats_cancelled, 1U);
 }
 
 // Reports of all slices, then the latency of the ring that stands for the wires.

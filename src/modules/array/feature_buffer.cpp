@@ -5,8 +5,9 @@
 
 namespace degs {
 
-FeatureBuffer::FeatureBuffer(int entries)
-    : entries_(entries), free_(entries), free_count_(entries_.size()) {
+FeatureBuffer::FeatureBuffer(int entries, int open_splats)
+    : entries_(entries), free_(entries), free_count_(entries_.size()),
+      open_splats_(std::min(open_splats, entries)) {
     std::uint16_t entry = 0;
     for (Free& place : free_) {
         place = {0, entry++};
@@ -14,7 +15,9 @@ FeatureBuffer::FeatureBuffer(int entries)
 }
 
 bool FeatureBuffer::enter(std::uint64_t splat, Cycle now) {
-    close(now);
+    if (open_.size() == open_splats_) {
+        close_oldest(now);
+    }
     if (next_free() > now) {
         stats_.waits += waiting_ ? 0 : 1;
         waiting_ = true;
@@ -26,16 +29,37 @@ bool FeatureBuffer::enter(std::uint64_t splat, Cycle now) {
     free_count_--;
     entries_[current_] = {now, 1};
     current_key_ = splat;
+    open_.push_back({splat, current_});
     return true;
 }
 
-void FeatureBuffer::close(Cycle now) {
-    if (current_key_ != kNobody) {
-        current_key_ = kNobody;
-        Entry& e = entries_[current_];
-        if (--e.held == 0) {
-            retire(current_, std::max(now, e.needed_until));
+// One of the open splats beside the current one.
+bool FeatureBuffer::find(std::uint64_t splat) {
+    for (const Open& open : open_) {
+        if (open.key == splat) {
+            current_key_ = splat;
+            current_ = open.entry;
+            return true;
         }
+    }
+    return false;
+}
+
+void FeatureBuffer::close(Cycle now) {
+    while (!open_.empty()) {
+        close_oldest(now);
+    }
+}
+
+void FeatureBuffer::close_oldest(Cycle now) {
+    const Open oldest = open_.front();
+    open_.erase(open_.begin());
+    if (oldest.key == current_key_) {
+        current_key_ = kNobody;
+    }
+    Entry& e = entries_[oldest.entry];
+    if (--e.held == 0) {
+        retire(oldest.entry, std::max(now, e.needed_until));
     }
 }
 

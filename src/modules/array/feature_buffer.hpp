@@ -13,8 +13,9 @@ namespace degs {
 
 /// One bank's part of the Feature Buffer (paper Table I; Global Gaussian Parameters by G_ID). An
 /// entry is taken when the first row of a splat enters the bank and given back when the last task
-/// of its last row has been written back. Partitioned per bank, so that every array slice has its
-/// own read port [assumed].
+/// of its last row has been written back. A splat is open while more of its rows may come: until
+/// `open_splats` others have entered after it, as many as can send rows in turn. Partitioned per
+/// bank, so that every array slice has its own read port [assumed].
 class FeatureBuffer {
 public:
     struct Stats {
@@ -24,11 +25,12 @@ public:
         }
     };
 
-    explicit FeatureBuffer(int entries);
+    explicit FeatureBuffer(int entries, int open_splats = 1);
 
     /// Makes (tile, splat) the splat that enters. False if no entry is free at `now`.
     bool admit(TileNumber tile, std::uint32_t splat, Cycle now) {
-        return key(tile, splat) == current_key_ || enter(key(tile, splat), now);
+        const std::uint64_t wanted = key(tile, splat);
+        return wanted == current_key_ || find(wanted) || enter(wanted, now);
     }
     /// Entry of the splat that enters.
     std::uint16_t current() const { return current_; }
@@ -41,7 +43,7 @@ public:
             retire(entry, e.needed_until);
         }
     }
-    /// No more rows of the current splat will come.
+    /// No more rows of the open splats will come.
     void close(Cycle now);
     /// Date at which the next entry becomes free; kNever if none is on its way.
     Cycle next_free() const { return free_count_ == 0 ? kNever : free_[first_free_].date; }
@@ -60,7 +62,13 @@ private:
     static std::uint64_t key(TileNumber tile, std::uint32_t splat) {
         return std::uint64_t{tile} << 32U | splat;
     }
+    struct Open {
+        std::uint64_t key = kNobody;
+        std::uint16_t entry = 0;
+    };
+    bool find(std::uint64_t splat);
     bool enter(std::uint64_t splat, Cycle now);
+    void close_oldest(Cycle now);
     void retire(std::uint16_t entry, Cycle date);
     std::size_t next(std::size_t i) const { return i + 1 == free_.size() ? 0 : i + 1; }
 
@@ -68,6 +76,8 @@ private:
     std::vector<Free> free_; // ring in order of dates, which do not fall
     std::size_t first_free_ = 0, end_free_ = 0, free_count_;
     Cycle last_retired_ = 0;
+    std::size_t open_splats_;
+    std::vector<Open> open_;              // in the order of their first rows
     std::uint64_t current_key_ = kNobody; // key() of the current splat
     std::uint16_t current_ = 0;
     bool waiting_ = false;

@@ -29,7 +29,7 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
       queue_(config.queue_depth, kFirstTiles,
              Segmenter::domains_per_tile(job.tile_size, config.segment_length, config.count),
              config.scan),
-      features_(config.feature_entries), startable_(contexts) {
+      features_(config.feature_entries, config.open_splats), startable_(contexts) {
     SC_HAS_PROCESS(IssueBank);
     SC_THREAD(run);
 }

@@ -36,6 +36,7 @@ public:
         int issue_width = 2;        ///< segments issued per cycle
         int reuse_cycles = 4;       ///< between two updates of a pixel
         int feature_entries = 64;   ///< splats whose parameters the bank may need at once
+        int open_splats = 1;        ///< splats whose rows may arrive in turn
         bool scoreboard = true;
         TerminationGrain termination = TerminationGrain::Segment;
         DomainScan scan = DomainScan::RoundRobin;

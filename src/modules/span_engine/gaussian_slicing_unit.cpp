@@ -17,6 +17,13 @@ void GaussianSlicingUnit::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("rows_per_cycle", rows_per_cycle, 1, 64,
                     "scanlines per unit and cycle; 8 x 2 units keep 8 Span Units fed although a "
                     "splat's last cycle is rarely full [assumed]");
+    visitor.integer("splats_per_cycle", splats_per_cycle, 1, 16,
+                    "splats that a unit takes per cycle at most; they share its rows_per_cycle "
+                    "[assumed]");
+    visitor.choice("distribution", distribution, {"broadcast", "broadcast_skip", "splats"},
+                   "what the units share: the rows of every splat, each unit spending a cycle on "
+                   "every splat; the same, splats without a row of the unit costing nothing; or "
+                   "the splats of a tile, so that n units take n splats per cycle [assumed]");
     visitor.choice(
         "rows", rows, {"splat", "tile"},
         "scanlines of a splat: all that its ellipse meets (paper: y_min..y_max), or those "
@@ -33,12 +40,13 @@ GaussianSlicingUnit::GaussianSlicingUnit(const sc_core::sc_module_name& name, co
                                          std::size_t inputs, int lanes, std::size_t slices,
                                          int segment_length)
     : sc_core::sc_module(name), in("in", inputs), cancel("cancel"),
-      out("out", lanes / config.count),
+      out("out", lanes / config.modules()),
       region_ended("region_ended", config.skip_dead_rows ? slices : 0), config_(config), job_(job),
       index_(index), segment_length_(segment_length), self_(time) {
     for (int row = 0; row < job.tile_size; ++row) {
-        lane_of_row_.push_back((row % lanes) / config.count);
+        lane_of_row_.push_back((row % lanes) / config.modules());
     }
+    slices_.reserve(std::size_t{1} * config.units_per_module() * config.splats_per_cycle);
     SC_HAS_PROCESS(GaussianSlicingUnit);
     SC_THREAD(run);
 }
@@ -59,19 +67,7 @@ void GaussianSlicingUnit::end_of_elaboration() {
 
 void GaussianSlicingUnit::run() {
     for (TileNumber number = 0; !job_.over(number); ++number) {
-        ended_.assign(job_.tile_size, 0);
-        FifoPort<SplatChunk>& source = in[number % in.size()];
-        for (bool last = false; !last;) {
-            const SplatChunk chunk = source->get(self_);
-            last = chunk.last;
-            if (cancelled(number)) {
-                stats_.splats_cancelled += chunk.count;
-                self_.advance();
-            } else {
-                see_ended_regions(number);
-                slice(chunk);
-            }
-        }
+        slice_tile(number);
         RowItem end;
         end.tile = number;
         end.end = true;
@@ -80,6 +76,100 @@ void GaussianSlicingUnit::run() {
         }
     }
     self_.finish();
+}
+
+void GaussianSlicingUnit::slice_tile(TileNumber number) {
+    ended_.assign(job_.tile_size, 0);
+    chunk_ = SplatChunk();
+    dealt_ = 0;
+    for (;;) {
+        dropping_ = false;
+        deal(number);
+        if (slices_.empty() && !dropping_) {
+            return;
+        }
+        work(number);
+        self_.advance();
+    }
+}
+
+// Units without a splat take the next ones of the tile.
+void GaussianSlicingUnit::deal(TileNumber number) {
+    const std::size_t units = config_.units_per_module();
+    while (slices_.size() < units && more_splats(number)) {
+        Slice slice = begin(number);
+        if (slice.done() && config_.distribution == SliceDistribution::BroadcastSkip) {
+            continue;
+        }
+        slices_.push_back(slice);
+    }
+    for (Slice& slice : slices_) {
+        slice.rows_left = config_.rows_per_cycle;
+        slice.splats_left = config_.splats_per_cycle;
+    }
+    stats_.busy += slices_.size();
+}
+
+// True if the tile has a splat at this date. Waits for one only if no unit has work. A chunk of a
+// cancelled tile takes the cycle.
+bool GaussianSlicingUnit::more_splats(TileNumber number) {
+    FifoPort<SplatChunk>& source = in[number % in.size()];
+    while (dealt_ == chunk_.count) {
+        if (chunk_.last || dropping_ || (!slices_.empty() && !self_.arrived(source.ring()))) {
+            return false;
+        }
+        chunk_ = source->get(self_);
+        dealt_ = 0;
+        if (cancelled(number)) {
+            stats_.splats_cancelled += chunk_.count;
+            dealt_ = chunk_.count;
+            dropping_ = true;
+        } else {
+            see_ended_regions(number);
+            expect_splats();
+        }
+    }
+    return true;
+}
+
+// In the order of age: an older splat passes a row before a younger one sends it.
+void GaussianSlicingUnit::work(TileNumber number) {
+    int passed = job_.tile_size; // rows above it have been passed by all older splats
+    for (std::size_t i = 0; i < slices_.size(); ++i) {
+        send_rows(number, slices_[i], passed);
+        const Slice slice = slices_[i];
+        if (!slice.done()) {
+            passed = std::min(passed, slice.row);
+        } else if (slice.splats_left > 1 && more_splats(number)) {
+            slices_.push_back(begin(number));
+            slices_.back().rows_left = slice.rows_left;
+            slices_.back().splats_left = slice.splats_left - 1;
+        }
+    }
+    const auto done = [](const Slice& slice) { return slice.done(); };
+    slices_.erase(std::remove_if(slices_.begin(), slices_.end(), done), slices_.end());
+}
+
+void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before) {
+    for (; slice.row <= slice.last && slice.row < before; slice.row += config_.modules()) {
+        if ((slice.below & ~ended_[slice.row]) == 0) {
+            stats_.rows_skipped++;
+            continue;
+        }
+        if (slice.rows_left == 0) {
+            return;
+        }
+        --slice.rows_left;
+        DatedFifo<RowItem>& lane = *lanes_[lane_of_row_[slice.row]];
+        lane.reserve(self_);
+        RowItem& item = lane.staged();
+        item.tile = number;
+        item.splat = slice.splat;
+        item.row = inside_tile(slice.row);
+        item.end = false;
+        lane.put_staged(self_);
+        stats_.rows++;
+    }
 }
 
 bool GaussianSlicingUnit::cancelled(TileNumber number) {
@@ -100,18 +190,16 @@ void GaussianSlicingUnit::see_ended_regions(TileNumber number) {
     }
 }
 
-void GaussianSlicingUnit::slice(const SplatChunk& chunk) {
-    const JobTile& tile = job_.tiles[chunk.tile];
-    const FrameWorkload& frame = job_.frame_of(tile);
-    const auto splat = [&](std::uint32_t i) {
-        return job_.first_splat[tile.frame] + frame.tile_splats[chunk.first + i];
-    };
-    for (std::uint32_t i = 0; i < chunk.count; ++i) {
-        job_.path->expect(splat(i)); // the host's memory then answers all of them at once
+// The host's memory then answers for all splats of the chunk at once.
+void GaussianSlicingUnit::expect_splats() const {
+    for (std::uint32_t i = 0; i < chunk_.count; ++i) {
+        job_.path->expect(splat_of(i));
     }
-    for (std::uint32_t i = 0; i < chunk.count; ++i) {
-        slice_splat(chunk.tile, splat(i));
-    }
+}
+
+std::uint32_t GaussianSlicingUnit::splat_of(std::uint32_t place) const {
+    const JobTile& tile = job_.tiles[chunk_.tile];
+    return job_.first_splat[tile.frame] + job_.frame_of(tile).tile_splats[chunk_.first + place];
 }
 
 // The segments of a row that the splat's box covers inside the tile.
@@ -126,42 +214,21 @@ std::uint64_t GaussianSlicingUnit::segments_below(const JobTile& tile, std::uint
     return upto(last_bit) & ~(upto(first_bit) >> 1);
 }
 
-void GaussianSlicingUnit::slice_splat(TileNumber number, std::uint32_t splat) {
+GaussianSlicingUnit::Slice GaussianSlicingUnit::begin(TileNumber number) {
     const JobTile& tile = job_.tiles[number];
-    const PixelRange met = config_.rows == SlicedRows::Tile
-                               ? job_.path->rows_in_columns(splat, tile.x, tile.x + tile.width)
-                               : job_.path->rows(splat);
+    Slice slice;
+    slice.splat = splat_of(dealt_++);
+    const PixelRange met =
+        config_.rows == SlicedRows::Tile
+            ? job_.path->rows_in_columns(slice.splat, tile.x, tile.x + tile.width)
+            : job_.path->rows(slice.splat);
     const PixelRange rows = met.within(tile.rows()).relative_to(tile.y);
-    const int others = (index_ - rows.first % config_.count + config_.count) % config_.count;
-    const std::uint64_t below =
-        config_.skip_dead_rows ? segments_below(tile, splat) : ~std::uint64_t{0};
-    int emitted = 0;
-    int left = config_.rows_per_cycle; // of this cycle
-    Cycle busy = 1;
-    for (int row = rows.first + others; row <= rows.last; row += config_.count) {
-        if ((below & ~ended_[row]) == 0) {
-            stats_.rows_skipped++;
-            continue;
-        }
-        if (left-- == 0) {
-            self_.advance();
-            ++busy;
-            left = config_.rows_per_cycle - 1;
-        }
-        DatedFifo<RowItem>& lane = *lanes_[lane_of_row_[row]];
-        lane.reserve(self_);
-        RowItem& item = lane.staged();
-        item.tile = number;
-        item.splat = splat;
-        item.row = inside_tile(row);
-        item.end = false;
-        lane.put_staged(self_);
-        ++emitted;
-    }
-    self_.advance();
-    stats_.busy += busy;
+    const int modules = config_.modules();
+    slice.row = rows.first + (index_ - rows.first % modules + modules) % modules; // first of ours
+    slice.last = rows.last;
+    slice.below = config_.skip_dead_rows ? segments_below(tile, slice.splat) : ~std::uint64_t{0};
     stats_.splats++;
-    stats_.rows += emitted;
+    return slice;
 }
 
 } // namespace degs

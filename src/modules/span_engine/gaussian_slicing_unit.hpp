@@ -14,21 +14,36 @@ namespace degs {
 /// inside the tile's columns.
 enum class SlicedRows { Splat, Tile };
 
+/// What the units share. `Broadcast`: every unit sees every splat, spends a cycle on it at least and
+/// takes the rows whose index is its own modulo the number of units. `BroadcastSkip`: the same, but
+/// a splat without a row of the unit costs it nothing. `Splats`: every splat goes to one unit, which
+/// takes all of its rows.
+enum class SliceDistribution { Broadcast, BroadcastSkip, Splats };
+
 /// Enumerates the scanlines of each splat inside the tile and pushes them into the Span Buffer
-/// (paper, Sec. IV-A). With several units every unit sees every splat and takes the rows whose
-/// index is its own modulo the number of units, which keeps depth order per row without a merge
-/// [assumed]. Drops the splats of a cancelled tile, a chunk per cycle. With skip_dead_rows (not in
-/// the paper) the array also reports rows whose pixels have all ended; they are masked out, sampled
-/// once per chunk.
+/// (paper, Sec. IV-A). One unit, or, where units share out the splats, all of them: these fill the
+/// lanes together. Splats that cover a pixel must reach it in depth order. With rows of its own a
+/// unit keeps it by itself; with splats of its own a unit never overtakes an older splat: it sends a
+/// row only when every older splat in work has passed that row, in the same cycle at the earliest
+/// [assumed]. A lane of the Span Buffer that is full stops all units of the module.
+///
+/// Drops the splats of a cancelled tile, a chunk per cycle. With skip_dead_rows (not in the paper)
+/// the array also reports rows whose pixels have all ended; they are masked out, sampled once per
+/// chunk.
 class GaussianSlicingUnit : public sc_core::sc_module {
 public:
     struct Config {
-        int count = 2;          ///< units
-        int rows_per_cycle = 8; ///< scanlines emitted per unit and cycle
+        int count = 2;            ///< units
+        int rows_per_cycle = 8;   ///< scanlines emitted per unit and cycle
+        int splats_per_cycle = 1; ///< splats that a unit takes per cycle at most
+        SliceDistribution distribution = SliceDistribution::Broadcast;
         SlicedRows rows = SlicedRows::Splat;
         bool skip_dead_rows = false; ///< leave out rows whose pixels have all ended
         int feedback_cycles = 8;     ///< from the last pixel's end to the units that skip its row
         void describe(ConfigVisitor& visitor);
+        /// Modules among which the rows are dealt; each has units_per_module() units.
+        int modules() const { return distribution == SliceDistribution::Splats ? 1 : count; }
+        int units_per_module() const { return count / modules(); }
     };
     struct Stats {
         Cycle busy = 0;
@@ -49,7 +64,7 @@ public:
     /// From the array slices that share a row with this unit; empty unless skip_dead_rows.
     sc_core::sc_vector<FifoPort<RegionEnded>> region_ended;
 
-    /// `lanes`: Span Units in all; this unit feeds lanes index, index + count, ...
+    /// `lanes`: Span Units in all; module `index` feeds lanes index, index + modules(), ...
     GaussianSlicingUnit(const sc_core::sc_module_name& name, const Config& config,
                         const Timebase& time, const RenderJob& job, int index, std::size_t inputs,
                         int lanes, std::size_t slices, int segment_length);
@@ -57,13 +72,29 @@ public:
     const Stats& stats() const { return stats_; }
 
 private:
+    /// A splat in a unit.
+    struct Slice {
+        std::uint32_t splat = 0;
+        int row = 0, last = -1;  // the next row to send, and the last one
+        std::uint64_t below = 0; // a bit per segment that its box covers
+        int rows_left = 0;       // that the unit may send in this cycle
+        int splats_left = 0;     // that it may take in this cycle, this one included
+        bool done() const { return row > last; }
+    };
+
     void end_of_elaboration() override;
     void run();
+    void slice_tile(TileNumber number);
+    bool more_splats(TileNumber number);
+    void deal(TileNumber number);
+    void work(TileNumber number);
     bool cancelled(TileNumber number);
     void see_ended_regions(TileNumber number);
-    void slice(const SplatChunk& chunk);
+    void expect_splats() const;
+    std::uint32_t splat_of(std::uint32_t place) const;
+    Slice begin(TileNumber number);
     std::uint64_t segments_below(const JobTile& tile, std::uint32_t splat) const;
-    void slice_splat(TileNumber number, std::uint32_t splat);
+    void send_rows(TileNumber number, Slice& slice, int before);
 
     Config config_;
     const RenderJob& job_;
@@ -74,6 +105,10 @@ private:
     std::vector<std::size_t> lane_of_row_;   // output port by row inside the tile
     std::vector<DatedFifo<RowItem>*> lanes_; // what the ports are bound to
     std::vector<std::uint64_t> ended_;       // per row of the tile being sliced: a bit per segment
+    SplatChunk chunk_;                       // the one being dealt
+    std::uint32_t dealt_ = 0;                // splats of it
+    bool dropping_ = false;                  // a chunk in this cycle
+    std::vector<Slice> slices_;              // in work, oldest first
     Stats stats_;
 };
 
