@@ -5,7 +5,7 @@
 #    the prefix. The libraries must have been built.
 # 2. pkg-config: compiles and links embedded/main.cpp with what degs.pc says.
 # 3. add_subdirectory: builds and runs embedded/, with SystemC as a package for CMake, as a source build installs
-#    it. Compiles one room once more, with the flags of BUILD, so that ccache knows the objects.
+#    it. Compiles a few rooms once more, with the flags of BUILD, so that ccache knows the objects.
 set -euo pipefail
 
 build=$1
