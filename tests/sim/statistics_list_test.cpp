@@ -184,10 +184,15 @@ TEST(StatisticsCommand, ShowsASectionOfAnAccelerator) {
     EXPECT_EQ(keys.out.rfind("accelerator = gbu\n", 0), 0U);
 }
 
-TEST(HostileStatistics, Mistakes) {
+// Not under the address sanitizer, which cannot follow an exception after SystemC's threads have run
+// (github.com/google/sanitizers/issues/189): the list comes from a run of one empty tile.
+TEST(UnknownStatistics, AreMistakes) {
     expect_mistake(degs({"config", "--stats", "--section", "stages.spam"}),
                    "did you mean 'stages.span'?");
     expect_mistake(degs({"config", "--stats", "--section", std::string(5000, 'x')}), "xxx");
+}
+
+TEST(HostileStatistics, Mistakes) {
     expect_mistake(degs({"config", "--stats", "--format", "yaml"}), "yaml");
     expect_mistake(degs({"config", "--section", "stages"}), "--stats");
     expect_mistake(degs({"config", "gpu", "--stats"}), "gpu");
