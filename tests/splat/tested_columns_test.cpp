@@ -12,6 +12,15 @@ using test::random_splat;
 
 constexpr int kTestedTile = 32;
 
+/// In and around the tile whose first pixel is (corner, corner / 2).
+std::vector<ProjectedSplat> splats_at(int corner, std::mt19937& random) {
+    std::vector<ProjectedSplat> splats;
+    for (int i = 0; i < 400; ++i) {
+        splats.push_back(random_splat(random, corner, corner / 2, kTestedTile));
+    }
+    return splats;
+}
+
 /// The row as test() sees it on pixels that no splat has touched.
 std::uint32_t tested(DataPath& path, std::uint32_t splat, int x, int y) {
     path.begin_row(0, 0);
@@ -45,10 +54,7 @@ TEST_P(TestedColumns, AreThoseThatPassTheTest) {
     const int corners[] = {0, 7, 1900, 40'000, 20'000'000};
     int covered = 0;
     for (const int corner : corners) {
-        std::vector<ProjectedSplat> splats;
-        for (int i = 0; i < 400; ++i) {
-            splats.push_back(random_splat(random, corner, corner / 2, kTestedTile));
-        }
+        const std::vector<ProjectedSplat> splats = splats_at(corner, random);
         const auto path = path_of(splats, path_options(GetParam()), kTestedTile);
         for (std::uint32_t i = 0; i < splats.size(); ++i) {
             for (int y = corner / 2; y < corner / 2 + kTestedTile; ++y) {
@@ -69,10 +75,7 @@ TEST_P(TestedColumns, LieInTheTestedRows) {
     const int corners[] = {0, 1900, 40'000, 20'000'000};
     int named_rows = 0, needed_rows = 0;
     for (const int corner : corners) {
-        std::vector<ProjectedSplat> splats;
-        for (int i = 0; i < 400; ++i) {
-            splats.push_back(random_splat(random, corner, corner / 2, kTestedTile));
-        }
+        const std::vector<ProjectedSplat> splats = splats_at(corner, random);
         const auto path = path_of(splats, path_options(GetParam()), kTestedTile);
         for (std::uint32_t i = 0; i < splats.size(); ++i) {
             const int width = i % 3 == 0 ? 1 + static_cast<int>(random() % kTestedTile) : 32;

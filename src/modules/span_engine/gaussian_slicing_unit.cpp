@@ -12,8 +12,10 @@ constexpr int kLastBit = 63;
 } // namespace
 
 void GaussianSlicingUnit::Config::describe(ConfigVisitor& visitor) {
-    visitor.integer("count", count, 1, 64,
-                    "units (paper Table II: 1, 2, 4, 8); divides the Span Units");
+    visitor.integer(
+        "count", count, 1, 64,
+        "units (paper Table II: 1, 2, 4, 8); divides the Span Units unless they share out the "
+        "splats");
     visitor.integer("rows_per_cycle", rows_per_cycle, 1, 64,
                     "scanlines per unit and cycle; 8 x 2 units keep 8 Span Units fed although a "
                     "splat's last cycle is rarely full [assumed]");
@@ -96,18 +98,29 @@ void GaussianSlicingUnit::slice_tile(TileNumber number) {
 // Units without a splat take the next ones of the tile.
 void GaussianSlicingUnit::deal(TileNumber number) {
     const std::size_t units = config_.units_per_module();
-    while (slices_.size() < units && more_splats(number)) {
-        Slice slice = begin(number);
-        if (slice.done() && config_.distribution == SliceDistribution::BroadcastSkip) {
-            continue;
+    while (slices_.size() < units) {
+        const std::optional<Slice> slice = next_slice(number);
+        if (!slice) {
+            break;
         }
-        slices_.push_back(slice);
+        slices_.push_back(*slice);
     }
     for (Slice& slice : slices_) {
         slice.rows_left = config_.rows_per_cycle;
         slice.splats_left = config_.splats_per_cycle;
     }
     stats_.busy += slices_.size();
+}
+
+// The tile's next splat that costs the unit something, if it is there at this date.
+std::optional<GaussianSlicingUnit::Slice> GaussianSlicingUnit::next_slice(TileNumber number) {
+    while (more_splats(number)) {
+        const Slice slice = begin(number);
+        if (!slice.done() || config_.distribution != SliceDistribution::BroadcastSkip) {
+            return slice;
+        }
+    }
+    return {};
 }
 
 // True if the tile has a splat at this date. Waits for one only if no unit has work. A chunk of a
@@ -134,16 +147,18 @@ bool GaussianSlicingUnit::more_splats(TileNumber number) {
 
 // In the order of age: an older splat passes a row before a younger one sends it.
 void GaussianSlicingUnit::work(TileNumber number) {
-    int passed = job_.tile_size; // rows above it have been passed by all older splats
+    int passed = job_.tile_size; // the first row that some older splat has not passed
     for (std::size_t i = 0; i < slices_.size(); ++i) {
         send_rows(number, slices_[i], passed);
         const Slice slice = slices_[i];
         if (!slice.done()) {
             passed = std::min(passed, slice.row);
-        } else if (slice.splats_left > 1 && more_splats(number)) {
-            slices_.push_back(begin(number));
-            slices_.back().rows_left = slice.rows_left;
-            slices_.back().splats_left = slice.splats_left - 1;
+        } else if (slice.splats_left > 1) {
+            if (std::optional<Slice> next = next_slice(number)) {
+                next->rows_left = slice.rows_left;
+                next->splats_left = slice.splats_left - 1;
+                slices_.push_back(*next);
+            }
         }
     }
     const auto done = [](const Slice& slice) { return slice.done(); };

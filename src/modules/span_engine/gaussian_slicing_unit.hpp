@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include <systemc>
 
 #include "config/config.hpp"
@@ -21,11 +23,11 @@ enum class SlicedRows { Splat, Tile };
 enum class SliceDistribution { Broadcast, BroadcastSkip, Splats };
 
 /// Enumerates the scanlines of each splat inside the tile and pushes them into the Span Buffer
-/// (paper, Sec. IV-A). One unit, or, where units share out the splats, all of them: these fill the
-/// lanes together. Splats that cover a pixel must reach it in depth order. With rows of its own a
-/// unit keeps it by itself; with splats of its own a unit never overtakes an older splat: it sends a
-/// row only when every older splat in work has passed that row, in the same cycle at the earliest
-/// [assumed]. A lane of the Span Buffer that is full stops all units of the module.
+/// (paper, Sec. IV-A). The module is one unit, or all units if they share out the splats, because
+/// they then fill the lanes together. Splats that cover a pixel must reach it in depth order. Units
+/// that own rows keep this order by themselves. Units that own splats never overtake an older splat:
+/// they send a row only when every older splat in work has passed that row, in the same cycle at the
+/// earliest [assumed]. A full lane of the Span Buffer stops all units of the module.
 ///
 /// Drops the splats of a cancelled tile, a chunk per cycle. With skip_dead_rows (not in the paper)
 /// the array also reports rows whose pixels have all ended; they are masked out, sampled once per
@@ -92,6 +94,7 @@ private:
     void see_ended_regions(TileNumber number);
     void expect_splats() const;
     std::uint32_t splat_of(std::uint32_t place) const;
+    std::optional<Slice> next_slice(TileNumber number);
     Slice begin(TileNumber number);
     std::uint64_t segments_below(const JobTile& tile, std::uint32_t splat) const;
     void send_rows(TileNumber number, Slice& slice, int before);
