@@ -94,7 +94,7 @@ std::string memory_line(const AcceleratorResult& run) {
     if (run.memory_gb_per_s <= 0) {
         return "unlimited: the array alone";
     }
-    return scaled(read) + "B read, " + scaled(written) + "B written" + kDot +
+    return scaled_bytes(read) + " read, " + scaled_bytes(written) + " written" + kDot +
            percent(run.memory_utilization, 0) + " % of " +
            config_words::number(run.memory_gb_per_s) + " GB/s" +
            (run.row_hit_rate ? kDot + ("row hits " + percent(*run.row_hit_rate, 0) + " %") : "");
@@ -123,7 +123,7 @@ std::string host_line(const RunResult& result) {
         line +=
             kDot + scaled(rate_of(result.accelerator.slots.useful, host.sim_s)) + " fragments/s";
     }
-    return line + kDot + scaled(host.peak_rss_bytes) + "B" + kDot + three_digits(host.wall_s) +
+    return line + kDot + scaled_bytes(host.peak_rss_bytes) + kDot + three_digits(host.wall_s) +
            " s in all";
 }
 

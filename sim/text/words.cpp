@@ -51,6 +51,10 @@ std::string scaled(double value) {
     return three_digits(shown) + units[unit];
 }
 
+std::string scaled_bytes(std::uint64_t bytes) {
+    return scaled(bytes) + (bytes < 1000 ? " B" : "B");
+}
+
 std::string percent(double share, int decimals) {
     return fixed(share * 100, decimals);
 }

@@ -21,6 +21,8 @@ std::string scaled(double value);
 inline std::string scaled(std::uint64_t value) {
     return scaled(static_cast<double>(value));
 }
+/// 54512345 -> "54.5 MB", 448 -> "448 B".
+std::string scaled_bytes(std::uint64_t bytes);
 /// 0.834 -> "83.4"; the percent sign is the caller's.
 std::string percent(double share, int decimals = 1);
 /// Characters of a UTF-8 text: bytes that do not continue one.

@@ -20,8 +20,9 @@ struct ChannelState {
     Refresher refresher;
 };
 
-/// Which command a channel sends next, and when. Ready commands go first, column commands before
-/// others, the oldest among equals; what the scheduler does not let go waits.
+/// Chooses which command a channel sends next, and when. Ready commands go first. Among them column
+/// commands go before others, and older ones before younger ones. A command that the scheduler holds
+/// back waits.
 class Chooser {
 public:
     struct Choice {

@@ -16,7 +16,6 @@ struct TransferAccount {
     std::uint64_t forwarded = 0; ///< read from a write queue
 
     std::uint64_t total() const { return on_bus + queued + merged + forwarded; }
-    std::uint64_t not_on_bus() const { return total() - on_bus; }
 
     void describe(StatsVisitor& v) const {
         v.count("on_bus", on_bus, "bytes", "Transferred by the data bus.");
