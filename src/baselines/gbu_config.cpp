@@ -64,7 +64,7 @@ void GbuConfig::require_sizes(ConfigVisitor& visitor) const {
                                                    "must not be above tile_size",
                                                    std::to_string(tile_size),
                                                    {"tile_size"}});
-    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_size, engines.count,
+    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), engines.count,
                                {"tile_size", "engines.count"});
     visitor.require_at_least("list_buffer.bytes", list_buffer.bytes,
                              std::int64_t{sorting.chunk} * traffic.list_entry_bytes * sorting.count,

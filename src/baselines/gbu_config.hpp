@@ -68,7 +68,7 @@ struct GbuConfig : AcceleratorConfig {
     // Derived sizes.
     int pes() const override { return engines.count * engines.row_pes; }
     /// Tile contexts of one engine.
-    int contexts() const { return pixel_buffer.contexts(tile_size) / engines.count; }
+    int contexts() const { return pixel_buffer.contexts(tile_pixels()) / engines.count; }
     /// Keys that a sorter's share of the list buffer holds.
     int sort_capacity() const {
         return list_buffer.bytes / sorting.count / traffic.list_entry_bytes;
@@ -88,6 +88,7 @@ struct GbuConfig : AcceleratorConfig {
     }
 
 private:
+    PixelBuffer::TilePixels tile_pixels() const { return {tile_size, pipeline.pixel_bits()}; }
     void require_sizes(ConfigVisitor& visitor) const;
 };
 

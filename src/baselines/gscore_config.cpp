@@ -41,7 +41,7 @@ void GscoreConfig::describe(ConfigVisitor& visitor) {
 }
 
 void GscoreConfig::require_sizes(ConfigVisitor& visitor) const {
-    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_size_px(), 1, {"array.lanes"});
+    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), 1, {"array.lanes"});
     const int lists = sorting.chunk * traffic.list_entry_bytes;
     visitor.require_at_least(
         "buffer.bytes", buffer.bytes,

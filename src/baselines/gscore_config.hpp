@@ -49,7 +49,7 @@ struct GscoreConfig : AcceleratorConfig {
     int tile_size_px() const override { return array.tile_size(); }
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
-    int tile_contexts() const override { return pixel_buffer.contexts(tile_size_px()); }
+    int tile_contexts() const override { return pixel_buffer.contexts(tile_pixels()); }
     TrafficConfig records() const override { return traffic; }
     void read_floats() override {
         traffic.geometry_bytes = kFloatGeometryBytes;
@@ -66,6 +66,7 @@ struct GscoreConfig : AcceleratorConfig {
     }
 
 private:
+    PixelBuffer::TilePixels tile_pixels() const { return {tile_size_px(), pipeline.pixel_bits()}; }
     BufferShare splat_share() const { return {1.0 - buffer.sort_share, sorting.count}; }
     BufferShare sort_share() const { return {buffer.sort_share, sorting.count}; }
     int shared_bytes() const { return buffer.bytes - pixel_buffer.bytes; }

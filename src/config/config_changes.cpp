@@ -11,6 +11,18 @@ namespace {
 
 constexpr const char* kUnchanged = "set";
 
+/// Changes and refuses nothing.
+class SilentVisitor final : public ConfigVisitor {
+public:
+    void begin_section(const char*, const char*) override {}
+    void end_section() override {}
+    void integer(const char*, std::int64_t&, std::int64_t, std::int64_t, const char*) override {}
+    void real(const char*, double&, double, double, const char*) override {}
+    void boolean(const char*, bool&, const char*) override {}
+    void text(const char*, std::string&, const char*) override {}
+    void choice(const char*, int&, const std::vector<const char*>&, const char*) override {}
+};
+
 } // namespace
 
 /// Offers every key to `outer` as a text, and reads what is not `set` as the kind it really is.
@@ -103,6 +115,10 @@ private:
     std::map<std::string, std::string> standing_; // texts of the struct as they are, by path
     std::vector<std::string> path_{""};
 };
+
+std::unique_ptr<ConfigVisitor> ConfigChanges::silent_visitor() {
+    return std::make_unique<SilentVisitor>();
+}
 
 std::unique_ptr<ConfigVisitor> ConfigChanges::keys_for(ConfigVisitor& visitor) {
     return std::make_unique<Keys>(visitor, changes_);

@@ -21,6 +21,14 @@ public:
         const std::unique_ptr<ConfigVisitor> keys = keys_for(visitor);
         base.describe(*keys);
     }
+    /// `base` with the changes, as far as they are valid; describe() refuses the others.
+    template <class Config>
+    Config applied_to(Config base) const {
+        ConfigChanges copy = *this;
+        const std::unique_ptr<ConfigVisitor> nobody = silent_visitor();
+        copy.describe(*nobody, base);
+        return base;
+    }
     /// The changes as "path.to.key=value", in the order of the keys.
     std::vector<std::string> assignments() const;
 
@@ -28,6 +36,7 @@ private:
     class Keys;
     using Changes = std::vector<std::pair<std::string, std::string>>; // path and value
     std::unique_ptr<ConfigVisitor> keys_for(ConfigVisitor& visitor);
+    static std::unique_ptr<ConfigVisitor> silent_visitor();
     Changes changes_;
 };
 

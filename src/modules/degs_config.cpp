@@ -117,7 +117,7 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
 }
 
 void DegsConfig::require_sizes(ConfigVisitor& visitor) const {
-    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_size, 1, {"tile_size"});
+    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), 1, {"tile_size"});
     visitor.require_at_least(
         "span_buffer.bytes", span_buffer.bytes, std::int64_t{span_buffer.row_bytes} * span.count,
         "to hold a row for every Span Unit", {"span_buffer.row_bytes", "span.count"});

@@ -112,7 +112,7 @@ struct DegsConfig : AcceleratorConfig {
 
     // Derived sizes.
     int pes() const override { return scheduler.banks * array.pes_per_bank; }
-    int contexts() const { return pixel_buffer.contexts(tile_size); }
+    int contexts() const { return pixel_buffer.contexts(tile_pixels()); }
     std::int64_t sram_bytes() const {
         return std::int64_t{gaussian_buffer.bytes} + span_buffer.bytes + packing.bytes +
                feature_buffer.bytes + pixel_buffer.bytes;
@@ -143,6 +143,7 @@ struct DegsConfig : AcceleratorConfig {
     }
 
 private:
+    PixelBuffer::TilePixels tile_pixels() const { return {tile_size, pipeline.pixel_bits()}; }
     int chunk_bytes() const { return traffic.splat_bytes * fetching.chunk; }
     void require_counts(ConfigVisitor& visitor) const;
     void require_sizes(ConfigVisitor& visitor) const;

@@ -21,6 +21,10 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
     visitor.end_section();
 }
 
+int PipelineConfig::pixel_bits() const {
+    return degs::pixel_bits(formats.applied_to(set_of(numbers)));
+}
+
 DataPathOptions PipelineConfig::options(SpanEnds ends, int delta) const {
     const DataPathOptions named = named_numbers(name_of(numbers), formats.assignments());
     return {numbers, ends, delta, stop_rule, named.set, named.projection};

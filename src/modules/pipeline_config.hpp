@@ -15,6 +15,8 @@ struct PipelineConfig {
     TileMode tiles = TileMode::Exact;
     ConfigChanges formats; ///< of the number set that `numbers` names
     void describe(ConfigVisitor& visitor);
+    /// Bits of a pixel's transmittance and colour in the formats of `numbers` and `formats`.
+    int pixel_bits() const;
     /// Exact span ends: the pixels inside the ellipse.
     DataPathOptions data_path() const { return options(SpanEnds::Exact, 0); }
 

@@ -183,6 +183,62 @@ TEST(Configs, ScalingPointsAreThoseOfThePaper) {
     }
 }
 
+/// Tiles in flight of `design` whose Pixel Buffer, at `buffer`, has `bytes` and as many bits per
+/// pixel as the numbers need.
+int contexts_of(const std::string& design, const std::string& buffer, std::int64_t bytes,
+                std::vector<std::string> changes) {
+    changes.push_back(buffer + ".state_bytes=0");
+    changes.push_back(buffer + ".bytes=" + std::to_string(bytes));
+    return load_run_config(std::string(DEGS_CONFIGS) + "/" + design + ".yaml", changes)
+        .accelerator()
+        .tile_contexts();
+}
+
+// T and three colours: 4 x 32, 4 x 64, 4 x 16 bits, and 18 + 3 x 22 bits with `tuned`.
+TEST(Configs, PixelStateIsAsWideAsItsNumbersNeed) {
+    struct Numbers {
+        const char* change;
+        std::int64_t bits;
+    };
+    struct Design {
+        const char *name, *buffer;
+        int side;
+    };
+    for (const Design& design :
+         {Design{"degs-64", "pixel_buffer", 32}, Design{"gscore-64", "pixel_buffer", 16},
+          Design{"gbu-64", "pixel_buffer", 32}, Design{"gcc-64", "image_buffer", 128}}) {
+        for (const Numbers& numbers : {Numbers{"numbers=fp32", 128}, Numbers{"numbers=fp64", 256},
+                                       Numbers{"numbers=ideal", 256}, Numbers{"numbers=fp16", 64},
+                                       Numbers{"numbers=paper", 64}, Numbers{"numbers=tuned", 84},
+                                       Numbers{"formats.sum=q6.20", 0}}) {
+            const std::string change = std::string("pipeline.") + numbers.change;
+            SCOPED_TRACE(std::string(design.name) + " " + change);
+            const bool degs = design.name == std::string("degs-64");
+            // DeGS computes in paper, whose T has 16 bits, the others in fp32.
+            const std::int64_t bits = numbers.bits != 0 ? numbers.bits : 3 * 26 + (degs ? 16 : 32);
+            const std::int64_t four = 4 * bits * design.side * design.side / 8;
+            EXPECT_EQ(contexts_of(design.name, design.buffer, four, {change}), 4);
+            EXPECT_LT(contexts_of(design.name, design.buffer, four - 1, {change}), 4);
+        }
+    }
+    EXPECT_EQ(contexts_of("degs-64", "pixel_buffer", 16384, {}), 2);
+    EXPECT_EQ(contexts_of("degs-64-tuned", "pixel_buffer", 32768, {}), 3);
+    EXPECT_EQ(contexts_of("degs-64-tuned", "pixel_buffer", 3 * 10752 - 1, {}), 2);
+}
+
+TEST(Configs, BufferBelowOnePixelStateIsNamedWithTheNumbers) {
+    try {
+        contexts_of("degs-64", "pixel_buffer", 8191, {"pipeline.numbers=paper"});
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find("must be at least 8192 to hold 1 tile of 32 x 32 px"),
+                  std::string::npos)
+            << text;
+        EXPECT_NE(text.find("pipeline.numbers is paper"), std::string::npos) << text;
+    }
+}
+
 // DeGS paper, Table I: area and SRAM at 64 PEs; both follow the PEs where it shades them.
 TEST(Configs, GbuHasTheAreaAndTheMemoryOfTableI) {
     for (const int pes : {16, 64, 256, 1024}) {

@@ -39,7 +39,7 @@ TEST(NumberSets, TunedHasTheBudgetOfPaper) {
             EXPECT_EQ(word.storage_bits(), 16) << set.name << " " << word.name();
         }
         // A pixel of the DeGS configurations (pixel_buffer.state_bytes).
-        EXPECT_LE(set.transmittance.storage_bits() + 3 * set.sum.storage_bits(), 128) << set.name;
+        EXPECT_LE(pixel_bits(set), 128) << set.name;
     }
     const auto table_bits = [](const TableSpec& table) {
         return table.entries * table.values.storage_bits() *

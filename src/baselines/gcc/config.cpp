@@ -38,7 +38,8 @@ void Config::describe(ConfigVisitor& visitor) {
 
 void Config::require_sizes(ConfigVisitor& visitor) const {
     constexpr int kMostViews = 4096;
-    image_buffer.require_tiles(visitor, "image_buffer", view_size, 1, {"view_size"}, kMostViews);
+    image_buffer.require_tiles(visitor, "image_buffer", view_pixels(), 1, {"view_size"},
+                               kMostViews);
     visitor.require_at_least(
         "array.window", array.window, ceil_div(view_size, Footprint::kMaxWindows),
         "so that at most 64 windows lie side by side in a view", {"view_size"});

@@ -38,7 +38,7 @@ struct Config : AcceleratorConfig {
     int tile_size_px() const override { return view_size; }
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
-    int tile_contexts() const override { return image_buffer.contexts(view_size); }
+    int tile_contexts() const override { return image_buffer.contexts(view_pixels()); }
     TrafficConfig records() const override { return traffic.common(); }
     void read_floats() override {
         traffic.mean_bytes = 3 * kFloatBytes;
@@ -59,6 +59,7 @@ struct Config : AcceleratorConfig {
     }
 
 private:
+    PixelBuffer::TilePixels view_pixels() const { return {view_size, pipeline.pixel_bits()}; }
     void require_sizes(ConfigVisitor& visitor) const;
 };
 

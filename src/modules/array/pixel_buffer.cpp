@@ -7,6 +7,8 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "tlm/ceil_div.hpp"
+
 namespace degs {
 namespace {
 
@@ -28,9 +30,9 @@ void encode(const PixelValue& pixel, int pixel_bytes, unsigned char* bytes) {
 void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("bytes", bytes, 1, 1 << 30, "bytes of tile contexts (paper Table I: 16 KB)");
     visitor.integer(
-        "state_bytes", state_bytes, 1, 64,
+        "state_bytes", state_bytes, 0, 64,
         "bytes per pixel; 16 = T and RGB in single precision fills 16 KB with one 32 x 32 "
-        "tile [assumed]");
+        "tile [assumed]; 0: as many bits as T and RGB have in the formats of pipeline.numbers");
     visitor.choice("release", release, {"tile", "bank"},
                    "when a context may hold the next tile: once all slices have finished, or each "
                    "bank's rows on their own [assumed]");
@@ -42,20 +44,27 @@ void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
 }
 
 void PixelBuffer::Config::require_tiles(ConfigVisitor& visitor, const std::string& section,
-                                        int tile_size, int tiles, std::vector<const char*> others,
+                                        TilePixels tile, int tiles, std::vector<const char*> others,
                                         int most) const {
     const std::string state_key = section + ".state_bytes";
     others.insert(others.begin(), state_key.c_str());
+    if (state_bytes == 0) {
+        others.push_back("pipeline.numbers");
+    }
     const std::string key = section + ".bytes";
-    const std::string side = std::to_string(tile_size);
+    const std::string side = std::to_string(tile.side);
     const std::string of = " of " + side + " x " + side + " px";
-    const std::int64_t tile = std::int64_t{state_bytes} * tile_size * tile_size;
     visitor.require_at_least(
-        key.c_str(), bytes, tiles * tile,
+        key.c_str(), bytes, tiles * tile_bytes(tile),
         "to hold " + std::to_string(tiles) + (tiles == 1 ? " tile" : " tiles") + of, others);
-    visitor.require(contexts(tile_size) <= most,
+    visitor.require(contexts(tile) <= most,
                     {key.c_str(), "must not hold more than " + std::to_string(most) + " tiles" + of,
-                     std::to_string(tile * most), others});
+                     std::to_string(tile_bytes(tile) * most), others});
+}
+
+std::int64_t PixelBuffer::Config::tile_bytes(TilePixels tile) const {
+    const std::int64_t bits = state_bytes == 0 ? tile.bits : 8 * state_bytes;
+    return ceil_div(bits * tile.side * tile.side, std::int64_t{8});
 }
 
 PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& config,

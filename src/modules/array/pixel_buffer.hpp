@@ -26,20 +26,29 @@ enum class ContextRelease { Tile, Bank };
 /// granted to one engine.
 class PixelBuffer : public sc_core::sc_module {
 public:
+    /// Decides the size of a tile context, together with Config::state_bytes.
+    struct TilePixels {
+        int side = 32;  ///< px
+        int bits = 128; ///< that the numbers need for T and three colours of a pixel
+    };
     struct Config {
         int bytes = 16384;        ///< capacity
-        int state_bytes = 16;     ///< per pixel: T and three colours
+        int state_bytes = 16;     ///< per pixel: T and three colours; 0: what the numbers need
         int readout_pixels = 64;  ///< read out per cycle
         int writes_in_flight = 4; ///< tile writes not yet acknowledged
         ContextRelease release = ContextRelease::Tile;
         void describe(ConfigVisitor& visitor);
         /// Requires room for `tiles` contexts, and for no more than `most`; `section` is where
         /// these keys stand, `others` decide the size of a tile.
-        void require_tiles(ConfigVisitor& visitor, const std::string& section, int tile_size,
+        void require_tiles(ConfigVisitor& visitor, const std::string& section, TilePixels tile,
                            int tiles, std::vector<const char*> others,
                            int most = kMostContexts) const;
         /// Tile contexts that fit; 0 if not even one does.
-        int contexts(int tile_size) const { return bytes / (state_bytes * tile_size * tile_size); }
+        int contexts(TilePixels tile) const {
+            return static_cast<int>(bytes / tile_bytes(tile)); // as bytes, below 2^31
+        }
+        /// Bytes of the pixel state of one tile, whole ones.
+        std::int64_t tile_bytes(TilePixels tile) const;
     };
     struct Stats {
         Cycle readout_busy = 0;

@@ -138,6 +138,10 @@ int record_bits(const NumberSet& set) {
     return bits;
 }
 
+int pixel_bits(const NumberSet& set) {
+    return set.transmittance.storage_bits() + 3 * set.sum.storage_bits();
+}
+
 std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set) {
     std::vector<std::pair<std::string, std::string>> keys = {
         {"record", "bits." + std::to_string(record_bits(set))},

@@ -116,6 +116,8 @@ struct RecordField {
 std::vector<RecordField> splat_record(const NumberSet& set);
 /// Bits of the record without padding.
 int record_bits(const NumberSet& set);
+/// Bits of a pixel's state: transmittance and three colours.
+int pixel_bits(const NumberSet& set);
 
 /// The cost of each unit, for a cost model, as unit and key, e.g. {"pe.q", "add.uq3.13"}.
 std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set);
