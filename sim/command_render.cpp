@@ -41,7 +41,7 @@ RenderResult render(const RenderOptions& options, const View& view) {
     const Stopwatch project;
     const FrameWorkload workload =
         make_frame_workload(view.scene.cloud, view.camera, options.tile_size,
-                            options.tiles == "ref" ? TileMode::Ref : TileMode::Exact);
+                            options.tiles == "reference" ? TileMode::Reference : TileMode::Exact);
     result.workload_s = project.seconds();
     result.workload = facts_of(workload);
     const Stopwatch draw;
@@ -92,9 +92,10 @@ void add_render_command(CLI::App& program) {
         program.add_subcommand("render", "render the reference image in double precision");
     add_view_options(*command, options->view);
     command
-        ->add_option("--tiles", options->tiles,
-                     "exact: tiles that the ellipse touches; ref: tiles of the 3-sigma square")
-        ->check(CLI::IsMember({"exact", "ref"}))
+        ->add_option(
+            "--tiles", options->tiles,
+            "exact: tiles that the ellipse touches; reference: those of the 3-sigma square")
+        ->check(CLI::IsMember({"exact", "reference"}))
         ->capture_default_str();
     command->add_option("--tile-size", options->tile_size, "pixels")
         ->check(CLI::Range(1, 1024))

@@ -12,8 +12,11 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
         "stop_rule", stop_rule, {"refuse", "after"},
         "refuse: the splat that would push T under 1e-4 is not blended (reference code); "
         "after: it is, then the pixel ends (paper, Sec. II-A)");
-    visitor.choice("tiles", tiles, {"exact", "ref"},
-                   "tile lists: the ellipse's tiles, or the 3-sigma square's");
+    visitor.choice("tiles", tiles, {"exact", "reference"},
+                   "tile lists; exact: tiles that the ellipse touches; reference: those of the "
+                   "3-sigma square (paper, Sec. II-A), radius ceil(3 sqrt(lambda_max)), as the "
+                   "reference code; exact by default, because preprocessing has the ellipse's "
+                   "rows and columns for span parsing anyway [assumed]");
     NumberSet set = set_of(numbers);
     visitor.begin_section("formats",
                           "single parts of `numbers` in other formats; set: as they are there");

@@ -102,7 +102,7 @@ void project_all(const GaussianCloud& cloud, Binner& binner, FrameWorkload& work
         make_projector(cloud, work.camera, work.projection);
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         ProjectedSplat splat;
-        // In Ref mode the square decides what is on the screen, not the ellipse.
+        // In Reference mode the square decides what is on the screen, not the ellipse.
         Cull cull = work.tile_mode == TileMode::Exact ? projector->project(i, splat)
                                                       : projector->project_anywhere(i, splat);
         if (cull == Cull::None) {

@@ -10,9 +10,9 @@
 namespace degs {
 
 /// Which tiles list a splat. `Exact`: tiles whose pixels the ellipse q <= Q_th may touch.
-/// `Ref`: the 3-sigma square of the original rasteriser, pixel test unchanged. A splat that no
+/// `Reference`: the 3-sigma square of the original rasteriser, pixel test unchanged. A splat that no
 /// tile lists is not visible (counted as off_screen); transparent Gaussians are dropped in both.
-enum class TileMode { Exact, Ref };
+enum class TileMode { Exact, Reference };
 
 struct CullCounts {
     std::uint64_t near = 0, transparent = 0, degenerate = 0, off_screen = 0;

@@ -110,9 +110,9 @@ TEST_P(Workload, EmptyAndFullyCulledScenes) {
               "no finite projection.");
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, Workload, testing::Values(TileMode::Exact, TileMode::Ref),
+INSTANTIATE_TEST_SUITE_P(Modes, Workload, testing::Values(TileMode::Exact, TileMode::Reference),
                          [](const auto& mode) {
-                             return mode.param == TileMode::Exact ? "Exact" : "Ref";
+                             return mode.param == TileMode::Exact ? "Exact" : "Reference";
                          });
 
 // H14: ties keep index order, also when only the rounding to float makes them ties.
@@ -158,7 +158,7 @@ TEST(WorkloadModes, VisibilityFollowsTheTilesOfTheMode) {
     add_gaussian(cloud, {-28 * 0.05, 0, 5}, glm::vec3(0.2F), test::kNoTurn, 1.0F, test::kGrey);
     const auto exact = make_frame_workload(cloud, camera, 16, TileMode::Exact);
     EXPECT_EQ(ids(exact), std::vector<std::uint32_t>{1});
-    const auto square = make_frame_workload(cloud, camera, 16, TileMode::Ref);
+    const auto square = make_frame_workload(cloud, camera, 16, TileMode::Reference);
     EXPECT_EQ(ids(square), std::vector<std::uint32_t>{0});
 }
 
