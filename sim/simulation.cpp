@@ -90,6 +90,9 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
     Progress progress("simulation");
     result.accelerator = run_accelerator(request.config.accelerator(), frames, request.fidelity,
                                          request.build, progress);
+    for (std::string& sentence : hazard_warnings(result.accelerator)) {
+        result.warnings.push_back(std::move(sentence));
+    }
     result.host.fidelity = request.fidelity == Fidelity::Strict ? "strict" : "exact";
     result.host.elaborate_s = result.accelerator.elaborate_s;
     result.host.sim_s = result.accelerator.sim_s;

@@ -23,6 +23,16 @@ std::vector<std::string> saturation_warnings(const DataPathOptions& options,
     return warnings;
 }
 
+std::vector<std::string> hazard_warnings(const AcceleratorResult& run) {
+    if (run.hazards == 0) {
+        return {};
+    }
+    return {"Hazards: " + grouped(run.hazards) +
+            " pixels were updated again before their write-back, because scheduler.scoreboard is "
+            "false. Updates are lost and the image is wrong; image.psnr_db and "
+            "image.max_abs_error of the report say by how much."};
+}
+
 void print_warnings(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) {
         std::cerr << "degs: warning: " << warning << '\n';

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "modules/accelerator_result.hpp"
 #include "splat/data_path.hpp"
 
 namespace degs::sim {
@@ -11,6 +12,8 @@ namespace degs::sim {
 /// One sentence for each number format of the data path that splats of `frame` leave.
 std::vector<std::string> saturation_warnings(const DataPathOptions& options,
                                              const FrameWorkload& frame);
+/// A sentence if pixels were updated again before their write-back.
+std::vector<std::string> hazard_warnings(const AcceleratorResult& run);
 /// Prints them on stderr.
 void print_warnings(const std::vector<std::string>& warnings);
 

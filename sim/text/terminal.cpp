@@ -110,7 +110,10 @@ std::string image_line(const RunResult& result, const std::string& image_path) {
                                  : three_digits(error.psnr_db) + " dB, SSIM " +
                                        similarity(error.ssim) + ", largest error " +
                                        three_digits(error.max_abs_error) + " against";
-    return psnr + " double precision" + kDot + image_path;
+    const std::uint64_t hazards = result.accelerator.hazards;
+    return psnr + " double precision" +
+           (hazards == 0 ? "" : ", wrong because of " + grouped(hazards) + " hazards") + kDot +
+           image_path;
 }
 
 std::string host_line(const RunResult& result) {

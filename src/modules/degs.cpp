@@ -136,7 +136,8 @@ void Degs::build_array() {
     const int writeback = config_.array.writeback_cycles;
     const ArraySlice::Config slice{config_.array.pes_per_bank, writeback,
                                    config_.scheduler.termination,
-                                   config_.slicing.skip_dead_rows ? config_.slicing.modules() : 0};
+                                   config_.slicing.skip_dead_rows ? config_.slicing.modules() : 0,
+                                   config_.scheduler.scoreboard};
     next_region_port_.assign(slicing_.size(), 0);
     // The end of a tile takes no room of the Packing Buffer, but a cell of its ring. At most one of
     // every tile in flight waits there.

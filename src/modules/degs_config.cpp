@@ -53,7 +53,8 @@ void DegsConfig::Scheduler::describe(ConfigVisitor& visitor) {
         "reuse_cycles", reuse_cycles, 1, 64,
         "cycles between two updates of a segment (paper: 4); not below array.writeback_cycles");
     visitor.boolean("scoreboard", scoreboard,
-                    "enforce reuse_cycles; false shows what it is for (hazards are counted)");
+                    "enforce reuse_cycles; false shows what it is for: a pixel that comes again "
+                    "before its write-back reads the older state, and the image is wrong");
     visitor.choice(
         "termination", termination, {"segment", "pixel"},
         "what is skipped: segments whose pixels have all ended (paper), or single pixels");

@@ -270,6 +270,15 @@ public:
         }
     }
 
+    PixelValue read_pixel(int context, int row, int column) const override {
+        return rows_.placed(context, row) ? pixels_.read(rows_.first_pixel(context, row) + column)
+                                          : PixelValue{};
+    }
+
+    void write_pixel(int context, int row, int column, const PixelValue& value) override {
+        pixels_.write(at(context, row, column), value);
+    }
+
 private:
     // Distance of a row from the mean, px.
     static T below_mean(const SpanRecord<T>& s, int y) {

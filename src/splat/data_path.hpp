@@ -143,6 +143,11 @@ public:
     virtual bool rounds_coarsely() const = 0;
     /// The first `count` pixels of a row.
     virtual void read_row(int context, int row, int count, PixelValue* pixels) const = 0;
+    /// One pixel of a row.
+    virtual PixelValue read_pixel(int context, int row, int column) const = 0;
+    /// Gives a pixel the transmittance, the colour and the end of a value that was read from this
+    /// data path. Its count of updates stays.
+    virtual void write_pixel(int context, int row, int column, const PixelValue& value) = 0;
 };
 
 /// A data path for tiles of `tile_size` px and `contexts` tiles in flight, at most kMostContexts.

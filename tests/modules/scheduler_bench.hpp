@@ -94,6 +94,7 @@ struct SchedulerBench {
         c.width = s.width;
         c.writeback_cycles = s.writeback;
         c.termination = s.grain;
+        c.scoreboard = s.scoreboard;
         return c;
     }
 

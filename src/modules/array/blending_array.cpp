@@ -19,6 +19,9 @@ ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config
       segments_per_row_((job.tile_size + segment_length - 1) / segment_length), self_(time),
       segments_((job.tile_size + slices - 1) / slices * segments_per_row_) {
     hold_tiles(1);
+    if (!config.scoreboard) {
+        early_.emplace(job, config.writeback_cycles);
+    }
     port_of_listener_.resize(config.region_listeners, 0);
     std::size_t port = 0;
     for (int g = 0; g < config.region_listeners; ++g) {
@@ -65,8 +68,8 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
         // A segment is blended when its first task executes: nobody else touches its pixels before
         // its last one, so each packet only has to take its part of the outcome.
         const std::uint32_t first_task = run.task.mask & (0U - run.task.mask);
-        if ((run.part & first_task) != 0) {
-            outcome_ = job_.path->blend(run.task);
+        if ((run.part & first_task) != 0 || early_) {
+            outcome_ = early_ ? blend_early(run, now) : job_.path->blend(run.task);
             const auto count = [](std::uint32_t mask) { return __builtin_popcount(mask); };
             stats_.slots.useful += count(outcome_.useful);
             stats_.slots.boundary += count(outcome_.boundary);
@@ -76,6 +79,14 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
             pixels_ended(run, outcome_.ended & run.part);
         }
     }
+}
+
+// Without scoreboard another task may come between two parts, so each is blended at its own date. A
+// pixel that two tasks end, the second before it saw the first, is reported once.
+BlendOutcome ArraySlice::blend_early(const TaskRun& run, Cycle date) {
+    BlendOutcome outcome = early_->blend(run, date);
+    outcome.ended &= ~context_of(run.tile).ended_in_segment[run.domain];
+    return outcome;
 }
 
 void ArraySlice::run() {
@@ -190,6 +201,9 @@ void ArraySlice::report_region(const Context& context, const TaskRun& run) {
 void ArraySlice::end_tile(TileNumber number) {
     for (; next_tile_ <= number; ++next_tile_) {
         start_tile(next_tile_); // no task of the tile came here
+    }
+    if (early_) {
+        early_->finish(number);
     }
     Context& context = context_of(number);
     if (!context.reported) {

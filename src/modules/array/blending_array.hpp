@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include <systemc>
 
 #include "config/statistics.hpp"
+#include "modules/array/early_blender.hpp"
 #include "modules/array/slot_account.hpp"
 #include "modules/render_job.hpp"
 #include "modules/scheduler/issue_bank.hpp"
@@ -22,12 +25,14 @@ public:
         int writeback_cycles = 4; ///< execution to pixel state written back (paper: 4)
         TerminationGrain termination = TerminationGrain::Segment;
         int region_listeners = 0; ///< Slicing Units in all if they skip dead rows, else 0
+        bool scoreboard = true;   ///< no pixel comes again before its write-back
     };
     struct Stats {
         SlotAccount slots; ///< executed tasks by class; idle slots are the Packing Unit's
         ActiveWindow window;
         std::uint64_t packets = 0;
-        std::uint64_t hazards = 0; ///< pixels updated again before their write-back: must be 0
+        /// Pixels updated again before their write-back; must be 0 with a scoreboard.
+        std::uint64_t hazards = 0;
         std::uint64_t pixels_ended = 0;
         void describe(StatsVisitor& v) const { // slots and hazards are described by the result
             v.count("packets", packets, "packets", "Packets executed, one in each busy cycle.");
@@ -68,6 +73,7 @@ private:
     void start_tile(TileNumber number);
     void hold_tiles(TileNumber count);
     void execute(const TaskPacket& packet);
+    BlendOutcome blend_early(const TaskRun& run, Cycle date);
     void check_reuse(const TaskRun& run, Cycle date);
     void pixels_ended(const TaskRun& run, std::uint32_t ended);
     void report_region(const Context& context, const TaskRun& run);
@@ -82,7 +88,8 @@ private:
     std::vector<Context> contexts_; // as many as tiles have been in flight, a power of two
     int segments_;                  // of a context
     std::vector<std::size_t> port_of_listener_;
-    BlendOutcome outcome_; // of the segment whose tasks execute
+    BlendOutcome outcome_; // of the segment whose tasks execute, or of the part without scoreboard
+    std::optional<EarlyBlender> early_; // without scoreboard
     TileNumber tiles_done_ = 0;
     TileNumber next_tile_ = 0; // first tile that has not started here
     Stats stats_;

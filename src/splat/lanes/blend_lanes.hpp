@@ -61,6 +61,14 @@ struct PixelPlanes {
         value.ended = live[i] == T(0);
         return value;
     }
+    /// All of a value that was read here but its count of updates.
+    void write(std::size_t i, const PixelValue& value) {
+        r[i] = static_cast<T>(value.rgb[0]);
+        g[i] = static_cast<T>(value.rgb[1]);
+        b[i] = static_cast<T>(value.rgb[2]);
+        transmittance[i] = static_cast<T>(value.transmittance);
+        live[i] = value.ended ? T(0) : T(1);
+    }
 };
 
 /// q' = q - 2 ln o at which alpha = 1/255: 2 ln 255.

@@ -151,6 +151,15 @@ public:
         }
     }
 
+    PixelValue read_pixel(int context, int row, int column) const override {
+        return rows_.placed(context, row) ? pixels_->read(rows_.first_pixel(context, row) + column)
+                                          : PixelValue{};
+    }
+
+    void write_pixel(int context, int row, int column, const PixelValue& value) override {
+        pixels_->write(at(context, row, column), value);
+    }
+
 private:
     std::size_t at(int context, int row, int column) {
         if (!rows_.placed(context, row)) {

@@ -31,6 +31,7 @@ public:
         return test_(tested, splats_[splat], numbers_, refuse, pixels_, first);
     }
     PixelValue read(std::size_t pixel) const override { return pixels_.read(pixel); }
+    void write(std::size_t pixel, const PixelValue& value) override { pixels_.write(pixel, value); }
 
 private:
     LaneNumbers numbers_;
@@ -68,6 +69,7 @@ public:
         return outcome;
     }
     PixelValue read(std::size_t pixel) const override { return pixels_.read(pixel); }
+    void write(std::size_t pixel, const PixelValue& value) override { pixels_.write(pixel, value); }
 
 private:
     void update(const QuantizedSplat& splat, double q, bool drawn, bool refuse, std::size_t first,

@@ -24,6 +24,8 @@ public:
     virtual BlendOutcome test(std::uint32_t splat, std::uint32_t mask, const double* q, bool refuse,
                               std::size_t first) = 0;
     virtual PixelValue read(std::size_t pixel) const = 0;
+    /// All of a value that was read here but its count of updates.
+    virtual void write(std::size_t pixel, const PixelValue& value) = 0;
 };
 
 /// Lanes if lanes_can() the set, else QuantizedRow pixel by pixel. `row` must live as long.

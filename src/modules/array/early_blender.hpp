@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include "modules/render_job.hpp"
+
+namespace degs {
+
+/// Blends tasks that nothing keeps apart: the PEs of an array slice without a scoreboard. A task
+/// reads the pixel state that is written back at its date, and its own result is written back
+/// `writeback_cycles` later. A task that comes earlier than that builds on the older state, and its
+/// write-back replaces the result that it did not see. Between two calls the data path holds what is
+/// written back; its counts of updates are those of the tasks executed.
+class EarlyBlender {
+public:
+    EarlyBlender(RenderJob& job, int writeback_cycles) : job_(job), latency_(writeback_cycles) {}
+
+    /// Executes the part of a segment's tasks at `date`, which never falls from call to call.
+    BlendOutcome blend(const TaskRun& run, Cycle date);
+    /// Writes back all that is under way to a tile, of which no further task follows.
+    void finish(TileNumber tile);
+
+private:
+    struct WriteBack {
+        Cycle date = 0;
+        TileNumber tile = 0;
+        int context = 0, row = 0, column = 0;
+        PixelValue value;
+    };
+    void write(const WriteBack& update);
+
+    RenderJob& job_;
+    Cycle latency_;
+    std::deque<WriteBack> under_way_; // by date
+};
+
+} // namespace degs
