@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "splat/lanes/blend_lanes.hpp"
+#include "splat/lanes/checked_row.hpp"
 #include "splat/numbers/quantized_data_path.hpp"
 #include "splat/pixel_index.hpp"
 #include "splat/pixel_rows.hpp"
@@ -84,8 +85,8 @@ template <class T>
 class DataPathOf final : public DataPath {
 public:
     DataPathOf(const DataPathOptions& options, int tile_size, int contexts)
-        : options_(options), rows_(contexts, tile_size), blend_(blend_function(T{})),
-          test_(test_function(T{})) {}
+        : options_(options), refuse_(options.stop == StopRule::Refuse), rows_(contexts, tile_size),
+          blend_(blend_function(T{})), test_(test_function(T{})) {}
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
         const auto base = static_cast<std::uint32_t>(spans_.size());
@@ -183,24 +184,20 @@ public:
 
     BlendOutcome blend(const BlendTask& task) override {
         const std::size_t first = at(task.context, task.row, task.column);
-        return blend_(task, blends_[task.splat], options_.stop == StopRule::Refuse, pixels_, first);
+        return blend_(task, blends_[task.splat], refuse_, pixels_, first);
     }
 
     BlendOutcome test(const PixelTest& test) override {
         const SpanRecord<T>& s = spans_[test.splat];
-        const T dy = below_mean(s, test.y);
-        TestRow<T> row;
-        row.rest = lowest_q(s, dy);
-        if (row.rest > kLimit) { // adding A u^2 >= 0 cannot round below
+        const CheckedRow<T> checked = checked_row(s, test.y);
+        if (checked.rest > kLimit) { // adding A u^2 >= 0 cannot round below
             BlendOutcome outcome;
             outcome.boundary = test.mask;
             return outcome;
         }
-        row.centre = s.offset_x + s.slope * dy;
-        row.n0 = test.x - s.pixel_x;
-        row.mask = test.mask;
+        const TestRow<T> row{checked.centre, checked.rest, test.x - s.pixel_x, test.mask};
         const std::size_t first = at(test.context, test.row, test.column);
-        return test_(row, blends_[test.splat], options_.stop == StopRule::Refuse, pixels_, first);
+        return test_(row, blends_[test.splat], refuse_, pixels_, first);
     }
 
     // The rows of rows_in_columns(), whose ends were found in double: rounding may add some to the
@@ -219,42 +216,10 @@ public:
         return found;
     }
 
-    // q falls towards the centre and rises behind it, rounded or not, so the pixel nearest to the
-    // centre decides whether there are any; the solved ends are then moved until the test agrees.
     PixelRange tested_columns(std::uint32_t splat, int y, int x_begin, int x_end) const override {
         const SpanRecord<T>& s = spans_[splat];
-        const T dy = below_mean(s, y);
-        const T rest = lowest_q(s, dy);
-        const T centre = s.offset_x + s.slope * dy;
-        if (!(rest <= kLimit) || !std::isfinite(centre) || x_begin >= x_end) {
-            return {};
-        }
-        const auto inside = [&](int n) {
-            const T u = static_cast<T>(n) - centre;
-            return s.a * u * u + rest <= kLimit;
-        };
-        const int low = x_begin - s.pixel_x;
-        const int high = x_end - 1 - s.pixel_x;
-        const auto column = [&](T x) { // clamped first: not every x is an int
-            return x > static_cast<T>(low) ? x < static_cast<T>(high) ? static_cast<int>(x) : high
-                                           : low;
-        };
-        const int nearest = std::clamp(column(std::nearbyint(centre)), low, high);
-        if (!inside(nearest)) {
-            return {};
-        }
-        const T width = std::sqrt((kLimit - rest) * s.inverse_a);
-        int left = std::clamp(column(std::ceil(centre - width)), low, nearest);
-        int right = std::clamp(column(std::floor(centre + width)), nearest, high);
-        for (; !inside(left); ++left) {
-        }
-        for (; left > low && inside(left - 1); --left) {
-        }
-        for (; !inside(right); --right) {
-        }
-        for (; right < high && inside(right + 1); ++right) {
-        }
-        return {left + s.pixel_x, right + s.pixel_x};
+        const PixelRange bounds{x_begin, x_end - 1};
+        return checked_row(s, y).columns(bounds.relative_to(s.pixel_x)).relative_to(-s.pixel_x);
     }
 
     bool rounds_coarsely() const override { return false; }
@@ -305,16 +270,18 @@ private:
         return s.pixel_y + static_cast<int>(direction < 0 ? std::ceil(limited - slack)
                                                           : std::floor(limited + slack));
     }
+    static CheckedRow<T> checked_row(const SpanRecord<T>& s, int y) {
+        const T dy = below_mean(s, y);
+        return {s.offset_x + s.slope * dy, lowest_q(s, dy), s.a, s.inverse_a};
+    }
     std::size_t at(int context, int row, int column) {
-        if (!rows_.placed(context, row)) {
-            pixels_.clear(rows_.place(context, row), rows_.stride());
-        }
-        return rows_.first_pixel(context, row) + column;
+        return rows_.ready(context, row, pixels_) + column;
     }
 
-    static constexpr T kLimit = static_cast<T>(kQLimit);
+    static constexpr T kLimit = CheckedRow<T>::kLimit;
 
     DataPathOptions options_;
+    bool refuse_;
     PixelRows rows_;
     PixelPlanes<T> pixels_;
     BlendFunction<T> blend_;

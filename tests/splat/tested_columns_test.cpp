@@ -116,6 +116,26 @@ TEST_P(TestedColumns, OnTheRim) {
     }
 }
 
+// Ends as close to a pixel as rounding reaches, with little and much room below the limit.
+TEST_P(TestedColumns, EndsNextToAPixel) {
+    std::mt19937 random(33);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<ProjectedSplat> splats;
+    for (int i = 0; i < 20'000; ++i) {
+        const double room = std::exp(-14 + 16 * unit(random));
+        const double beyond = (i % 2 == 0 ? 1 : -1) * std::exp2(-30 + 25 * unit(random));
+        ProjectedSplat s = make_splat(15.5 + unit(random), 16, 1, 1, 0, std::exp(room / 2) / 255);
+        const double reach = 17 + i % 14 + beyond - s.mu_x; // of row 16
+        s.cov_a = reach * reach / s.q_threshold;
+        s.det = s.cov_a * s.cov_c;
+        splats.push_back(s);
+    }
+    const auto path = path_of(splats, path_options(GetParam()), kTestedTile);
+    for (std::uint32_t i = 0; i < splats.size(); ++i) {
+        ASSERT_EQ(named(*path, i, 0, 16, kTestedTile), tested(*path, i, 0, 16)) << i;
+    }
+}
+
 // No columns asked for, and a splat that no number describes.
 TEST_P(TestedColumns, NothingToName) {
     ProjectedSplat broken = make_splat(3, 3, 1, 1, 0, 0.5);

@@ -162,10 +162,7 @@ public:
 
 private:
     std::size_t at(int context, int row, int column) {
-        if (!rows_.placed(context, row)) {
-            pixels_->clear(rows_.place(context, row), rows_.stride());
-        }
-        return rows_.first_pixel(context, row) + column;
+        return rows_.ready(context, row, *pixels_) + column;
     }
 
     QuantizedRow row_;
