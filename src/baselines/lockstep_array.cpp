@@ -44,7 +44,8 @@ LockstepArray::LockstepArray(const sc_core::sc_module_name& name, const Config& 
     : sc_core::sc_module(name), in("in", inputs), context_free("context_free"),
       tile_done("tile_done"), tile_state("tile_state"), config_(config), job_(job),
       contexts_(contexts), self_(time), chunks_(self_, in), grid_(job.tile_size, config.side()),
-      clusters_(config.clusters), subtiles_(grid_.count()), startable_(contexts) {
+      clusters_(config.clusters), subtiles_(grid_.count()), outcomes_(config.side()),
+      startable_(contexts) {
     SC_HAS_PROCESS(LockstepArray);
     SC_THREAD(run);
 }
@@ -227,8 +228,7 @@ void LockstepArray::pass(int subtile, std::uint32_t splat, Cycle at) {
     account_wait(cluster, at);
     const Cycle end = at + config_.clusters;
     stats_.passes++;
-    stats_.window.include(at);
-    stats_.window.include(end - 1);
+    stats_.window.include({at, end - 1});
     cluster.first = std::min(cluster.first, at);
     cluster.free = end;
     const int ended = evaluate(subtile, splat);
@@ -252,15 +252,16 @@ int LockstepArray::evaluate(int subtile, std::uint32_t splat) {
     test.mask = width == 32 ? ~0U : (1U << width) - 1U;
     test.x = tile_->x + box.x0;
     test.column = box.x0;
+    test.y = tile_->y + box.y0;
+    test.row = box.y0;
     test.context = context_;
+    const int rows = box.y1 - box.y0 + 1;
+    job_.path->test_rows(test, rows, outcomes_.data());
     int useful = 0, terminated = 0, ended = 0;
-    for (int row = box.y0; row <= box.y1; ++row) {
-        test.y = tile_->y + row;
-        test.row = row;
-        const BlendOutcome outcome = job_.path->test(test);
-        useful += __builtin_popcount(outcome.useful);
-        terminated += __builtin_popcount(outcome.terminated);
-        ended += __builtin_popcount(outcome.ended);
+    for (int row = 0; row < rows; ++row) {
+        useful += __builtin_popcount(outcomes_[row].useful);
+        terminated += __builtin_popcount(outcomes_[row].terminated);
+        ended += __builtin_popcount(outcomes_[row].ended);
     }
     stats_.slots.useful += useful;
     stats_.slots.terminated += terminated;

@@ -112,7 +112,8 @@ private:
     std::uint32_t boxed_frames_ = 0;
     std::vector<Cluster> clusters_;
     std::vector<Subtile> subtiles_;
-    SubtileMask inside_ = 0; // sub-tiles with a pixel in the image
+    std::vector<BlendOutcome> outcomes_; // of the rows of the present sub-tile
+    SubtileMask inside_ = 0;             // sub-tiles with a pixel in the image
     int live_subtiles_ = 0;
     const JobTile* tile_ = nullptr;
     int context_ = 0;

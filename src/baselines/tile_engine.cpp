@@ -197,8 +197,7 @@ Cycle TileEngine::execute(const Entry& entry, Cycle load) {
     stats_.pixels += entry.length;
     slots.boundary += config_.end_probe ? 1 : 0;
     const Cycle taken = entry.length + (config_.end_probe ? 1 : 0);
-    stats_.window.include(load);
-    stats_.window.include(load + taken - 1);
+    stats_.window.include({load, load + taken - 1});
     return taken;
 }
 

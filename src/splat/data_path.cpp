@@ -86,7 +86,7 @@ class DataPathOf final : public DataPath {
 public:
     DataPathOf(const DataPathOptions& options, int tile_size, int contexts)
         : options_(options), refuse_(options.stop == StopRule::Refuse), rows_(contexts, tile_size),
-          blend_(blend_function(T{})), test_(test_function(T{})) {}
+          blend_(blend_function(T{})), test_(test_function(T{})), tested_(tile_size) {}
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
         const auto base = static_cast<std::uint32_t>(spans_.size());
@@ -188,16 +188,17 @@ public:
     }
 
     BlendOutcome test(const PixelTest& test) override {
-        const SpanRecord<T>& s = spans_[test.splat];
-        const CheckedRow<T> checked = checked_row(s, test.y);
-        if (checked.rest > kLimit) { // adding A u^2 >= 0 cannot round below
-            BlendOutcome outcome;
-            outcome.boundary = test.mask;
-            return outcome;
+        const TestRow<T> row = test_row(test, 0);
+        BlendOutcome outcome;
+        test_(&row, 1, blends_[test.splat], refuse_, pixels_, &outcome);
+        return outcome;
+    }
+
+    void test_rows(const PixelTest& test, int rows, BlendOutcome* outcomes) override {
+        for (int i = 0; i < rows; ++i) {
+            tested_[i] = test_row(test, i);
         }
-        const TestRow<T> row{checked.centre, checked.rest, test.x - s.pixel_x, test.mask};
-        const std::size_t first = at(test.context, test.row, test.column);
-        return test_(row, blends_[test.splat], refuse_, pixels_, first);
+        test_(tested_.data(), rows, blends_[test.splat], refuse_, pixels_, outcomes);
     }
 
     // The rows of rows_in_columns(), whose ends were found in double: rounding may add some to the
@@ -274,6 +275,13 @@ private:
         const T dy = below_mean(s, y);
         return {s.offset_x + s.slope * dy, lowest_q(s, dy), s.a, s.inverse_a};
     }
+    // The row `below` rows below that of `test`.
+    TestRow<T> test_row(const PixelTest& test, int below) {
+        const SpanRecord<T>& s = spans_[test.splat];
+        const CheckedRow<T> row = checked_row(s, test.y + below);
+        return {row.centre, row.rest, test.x - s.pixel_x, test.mask,
+                at(test.context, test.row + below, test.column)};
+    }
     std::size_t at(int context, int row, int column) {
         return rows_.ready(context, row, pixels_) + column;
     }
@@ -286,6 +294,7 @@ private:
     PixelPlanes<T> pixels_;
     BlendFunction<T> blend_;
     TestFunction<T> test_;
+    std::vector<TestRow<T>> tested_; // rows for test_
     std::vector<SpanRecord<T>> spans_;
     std::vector<ColumnRecord> columns_;
     std::vector<BlendRecord<T>> blends_;

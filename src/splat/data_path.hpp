@@ -131,6 +131,9 @@ public:
     /// 10), and blends the live ones with q <= Q_th; the others keep their state. For number
     /// sets see QuantizedRow::check.
     virtual BlendOutcome test(const PixelTest& test) = 0;
+    /// The same for `rows` rows inside the tile, that of `test` and those below it, each with the
+    /// mask of `test` and an outcome of its own.
+    virtual void test_rows(const PixelTest& test, int rows, BlendOutcome* outcomes) = 0;
     /// The rows among `rows` on which test() may find a pixel of `columns` inside. May name rows too
     /// many, never one too few.
     virtual PixelRange tested_rows(std::uint32_t splat, const PixelRange& columns,

@@ -259,6 +259,48 @@ TEST(PixelCheck, PixelOfTheImageAndPixelOfTheTile) {
     }
 }
 
+void expect_same_row(const DataPath& path, int row, int context, int other) {
+    std::vector<PixelValue> first(kTileSize), second(kTileSize);
+    path.read_row(context, row, kTileSize, first.data());
+    path.read_row(other, row, kTileSize, second.data());
+    for (int x = 0; x < kTileSize; ++x) {
+        ASSERT_EQ(first[x].updates, second[x].updates);
+        ASSERT_EQ(first[x].transmittance, second[x].transmittance);
+        ASSERT_EQ(first[x].rgb[0], second[x].rgb[0]);
+        ASSERT_EQ(first[x].ended, second[x].ended);
+    }
+}
+
+// In every kind of numbers; a tile's first and last rows among them, and rows above the ellipse.
+TEST(PixelCheck, RowsAtOnceLikeOneByOne) {
+    std::mt19937 random(24);
+    std::vector<ProjectedSplat> splats;
+    for (int i = 0; i < 300; ++i) {
+        splats.push_back(random_splat(random, 0, 0, kTileSize));
+    }
+    for (const Arithmetic numbers : {Arithmetic::Fp32, Arithmetic::Fp64, Arithmetic::Paper}) {
+        const auto path = path_of(splats, path_options(numbers), kTileSize, 2);
+        int useful = 0;
+        for (std::uint32_t i = 0; i < splats.size(); ++i) {
+            const int y = static_cast<int>(random() % kTileSize);
+            const int rows = 1 + static_cast<int>(random() % (kTileSize - y));
+            const std::uint32_t mask = random() % 2 == 0 ? ~0U : std::uint32_t{0xFF} << y % 24;
+            std::vector<BlendOutcome> outcomes(rows);
+            path->test_rows(test_of(i, y, mask), rows, outcomes.data());
+            for (int row = 0; row < rows; ++row) {
+                const BlendOutcome alone = path->test(test_of(i, y + row, mask, 1));
+                ASSERT_EQ(outcomes[row].useful, alone.useful);
+                ASSERT_EQ(outcomes[row].boundary, alone.boundary);
+                ASSERT_EQ(outcomes[row].terminated, alone.terminated);
+                ASSERT_EQ(outcomes[row].ended, alone.ended);
+                useful += __builtin_popcount(alone.useful);
+                expect_same_row(*path, y + row, 0, 1);
+            }
+        }
+        EXPECT_GT(useful, 5'000);
+    }
+}
+
 // Wide or narrow, and far from a splat where float does not name every pixel: the same bits.
 TEST(PixelCheck, VariantsGiveTheSameBits) {
     std::mt19937 random(23);
@@ -272,6 +314,7 @@ TEST(PixelCheck, VariantsGiveTheSameBits) {
         row.rest = 10 * unit(random);
         row.mask =
             random() % 2 == 0 ? ~0U >> (random() % 32) : static_cast<std::uint32_t>(random());
+        row.first = 8;
         const BlendRecord<float> splat{0.3F * unit(random) * unit(random), 0.3F, 0.6F, 0.9F};
         PixelPlanes<float> before(kPixels + kLanePadding);
         for (std::size_t i = 0; i < kPixels; ++i) {
@@ -280,10 +323,11 @@ TEST(PixelCheck, VariantsGiveTheSameBits) {
         }
         PixelPlanes<float> first = before;
         const bool refuse = trial % 2 == 0;
-        const BlendOutcome expected = test_variants()[0](row, splat, refuse, first, 8);
+        BlendOutcome expected, outcome;
+        test_variants()[0](&row, 1, splat, refuse, first, &expected);
         for (const TestFunction<float> variant : test_variants()) {
             PixelPlanes<float> planes = before;
-            const BlendOutcome outcome = variant(row, splat, refuse, planes, 8);
+            variant(&row, 1, splat, refuse, planes, &outcome);
             ASSERT_EQ(outcome.useful, expected.useful);
             ASSERT_EQ(outcome.boundary, expected.boundary);
             ASSERT_EQ(outcome.terminated, expected.terminated);

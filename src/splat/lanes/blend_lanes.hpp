@@ -93,13 +93,15 @@ struct TestRow {
     T rest;             ///< C' dy^2 - 2 ln o
     std::int32_t n0;    ///< column of mask bit 0 minus the splat's nearest column
     std::uint32_t mask; ///< pixels to test
+    std::size_t first;  ///< pixel of mask bit 0
 };
 
-/// A PE that checks while it blends: alpha test, then alpha, transmittance and colour of the pixels
-/// inside. Planes, `first`, `refuse` and widths as for BlendFunction.
+/// PEs that check while they blend: alpha test, then alpha, transmittance and colour of the pixels
+/// inside, for `count` rows of a splat, each with its outcome. Planes, `refuse` and widths as for
+/// BlendFunction.
 template <class T>
-using TestFunction = BlendOutcome (*)(const TestRow<T>& row, const BlendRecord<T>& splat,
-                                      bool refuse, PixelPlanes<T>& pixels, std::size_t first);
+using TestFunction = void (*)(const TestRow<T>* rows, int count, const BlendRecord<T>& splat,
+                              bool refuse, PixelPlanes<T>& pixels, BlendOutcome* outcomes);
 TestFunction<float> test_function(float);
 TestFunction<double> test_function(double);
 

@@ -103,6 +103,13 @@ public:
                              at(test.context, test.row, test.column));
     }
 
+    void test_rows(const PixelTest& test, int rows, BlendOutcome* outcomes) override {
+        PixelTest row = test;
+        for (int i = 0; i < rows; ++i, ++row.y, ++row.row) {
+            outcomes[i] = this->test(row);
+        }
+    }
+
     // Rounding keeps order, so the row nearest to the mean decides whether there are any.
     PixelRange tested_rows(std::uint32_t splat, const PixelRange& /*columns*/,
                            const PixelRange& rows) const override {
