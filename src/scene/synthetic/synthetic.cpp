@@ -21,11 +21,13 @@ struct Profile {
     std::uint64_t most;
     void (*make)(const SyntheticSpec& spec, SyntheticScene& scene);
 };
-constexpr std::array<Profile, 6> kProfiles{{
+constexpr std::array<Profile, 7> kProfiles{{
     {"object", "a captured object, surface covered with discs, few floaters, empty background",
      100000, kMostGaussians, make_object},
     {"outdoor", "ground with grass, objects in the middle, haze of big splats around", 150000,
      kMostGaussians, make_outdoor},
+    {"landscape", "a whole outdoor capture: an object, ground to the horizon, trees, sky", 3000000,
+     kMostGaussians, make_landscape},
     {"dense", "a volume of faint splats: long lists, late termination", 100000, kMostGaussians,
      make_dense},
     {"uniform", "round blobs spread evenly in a box", 10000, kMostGaussians, make_uniform},

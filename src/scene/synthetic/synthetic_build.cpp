@@ -27,8 +27,8 @@ SyntheticBuilder::SyntheticBuilder(GaussianCloud& cloud, const SyntheticSpec& sp
 }
 
 void SyntheticBuilder::add(const SyntheticLook& look, const glm::dvec3& mean,
-                           const glm::dvec3& normal, const glm::dvec3& rgb) {
-    const double largest = look.size.sample(random_) * size_factor_;
+                           const glm::dvec3& normal, const glm::dvec3& rgb, double scale) {
+    const double largest = look.size.sample(random_) * size_factor_ * scale;
     const double middle = largest / look.elongation.sample(random_);
     const double smallest = std::max(middle / look.flatness.sample(random_), kSmallestAxis);
     const glm::dvec4 rotation = facing(normal);

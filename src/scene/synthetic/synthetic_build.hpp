@@ -25,9 +25,10 @@ public:
     /// Sizes times this keep the covered area for any number of Gaussians.
     double size_factor() const { return size_factor_; }
 
-    /// A Gaussian whose smallest axis is `normal` (unit length), turned about it at random.
+    /// A Gaussian whose smallest axis is `normal` (unit length), turned about it at random. Its
+    /// sizes are those of the look times `scale`.
     void add(const SyntheticLook& look, const glm::dvec3& mean, const glm::dvec3& normal,
-             const glm::dvec3& rgb);
+             const glm::dvec3& rgb, double scale = 1);
     void add_exact(const glm::dvec3& mean, const glm::dvec3& scale, const glm::dvec4& rotation,
                    double opacity, const glm::dvec3& rgb, float view_dependence = 0);
     /// Unit quaternion (w, x, y, z) that takes z to `normal` after a random turn about z.
@@ -51,6 +52,7 @@ std::vector<Camera> synthetic_cameras(const std::array<SyntheticView, 3>& views)
 // One function per profile; each fills an empty scene.
 void make_object(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_outdoor(const SyntheticSpec& spec, SyntheticScene& scene);
+void make_landscape(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_dense(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_uniform(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_single(const SyntheticSpec& spec, SyntheticScene& scene);
