@@ -58,6 +58,7 @@ struct GbuConfig : AcceleratorConfig {
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return engines.count * contexts(); }
     TrafficConfig records() const override { return traffic; }
+    RecordOrder record_order() const override { return memory.layout; }
     void read_floats() override {
         traffic.geometry_bytes = kFloatGeometryBytes;
         traffic.sh_value_bytes = kFloatBytes;

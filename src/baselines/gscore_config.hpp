@@ -51,6 +51,7 @@ struct GscoreConfig : AcceleratorConfig {
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return pixel_buffer.contexts(tile_pixels()); }
     TrafficConfig records() const override { return traffic; }
+    RecordOrder record_order() const override { return memory.layout; }
     void read_floats() override {
         traffic.geometry_bytes = kFloatGeometryBytes;
         traffic.sh_value_bytes = kFloatBytes;

@@ -44,12 +44,21 @@ void Channel::Stats::describe(StatsVisitor& v) const {
     v.end_section();
     v.count("forwarded", forwarded, "accesses", "Reads answered from a queued write.");
     v.count("merged", merged, "accesses", "Writes that a queued write of the same place took in.");
+    v.count("write_batches", drains, "batches", "Turns from reads to writes.");
     v.begin_section("commands", "Commands on the bus, by kind.");
     for (std::size_t c = 0; c < kCommands; ++c) {
         const auto command = static_cast<Command>(c);
         v.count(command_name(command), commands[c], "commands", command_sentence(command));
     }
     v.end_section();
+}
+
+std::uint64_t Channel::Stats::column_commands() const {
+    std::uint64_t sum = 0;
+    for (const Command command : {Command::Rd, Command::RdA, Command::Wr, Command::WrA}) {
+        sum += of_kind(commands, command);
+    }
+    return sum;
 }
 
 void Channel::Stats::add(const Stats& other) {

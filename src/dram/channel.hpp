@@ -59,10 +59,12 @@ public:
         std::uint64_t forwarded = 0, merged = 0; ///< accesses that never reached the DRAM
         std::uint64_t forwarded_bursts = 0, merged_bursts = 0; ///< the same in bursts
         std::uint64_t drains = 0;                              ///< turns from reads to writes
+        /// Of all column commands.
+        std::uint64_t column_commands() const;
         Ck open = 0; ///< CK with a row open, up to the last change
         void add(const Stats& other);
         void subtract(const Stats& earlier);
-        /// All but `drains` and `open`, from which the energy follows.
+        /// All but `open`, from which the energy follows.
         void describe(StatsVisitor& v) const;
     };
 

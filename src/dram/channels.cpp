@@ -43,21 +43,30 @@ Channels::Channels(const Config& config)
 }
 
 void Channels::split(const Request& request, std::uint32_t id) {
+    Access access;
+    access.date = request.date;
+    access.id = id;
+    access.write = request.write;
+    if (request.records == nullptr) {
+        split_run(access, request.address, request.bytes);
+    } else {
+        request.records->for_each_run(
+            [&](std::uint64_t address, std::uint64_t bytes) { split_run(access, address, bytes); });
+    }
+}
+
+void Channels::split_run(Access access, std::uint64_t address, std::uint64_t bytes) {
     constexpr std::uint64_t kBlock = kAccessBytes;
-    const std::uint64_t end = request.address + request.bytes;
+    const std::uint64_t end = address + bytes;
     const unsigned burst = timing_.burst_bytes();
-    for (std::uint64_t block = request.address / kBlock * kBlock; block < end; block += kBlock) {
-        const std::uint64_t from = std::max(request.address, block) - block;
+    for (std::uint64_t block = address / kBlock * kBlock; block < end; block += kBlock) {
+        const std::uint64_t from = std::max(address, block) - block;
         const std::uint64_t to = std::min(end - block, kBlock) - 1;
         const Place place = mapping_.place(block);
-        Access access;
-        access.date = request.date;
-        access.id = id;
         access.row = place.row;
         access.bank = static_cast<std::uint8_t>(place.bank);
         access.block = static_cast<std::uint8_t>(place.block);
         access.bursts = static_cast<std::uint8_t>((2U << to / burst) - (1U << from / burst));
-        access.write = request.write;
         push_access(place.channel, access);
     }
 }

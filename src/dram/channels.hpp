@@ -10,6 +10,7 @@
 #include "dram/channel.hpp"
 #include "dram/energy.hpp"
 #include "dram/mapping.hpp"
+#include "tlm/scattered_records.hpp"
 
 namespace degs::dram {
 
@@ -35,6 +36,7 @@ struct Request {
     std::uint64_t address = 0, bytes = 0;
     std::uint32_t id = 0; ///< small; free again when the request is complete
     bool write = false;
+    const ScatteredRecords* records = nullptr; ///< if not null, in place of `address` and `bytes`
 };
 
 /// All channels: cuts requests into accesses and puts their answers together. Plain arithmetic.
@@ -86,6 +88,7 @@ private:
         Ck last = 0;
     };
     void split(const Request& request, std::uint32_t id);
+    void split_run(Access access, std::uint64_t address, std::uint64_t bytes);
     void push_access(unsigned channel, const Access& access);
     void run_channel(std::size_t channel, Ck until);
     Ck channel_due(Channel& channel) const;

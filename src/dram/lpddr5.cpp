@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "tlm/memory.hpp"
+#include "tlm/scattered_records.hpp"
 
 namespace degs::dram {
 namespace {
@@ -168,6 +169,9 @@ void Lpddr5::take_in(Arrival& arrival) {
     request.bytes = arrival.payload->get_data_length();
     request.write = arrival.payload->is_write();
     request.id = arrival.id;
+    if (const auto* scattered = arrival.payload->get_extension<Scattered>()) {
+        request.records = scattered->records;
+    }
     if (arrival.direct != nullptr) {
         channels_.push_for_prediction(request);
     } else {

@@ -9,6 +9,7 @@
 #include <tlm>
 #include <tlm_utils/simple_target_socket.h>
 
+#include "dram/activity.hpp"
 #include "dram/channels.hpp"
 #include "dram/sparse_storage.hpp"
 #include "dram/transfer_account.hpp"
@@ -21,7 +22,7 @@ namespace degs::dram {
 ///
 /// Requests are served in the order of their dates (kernel time plus annotated delay), ties broken
 /// by socket index; contents change in the same order. A payload with the extension TimingOnly
-/// takes time and moves no data.
+/// takes time and moves no data; one with Scattered moves every record at its own address.
 ///
 /// AT, the accurate path: four phases. END_REQ comes at once unless `waiting_requests` requests of the
 /// initiator wait for room in the controllers' queues; then it is withheld until one has got in, which
@@ -57,6 +58,7 @@ public:
     Channel::Stats commands(const sc_core::sc_time& until);
     Energy energy(const sc_core::sc_time& until);
     TransferAccount transfers(const sc_core::sc_time& until);
+    Activity activity(const sc_core::sc_time& until);
     const Channels& channels() const { return channels_; }
     /// Calls `observer` with every command. Set it before the simulation starts.
     void observe(const std::function<void(unsigned channel, const Issued&)>& observer);
@@ -120,7 +122,7 @@ private:
     Ck settle(std::uint64_t date);
 
     tlm::tlm_response_status check(const Payload& payload) const;
-    void copy(Payload& payload);
+    void copy(const Payload& payload);
     void count(std::uint32_t socket, const Payload& payload, const sc_core::sc_time& date,
                const sc_core::sc_time& done);
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "dram/lpddr5.hpp"
+#include "tlm/scattered_records.hpp"
 
 namespace degs::dram {
 
@@ -18,27 +19,31 @@ tlm::tlm_response_status Lpddr5::check(const Payload& payload) const {
         return tlm::TLM_BURST_ERROR_RESPONSE;
     }
     const std::uint64_t capacity = channels_.mapping().capacity();
-    if (payload.get_address() >= capacity ||
-        payload.get_data_length() > capacity - payload.get_address()) {
-        return tlm::TLM_ADDRESS_ERROR_RESPONSE;
-    }
-    return tlm::TLM_OK_RESPONSE;
+    bool inside = true;
+    for_each_run(payload, [&](std::uint64_t address, const unsigned char*, std::uint64_t bytes) {
+        inside = inside && address < capacity && bytes <= capacity - address;
+    });
+    return inside ? tlm::TLM_OK_RESPONSE : tlm::TLM_ADDRESS_ERROR_RESPONSE;
 }
 
-void Lpddr5::copy(Payload& payload) {
-    if (payload.is_write()) {
-        storage_.write(payload.get_address(), payload.get_data_ptr(), payload.get_data_length());
-    } else {
-        storage_.read(payload.get_address(), payload.get_data_ptr(), payload.get_data_length());
-    }
+void Lpddr5::copy(const Payload& payload) {
+    for_each_run(payload, [&](std::uint64_t address, unsigned char* data, std::uint64_t bytes) {
+        if (payload.is_write()) {
+            storage_.write(address, data, bytes);
+        } else {
+            storage_.read(address, data, bytes);
+        }
+    });
 }
 
 void Lpddr5::count(std::uint32_t socket, const Payload& payload, const sc_core::sc_time& date,
                    const sc_core::sc_time& done) {
     Stats& stats = stats_[socket];
     const std::uint64_t burst = config_.timing.burst_bytes();
-    const std::uint64_t end = payload.get_address() + payload.get_data_length();
-    const std::uint64_t bytes = ((end + burst - 1) / burst - payload.get_address() / burst) * burst;
+    std::uint64_t bytes = 0;
+    for_each_run(payload, [&](std::uint64_t address, const unsigned char*, std::uint64_t run) {
+        bytes += ((address + run + burst - 1) / burst - address / burst) * burst;
+    });
     const double ns = (done - date).to_seconds() * 1e9;
     if (payload.is_read()) {
         ++stats.reads;
@@ -126,15 +131,23 @@ TransferAccount Lpddr5::transfers(const sc_core::sc_time& until) {
     const Channel::Stats stats = commands(until);
     const std::uint64_t burst = config_.timing.burst_bytes();
     TransferAccount bytes;
-    for (const Command command : {Command::Rd, Command::RdA, Command::Wr, Command::WrA}) {
-        bytes.on_bus += burst * of_kind(stats.commands, command);
-    }
+    bytes.on_bus = burst * stats.column_commands();
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         bytes.queued += burst * channels_[c].bursts_left();
     }
     bytes.merged = burst * stats.merged_bursts;
     bytes.forwarded = burst * stats.forwarded_bursts;
     return bytes;
+}
+
+Activity Lpddr5::activity(const sc_core::sc_time& until) {
+    Activity activity;
+    activity.all = commands(until);
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        activity.channel_bytes.push_back(config_.timing.burst_bytes() *
+                                         channels_[c].stats().column_commands());
+    }
+    return activity;
 }
 
 Energy Lpddr5::energy(const sc_core::sc_time& until) {

@@ -116,6 +116,11 @@ void describe_dram(const AcceleratorResult& run, StatsVisitor& v) {
             "What has become of bytes_read + bytes_written by the end of the run; with lpddr5 "
             "only.");
     }
+    if (v.wants(run.dram_activity.has_value())) {
+        v.section("channels", run.dram_activity.value_or(dram::Activity()),
+                  "What the channels did by the end of the run; with lpddr5 only. Sums over all of "
+                  "them, except for the list.");
+    }
     v.begin_section("streams", "Traffic by kind of record.");
     for (const StreamUse& stream : run.streams) {
         v.section(stream.name, stream, stream.sentence);

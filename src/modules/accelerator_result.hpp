@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/statistics.hpp"
+#include "dram/activity.hpp"
 #include "dram/energy.hpp"
 #include "dram/transfer_account.hpp"
 #include "modules/array/slot_account.hpp"
@@ -84,6 +85,7 @@ struct AcceleratorResult {
     std::optional<double> row_hit_rate; ///< share of accesses that found their row open
     std::optional<dram::Energy> dram_energy;
     std::optional<dram::TransferAccount> dram_transfers; ///< by the end of the run
+    std::optional<dram::Activity> dram_activity;         ///< likewise
     std::uint64_t tiles_listed = 0;                      ///< that the accelerator has to render
     std::uint64_t tiles = 0;                             ///< that it has rendered
     std::uint64_t background_tiles = 0, tiles_cancelled = 0;

@@ -103,6 +103,7 @@ struct DegsConfig : AcceleratorConfig {
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return contexts(); }
     TrafficConfig records() const override { return traffic; }
+    RecordOrder record_order() const override { return memory.layout; }
     void read_floats() override {
         traffic.geometry_bytes = kFloatGeometryBytes;
         traffic.sh_value_bytes = kFloatBytes;

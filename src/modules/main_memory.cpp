@@ -115,7 +115,8 @@ public:
         const sc_core::sc_time end = set_window(result, requests.last_answer);
         const dram::TransferAccount bytes = dram_->transfers(end);
         result.memory_utilization = share_of_window(result, rate_of(bytes.on_bus, peak_gb_per_s()));
-        result.row_hit_rate = dram::hit_rate(dram_->commands(end).accesses);
+        result.dram_activity = dram_->activity(end);
+        result.row_hit_rate = dram::hit_rate(result.dram_activity->all.accesses);
         result.dram_energy = dram_->energy(end);
         result.dram_transfers = bytes;
         result.conservation.push_back(

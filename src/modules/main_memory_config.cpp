@@ -9,9 +9,14 @@ void MainMemoryConfig::describe(ConfigVisitor& visitor) {
         "bus: one data bus with latency, bandwidth_gb_per_s and latency_ns count; lpddr5: "
         "channels, banks and rows, the section of that name counts");
     Memory::Config::describe(visitor);
+    visitor.choice(
+        "layout", layout, {"index", "morton"},
+        "order of the splat records in memory, which GCC lacks: that of the Gaussians, or "
+        "that of the Morton code of their positions; only addresses depend on it");
     visitor.section("lpddr5", lpddr5, "the keys of configs/memory/*.yaml");
     if (model == MemoryModel::Bus) {
         visitor.unused("lpddr5", "model", "memory.model is bus");
+        visitor.unused("layout", "model", "memory.model is bus, which has no addresses");
         return;
     }
     constexpr const char* kReason = "memory.model is lpddr5, which has keys of its own";

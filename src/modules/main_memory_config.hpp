@@ -4,6 +4,7 @@
 #include <string>
 
 #include "dram/lpddr5.hpp"
+#include "modules/record_places.hpp"
 #include "tlm/memory.hpp"
 
 namespace degs {
@@ -16,6 +17,7 @@ enum class MemoryModel { Bus, Lpddr5 };
 struct MainMemoryConfig : Memory::Config {
     MemoryModel model = MemoryModel::Bus;
     dram::Config lpddr5;
+    RecordOrder layout = RecordOrder::Index;
     void describe(ConfigVisitor& visitor);
     double peak_gb_per_s() const {
         return model == MemoryModel::Bus ? bandwidth_gb_per_s : lpddr5.peak_gb_per_s();

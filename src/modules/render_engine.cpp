@@ -35,7 +35,8 @@ std::string AcceleratorConfig::problem() const {
 
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
                           const AcceleratorConfig& config) {
-    return make_render_job(frames, config.data_path(), config.tile_contexts());
+    return make_render_job(frames, config.data_path(), config.tile_contexts(),
+                           config.record_order());
 }
 
 } // namespace degs

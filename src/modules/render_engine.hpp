@@ -78,6 +78,8 @@ struct AcceleratorConfig {
     virtual int tile_contexts() const = 0;
     /// Record layouts of the streams that all accelerators have.
     virtual TrafficConfig records() const = 0;
+    /// How splat records lie in memory.
+    virtual RecordOrder record_order() const { return RecordOrder::Index; }
     /// Switches to the scene as a platform's memory holds it: values of 4 B, see docs/accelerator.md.
     virtual void read_floats() = 0;
     /// `job` must be made for this configuration and outlive the engine.

@@ -31,6 +31,7 @@ void RenderJob::add(const FrameWorkload& frame, const MemoryBases& base) {
     bases.push_back(base);
     first_splat.push_back(path->add_frame(frame));
     pair_prefix.push_back(prefix_of_pairs(frame));
+    places.emplace_back(frame, record_order);
     images.emplace_back(frame.camera.width, frame.camera.height);
     const std::size_t before = tiles.size();
     for (int t = 0; t < frame.tiles(); ++t) {
@@ -55,9 +56,48 @@ void RenderJob::add(const FrameWorkload& frame, const MemoryBases& base) {
     }
 }
 
+ScatteredRecords RenderJob::splat_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                          const std::uint32_t* splats, std::size_t count) const {
+    const MemoryMap at = map(frame, traffic);
+    ScatteredRecords records;
+    records.base = at.splats;
+    records.stride = records.bytes = traffic.splat_bytes;
+    records.burst = traffic.burst_bytes;
+    records.array_bytes = at.lists - at.splats;
+    records.numbers = splats;
+    records.count = count;
+    records.places = places[frame].of_splats();
+    return records;
+}
+
+// Written as they are: a burst that is not the record's own must not be touched.
+ScatteredRecords RenderJob::visible_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                            std::uint32_t first, std::size_t count) const {
+    ScatteredRecords records =
+        splat_records(frame, traffic, places[frame].of_visible() + first, count);
+    records.burst = 1;
+    records.places = nullptr;
+    return records;
+}
+
+ScatteredRecords RenderJob::sh_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                       const std::uint32_t* gaussians, std::size_t count) const {
+    const FrameWorkload& work = *frames[frame];
+    const MemoryMap at = map(frame, traffic);
+    ScatteredRecords records;
+    records.base = at.sh;
+    records.stride = records.bytes = traffic.sh_bytes(work.sh_degree);
+    records.burst = traffic.burst_bytes;
+    records.array_bytes = bases[frame].given ? work.gaussians * records.bytes : at.splats - at.sh;
+    records.numbers = gaussians;
+    records.count = count;
+    return records;
+}
+
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
-                          const DataPathOptions& options, int contexts) {
+                          const DataPathOptions& options, int contexts, RecordOrder order) {
     RenderJob job;
+    job.record_order = order;
     job.tile_size = frames.at(0)->tile_size;
     job.path = make_data_path(options, job.tile_size, contexts);
     for (const FrameWorkload* frame : frames) {

@@ -8,11 +8,13 @@
 #include <systemc>
 
 #include "modules/messages.hpp"
+#include "modules/record_places.hpp"
 #include "modules/traffic.hpp"
 #include "splat/frame_workload.hpp"
 #include "splat/images/image.hpp"
 #include "splat/pixel_index.hpp"
 #include "tlm/process.hpp"
+#include "tlm/scattered_records.hpp"
 
 namespace degs {
 
@@ -60,6 +62,8 @@ struct RenderJob {
     std::deque<Image> images; ///< one per frame, filled by the Pixel Buffer
     std::unique_ptr<DataPath> path;
     int tile_size = 0;
+    RecordOrder record_order = RecordOrder::Index; ///< of frames that join from now on
+    std::vector<RecordPlaces> places;              ///< of each frame's splat records
     /// Per frame: tile pairs of the first n visible Gaussians in scene order, for n = 0..visible.
     std::vector<std::vector<std::uint64_t>> pair_prefix;
     /// Per frame: where its streams live, if not where MemoryMap puts them.
@@ -83,6 +87,15 @@ struct RenderJob {
     MemoryMap map(std::uint32_t frame, const TrafficConfig& traffic) const {
         return MemoryMap(traffic, *frames[frame], bases[frame]);
     }
+    /// The records of `count` splats; of `count` visible Gaussians in scene order from rank `first`
+    /// on, which lie one behind the other in RecordOrder::Index only; the SH of `count` Gaussians.
+    /// All views are of the frame's own tables and of the numbers that are handed in.
+    ScatteredRecords splat_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                   const std::uint32_t* splats, std::size_t count) const;
+    ScatteredRecords visible_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                     std::uint32_t first, std::size_t count) const;
+    ScatteredRecords sh_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                const std::uint32_t* gaussians, std::size_t count) const;
 
     /// True if there is a frame / a tile of this number. If more may come, sleeps until it joins,
     /// and moves the process to that date.
@@ -115,6 +128,7 @@ private:
 /// Lists the tiles and loads the data path. All workloads must have the same tile size; splats are
 /// drawn as they are, whatever format they were projected in.
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
-                          const DataPathOptions& options, int contexts);
+                          const DataPathOptions& options, int contexts,
+                          RecordOrder order = RecordOrder::Index);
 
 } // namespace degs

@@ -60,6 +60,7 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
             scene_changed_ = scene_changed_ || !scene_.matches(address, data, bytes);
         });
     job_.tile_size = config_->tile_size_px();
+    job_.record_order = config_->record_order();
     job_.path = make_data_path(config_->data_path(), job_.tile_size, config_->tile_contexts());
     job_.joined = std::make_unique<sc_core::sc_event>();
     BuildOptions build;
@@ -148,7 +149,6 @@ AcceleratorFault Accelerator::make_workload() {
 AcceleratorFault Accelerator::render() {
     const MemoryTraffic before = gateway_.total();
     gateway_.clear_errors();
-    gateway_.set_regions(request_.regions());
     scene_changed_ = false;
     self_.advance_to(time_.clock.ceil(sc_core::sc_time_stamp()));
     const Cycle started = self_.local();

@@ -99,7 +99,7 @@ AcceleratorFault read_bases(const AcceleratorRegisters& regs, AcceleratorRequest
 
 // Checks all bases and every pair of regions; the detail names the later region of the two.
 AcceleratorFault check_regions(const AcceleratorRequest& request) {
-    const std::vector<MemoryGateway::Region> regions = request.regions();
+    const std::vector<AcceleratorRequest::Region> regions = request.regions();
     constexpr std::array<Register, 4> kBases{Register::Geometry, Register::Sh, Register::Workspace,
                                              Register::FrameBuffer};
     for (std::size_t i = 0; i < regions.size(); ++i) {
@@ -134,7 +134,7 @@ std::uint64_t AcceleratorRequest::frame_bytes() const {
     return camera.pixels() * bases.pixel_bytes;
 }
 
-std::vector<MemoryGateway::Region> AcceleratorRequest::regions() const {
+std::vector<AcceleratorRequest::Region> AcceleratorRequest::regions() const {
     return {{scene.geometry, scene.geometry_bytes()},
             {scene.sh, scene.sh_bytes()},
             {bases.workspace, workspace_bytes},

@@ -6,7 +6,6 @@
 
 #include "modules/traffic.hpp"
 #include "platform/accelerator_registers.hpp"
-#include "platform/memory_gateway.hpp"
 #include "platform/scene_copy.hpp"
 #include "splat/camera.hpp"
 
@@ -35,8 +34,12 @@ struct AcceleratorRequest {
     static AcceleratorFault read(const AcceleratorRegisters& registers, const Limits& limits,
                                  AcceleratorRequest& request);
     std::uint64_t frame_bytes() const;
+    /// A part of memory that belongs to the accelerator.
+    struct Region {
+        std::uint64_t begin = 0, bytes = 0;
+    };
     /// The regions of geometry, SH, workspace and frame buffer.
-    std::vector<MemoryGateway::Region> regions() const;
+    std::vector<Region> regions() const;
 };
 
 } // namespace degs

@@ -3,16 +3,9 @@
 
 #include <algorithm>
 
+#include "tlm/scattered_records.hpp"
+
 namespace degs {
-
-namespace {
-
-/// A length of a transaction, limited to `room`, which may be longer than any transaction.
-unsigned int least(unsigned int bytes, std::uint64_t room) {
-    return static_cast<unsigned int>(std::min<std::uint64_t>(bytes, room));
-}
-
-} // namespace
 
 MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name)
     : MemoryGateway(name, Options()) {}
@@ -50,11 +43,11 @@ tlm::tlm_sync_enum MemoryGateway::backward(tlm::tlm_generic_payload& payload, tl
 }
 
 void MemoryGateway::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-    access(static_cast<unsigned>(traffic_.size()), payload, cut(payload, false), delay);
+    access(static_cast<unsigned>(traffic_.size()), payload, cut(payload), delay);
 }
 
 void MemoryGateway::serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-    access(static_cast<unsigned>(port), payload, cut(payload, true), delay);
+    access(static_cast<unsigned>(port), payload, cut(payload), delay);
     MemoryTraffic& traffic = traffic_[port];
     (payload.is_read() ? traffic.reads : traffic.writes)++;
     (payload.is_read() ? traffic.bytes_read : traffic.bytes_written) += payload.get_data_length();
@@ -68,51 +61,39 @@ void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload, con
                            sc_core::sc_time& delay) {
     if (requester_) {
         requester_->transport(rank, payload, pieces, delay);
-    } else if (pieces.size() == 1) {
+    } else if (payload.get_extension<Scattered>() == nullptr) {
         out->b_transport(payload, delay);
     } else {
         access_pieces(payload, pieces, delay);
     }
 }
 
-const MemoryGateway::Region* MemoryGateway::region_of(std::uint64_t address) const {
-    const auto home = std::find_if(regions_.begin(), regions_.end(), [&](const Region& region) {
-        return address - region.begin < region.bytes;
-    });
-    return home == regions_.end() ? nullptr : &*home;
-}
-
-// Cuts at the end of the region in which the access starts, with `fold`, and at multiples of a piece.
-MemoryGateway::Pieces MemoryGateway::cut(const tlm::tlm_generic_payload& payload, bool fold) const {
-    const Region* const home = fold ? region_of(payload.get_address()) : nullptr;
+// One piece per run of bytes, cut at multiples of a piece with AT.
+MemoryGateway::Pieces MemoryGateway::cut(const tlm::tlm_generic_payload& payload) const {
     const std::uint64_t grain = options_.transport == Transport::At ? options_.piece_bytes : 0;
     Pieces pieces;
-    AtRequester::Piece piece{payload.get_address(), 0, 0};
-    for (unsigned int left = payload.get_data_length(); left != 0; left -= piece.bytes) {
-        if (home != nullptr && piece.address - home->begin == home->bytes) {
-            piece.address = home->begin;
+    unsigned int offset = 0;
+    for_each_run(payload, [&](std::uint64_t address, const unsigned char*, std::uint64_t bytes) {
+        for (const std::uint64_t end = address + bytes; address != end;) {
+            const std::uint64_t room = grain == 0 ? end - address : grain - address % grain;
+            const auto piece = static_cast<unsigned int>(std::min(room, end - address));
+            pieces.push_back({address, offset, piece});
+            address += piece;
+            offset += piece;
         }
-        piece.bytes = left;
-        if (home != nullptr) {
-            piece.bytes = least(piece.bytes, home->bytes - (piece.address - home->begin));
-        }
-        if (grain != 0) {
-            piece.bytes = least(piece.bytes, grain - piece.address % grain);
-        }
-        pieces.push_back(piece);
-        piece.address += piece.bytes;
-        piece.offset += piece.bytes;
-    }
+    });
     return pieces;
 }
 
 // All pieces are issued at the date of the access, which ends with the last of them; the first
-// error is the access's.
+// error is the access's. Targets see ordinary transactions.
 void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Pieces& pieces,
                                   sc_core::sc_time& delay) {
     const std::uint64_t address = payload.get_address();
     unsigned char* const data = payload.get_data_ptr();
     const unsigned int bytes = payload.get_data_length();
+    auto* const scattered = payload.get_extension<Scattered>();
+    payload.clear_extension(scattered);
     const sc_core::sc_time date = sc_core::sc_time_stamp() + delay;
     sc_core::sc_time done = date;
     tlm::tlm_response_status status = tlm::TLM_OK_RESPONSE;
@@ -128,6 +109,7 @@ void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Piece
         done = std::max(done, sc_core::sc_time_stamp() + wait);
         status = status == tlm::TLM_OK_RESPONSE ? payload.get_response_status() : status;
     }
+    payload.set_extension(scattered);
     payload.set_address(address);
     payload.set_data_ptr(data);
     payload.set_data_length(bytes);

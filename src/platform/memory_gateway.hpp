@@ -17,7 +17,8 @@
 namespace degs {
 
 /// Sends all streams of an accelerator through one TLM-2.0 initiator socket, for memory that belongs
-/// to a platform: every access moves real bytes, and the platform arbitrates. An access that the
+/// to a platform: every access moves real bytes, and the platform arbitrates. Scattered records go
+/// out as ordinary transactions at their own addresses, one per run of bytes. An access that the
 /// platform refuses is counted as an error and then treated as done: an accelerator ends its frame
 /// and reports the error in a register, and the simulation goes on.
 class MemoryGateway : public sc_core::sc_module, public MainMemory {
@@ -51,20 +52,11 @@ public:
     double peak_gb_per_s() const override { return 0; }
     std::vector<std::string> explain() const override;
 
-    /// A part of memory that belongs to the accelerator.
-    struct Region {
-        std::uint64_t begin = 0, bytes = 0;
-    };
-    /// An access that starts in a region and passes its end continues at the start of the region:
-    /// blocks fetch scattered records as one run of as many bytes, which may be longer than a small
-    /// array, and must not touch other regions. May be called at any time.
-    void set_regions(std::vector<Region> regions) { regions_ = std::move(regions); }
-
     /// Counters of all streams.
     MemoryTraffic total() const;
 
-    /// Performs an access that belongs to no stream. It is not counted, not confined to the
-    /// regions, and keeps its response. Must be called from a thread, like debug().
+    /// Performs an access that belongs to no stream. It is not counted and keeps its response. Must
+    /// be called from a thread, like debug().
     void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
     unsigned int debug(tlm::tlm_generic_payload& payload) { return out->transport_dbg(payload); }
 
@@ -87,8 +79,7 @@ private:
     tlm::tlm_sync_enum backward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
                                 sc_core::sc_time& delay);
     unsigned int debug_of(int port, tlm::tlm_generic_payload& payload);
-    const Region* region_of(std::uint64_t address) const;
-    Pieces cut(const tlm::tlm_generic_payload& payload, bool fold) const;
+    Pieces cut(const tlm::tlm_generic_payload& payload) const;
     void access_pieces(tlm::tlm_generic_payload& payload, const Pieces& pieces,
                        sc_core::sc_time& delay);
 
@@ -97,7 +88,6 @@ private:
     std::unique_ptr<AtRequester> requester_;
     std::vector<MemoryTraffic> traffic_;
     Observer scene_;
-    std::vector<Region> regions_;
     std::uint64_t errors_ = 0;
     tlm::tlm_response_status first_error_ = tlm::TLM_OK_RESPONSE;
 };

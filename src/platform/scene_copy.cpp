@@ -116,15 +116,7 @@ void append(GaussianCloud& cloud, const GaussianCloud& one) {
 
 bool same(const std::vector<unsigned char>& copy, std::uint64_t offset, const unsigned char* data,
           std::uint64_t bytes) {
-    for (std::uint64_t done = 0; done < bytes;) {
-        const std::uint64_t piece = std::min(bytes - done, copy.size() - offset);
-        if (std::memcmp(copy.data() + offset, data + done, piece) != 0) {
-            return false;
-        }
-        done += piece;
-        offset = 0;
-    }
-    return true;
+    return bytes <= copy.size() - offset && std::memcmp(copy.data() + offset, data, bytes) == 0;
 }
 
 } // namespace

@@ -31,8 +31,8 @@ public:
     /// so that the indices of the others are those of their records.
     GaussianCloud cloud(std::uint32_t& dropped) const;
 
-    /// True if these are the bytes of the copy. The access starts in an array; one that is longer
-    /// than the rest of the array continues at its start, see MemoryGateway::set_regions().
+    /// True if these are the bytes of the copy, or of neither array. An access that starts in an array
+    /// ends in it.
     bool matches(std::uint64_t address, const unsigned char* data, std::uint64_t bytes) const;
 
 private:

@@ -114,6 +114,7 @@ void project_all(const GaussianCloud& cloud, Binner& binner, FrameWorkload& work
         }
         work.splats.push_back(splat);
         work.visible_of.push_back(splat.id);
+        work.visible_means.emplace_back(cloud.means[i]);
         work.tiles_touched.push_back(count_tiles(binner.covered(), binner, work));
     }
 }

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "config/ratio.hpp"
+#include "tlm/scattered_records.hpp"
 
 namespace degs {
 namespace {
@@ -124,13 +125,17 @@ void Memory::serve(Request& request) {
     }
 }
 
-void Memory::copy(tlm::tlm_generic_payload& payload) {
-    unsigned char* data = payload.get_data_ptr();
-    std::uint64_t address = payload.get_address();
-    for (std::uint64_t left = payload.get_data_length(); left != 0;) {
+void Memory::copy(const tlm::tlm_generic_payload& payload) {
+    for_each_run(payload, [&](std::uint64_t address, unsigned char* data, std::uint64_t bytes) {
+        copy_run(payload.is_write(), address, data, bytes);
+    });
+}
+
+void Memory::copy_run(bool write, std::uint64_t address, unsigned char* data, std::uint64_t bytes) {
+    for (std::uint64_t left = bytes; left != 0;) {
         const std::uint64_t offset = address % kPageBytes;
         const std::uint64_t piece = std::min(left, kPageBytes - offset);
-        if (payload.is_write()) {
+        if (write) {
             std::memcpy(pages_[address / kPageBytes].data() + offset, data, piece);
         } else if (const auto page = pages_.find(address / kPageBytes); page != pages_.end()) {
             std::memcpy(data, page->second.data() + offset, piece);

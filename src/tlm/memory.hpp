@@ -17,7 +17,8 @@ namespace degs {
 
 /// A memory with one shared data bus: every transaction occupies it for bytes / bandwidth and is
 /// answered `latency` later. Requests are served in the order of their dates (kernel time plus
-/// annotated delay); equal dates by socket index. Banks, rows and refresh are not modelled here.
+/// annotated delay); equal dates by socket index. Banks, rows and refresh are not modelled here, so
+/// that scattered records cost as many bytes in one run.
 ///
 /// LT target: b_transport() returns within the cycle of the request with the rest of the response
 /// time annotated, so that an initiator may keep several requests in flight. Contents are kept
@@ -60,7 +61,8 @@ private:
     unsigned int debug(int initiator, tlm::tlm_generic_payload& payload);
     void serve_until(const sc_core::sc_time& date);
     void serve(Request& request);
-    void copy(tlm::tlm_generic_payload& payload);
+    void copy(const tlm::tlm_generic_payload& payload);
+    void copy_run(bool write, std::uint64_t address, unsigned char* data, std::uint64_t bytes);
 
     Config config_;
     sc_core::sc_time half_cycle_;

@@ -35,24 +35,37 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
         }
     }
     set_access(payload, command, address, data, bytes);
+    if (scattered_.records != nullptr) {
+        payload.set_extension(&scattered_);
+    }
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     const sc_core::sc_time date = clock_->at(process.local());
     sc_core::sc_time delay = date > now ? date - now : sc_core::SC_ZERO_TIME;
     out->b_transport(payload, delay);
     payload.clear_extension(&timing_only_);
     if (payload.is_response_error()) {
+        payload.clear_extension(&scattered_);
         throw std::runtime_error(std::string(name()) + ": the memory answered " +
                                  payload.get_response_string() + " to an access of " +
                                  std::to_string(bytes) + " bytes at address " +
                                  std::to_string(address));
     }
     if (observer_ && command == tlm::TLM_READ_COMMAND) {
-        observer_(address, data, bytes);
+        for_each_run(payload, observer_);
     }
+    payload.clear_extension(&scattered_);
     // A memory that waits for its answer has moved the kernel on; a process must not stay more than
     // a cycle behind.
     process.advance_to(std::max<Cycle>(clock_->floor(sc_core::sc_time_stamp()), 1) - 1);
     return clock_->ceil(sc_core::sc_time_stamp() + delay);
+}
+
+Cycle MemoryPort::scattered(Process& process, tlm::tlm_command command, std::uint64_t run,
+                            const ScatteredRecords& records) {
+    scattered_.records = &records;
+    const Cycle done = access(process, command, run, nullptr, records.total_bytes());
+    scattered_.records = nullptr;
+    return done;
 }
 
 void MemoryPort::poke(std::uint64_t address, const std::vector<unsigned char>& data) {

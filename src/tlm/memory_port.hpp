@@ -12,6 +12,7 @@
 
 #include "tlm/memory.hpp"
 #include "tlm/process.hpp"
+#include "tlm/scattered_records.hpp"
 
 namespace degs {
 
@@ -32,14 +33,22 @@ public:
     Cycle write(Process& process, std::uint64_t address, std::uint64_t bytes) {
         return access(process, tlm::TLM_WRITE_COMMAND, address, nullptr, bytes);
     }
+    /// The same for scattered records, in one request. `run` is the address at which as many bytes
+    /// begin for a memory that takes them as one run.
+    Cycle read(Process& process, const ScatteredRecords& records) {
+        return scattered(process, tlm::TLM_READ_COMMAND, records.base, records);
+    }
+    Cycle write(Process& process, std::uint64_t run, const ScatteredRecords& records) {
+        return scattered(process, tlm::TLM_WRITE_COMMAND, run, records);
+    }
     /// Writes real bytes.
     Cycle write(Process& process, std::uint64_t address, const std::vector<unsigned char>& data) {
         return access(process, tlm::TLM_WRITE_COMMAND, address,
                       const_cast<unsigned char*>(data.data()), data.size());
     }
 
-    /// Is called with the bytes of every read, which then really come from the memory. It is for
-    /// memories that hold the data, and must be set before the simulation starts.
+    /// Is called with the bytes of every read, run by run, which then really come from the memory. It
+    /// is for memories that hold the data, and must be set before the simulation starts.
     using Observer =
         std::function<void(std::uint64_t address, const unsigned char* data, std::uint64_t bytes)>;
     void observe_reads(Observer observer) { observer_ = std::move(observer); }
@@ -51,10 +60,13 @@ public:
 private:
     Cycle access(Process& process, tlm::tlm_command command, std::uint64_t address,
                  unsigned char* data, std::uint64_t bytes);
+    Cycle scattered(Process& process, tlm::tlm_command command, std::uint64_t run,
+                    const ScatteredRecords& records);
 
     const ClockDomain* clock_;
     std::vector<unsigned char> scratch_;
     TimingOnly timing_only_;
+    Scattered scattered_;
     Observer observer_;
 };
 

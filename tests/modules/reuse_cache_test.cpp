@@ -90,6 +90,10 @@ struct BruteForce {
     }
 };
 
+std::size_t missed(ReuseCache& cache, TileNumber tile, std::uint64_t first, std::uint64_t count) {
+    return cache.request(tile, first, static_cast<std::uint32_t>(count)).size();
+}
+
 std::uint64_t misses_of(const FrameWorkload& frame, std::size_t capacity, unsigned skip = 1) {
     const RenderJob job = job_of({&frame});
     NextUses uses(job);
@@ -135,7 +139,7 @@ TEST(ReuseCache, HitsAsOftenAsAnOptimalCacheThatSeesTheFuture) {
             BruteForce brute{frame, capacity, {}};
             for (TileNumber t = 0; t < job.tiles.size(); ++t) {
                 const JobTile& tile = job.tiles[t];
-                EXPECT_EQ(cache.request(t, tile.first, static_cast<std::uint32_t>(tile.count)),
+                EXPECT_EQ(missed(cache, t, tile.first, tile.count),
                           brute.tile(tile.first, tile.first + tile.count))
                     << "seed " << seed << ", " << capacity << " records, tile " << t;
             }
@@ -155,7 +159,7 @@ TEST(ReuseCache, PassedTilesAreNoUses) {
         for (TileNumber t = 0; t < job.tiles.size();
              t += 1 + static_cast<TileNumber>(random() % 3)) {
             const JobTile& tile = job.tiles[t];
-            EXPECT_EQ(cache.request(t, tile.first, static_cast<std::uint32_t>(tile.count)),
+            EXPECT_EQ(missed(cache, t, tile.first, tile.count),
                       brute.tile(tile.first, tile.first + tile.count))
                 << "seed " << seed << ", tile " << t;
         }
@@ -179,11 +183,20 @@ TEST(ReuseCache, ChunksOfAListAndCancelledRestsChangeNothingElse) {
     const RenderJob job = job_of({&frame});
     NextUses uses(job);
     ReuseCache cache(job, uses, 4);
-    EXPECT_EQ(cache.request(0, 0, 2), 2U);
-    EXPECT_EQ(cache.request(0, 2, 1), 1U); // the tile ends here: splat 3 is never read
-    EXPECT_EQ(cache.request(1, 4, 4), 1U);
-    EXPECT_EQ(cache.request(2, 8, 4), 0U);
+    EXPECT_EQ(missed(cache, 0, 0, 2), 2U);
+    EXPECT_EQ(missed(cache, 0, 2, 1), 1U); // the tile ends here: splat 3 is never read
+    EXPECT_EQ(missed(cache, 1, 4, 4), 1U);
+    EXPECT_EQ(missed(cache, 2, 8, 4), 0U);
     EXPECT_EQ(cache.stats().hits, 7U);
+}
+
+TEST(ReuseCache, NamesTheSplatsThatItMisses) {
+    const FrameWorkload frame = lists_of({{2, 0}, {0, 1, 2, 3}}, 4);
+    const RenderJob job = job_of({&frame});
+    NextUses uses(job);
+    ReuseCache cache(job, uses, 4);
+    EXPECT_EQ(cache.request(0, 0, 2), (std::vector<std::uint32_t>{2, 0}));
+    EXPECT_EQ(cache.request(1, 2, 4), (std::vector<std::uint32_t>{1, 3}));
 }
 
 TEST(ReuseCache, FramesShareNothing) {
@@ -192,10 +205,10 @@ TEST(ReuseCache, FramesShareNothing) {
     const RenderJob job = job_of({&one, &two});
     NextUses uses(job);
     ReuseCache cache(job, uses, 8);
-    EXPECT_EQ(cache.request(0, 0, 2), 2U);
-    EXPECT_EQ(cache.request(1, 2, 2), 0U);
-    EXPECT_EQ(cache.request(2, 0, 2), 2U);
-    EXPECT_EQ(cache.request(3, 2, 2), 0U);
+    EXPECT_EQ(missed(cache, 0, 0, 2), 2U);
+    EXPECT_EQ(missed(cache, 1, 2, 2), 0U);
+    EXPECT_EQ(missed(cache, 2, 0, 2), 2U);
+    EXPECT_EQ(missed(cache, 3, 2, 2), 0U);
 }
 
 } // namespace

@@ -53,9 +53,11 @@ protected:
 };
 
 // The latency is that of the blocking memory, bandwidth is unlimited, and a port has one access
-// under way on both: the same dates. A memory that needs BEGIN_RESP to end a request, or that keeps
+// under way on both: the same dates, as long as a request is for one record, because a blocking memory
+// serves several one after the other. A memory that needs BEGIN_RESP to end a request, or that keeps
 // its response phase for the whole latency, serves one transaction after the other.
 TEST_P(SmallRunAtAccelerator, TakesTheTimeOfABlockingMemoryAndWritesItsBytes) {
+    config.projection.chunk = config.fetching.chunk = 1;
     AtPlatform p("four_phases", config, cloud);
     Platform blocking("blocking", config, cloud, Timing::Blocking);
     p.at.ending = GetParam();

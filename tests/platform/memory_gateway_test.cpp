@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The memory of a platform as an accelerator sees it.
+#include <tuple>
+
 #include "tests/platform/accelerator_bench.hpp"
+#include "tests/tlm/at_memory.hpp"
 #include "tests/tlm/script.hpp"
 
 namespace degs::test {
@@ -39,6 +42,90 @@ TEST_F(SmallRunMemoryGateway, OnlyStreamsThatCarryTheSceneAreObserved) {
         second.write(process, 256, 32);
     });
     EXPECT_EQ(seen, (std::vector<std::uint64_t>{64}));
+}
+
+/// What reaches a target, in order.
+struct Seen {
+    std::uint64_t address = 0;
+    unsigned int bytes = 0;
+    bool extended = false; ///< with the extension that the target should not need
+    friend bool operator==(const Seen& a, const Seen& b) {
+        return std::tie(a.address, a.bytes, a.extended) == std::tie(b.address, b.bytes, b.extended);
+    }
+};
+
+/// Answers at once; byte a of the memory is a / 16.
+struct RecordingMemory : sc_core::sc_module {
+    tlm_utils::simple_target_socket<RecordingMemory> in;
+    std::vector<Seen> seen;
+    explicit RecordingMemory(const sc_core::sc_module_name& name)
+        : sc_core::sc_module(name), in("in") {
+        in.register_b_transport(this, &RecordingMemory::transport);
+    }
+    void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& /*delay*/) {
+        seen.push_back({payload.get_address(), payload.get_data_length(),
+                        payload.get_extension<Scattered>() != nullptr});
+        for (unsigned int i = 0; i < payload.get_data_length() && payload.is_read(); ++i) {
+            payload.get_data_ptr()[i] = ((payload.get_address() + i) / 16) & 0xFFU;
+        }
+        payload.set_response_status(tlm::TLM_OK_RESPONSE);
+    }
+};
+
+// Ordinary transactions at the addresses of the records, with LT and AT, cut at pieces with AT only.
+TEST(SmallRunMemoryGatewayScattered, SendsOneOrdinaryTransactionPerRun) {
+    const Timebase time;
+    RecordingMemory lt_memory("lt_memory");
+    AtMemory at_memory("at_memory", 4096);
+    for (std::size_t i = 0; i < at_memory.bytes.size(); ++i) {
+        at_memory.bytes[i] = i / 16 & 0xFFU;
+    }
+    MemoryGateway::Options four_phases;
+    four_phases.transport = MemoryGateway::Transport::At;
+    four_phases.piece_bytes = 32;
+    MemoryGateway lt("lt", MemoryGateway::Options());
+    MemoryGateway at("at", four_phases);
+    MemoryPort lt_port("lt_port", time);
+    MemoryPort at_port("at_port", time);
+    lt.out.bind(lt_memory.in);
+    at.out.bind(at_memory.in);
+    std::vector<std::vector<std::uint64_t>> observed(2);
+    MemoryGateway* const gateways[] = {&lt, &at};
+    MemoryPort* const ports[] = {&lt_port, &at_port};
+    for (std::size_t g = 0; g < 2; ++g) {
+        gateways[g]->observe_scene(
+            [&observed, g](std::uint64_t address, const unsigned char* data, std::uint64_t bytes) {
+                observed[g].push_back(address);
+                EXPECT_EQ(data[0], address / 16);
+                EXPECT_EQ(data[bytes - 1], (address + bytes - 1) / 16);
+            });
+        gateways[g]->connect({{ports[g], {"sh", StreamData::Scene, ""}}});
+    }
+    const std::vector<std::uint32_t> numbers{40, 3, 7};
+    ScatteredRecords records;
+    records.base = 64;
+    records.stride = records.bytes = 48; // 1984 to 2032, 208 to 256, 400 to 448
+    records.numbers = numbers.data();
+    records.count = numbers.size();
+    const Script script("script", [&] {
+        for (MemoryPort* port : ports) {
+            Process process(time);
+            port->read(process, records);
+            port->write(process, 64, records);
+        }
+    });
+    sc_core::sc_start();
+    const std::vector<Seen> once{{1984, 48, false}, {208, 48, false}, {400, 48, false}};
+    std::vector<Seen> expected = once;
+    expected.insert(expected.end(), once.begin(), once.end());
+    EXPECT_EQ(lt_memory.seen, expected);
+    EXPECT_EQ(at_memory.requests, 12U) << "48 B in pieces of at most 32 B, read and written";
+    for (std::size_t g = 0; g < 2; ++g) {
+        EXPECT_EQ(observed[g], (std::vector<std::uint64_t>{1984, 208, 400}));
+        EXPECT_EQ(gateways[g]->total().bytes_read, 144U);
+        EXPECT_EQ(gateways[g]->total().reads, 1U);
+        EXPECT_EQ(gateways[g]->total().bytes_written, 144U);
+    }
 }
 
 TEST_F(SmallRunMemoryGateway, CountsByInitiatorAndSaysThatItKnowsNoMore) {

@@ -87,6 +87,9 @@ void draw_changes(Dice& dice, Trial& trial, const std::vector<Key>& keys) {
     if (dice.chance(0.35)) {
         make_exact(trial, keys);
     }
+    if (dice.chance(0.2)) {
+        put_if_known(trial, keys, "memory.layout", "morton");
+    }
 }
 
 /// Takes back changes until the design can be built, first those that the refusal names.

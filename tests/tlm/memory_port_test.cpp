@@ -92,6 +92,43 @@ TEST(MemoryPort, WritesRealBytesOrOnlyTheirTime) {
     EXPECT_EQ(bench.memory.total().writes, 2U);
 }
 
+// A bus has no addresses that matter: 3 records of 64 B cost what 192 B cost. Contents are those of the
+// records, and the next access is an ordinary one.
+TEST(MemoryPort, MovesScatteredRecordsInOneRequest) {
+    PortBench bench;
+    std::vector<unsigned char> data(1024);
+    for (std::size_t i = 0; i < data.size(); ++i) {
+        data[i] = static_cast<unsigned char>(i / 64);
+    }
+    const std::vector<std::uint32_t> numbers{12, 3, 7};
+    ScatteredRecords records;
+    records.base = 4096;
+    records.stride = records.bytes = records.burst = 64;
+    records.numbers = numbers.data();
+    records.count = numbers.size();
+    std::vector<std::pair<std::uint64_t, int>> seen; // address and first byte of a run
+    bench.port.observe_reads(
+        [&](std::uint64_t address, const unsigned char* bytes, std::uint64_t count) {
+            EXPECT_EQ(count, 64U);
+            EXPECT_EQ(bytes[0], bytes[63]);
+            seen.emplace_back(address, bytes[0]);
+        });
+    const Script script("script", [&] {
+        bench.port.write(bench.self, 4096, data);
+        bench.self.advance(500);
+        EXPECT_EQ(bench.port.read(bench.self, records), 500U + 100 + 3);
+        bench.self.advance(500);
+        EXPECT_EQ(bench.port.read(bench.self, 4096 + 128, 64), 1000U + 100 + 1);
+        EXPECT_EQ(bench.port.write(bench.self, 4096, records), 1000U + 100 + 4);
+    });
+    sc_core::sc_start();
+    EXPECT_EQ(seen, (std::vector<std::pair<std::uint64_t, int>>{
+                        {4096 + 768, 12}, {4096 + 192, 3}, {4096 + 448, 7}, {4096 + 128, 2}}));
+    EXPECT_EQ(bench.memory.total().reads, 2U);
+    EXPECT_EQ(bench.memory.total().bytes_read, 256U);
+    EXPECT_EQ(bench.memory.total().bytes_written, 1024U + 192);
+}
+
 /// A target that refuses everything.
 struct Refusal : sc_core::sc_module {
     tlm_utils::simple_target_socket<Refusal> in;

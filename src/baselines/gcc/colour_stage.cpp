@@ -61,9 +61,7 @@ void ColourStage::fetch() {
         }
         const Survivors survivors = filter(group);
         if (survivors.count != 0 || group.last) {
-            const MemoryMap map(traffic_, job_, job_.tiles[group.tile].frame);
-            const Cycle ready = sh.read(fetcher_, map.sh, sh_bytes(survivors));
-            fetched_.put_at(fetcher_, survivors, ready);
+            fetched_.put_at(fetcher_, survivors, read_sh(survivors));
         }
     }
     fetcher_.finish();
@@ -110,17 +108,14 @@ ColourStage::Survivors ColourStage::filter(const SplatChunk& group) {
     return left;
 }
 
-std::uint64_t ColourStage::sh_bytes(const Survivors& survivors) const {
-    const FrameWorkload& frame = job_.frame_of(job_.tiles[survivors.group.tile]);
-    const std::uint64_t record = traffic_.common().sh_bytes(frame.sh_degree);
-    std::uint64_t bytes = 0;
+Cycle ColourStage::read_sh(const Survivors& survivors) {
+    const JobTile& view = job_.tiles[survivors.group.tile];
+    gaussians_.clear();
     for (const SplatChunk& run : survivors.runs) {
-        for (std::uint32_t i = 0; i < run.count; ++i) {
-            const std::uint32_t splat = frame.tile_splats[run.first + i];
-            bytes += traffic_.scattered(record, frame.splats[splat].id);
-        }
+        append_gaussians(job_.frame_of(view), run, gaussians_);
     }
-    return bytes;
+    return sh.read(fetcher_, job_.sh_records(view.frame, traffic_.common(), gaussians_.data(),
+                                             gaussians_.size()));
 }
 
 void ColourStage::shade() {

@@ -67,7 +67,7 @@ private:
     void fetch();
     void see_ended_blocks(TileNumber view);
     Survivors filter(const SplatChunk& group);
-    std::uint64_t sh_bytes(const Survivors& survivors) const;
+    Cycle read_sh(const Survivors& survivors);
     void shade();
     Cycle sort_cycles(std::uint64_t keys) const;
     void hand_over(const Survivors& survivors);
@@ -77,6 +77,7 @@ private:
     const RenderJob& job_;
     Process fetcher_, shader_;
     DatedFifo<Survivors> fetched_;
+    std::vector<std::uint32_t> gaussians_; // whose SH are read
     BlockMask mask_;
     TileNumber masked_view_ = kNoTile; // whose blocks the mask shows
     TileNumber from_ = 0;              // earlier views are cancelled or over

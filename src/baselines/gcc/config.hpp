@@ -44,6 +44,7 @@ struct Config : AcceleratorConfig {
         traffic.mean_bytes = 3 * kFloatBytes;
         traffic.bound_bytes = kFloatBytes;
         traffic.shape_bytes = 8 * kFloatBytes;
+        traffic.gaussian_bytes = kFloatGeometryBytes;
         traffic.sh_value_bytes = kFloatBytes;
     }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,

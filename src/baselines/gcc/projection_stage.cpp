@@ -19,6 +19,13 @@ void ProjectionStage::Config::describe(ConfigVisitor& visitor) {
                     "cycles; depth of the projection pipeline [assumed]");
 }
 
+void append_gaussians(const FrameWorkload& frame, const SplatChunk& entries,
+                      std::vector<std::uint32_t>& gaussians) {
+    for (std::uint32_t i = 0; i < entries.count; ++i) {
+        gaussians.push_back(frame.splats[frame.tile_splats[entries.first + i]].id);
+    }
+}
+
 bool gcc_cancelled(Process& self, FifoPort<TileNumber>& cancel, TileNumber& first,
                    TileNumber view) {
     while (self.arrived(cancel.ring())) {
@@ -89,7 +96,6 @@ void ProjectionStage::load_view(TileNumber number) {
 }
 
 void ProjectionStage::fetch() {
-    const std::uint64_t record = traffic_.shape_bytes;
     for (TileNumber views = 0; !job_.over(views);) {
         SplatChunk group = loaded_.get(fetcher_);
         views += group.last ? 1 : 0;
@@ -100,20 +106,21 @@ void ProjectionStage::fetch() {
             group.count = 0;
         }
         if (group.count != 0) {
-            const FrameWorkload& frame = job_.frame_of(job_.tiles[group.tile]);
-            std::uint64_t bytes = 0;
-            for (std::uint32_t i = 0; i < group.count; ++i) {
-                const std::uint32_t splat = frame.tile_splats[group.first + i];
-                bytes += traffic_.scattered(record, frame.splats[splat].id);
-            }
-            ready = shapes.read(
-                fetcher_, MemoryMap(traffic_, job_, job_.tiles[group.tile].frame).shapes, bytes);
+            ready = read_shapes(group);
         }
         if (group.count != 0 || group.last) {
             fetched_.put_at(fetcher_, group, ready);
         }
     }
     fetcher_.finish();
+}
+
+Cycle ProjectionStage::read_shapes(const SplatChunk& group) {
+    const JobTile& view = job_.tiles[group.tile];
+    gaussians_.clear();
+    append_gaussians(job_.frame_of(view), group, gaussians_);
+    return shapes.read(
+        fetcher_, shape_records(traffic_, job_, view.frame, gaussians_.data(), gaussians_.size()));
 }
 
 void ProjectionStage::project() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include <systemc>
 
 #include "baselines/gcc/traffic.hpp"
@@ -57,6 +59,7 @@ private:
     void load();
     void load_view(TileNumber number);
     void fetch();
+    Cycle read_shapes(const SplatChunk& group);
     void project();
 
     Config config_;
@@ -64,9 +67,14 @@ private:
     const RenderJob& job_;
     Process loader_, fetcher_, projector_;
     DatedFifo<SplatChunk> loaded_, fetched_;
+    std::vector<std::uint32_t> gaussians_;      // of the group that is read
     TileNumber load_from_ = 0, fetch_from_ = 0; // earlier views are cancelled or over
     Stats stats_;
 };
+
+/// Appends the Gaussians of a part of a view's list.
+void append_gaussians(const FrameWorkload& frame, const SplatChunk& entries,
+                      std::vector<std::uint32_t>& gaussians);
 
 /// Takes the messages that have arrived on `cancel`. True if `view` is cancelled; `first` is the
 /// first view that is not known to be cancelled or over. The check takes a cycle.

@@ -2,6 +2,13 @@
 #include "baselines/gcc/traffic.hpp"
 
 namespace degs::gcc {
+namespace {
+
+std::uint64_t aligned_64(std::uint64_t bytes) {
+    return (bytes + 63) / 64 * 64;
+}
+
+} // namespace
 
 void Traffic::describe(ConfigVisitor& visitor) {
     visitor.integer("mean_bytes", mean_bytes, 1, 1024,
@@ -34,10 +41,27 @@ TrafficConfig Traffic::common() const {
 MemoryMap::MemoryMap(const Traffic& traffic, const RenderJob& job, std::uint32_t frame) {
     const degs::MemoryMap common = job.map(frame, traffic.common());
     means = common.geometry;
-    shapes = means + (job.frames[frame]->gaussians * traffic.stage_one_bytes() + 63) / 64 * 64;
+    shapes = traffic.gaussian_bytes == 0
+                 ? means + aligned_64(job.frames[frame]->gaussians * traffic.stage_one_bytes())
+                 : means + traffic.gaussian_bytes - traffic.shape_bytes;
     sh = common.sh;
     views = common.lists;
-    groups = views + (job.frames[frame]->tile_pairs() * traffic.entry_bytes() + 63) / 64 * 64;
+    groups = views + aligned_64(job.frames[frame]->tile_pairs() * traffic.entry_bytes());
+}
+
+ScatteredRecords shape_records(const Traffic& traffic, const RenderJob& job, std::uint32_t frame,
+                               const std::uint32_t* gaussians, std::size_t count) {
+    ScatteredRecords records;
+    records.base = MemoryMap(traffic, job, frame).shapes;
+    records.bytes = traffic.shape_bytes;
+    records.stride = traffic.gaussian_bytes == 0 ? traffic.shape_bytes : traffic.gaussian_bytes;
+    records.burst = traffic.burst_bytes;
+    const std::uint64_t before_last = (job.frames[frame]->gaussians - 1) * records.stride;
+    records.array_bytes = traffic.gaussian_bytes == 0 ? aligned_64(before_last + records.bytes)
+                                                      : before_last + records.bytes;
+    records.numbers = gaussians;
+    records.count = count;
+    return records;
 }
 
 } // namespace degs::gcc

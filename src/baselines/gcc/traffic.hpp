@@ -17,17 +17,15 @@ struct Traffic {
     int list_entry_bytes = 8; ///< depth key 4, index 4
     int pixel_bytes = 4;      ///< per frame-buffer pixel, RGBA8
     int burst_bytes = 64;     ///< scattered records are read in whole bursts
+    /// Not 0: all stages of a Gaussian lie in one record of this many bytes, in the order of the
+    /// stages, as in a platform's memory; the mean comes first and the shape last.
+    int gaussian_bytes = 0;
     void describe(ConfigVisitor& visitor);
 
     /// The records that all accelerators have.
     TrafficConfig common() const;
     std::uint64_t stage_one_bytes() const { return mean_bytes + bound_bytes; }
     std::uint64_t entry_bytes() const { return list_entry_bytes; }
-    /// Bytes on the bus for one scattered record of `record` bytes at index `index` of its array.
-    std::uint64_t scattered(std::uint64_t record, std::uint64_t index) const {
-        const std::uint64_t burst = burst_bytes;
-        return (((index + 1) * record - 1) / burst - index * record / burst + 1) * burst;
-    }
 };
 
 /// The addresses of GCC's streams. The stages of a Gaussian are in the geometry region, lists of
@@ -36,5 +34,9 @@ struct MemoryMap {
     std::uint64_t means = 0, shapes = 0, sh = 0, groups = 0, views = 0;
     MemoryMap(const Traffic& traffic, const RenderJob& job, std::uint32_t frame);
 };
+
+/// The shapes of `count` Gaussians.
+ScatteredRecords shape_records(const Traffic& traffic, const RenderJob& job, std::uint32_t frame,
+                               const std::uint32_t* gaussians, std::size_t count);
 
 } // namespace degs::gcc

@@ -92,29 +92,15 @@ void ProjectionUnit::project() {
 
 Cycle ProjectionUnit::read_sh(std::uint32_t f, const Chunk& chunk, const ProjectedChunk& visible) {
     const FrameWorkload& frame = *job_.frames[f];
-    const MemoryMap map = job_.map(f, traffic_);
     if (traffic_.sh == ShReads::All) {
         const std::uint64_t record = traffic_.sh_bytes(frame.sh_degree);
-        return sh.read(projector_, map.sh + chunk.first * record, chunk.count * record);
+        const std::uint64_t array = job_.map(f, traffic_).sh;
+        return sh.read(projector_, array + chunk.first * record, chunk.count * record);
     }
-    return sh.read(projector_, map.sh, sh_bursts(frame, visible) * traffic_.burst_bytes);
-}
-
-// Distinct bursts that the visible records of a chunk touch; neighbours share one.
-std::uint64_t ProjectionUnit::sh_bursts(const FrameWorkload& frame,
-                                        const ProjectedChunk& chunk) const {
-    const std::uint64_t record = traffic_.sh_bytes(frame.sh_degree);
-    const std::uint64_t burst = traffic_.burst_bytes;
-    std::uint64_t count = 0;
-    std::uint64_t next_free = 0; // bursts below this are counted already
-    for (std::uint32_t v = 0; v < chunk.visible; ++v) {
-        const std::uint64_t id = frame.visible_of[chunk.first_visible + v];
-        const std::uint64_t first = std::max(id * record / burst, next_free);
-        const std::uint64_t end = ((id + 1) * record - 1) / burst + 1;
-        count += end > first ? end - first : 0;
-        next_free = std::max(next_free, end);
-    }
-    return count;
+    ScatteredRecords records = job_.sh_records(
+        f, traffic_, frame.visible_of.data() + visible.first_visible, visible.visible);
+    records.neighbours_share = true;
+    return sh.read(projector_, records);
 }
 
 void ProjectionUnit::shade() {

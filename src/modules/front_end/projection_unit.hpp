@@ -61,7 +61,6 @@ private:
     void project();
     void shade();
     Cycle read_sh(std::uint32_t f, const Chunk& chunk, const ProjectedChunk& visible);
-    std::uint64_t sh_bursts(const FrameWorkload& frame, const ProjectedChunk& chunk) const;
 
     Config config_;
     TrafficConfig traffic_;

@@ -21,17 +21,20 @@ NextUse::NextUse(const FrameWorkload& frame) : next_(frame.tile_splats.size(), k
 ReuseCache::ReuseCache(const RenderJob& job, NextUses& next_uses, std::size_t records)
     : job_(job), next_uses_(next_uses), capacity_(records) {}
 
-std::uint32_t ReuseCache::request(TileNumber tile, std::uint64_t first, std::uint32_t count) {
+const std::vector<std::uint32_t>& ReuseCache::request(TileNumber tile, std::uint64_t first,
+                                                      std::uint32_t count) {
     if (tile != tile_) {
         start_tile(tile);
     }
-    std::uint32_t missed = 0;
+    missed_.clear();
     for (std::uint64_t entry = first; entry < first + count; ++entry) {
-        missed += look_up(entry) ? 0 : 1;
+        if (!look_up(entry)) {
+            missed_.push_back(job_.frames[frame_]->tile_splats[entry]);
+        }
     }
-    stats_.misses += missed;
-    stats_.hits += count - missed;
-    return missed;
+    stats_.misses += missed_.size();
+    stats_.hits += count - missed_.size();
+    return missed_;
 }
 
 // Records that other engines' tiles would have used next wait for the use after that.

@@ -65,9 +65,10 @@ public:
     /// Both outlive the cache. `records`: capacity, >= 1.
     ReuseCache(const RenderJob& job, NextUses& next_uses, std::size_t records);
 
-    /// Looks up `count` list entries from `first` on; tiles never go back. Returns the number of
-    /// records that have to be read.
-    std::uint32_t request(TileNumber tile, std::uint64_t first, std::uint32_t count);
+    /// Looks up `count` list entries from `first` on; tiles never go back. Returns the splats whose
+    /// records have to be read, valid until the next call.
+    const std::vector<std::uint32_t>& request(TileNumber tile, std::uint64_t first,
+                                              std::uint32_t count);
 
     const Stats& stats() const { return stats_; }
 
@@ -89,6 +90,7 @@ private:
     std::vector<std::uint32_t> use_of_; // per splat: its next use if resident, else kNowhere
     std::vector<Rank> by_use_; // max-heap; entries that use_of_ contradicts are out of date
     std::size_t resident_ = 0;
+    std::vector<std::uint32_t> missed_; // splats of the last request
     Stats stats_;
 };
 

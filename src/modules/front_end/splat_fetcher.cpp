@@ -69,17 +69,20 @@ Cycle SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
     if (instant_) {
         return self_.local();
     }
-    const std::uint32_t missed =
-        cache_ == nullptr ? chunk.count : cache_->request(chunk.tile, chunk.first, chunk.count);
-    if (missed == 0) {
+    const std::uint32_t* splats = job_.frame_of(tile).tile_splats.data() + chunk.first;
+    std::size_t count = chunk.count;
+    if (cache_ != nullptr) {
+        const std::vector<std::uint32_t>& missed =
+            cache_->request(chunk.tile, chunk.first, chunk.count);
+        splats = missed.data();
+        count = missed.size();
+    }
+    if (count == 0) {
         return self_.local();
     }
-    const MemoryMap map = job_.map(tile.frame, traffic_);
-    const std::uint64_t burst =
-        std::max(traffic_.burst_bytes, traffic_.splat_bytes); // records are scattered
     Cycle& oldest = answered_[requests_++ % answered_.size()];
     self_.advance_to(oldest);
-    oldest = records.read(self_, map.splats, missed * burst);
+    oldest = records.read(self_, job_.splat_records(tile.frame, traffic_, splats, count));
     return oldest;
 }
 

@@ -58,8 +58,13 @@ void TileBinner::bin(const ProjectedChunk& chunk, const MemoryMap& map) {
     self_.advance_to(oldest);
     const std::uint64_t record = traffic_.splat_bytes;
     const std::uint64_t entry = traffic_.list_entry_bytes;
+    const std::uint64_t run = map.splats + chunk.first_visible * record;
+    const bool in_a_row = job_.places[chunk.frame].of_visible() == nullptr;
     const Cycle splats_done =
-        splats.write(self_, map.splats + chunk.first_visible * record, chunk.visible * record);
+        in_a_row ? splats.write(self_, run, chunk.visible * record)
+                 : splats.write(self_, run,
+                                job_.visible_records(chunk.frame, traffic_, chunk.first_visible,
+                                                     chunk.visible));
     const Cycle lists_done =
         lists.write(self_, map.lists + job_.pairs_before(chunk.frame, chunk.first_visible) * entry,
                     chunk.tile_pairs * entry);

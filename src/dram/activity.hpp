@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "config/statistics.hpp"
+#include "dram/channel.hpp"
+
+namespace degs::dram {
+
+/// What the channels of a memory have done by a date, and how evenly they were loaded.
+struct Activity {
+    Channel::Stats all;                       ///< sums over the channels
+    std::vector<std::uint64_t> channel_bytes; ///< that each data bus has transferred
+
+    void describe(StatsVisitor& v) const {
+        v.list("bytes", channel_bytes, "bytes", "Transferred by the data bus of each channel.");
+        all.describe(v);
+    }
+};
+
+} // namespace degs::dram
