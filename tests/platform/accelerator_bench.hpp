@@ -29,6 +29,7 @@ public:
     std::uint64_t accesses = 0;
     std::uint64_t refused = 0;
     std::function<void(std::uint64_t access)> on_access;
+    std::function<void(std::uint64_t address, std::uint64_t bytes)> on_range; ///< timed accesses
 
     PlainMemory(const sc_core::sc_module_name& name, std::size_t size, Timing timing,
                 bool has_debug = true)
@@ -59,6 +60,9 @@ private:
         ++accesses;
         if (on_access) {
             on_access(accesses);
+        }
+        if (on_range) {
+            on_range(payload.get_address(), payload.get_data_length());
         }
         const sc_core::sc_time latency(50, sc_core::SC_NS);
         if (timing_ == Timing::Blocking) {
