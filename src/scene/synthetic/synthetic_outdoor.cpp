@@ -11,7 +11,7 @@ namespace {
 using Axis = MeasuredDistribution::Axis;
 
 constexpr double kGroundRadius = 1.35;
-constexpr double kClearance = 1.0; ///< no haze nearer to a camera
+constexpr double kHazeClearance = 1.0; ///< no haze nearer to a camera
 
 const SyntheticLook& near_look() {
     static const SyntheticLook look{
@@ -39,7 +39,7 @@ struct Blob {
     glm::dvec3 centre, radii;
     glm::dvec3 rgb;
 };
-constexpr double kFloor = 0.35; ///< y of the ground; y points down
+constexpr double kMeadowFloor = 0.35; ///< y of the ground; y points down
 const std::array<Blob, 5>& blobs() {
     static const std::array<Blob, 5> all{{
         {{0.0, -0.05, 0.0}, {0.30, 0.40, 0.24}, {0.55, 0.45, 0.35}},
@@ -51,12 +51,12 @@ const std::array<Blob, 5>& blobs() {
     return all;
 }
 
-void add_ground(SyntheticBuilder& builder) {
+void add_meadow(SyntheticBuilder& builder) {
     SyntheticRandom& random = builder.random();
     const double radius = kGroundRadius * std::sqrt(random.uniform());
     const glm::dvec2 at = radius * random.on_circle();
     const double blade = random.uniform(); // of grass: most are low
-    const glm::dvec3 mean(at.x, kFloor - 0.12 * blade * blade, at.y);
+    const glm::dvec3 mean(at.x, kMeadowFloor - 0.12 * blade * blade, at.y);
     // Grass shows every direction, soil faces up.
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0, -0.6, 0) + random.in_ball());
     const glm::dvec3 rgb(0.25 + 0.15 * blade, 0.35 + 0.25 * blade, 0.15);
@@ -82,9 +82,9 @@ void add_haze(SyntheticBuilder& builder, const std::vector<Camera>& cameras) {
         const double radius =
             random.uniform(1.2, 3.5); // a statement per draw: operands have no order
         mean = radius * random.direction();
-        mean.y = kFloor - std::abs(mean.y) * 0.5;
+        mean.y = kMeadowFloor - std::abs(mean.y) * 0.5;
         in_the_way = std::any_of(cameras.begin(), cameras.end(), [&](const Camera& camera) {
-            return glm::length(camera.position - mean) < kClearance;
+            return glm::length(camera.position - mean) < kHazeClearance;
         });
     }
     const glm::dvec3 rgb(0.5 - 0.1 * mean.y, 0.55 - 0.12 * mean.y, 0.5 - 0.2 * mean.y);
@@ -102,7 +102,7 @@ void make_outdoor(const SyntheticSpec& spec, SyntheticScene& scene) {
     for (std::uint64_t i = 0; i < spec.gaussians; ++i) {
         const double part = builder.random().uniform();
         if (part < 0.47) {
-            add_ground(builder);
+            add_meadow(builder);
         } else if (part < 0.985) {
             add_blob(builder);
         } else {
