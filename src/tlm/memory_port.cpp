@@ -22,7 +22,8 @@ void set_access(tlm::tlm_generic_payload& payload, tlm::tlm_command command, std
 } // namespace
 
 Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64_t address,
-                         unsigned char* data, std::uint64_t bytes) {
+                         unsigned char* data, std::uint64_t bytes,
+                         const ScatteredRecords* records) {
     if (bytes == 0) {
         return process.local();
     }
@@ -35,7 +36,8 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
         }
     }
     set_access(payload, command, address, data, bytes);
-    if (scattered_.records != nullptr) {
+    if (records != nullptr) {
+        scattered_.records = records;
         payload.set_extension(&scattered_);
     }
     const sc_core::sc_time now = sc_core::sc_time_stamp();
@@ -58,14 +60,6 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
     // a cycle behind.
     process.advance_to(std::max<Cycle>(clock_->floor(sc_core::sc_time_stamp()), 1) - 1);
     return clock_->ceil(sc_core::sc_time_stamp() + delay);
-}
-
-Cycle MemoryPort::scattered(Process& process, tlm::tlm_command command, std::uint64_t run,
-                            const ScatteredRecords& records) {
-    scattered_.records = &records;
-    const Cycle done = access(process, command, run, nullptr, records.total_bytes());
-    scattered_.records = nullptr;
-    return done;
 }
 
 void MemoryPort::poke(std::uint64_t address, const std::vector<unsigned char>& data) {

@@ -36,10 +36,12 @@ public:
     /// The same for scattered records, in one request. `run` is the address at which as many bytes
     /// begin for a memory that takes them as one run.
     Cycle read(Process& process, const ScatteredRecords& records) {
-        return scattered(process, tlm::TLM_READ_COMMAND, records.base, records);
+        return access(process, tlm::TLM_READ_COMMAND, records.base, nullptr, records.total_bytes(),
+                      &records);
     }
     Cycle write(Process& process, std::uint64_t run, const ScatteredRecords& records) {
-        return scattered(process, tlm::TLM_WRITE_COMMAND, run, records);
+        return access(process, tlm::TLM_WRITE_COMMAND, run, nullptr, records.total_bytes(),
+                      &records);
     }
     /// Writes real bytes.
     Cycle write(Process& process, std::uint64_t address, const std::vector<unsigned char>& data) {
@@ -59,9 +61,8 @@ public:
 
 private:
     Cycle access(Process& process, tlm::tlm_command command, std::uint64_t address,
-                 unsigned char* data, std::uint64_t bytes);
-    Cycle scattered(Process& process, tlm::tlm_command command, std::uint64_t run,
-                    const ScatteredRecords& records);
+                 unsigned char* data, std::uint64_t bytes,
+                 const ScatteredRecords* records = nullptr);
 
     const ClockDomain* clock_;
     std::vector<unsigned char> scratch_;
