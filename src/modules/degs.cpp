@@ -123,7 +123,7 @@ void Degs::build_scheduler() {
                                                      time_, job_, *packing_.back(), b,
                                                      sources.size(), config_.contexts()));
         for (std::size_t i = 0; i < sources.size(); ++i) {
-            auto& vectors = ring(crossbar_rings_, "crossbar", config_.span.crossbar_depth,
+            auto& vectors = ring(crossbar_rings_, "crossbar", config_.crossbar_cells(),
                                  config_.span.latency_cycles);
             spans_[sources[i]]->out[next_port[sources[i]]++].bind(vectors);
             banks_.back()->in[i].bind(vectors);
@@ -147,8 +147,9 @@ void Degs::build_array() {
         slices_.push_back(std::make_unique<ArraySlice>(numbered("slice", i).c_str(), slice, time_,
                                                        job_, b, config_.scheduler.banks,
                                                        config_.scheduler.segment_length));
-        auto& packets = ring(packing_rings_, "packing_buffer", config_.packing_depth() + tile_ends,
-                             config_.packing.latency_cycles);
+        const int latency = config_.packing.latency_cycles; // as many packets are in the pipeline
+        auto& packets = ring(packing_rings_, "packing_buffer",
+                             config_.packing_depth() + latency + tile_ends, latency);
         packing_[i]->out.bind(packets);
         slices_[i]->in.bind(packets);
         auto& terminations = wire(termination_rings_, "terminations", writeback);

@@ -35,8 +35,9 @@ void DegsConfig::Scheduler::describe(ConfigVisitor& visitor) {
     visitor.integer("banks", banks, 1, 64,
                     "Issue Banks, Packing Units and array slices (paper Table II)");
     visitor.integer(
-        "queue_segments_per_pe", queue_segments_per_pe, 1, 256,
-        "segments waiting per bank and PE of its slice; a fixed 32 starves wide banks [assumed]");
+        "queue_segments_per_pe", queue_segments_per_pe, 0, kMostSegmentsPerPe,
+        "segments waiting per bank and PE of its slice; a fixed 32 starves wide banks; 0: what "
+        "packing.bytes leaves beside packing.lead_packets [assumed]");
     visitor.integer(
         "segment_bytes", segment_bytes, 1, 256,
         "bytes per waiting segment, part of packing.bytes: g0 4, d0 4, G_ID 2, mask and "
@@ -68,11 +69,10 @@ void DegsConfig::Packing::describe(ConfigVisitor& visitor) {
         "bytes (paper Table I: 32 KB), split among banks: waiting segments, then packets");
     visitor.integer("task_bytes", task_bytes, 1, 256,
                     "bytes per task: G_ID, x, y, n, g0, d0, tags [assumed]");
-    visitor.integer(
-        "lead_packets", lead_packets, 1, 65536,
-        "packets a bank may be ahead of its array slice; what is packed earlier cannot "
-        "be dropped any more when its pixels end, so a longer lead only adds terminated "
-        "tasks [assumed]");
+    visitor.integer("lead_packets", lead_packets, 1, 65536,
+                    "packets of a bank that may wait for its array slice; what is packed earlier "
+                    "cannot be dropped any more when its pixels end, so a longer lead only adds "
+                    "terminated tasks [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 64,
                     "cycles from issue to execution: prefix sum and shift, buffer read [assumed]");
 }

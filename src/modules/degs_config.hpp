@@ -40,9 +40,10 @@ struct DegsConfig : AcceleratorConfig {
         int row_bytes = 8;
         void describe(ConfigVisitor& visitor);
     };
+    static constexpr int kMostSegmentsPerPe = 256;
     struct Scheduler {
         int banks = 8;
-        int queue_segments_per_pe = 4;
+        int queue_segments_per_pe = 4; ///< 0: as many as fit the Packing Buffer beside the lead
         int segment_bytes = 12;
         int segment_length = 16;
         int segments_per_cycle = 2;
@@ -56,7 +57,7 @@ struct DegsConfig : AcceleratorConfig {
     struct Packing {
         int bytes = 32 * 1024;
         int task_bytes = 16;
-        int lead_packets = 6;
+        int lead_packets = 5;
         int latency_cycles = 2;
         void describe(ConfigVisitor& visitor);
     };
@@ -119,15 +120,31 @@ struct DegsConfig : AcceleratorConfig {
                feature_buffer.bytes + pixel_buffer.bytes;
     }
     int span_lane_depth() const { return span_buffer.bytes / span_buffer.row_bytes / span.count; }
-    int queue_depth() const { return scheduler.queue_segments_per_pe * array.pes_per_bank; }
+    /// Bytes of a bank's share of the Packing Buffer, and of a packet in it.
+    int packing_share() const { return packing.bytes / scheduler.banks; }
+    int packet_bytes() const { return packing.task_bytes * array.pes_per_bank; }
+    /// Segments that wait in a bank: what the key says, or as many as fit beside the lead.
+    int queue_depth() const {
+        if (scheduler.queue_segments_per_pe != 0) {
+            return scheduler.queue_segments_per_pe * array.pes_per_bank;
+        }
+        const std::int64_t lead = std::int64_t{packing.lead_packets} * packet_bytes();
+        const std::int64_t segments = (packing_share() - lead) / scheduler.segment_bytes;
+        return static_cast<int>(std::clamp<std::int64_t>(
+            segments, 1, std::int64_t{kMostSegmentsPerPe} * array.pes_per_bank));
+    }
     /// Packets per bank. The Packing Buffer also holds the waiting segments of the banks.
     int packing_depth() const {
-        const int packets =
-            packing.bytes / scheduler.banks - queue_depth() * scheduler.segment_bytes;
-        return packets / (packing.task_bytes * array.pes_per_bank);
+        return (packing_share() - queue_depth() * scheduler.segment_bytes) / packet_bytes();
     }
-    /// Packets that a bank may be ahead of its array slice.
+    /// Packets of a bank that may wait for its array slice.
     int packing_lead() const { return std::min(packing_depth(), packing.lead_packets); }
+    /// Span Vectors between a Span Unit and a bank: those in the queue, and one for every stage of
+    /// the unit's pipeline, which stops as a whole [assumed].
+    int crossbar_cells() const {
+        return span.crossbar_depth +
+               (span.latency_cycles + span.cycles_per_row - 1) / span.cycles_per_row;
+    }
     int feature_entries() const {
         return feature_buffer.bytes / feature_buffer.entry_bytes / scheduler.banks;
     }

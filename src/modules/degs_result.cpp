@@ -52,10 +52,13 @@ void Degs::collect_buffers(AcceleratorResult& result) const {
     add_buffer(result, {"span_buffer", "Rows of splats on their way to the Span Units."},
                c.span_buffer.bytes, c.span_lane_depth(), span_buffer());
     add_buffer(result, {"crossbar", "Span Vectors; Table I of the paper does not count them."}, 0,
-               c.span.crossbar_depth, crossbar());
-    // More cells than the buffer has packets: ends of tiles travel in them, see build_array().
+               c.crossbar_cells(), crossbar());
+    // More cells than the buffer has packets: the pipeline and ends of tiles, see build_array().
     const std::uint64_t packing_cells = packing_rings_.front()->depth();
-    add_buffer(result, {"packing_buffer", "Packets, and at least four cells for ends of tiles."},
+    add_buffer(result,
+               {"packing_buffer",
+                "Packets that wait or are in the pipeline, and at least four cells for "
+                "ends of tiles."},
                c.packing.bytes, packing_cells, packing_buffer());
     Counters& feature = add_buffer(result, {"feature_buffer", "Parameters of splats in the banks."},
                                    c.feature_buffer.bytes)

@@ -72,7 +72,7 @@ private:
         c.scheduler.scan = static_cast<DomainScan>(upto(2));
         c.scheduler.scoreboard = !chance(8);
         c.packing.latency_cycles = among({1, 2, 2, 5});
-        c.packing.lead_packets = among({6, 3, 17, 1000});
+        c.packing.lead_packets = among({5, 3, 17, 1000});
         c.array.writeback_cycles = among({4, 4, 1, 3});
     }
     void buffers(DegsConfig& c) {
@@ -101,7 +101,7 @@ private:
         c.slicing.rows = chance(2) ? SlicedRows::Tile : SlicedRows::Splat;
         c.span.latency_cycles = among({1, 6});
         c.span.cycles_per_row = among({1, 1, 2});
-        c.span.crossbar_depth = among({8, 1, 2});
+        c.span.crossbar_depth = among({2, 1, 8});
         c.monitor.cancel = !chance(3);
         c.monitor.latency_cycles = among({8, 1, 50});
         c.binning.writes_in_flight = among({8, 1});

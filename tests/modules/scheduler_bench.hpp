@@ -57,7 +57,7 @@ struct SchedulerBench {
         : sizes(s), frame(make_frame(splats, tile * tiles, tile, tile)),
           job(make_render_job({&frame},
                               {Arithmetic::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}}, 1)),
-          packets("packets", time, static_cast<std::size_t>(s.packets) + 4,
+          packets("packets", time, static_cast<std::size_t>(s.packets) + s.packing_latency + 4,
                   static_cast<Cycle>(s.packing_latency)),
           terminated("terminated", time, 4096, static_cast<Cycle>(s.writeback)),
           done("done", time, 8, static_cast<Cycle>(s.writeback)),

@@ -69,6 +69,38 @@ INSTANTIATE_TEST_SUITE_P(
                (std::get<0>(pair.param) ? "_large" : "_small");
     });
 
+class ShapeOfPacking : public ::testing::TestWithParam<bool> {};
+
+// Where the bytes decide how many segments wait, 1 to 300 per bank here, time falls with them until
+// they stop to matter.
+TEST_P(ShapeOfPacking, TimeFollowsTheBytes) {
+    const FrameWorkload frame = medium_frame(GetParam());
+    const int bytes[] = {3200, 3296, 3456, 3840, 4608, 6144, 12288, 32768};
+    std::vector<std::unique_ptr<DegsRun>> runs;
+    for (const int size : bytes) {
+        DegsConfig config;
+        config.scheduler.queue_segments_per_pe = 0;
+        config.packing.bytes = size;
+        config.packing.lead_packets = 3;
+        config.scheduler.scan = DomainScan::Oldest;
+        runs.push_back(std::make_unique<DegsRun>("degs" + std::to_string(runs.size()), config,
+                                                 std::vector<const FrameWorkload*>{&frame}));
+    }
+    sc_core::sc_start();
+    const auto cycles = [&runs](std::size_t i) {
+        return static_cast<double>(runs[i]->degs().finished());
+    };
+    for (std::size_t i = 1; i < runs.size(); ++i) {
+        EXPECT_LE(cycles(i), 1.005 * cycles(i - 1)) << bytes[i];
+        EXPECT_TRUE(test::same_bytes(runs[0]->image(), runs[i]->image()));
+    }
+    EXPECT_LT(cycles(3), 0.95 * cycles(0));
+    EXPECT_NEAR(cycles(runs.size() - 1), cycles(runs.size() - 2), 0.005 * cycles(0));
+}
+
+INSTANTIATE_TEST_SUITE_P(Frames, ShapeOfPacking, ::testing::Bool(),
+                         [](const auto& large) { return large.param ? "large" : "small"; });
+
 class ShapeOfMemory : public ::testing::TestWithParam<bool> {};
 
 // Time falls with bandwidth until something else limits, and never under the time of the bytes.

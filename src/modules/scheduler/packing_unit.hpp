@@ -27,7 +27,7 @@ public:
     struct Config {
         int width = 8;          ///< tasks per packet = PEs per array slice
         int latency_cycles = 2; ///< issue to execution, unloaded: pack, read the buffer
-        int depth = 32;         ///< packets in the Packing Buffer
+        int depth = 32;         ///< packets that wait in the Packing Buffer
     };
     struct Stats {
         std::uint64_t packets = 0, tasks = 0;
@@ -42,9 +42,10 @@ public:
 
     /// Execution date of the next task if it is packed at `now`.
     Cycle next_execution(Cycle now) const { return std::max(now + latency_, next_slot_); }
-    /// True if there is room for `tasks` more tasks at `now`.
+    /// True if there is room for `tasks` more tasks at `now`. Packets on their way through the
+    /// pipeline, which are those that execute before now + latency, lie in its registers.
     bool room(Cycle now, int tasks) const {
-        const Cycle queued = std::max(next_slot_, now + 1) - (now + 1);
+        const Cycle queued = next_execution(now) - (now + latency_);
         // ceil((open + new) / width) more packets fit, without dividing.
         return queued * width_ + (tasks_ + tasks) <= capacity_;
     }

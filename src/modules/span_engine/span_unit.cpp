@@ -13,8 +13,10 @@ void SpanUnit::Config::describe(ConfigVisitor& visitor) {
                     "cycles per scanline and unit [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 256,
                     "cycles from row item to Span Vector: dy, square, LUT, two sums [assumed]");
-    visitor.integer("crossbar_depth", crossbar_depth, 1, 1024,
-                    "Span Vectors buffered between a unit and a bank [assumed]");
+    visitor.integer(
+        "crossbar_depth", crossbar_depth, 1, 1024,
+        "Span Vectors that wait between a unit and a bank; those in the pipeline have its "
+        "registers [assumed]");
 }
 
 SpanUnit::SpanUnit(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,

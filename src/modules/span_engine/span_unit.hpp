@@ -19,7 +19,7 @@ public:
         int count = 8;          ///< units
         int cycles_per_row = 1; ///< initiation interval
         int latency_cycles = 6; ///< pipeline from row item to Span Vector
-        int crossbar_depth = 8; ///< Span Vectors between a unit and a bank
+        int crossbar_depth = 2; ///< Span Vectors that wait between a unit and a bank
         void describe(ConfigVisitor& visitor);
     };
     struct Stats {
