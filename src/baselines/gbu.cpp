@@ -18,6 +18,7 @@ Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Tim
         build_engine(e);
         build_pixel_buffer(e);
     }
+    grants_ = std::make_unique<TileGrants>(*front_end_, fetchers_, time_, job_);
     frame_ends_.build(config_.frame_end, time_, config_.traffic, job_, pixel_buffers_,
                       {front_end_->frame_free, front_end_->listed}, 1, options_);
     build_memory();
@@ -39,19 +40,6 @@ void Gbu::build_front_end() {
     front.frames_in_flight = config_.frames_in_flight;
     front.instant = options_.array_only;
     front_end_ = std::make_unique<TileFrontEnd>("front_end", front, time_, job_);
-    const std::size_t sorters = config_.sorting.count;
-    dispatcher_ =
-        std::make_unique<TileDispatcher>("dispatcher", time_, job_, sorters, config_.engines.count);
-    for (std::size_t i = 0; i < sorters; ++i) {
-        auto& lists = ring(sorted_rings_, "sorted", 1, 1);
-        front_end_->sorted[i].bind(lists);
-        collectors_.push_back(
-            std::make_unique<ListCollector>(numbered("collector", i).c_str(), time_, job_));
-        collectors_[i]->in.bind(lists);
-        auto& complete = ring(list_rings_, "list", 1, 1);
-        collectors_[i]->out.bind(complete);
-        dispatcher_->in[i].bind(complete);
-    }
     for (auto& listener : front_end_->cancel) {
         auto& never = ring(cancel_rings_, "cancel", 1, 1);
         never.connect_writer(nobody_);
@@ -74,13 +62,6 @@ void Gbu::build_engine(int index) {
     fetchers_.push_back(std::make_unique<SplatFetcher>(
         numbered("fetcher", e).c_str(), config_.fetching, config_.traffic, time_, job_, 1,
         options_.array_only, true, caches_.empty() ? nullptr : caches_[e].get()));
-    auto& requests = ring(request_rings_, "request", 2, 1);
-    fetchers_[e]->request[0].bind(requests);
-    dispatcher_->request[e].bind(requests);
-    auto& grants = ring(grant_rings_, "grant", 2, 1);
-    dispatcher_->out[e].bind(grants);
-    fetchers_[e]->sorted.bind(grants);
-
     engines_.push_back(std::make_unique<TileEngine>(numbered("engine", e).c_str(), config_.engines,
                                                     time_, job_, index * config_.contexts(),
                                                     config_.contexts()));

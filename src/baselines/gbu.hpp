@@ -9,10 +9,9 @@
 #include "baselines/gbu_config.hpp"
 #include "modules/collect.hpp"
 #include "modules/front_end/frame_ends.hpp"
-#include "modules/front_end/list_collector.hpp"
 #include "modules/front_end/reuse_cache.hpp"
-#include "modules/front_end/tile_dispatcher.hpp"
 #include "modules/front_end/tile_front_end.hpp"
+#include "modules/front_end/tile_grants.hpp"
 #include "modules/memory_streams.hpp"
 
 namespace degs {
@@ -34,7 +33,7 @@ public:
 
     const GbuConfig& config() const { return config_; }
     const TileFrontEnd& front_end() const { return *front_end_; }
-    const TileDispatcher& dispatcher() const { return *dispatcher_; }
+    const TileDispatcher& dispatcher() const { return grants_->dispatcher(); }
     const std::vector<std::unique_ptr<SplatFetcher>>& fetchers() const { return fetchers_; }
     const std::vector<std::unique_ptr<ReuseCache>>& caches() const { return caches_; }
     const std::vector<std::unique_ptr<TileEngine>>& engines() const { return engines_; }
@@ -74,8 +73,7 @@ private:
 
     std::unique_ptr<TileFrontEnd> front_end_;
     Process nobody_; // writes cancellations that never come: a granted list is sorted to its end
-    std::vector<std::unique_ptr<ListCollector>> collectors_;
-    std::unique_ptr<TileDispatcher> dispatcher_;
+    std::unique_ptr<TileGrants> grants_;
     NextUses next_uses_;
     std::vector<std::unique_ptr<ReuseCache>> caches_;
     std::vector<std::unique_ptr<SplatFetcher>> fetchers_;
@@ -85,8 +83,6 @@ private:
     FrameEnds frame_ends_;
     MemoryStreams streams_;
 
-    Rings<SortedRun> sorted_rings_, list_rings_, grant_rings_;
-    Rings<TileRequest> request_rings_;
     Rings<SplatChunk> splat_rings_;
     Rings<SliceReport> done_rings_, state_rings_;
     Rings<TileNumber> context_rings_, cancel_rings_;

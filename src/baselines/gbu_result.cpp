@@ -27,7 +27,7 @@ void Gbu::collect_slots(AcceleratorResult& result) const {
 
 void Gbu::collect_stages(AcceleratorResult& result) const {
     front_end_->collect(result);
-    const TileDispatcher::Stats& dispatched = dispatcher_->stats();
+    const TileDispatcher::Stats& dispatched = dispatcher().stats();
     add_stage(result, {"dispatch", "The Tile Dispatcher, a cycle for each tile."}, 1,
               dispatched.tiles, counters_of(dispatched));
     add_stage(result, kFetching, fetchers_.size(), sum_of(fetchers_, &SplatFetcher::Stats::busy),
@@ -87,7 +87,7 @@ void Gbu::collect_laws(AcceleratorResult& result) const {
              sum_of(engines_, &E::splats) + sum_of(engines_, &E::splats_abandoned)},
             {"pixels of row entries + end probes = slots executed",
              sum_of(engines_, &E::pixels) + probes, s.useful + s.boundary + s.terminated},
-            {"tiles granted = worked on", dispatcher_->stats().tiles, sum_of(engines_, &E::tiles)},
+            {"tiles granted = worked on", dispatcher().stats().tiles, sum_of(engines_, &E::tiles)},
         });
 }
 

@@ -84,9 +84,9 @@ inline std::string numbered(const char* name, std::size_t index) {
 /// A ring of at least one cell, owned by the module that wires blocks together.
 template <class T>
 DatedFifo<T>& add_ring(std::vector<std::unique_ptr<DatedFifo<T>>>& rings, const char* name,
-                       const Timebase& time, int depth, int latency) {
-    rings.push_back(
-        std::make_unique<DatedFifo<T>>(numbered(name, rings.size()).c_str(), time, depth, latency));
+                       const Timebase& time, int depth, int latency, int release = 0) {
+    rings.push_back(std::make_unique<DatedFifo<T>>(numbered(name, rings.size()).c_str(), time,
+                                                   depth, latency, release));
     return *rings.back();
 }
 

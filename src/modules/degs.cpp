@@ -5,6 +5,8 @@
 #include <string>
 
 #include "modules/row_map.hpp"
+#include "modules/span_engine/span_pool.hpp"
+#include "modules/span_engine/span_unit.hpp"
 #include "modules/stream_kinds.hpp"
 
 namespace degs {
@@ -13,12 +15,15 @@ Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const 
            RenderJob& job, const BuildOptions& options)
     : RenderEngine(name), config_(config), time_(time), job_(job), options_(options) {
     build_front_end();
-    build_span_engine();
+    build_fetchers();
+    build_slicing();
+    build_spans();
     build_scheduler();
+    build_pixel_buffers();
     build_array();
     frame_ends_.build(config_.frame_end, time_, config_.traffic, job_, pixel_buffers_,
-                      {front_end_->frame_free, front_end_->listed}, pixel_buffers_.size(),
-                      options_);
+                      {front_end_->frame_free, front_end_->listed},
+                      pixel_buffers_.size() / config_.streams(), options_);
     build_memory();
 }
 
@@ -38,8 +43,6 @@ DatedFifo<T>& Degs::wire(Rings<T>& rings, const char* name, int latency) {
 }
 
 void Degs::build_front_end() {
-    const std::size_t sorters = config_.sorting.count;
-    const std::size_t slicers = config_.slicing.modules();
     TileFrontEnd::Config front;
     front.projection = config_.projection;
     front.binning = config_.binning;
@@ -49,47 +52,89 @@ void Degs::build_front_end() {
     front.frames_in_flight = config_.frames_in_flight;
     front.instant = options_.array_only;
     front_end_ = std::make_unique<TileFrontEnd>("front_end", front, time_, job_);
-    monitor_ = std::make_unique<TileMonitor>("monitor", config_.monitor, time_, job_,
-                                             config_.scheduler.banks, sorters + slicers);
-    for (std::size_t i = 0; i < sorters; ++i) {
-        fetchers_.push_back(std::make_unique<SplatFetcher>(numbered("fetcher", i).c_str(),
-                                                           config_.fetching, config_.traffic, time_,
-                                                           job_, slicers, options_.array_only));
-        auto& lists = ring(sorted_rings_, "sorted", 1, 1);
-        front_end_->sorted[i].bind(lists);
-        fetchers_[i]->sorted.bind(lists);
+}
+
+// Each stream cancels its own tiles; a single one those of all fetchers.
+void Degs::build_fetchers() {
+    const int slicers = config_.slicing.modules();
+    const bool granted = config_.slicing.granted();
+    const int fetchers = config_.fetchers();
+    const int of_stream = fetchers / config_.streams();
+    for (int m = 0; m < config_.streams(); ++m) {
+        monitors_.push_back(std::make_unique<TileMonitor>(
+            numbered("monitor", monitors_.size()).c_str(), config_.monitor, time_, job_,
+            config_.scheduler.banks, of_stream + slicers, granted));
+    }
+    for (int f = 0; f < fetchers; ++f) {
+        fetchers_.push_back(std::make_unique<SplatFetcher>(
+            numbered("fetcher", fetchers_.size()).c_str(), config_.fetching, config_.traffic, time_,
+            job_, slicers, options_.array_only, granted));
         auto& cancel = wire(cancel_rings_, "cancel", config_.monitor.latency_cycles);
-        monitor_->out[i].bind(cancel);
-        fetchers_[i]->cancel.bind(cancel);
+        monitors_[f / of_stream]->out[f % of_stream].bind(cancel);
+        fetchers_[f]->cancel.bind(cancel);
+    }
+    if (granted) {
+        grants_ = std::make_unique<TileGrants>(*front_end_, fetchers_, time_, job_);
+        return;
+    }
+    for (int f = 0; f < fetchers; ++f) {
+        auto& lists = ring(sorted_rings_, "sorted", 1, 1);
+        front_end_->sorted[f].bind(lists);
+        fetchers_[f]->sorted.bind(lists);
     }
 }
 
-void Degs::build_span_engine() {
-    const auto sorters = fetchers_.size();
-    const int lanes = config_.span.count;
+void Degs::build_slicing() {
     const int slicers = config_.slicing.modules();
-    for (int g = 0; g < slicers; ++g) {
+    const int of_stream = config_.fetchers() / config_.streams();
+    for (int i = 0; i < config_.streams() * slicers; ++i) {
+        const int g = i % slicers, m = i / slicers;
         slicing_.push_back(std::make_unique<GaussianSlicingUnit>(
-            numbered("slicing", slicing_.size()).c_str(), config_.slicing, time_, job_, g, sorters,
-            lanes, reachable(g, slicers, config_.scheduler.banks),
+            numbered("slicing", slicing_.size()).c_str(), config_.slicing, time_, job_, g,
+            of_stream, config_.span_lanes(), reachable(g, slicers, config_.scheduler.banks),
             config_.scheduler.segment_length));
         GaussianSlicingUnit& unit = *slicing_.back();
-        for (std::size_t s = 0; s < sorters; ++s) {
+        for (int f = 0; f < of_stream; ++f) {
             auto& splats = ring(gaussian_rings_, "gaussian_buffer", config_.gaussian_chunks(), 1);
-            fetchers_[s]->out[g].bind(splats);
-            unit.in[s].bind(splats);
+            fetchers_[m * of_stream + f]->out[g].bind(splats);
+            unit.in[f].bind(splats);
         }
         auto& cancel = wire(cancel_rings_, "cancel", config_.monitor.latency_cycles);
-        monitor_->out[sorters + g].bind(cancel);
+        monitors_[m]->out[of_stream + g].bind(cancel);
         unit.cancel.bind(cancel);
     }
-    for (int u = 0; u < lanes; ++u) {
-        spans_.push_back(std::make_unique<SpanUnit>(numbered("span", spans_.size()).c_str(),
-                                                    config_.span, time_, job_, u,
-                                                    config_.scheduler.banks));
-        auto& rows = ring(span_rings_, "span_buffer", config_.span_lane_depth(), 1);
-        slicing_[u % slicers]->out[u / slicers].bind(rows);
-        spans_.back()->in.bind(rows);
+}
+
+std::unique_ptr<SpanStage> Degs::make_span_module(int index) {
+    const std::string name = numbered("span", index);
+    const int banks = config_.scheduler.banks;
+    if (!config_.spans_are_pooled()) {
+        return std::make_unique<SpanUnit>(name.c_str(), config_.span, time_, job_, index, banks);
+    }
+    SpanPool::Share share;
+    share.index = index;
+    share.of = config_.span.modules();
+    share.banks = banks;
+    share.streams = config_.streams();
+    share.lanes = config_.span_lanes() / config_.span.modules();
+    share.units = config_.span.units_per_module();
+    return std::make_unique<SpanPool>(name.c_str(), config_.span, time_, job_, share);
+}
+
+// Lane l of a stream goes from its Slicing Unit l mod their number to module l mod the modules.
+void Degs::build_spans() {
+    const int modules = config_.span.modules();
+    const int slicers = config_.slicing.modules();
+    const int lanes = config_.span_lanes();
+    for (int u = 0; u < modules; ++u) {
+        spans_.push_back(make_span_module(u));
+    }
+    for (int m = 0; m < config_.streams(); ++m) {
+        for (int l = 0; l < lanes; ++l) {
+            auto& rows = ring(span_rings_, "span_buffer", config_.span_lane_depth(), 1);
+            slicing_[m * slicers + l % slicers]->out[l / slicers].bind(rows);
+            spans_[l % modules]->in[m * (lanes / modules) + l / modules].bind(rows);
+        }
     }
 }
 
@@ -100,97 +145,130 @@ void Degs::build_scheduler() {
     bank.queue_depth = config_.queue_depth();
     bank.segment_length = s.segment_length;
     bank.segments_per_cycle = s.segments_per_cycle;
+    bank.spans_per_cycle = config_.span.crossbar_width;
     bank.issue_width = s.issue_width;
     bank.reuse_cycles = s.reuse_cycles;
     bank.feature_entries = config_.feature_entries();
     bank.open_splats = config_.slicing.units_per_module();
+    bank.streams = config_.streams();
     bank.scoreboard = s.scoreboard;
     bank.termination = s.termination;
     bank.scan = s.scan;
     const PackingUnit::Config packing{config_.array.pes_per_bank, config_.packing.latency_cycles,
                                       config_.packing_lead()};
-    std::vector<std::size_t> next_port(spans_.size(), 0);
+    next_span_port_.assign(spans_.size(), 0);
     for (int b = 0; b < s.banks; ++b) {
-        std::vector<std::size_t> sources;
-        for (int u = 0; u < config_.span.count; ++u) {
-            if (shares_row(u, config_.span.count, b, s.banks)) {
-                sources.push_back(u);
-            }
-        }
         packing_.push_back(
             std::make_unique<PackingUnit>(numbered("packing", packing_.size()).c_str(), packing));
-        banks_.push_back(std::make_unique<IssueBank>(numbered("bank", banks_.size()).c_str(), bank,
-                                                     time_, job_, *packing_.back(), b,
-                                                     sources.size(), config_.contexts()));
-        for (std::size_t i = 0; i < sources.size(); ++i) {
-            auto& vectors = ring(crossbar_rings_, "crossbar", config_.crossbar_cells(),
-                                 config_.span.latency_cycles);
-            spans_[sources[i]]->out[next_port[sources[i]]++].bind(vectors);
-            banks_.back()->in[i].bind(vectors);
+        banks_.push_back(std::make_unique<IssueBank>(
+            numbered("bank", banks_.size()).c_str(), bank, time_, job_, *packing_.back(), b,
+            reachable(b, s.banks, config_.span.modules()), config_.contexts_per_stream()));
+        connect_crossbar(b);
+    }
+}
+
+// Queues whose room is asked for tell it in the cycle after.
+void Degs::connect_crossbar(int bank) {
+    const int modules = config_.span.modules();
+    const int release = config_.spans_are_pooled() ? 1 : 0;
+    const std::size_t inputs = banks_[bank]->in.size() / config_.streams();
+    std::size_t input = 0;
+    for (int u = 0; u < modules; ++u) {
+        if (!shares_row(u, modules, bank, config_.scheduler.banks)) {
+            continue;
         }
+        const std::size_t ports = spans_[u]->out.size() / config_.streams();
+        for (int m = 0; m < config_.streams(); ++m) {
+            auto& vectors = add_ring(crossbar_rings_, "crossbar", time_, config_.crossbar_cells(),
+                                     config_.span.latency_cycles, release);
+            spans_[u]->out[m * ports + next_span_port_[u]].bind(vectors);
+            banks_[bank]->in[m * inputs + input].bind(vectors);
+        }
+        ++next_span_port_[u];
+        ++input;
     }
 }
 
 void Degs::build_array() {
-    build_pixel_buffer();
     const int writeback = config_.array.writeback_cycles;
-    const ArraySlice::Config slice{config_.array.pes_per_bank, writeback,
-                                   config_.scheduler.termination,
-                                   config_.slicing.skip_dead_rows ? config_.slicing.modules() : 0,
-                                   config_.scheduler.scoreboard};
+    ArraySlice::Config slice;
+    slice.width = config_.array.pes_per_bank;
+    slice.writeback_cycles = writeback;
+    slice.termination = config_.scheduler.termination;
+    slice.region_listeners = config_.slicing.skip_dead_rows ? config_.slicing.modules() : 0;
+    slice.streams = config_.streams();
+    slice.contexts = config_.contexts_per_stream();
+    slice.scoreboard = config_.scheduler.scoreboard;
     next_region_port_.assign(slicing_.size(), 0);
-    // The end of a tile takes no room of the Packing Buffer, but a cell of its ring. At most one of
-    // every tile in flight waits there.
-    const int tile_ends = std::max(4, config_.contexts());
     for (int b = 0; b < config_.scheduler.banks; ++b) {
-        const std::size_t i = b;
-        slices_.push_back(std::make_unique<ArraySlice>(numbered("slice", i).c_str(), slice, time_,
-                                                       job_, b, config_.scheduler.banks,
-                                                       config_.scheduler.segment_length));
-        const int latency = config_.packing.latency_cycles; // as many packets are in the pipeline
-        auto& packets = ring(packing_rings_, "packing_buffer",
-                             config_.packing_depth() + latency + tile_ends, latency);
-        packing_[i]->out.bind(packets);
-        slices_[i]->in.bind(packets);
-        auto& terminations = wire(termination_rings_, "terminations", writeback);
-        slices_[i]->terminated.bind(terminations);
-        banks_[i]->terminated.bind(terminations);
-        connect_region_feedback(b, slice.region_listeners);
-        auto& done = wire(done_rings_, "tile_done", writeback);
-        slices_[i]->tile_done.bind(done);
-        PixelBuffer& pixels = *pixel_buffers_[i % pixel_buffers_.size()];
-        const std::size_t port = i / pixel_buffers_.size();
-        pixels.in[port].bind(done);
-        auto& state = wire(state_rings_, "tile_state", writeback);
-        slices_[i]->tile_state.bind(state);
-        monitor_->in[i].bind(state);
-        auto& contexts = wire(context_rings_, "context_free", 1);
-        pixels.context_free[port].bind(contexts);
-        banks_[i]->context_free.bind(contexts);
+        slices_.push_back(std::make_unique<ArraySlice>(
+            numbered("slice", slices_.size()).c_str(), slice, time_, job_, b,
+            config_.scheduler.banks, config_.scheduler.segment_length));
+        connect_slice(b);
     }
 }
 
-void Degs::build_pixel_buffer() {
+void Degs::connect_slice(int bank) {
+    const std::size_t b = bank;
+    const int writeback = config_.array.writeback_cycles;
+    // The end of a tile takes no room of the Packing Buffer, but a cell of its ring. At most one of
+    // every tile in flight waits there. As many packets as the latency has cycles are in the pipeline.
+    const int latency = config_.packing.latency_cycles;
+    const int tile_ends = std::max(4, config_.contexts());
+    auto& packets = ring(packing_rings_, "packing_buffer",
+                         config_.packing_depth() + latency + tile_ends, latency);
+    packing_[b]->out.bind(packets);
+    slices_[b]->in.bind(packets);
+    auto& terminations = wire(termination_rings_, "terminations", writeback);
+    slices_[b]->terminated.bind(terminations);
+    banks_[b]->terminated.bind(terminations);
+    if (config_.slicing.skip_dead_rows) {
+        connect_region_feedback(bank);
+    }
+    const std::size_t parts = pixel_buffers_.size() / config_.streams(); // of a stream
+    for (int m = 0; m < config_.streams(); ++m) {
+        auto& done = wire(done_rings_, "tile_done", writeback);
+        slices_[b]->tile_done[m].bind(done);
+        PixelBuffer& pixels = *pixel_buffers_[m * parts + b % parts];
+        pixels.in[b / parts].bind(done);
+        auto& state = wire(state_rings_, "tile_state", writeback);
+        slices_[b]->tile_state[m].bind(state);
+        monitors_[m]->in[b].bind(state);
+        auto& contexts = wire(context_rings_, "context_free", 1);
+        pixels.context_free[b / parts].bind(contexts);
+        banks_[b]->context_free[m].bind(contexts);
+    }
+}
+
+// A share of the Pixel Buffer is read out at its share of the rate.
+void Degs::build_pixel_buffers() {
     const int banks = config_.scheduler.banks;
     const bool banked = config_.pixel_buffer.release == ContextRelease::Bank;
-    for (int b = 0; b < (banked ? banks : 1); ++b) {
+    const int parts = banked ? banks : 1;
+    PixelBuffer::Config config = config_.pixel_buffer;
+    config.readout_pixels = std::max(1, config.readout_pixels / config_.streams());
+    for (int i = 0; i < config_.streams() * parts; ++i) {
         PixelBuffer::Share share;
-        share.first_row = b;
-        share.row_stride = banked ? banks : 1;
+        share.first_row = i % parts;
+        share.row_stride = parts;
+        share.first_context = i / parts * config_.contexts_per_stream();
+        share.granted = config_.slicing.granted();
         pixel_buffers_.push_back(std::make_unique<PixelBuffer>(
-            numbered("pixel_buffer", pixel_buffers_.size()).c_str(), config_.pixel_buffer,
-            config_.traffic, time_, job_, banked ? 1 : banks, config_.contexts(), share,
+            numbered("pixel_buffer", pixel_buffers_.size()).c_str(), config, config_.traffic, time_,
+            job_, banks / parts, config_.contexts_per_stream(), share,
             FrameEnds::awaited(front_end_->frame_free, options_), options_.array_only));
     }
 }
 
-void Degs::connect_region_feedback(int slice, int listeners) {
+void Degs::connect_region_feedback(int slice) {
+    const int listeners = config_.slicing.modules();
     std::size_t port = 0;
-    for (int g = 0; g < listeners; ++g) {
+    for (std::size_t i = 0; i < slicing_.size(); ++i) {
+        const int g = static_cast<int>(i) % listeners;
         if (shares_row(slice, config_.scheduler.banks, g, listeners)) {
             auto& rows = wire(region_rings_, "region_ended", config_.slicing.feedback_cycles);
             slices_[slice]->region_ended[port++].bind(rows);
-            slicing_[g]->region_ended[next_region_port_[g]++].bind(rows);
+            slicing_[i]->region_ended[next_region_port_[i]++].bind(rows);
         }
     }
 }
@@ -212,12 +290,18 @@ Cycle Degs::finished() const {
     return last;
 }
 
+// Every part of a stream finishes its tiles by itself.
 std::size_t Degs::finished_tiles() const {
-    std::uint64_t tiles = ~std::uint64_t{0};
-    for (const auto& part : pixel_buffers_) {
-        tiles = std::min(tiles, part->stats().tiles);
+    const std::size_t parts = pixel_buffers_.size() / config_.streams();
+    std::uint64_t least = ~std::uint64_t{0};
+    for (std::size_t part = 0; part < parts; ++part) {
+        std::uint64_t tiles = 0;
+        for (std::size_t i = part; i < pixel_buffers_.size(); i += parts) {
+            tiles += pixel_buffers_[i]->stats().tiles;
+        }
+        least = std::min(least, tiles);
     }
-    return tiles;
+    return least;
 }
 
 } // namespace degs

@@ -10,6 +10,7 @@
 #include "modules/degs_config.hpp"
 #include "modules/front_end/frame_ends.hpp"
 #include "modules/front_end/tile_front_end.hpp"
+#include "modules/front_end/tile_grants.hpp"
 #include "modules/memory_streams.hpp"
 
 namespace degs {
@@ -21,6 +22,9 @@ namespace degs {
 ///   Pixel Buffer -> memory
 ///
 /// There are two ways back: terminations to the Issue Banks, and tile cancellation to the fetchers.
+/// With several tile streams (slicing.interleave) each has its own fetcher, Slicing Units, lanes of
+/// the Span Buffer, queues of the crossbar and contexts of the Pixel Buffer; the Tile Dispatcher
+/// hands out the tiles.
 class Degs : public RenderEngine {
 public:
     /// `job` supplies the work and receives the images. `config.problem()` must be empty.
@@ -34,7 +38,7 @@ public:
     const TileFrontEnd& front_end() const { return *front_end_; }
     const std::vector<std::unique_ptr<SplatFetcher>>& fetchers() const { return fetchers_; }
     const std::vector<std::unique_ptr<GaussianSlicingUnit>>& slicing() const { return slicing_; }
-    const std::vector<std::unique_ptr<SpanUnit>>& spans() const { return spans_; }
+    const std::vector<std::unique_ptr<SpanStage>>& spans() const { return spans_; }
     const std::vector<std::unique_ptr<IssueBank>>& banks() const { return banks_; }
     const std::vector<std::unique_ptr<PackingUnit>>& packing() const { return packing_; }
     const std::vector<std::unique_ptr<ArraySlice>>& slices() const { return slices_; }
@@ -43,7 +47,7 @@ public:
     }
     /// Date at which the last pixel was in memory.
     Cycle finished() const;
-    const TileMonitor& monitor() const { return *monitor_; }
+    const std::vector<std::unique_ptr<TileMonitor>>& monitors() const { return monitors_; }
     const MemoryStreams& streams() const { return streams_; }
     RingUse gaussian_buffer() const { return use_of(gaussian_rings_); }
     RingUse span_buffer() const { return use_of(span_rings_); }
@@ -59,11 +63,16 @@ private:
     template <class T>
     DatedFifo<T>& wire(Rings<T>& rings, const char* name, int latency);
     void build_front_end();
-    void build_span_engine();
+    void build_fetchers();
+    void build_slicing();
+    void build_spans();
+    std::unique_ptr<SpanStage> make_span_module(int index);
     void build_scheduler();
+    void connect_crossbar(int bank);
     void build_array();
-    void build_pixel_buffer();
-    void connect_region_feedback(int slice, int listeners);
+    void connect_slice(int bank);
+    void build_pixel_buffers();
+    void connect_region_feedback(int slice);
     void build_memory();
     void collect_slots(AcceleratorResult& result) const;
     void collect_stages(AcceleratorResult& result) const;
@@ -77,14 +86,16 @@ private:
     BuildOptions options_;
 
     std::unique_ptr<TileFrontEnd> front_end_;
-    std::vector<std::unique_ptr<SplatFetcher>> fetchers_;
+    std::vector<std::unique_ptr<SplatFetcher>> fetchers_; // one per Sorting Unit, or per stream
+    std::unique_ptr<TileGrants> grants_;                  // of streams
     std::vector<std::unique_ptr<GaussianSlicingUnit>> slicing_;
-    std::vector<std::unique_ptr<SpanUnit>> spans_;
+    std::vector<std::unique_ptr<SpanStage>> spans_;
     std::vector<std::unique_ptr<IssueBank>> banks_;
     std::vector<std::unique_ptr<PackingUnit>> packing_;
     std::vector<std::unique_ptr<ArraySlice>> slices_;
-    std::vector<std::unique_ptr<PixelBuffer>> pixel_buffers_; // one, or one per bank
-    std::unique_ptr<TileMonitor> monitor_;
+    /// Stream by stream; of each one, or one per bank.
+    std::vector<std::unique_ptr<PixelBuffer>> pixel_buffers_;
+    std::vector<std::unique_ptr<TileMonitor>> monitors_; // one per stream
     FrameEnds frame_ends_;
     MemoryStreams streams_;
 
@@ -95,7 +106,8 @@ private:
     Rings<TaskPacket> packing_rings_;
     Rings<Termination> termination_rings_;
     Rings<RegionEnded> region_rings_;
-    std::vector<std::size_t> next_region_port_; // while wiring: per Slicing Unit
+    // While wiring: the next port of each Slicing Unit and of each module of Span Units.
+    std::vector<std::size_t> next_region_port_, next_span_port_;
     Rings<SliceReport> done_rings_, state_rings_;
     Rings<TileNumber> context_rings_, cancel_rings_;
 };

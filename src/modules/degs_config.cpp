@@ -4,6 +4,17 @@
 #include <algorithm>
 
 namespace degs {
+namespace {
+
+// The largest number up to `most` that divides `number`.
+int divisor_below(int most, int number) {
+    while (most > 1 && number % most != 0) {
+        --most;
+    }
+    return most;
+}
+
+} // namespace
 
 void DegsConfig::Pipeline::describe(ConfigVisitor& visitor) {
     PipelineConfig::describe(visitor);
@@ -118,20 +129,24 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
 }
 
 void DegsConfig::require_sizes(ConfigVisitor& visitor) const {
-    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), 1, {"tile_size"});
-    visitor.require_at_least(
-        "span_buffer.bytes", span_buffer.bytes, std::int64_t{span_buffer.row_bytes} * span.count,
-        "to hold a row for every Span Unit", {"span_buffer.row_bytes", "span.count"});
+    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), streams(),
+                               {"tile_size", "slicing.interleave"});
+    visitor.require_at_least("span_buffer.bytes", span_buffer.bytes,
+                             std::int64_t{span_buffer.row_bytes} * span_lanes() * streams(),
+                             "to hold a row for every lane",
+                             {"span_buffer.row_bytes", "span.count", "slicing.interleave"});
     visitor.require_at_least(
         "gaussian_buffer.bytes", gaussian_buffer.bytes,
         std::max(splat_share().least_buffer(chunk_bytes()),
                  sort_share().least_buffer(2 * traffic.list_entry_bytes)),
-        "to hold a chunk of splats and two list entries for every Sorting Unit",
-        {"gaussian_buffer.sort_share", "sorting.count", "fetching.chunk", "traffic.splat_bytes"});
+        "to hold a chunk of splats for every fetcher and two list entries for every Sorting Unit",
+        {"gaussian_buffer.sort_share", "sorting.count", "slicing.interleave", "fetching.chunk",
+         "traffic.splat_bytes"});
     const int entry = feature_buffer.entry_bytes * scheduler.banks;
-    visitor.require_at_least("feature_buffer.bytes", feature_buffer.bytes, entry,
-                             "to hold a splat for every bank",
-                             {"feature_buffer.entry_bytes", "scheduler.banks"});
+    visitor.require_at_least(
+        "feature_buffer.bytes", feature_buffer.bytes, std::int64_t{entry} * streams(),
+        "to hold a splat of every tile stream for every bank",
+        {"feature_buffer.entry_bytes", "scheduler.banks", "slicing.interleave"});
     constexpr int kMostEntries = 65535; // their numbers have 16 bits
     visitor.require(feature_entries() <= kMostEntries,
                     {"feature_buffer.bytes",
@@ -157,14 +172,18 @@ void DegsConfig::require_packing(ConfigVisitor& visitor) const {
 }
 
 void DegsConfig::require_counts(ConfigVisitor& visitor) const {
-    int divisor = slicing.modules();
-    while (divisor > 1 && span.count % divisor != 0) {
-        --divisor;
-    }
-    visitor.require(divisor == slicing.modules(), {"slicing.count",
-                                                   "must divide span.count",
-                                                   std::to_string(divisor),
-                                                   {"span.count", "slicing.distribution"}});
+    visitor.require(slicing.count % slicing.interleave == 0,
+                    {"slicing.interleave",
+                     "must divide slicing.count",
+                     std::to_string(divisor_below(slicing.interleave, slicing.count)),
+                     {"slicing.count"}});
+    const int modules = std::max(1, slicing.modules());
+    visitor.require(span.rows == RowAssignment::Pool || span.count % modules == 0,
+                    {"slicing.count",
+                     slicing.granted() ? "must be slicing.interleave times a divisor of span.count"
+                                       : "must divide span.count",
+                     std::to_string(divisor_below(modules, span.count) * slicing.interleave),
+                     {"slicing.interleave", "span.count", "slicing.distribution", "span.rows"}});
     visitor.require_at_least("scheduler.reuse_cycles", scheduler.reuse_cycles,
                              array.writeback_cycles, "to cover array.writeback_cycles",
                              {"array.writeback_cycles"});

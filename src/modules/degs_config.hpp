@@ -15,7 +15,7 @@
 #include "modules/render_engine.hpp"
 #include "modules/scheduler/issue_bank.hpp"
 #include "modules/span_engine/gaussian_slicing_unit.hpp"
-#include "modules/span_engine/span_unit.hpp"
+#include "modules/span_engine/span_stage.hpp"
 #include "modules/span_engine/tile_monitor.hpp"
 #include "modules/traffic.hpp"
 
@@ -82,7 +82,7 @@ struct DegsConfig : AcceleratorConfig {
     GaussianBuffer gaussian_buffer;
     GaussianSlicingUnit::Config slicing;
     SpanBuffer span_buffer;
-    SpanUnit::Config span;
+    SpanStage::Config span;
     Scheduler scheduler;
     Packing packing;
     FeatureBuffers feature_buffer;
@@ -119,7 +119,30 @@ struct DegsConfig : AcceleratorConfig {
         return std::int64_t{gaussian_buffer.bytes} + span_buffer.bytes + packing.bytes +
                feature_buffer.bytes + pixel_buffer.bytes;
     }
-    int span_lane_depth() const { return span_buffer.bytes / span_buffer.row_bytes / span.count; }
+    /// Tile streams, and the tiles of each that the Pixel Buffer holds.
+    int streams() const { return slicing.interleave; }
+    int contexts_per_stream() const { return contexts() / streams(); }
+    int fetchers() const { return slicing.granted() ? streams() : sorting.count; }
+    /// Lanes of the Span Buffer for each stream: one for every unit that takes rows of its own, or
+    /// for every Slicing Unit that fills it.
+    int span_lanes() const {
+        return span.rows == RowAssignment::Pool ? slicing.modules() : span.count;
+    }
+    int span_lane_depth() const {
+        return span_buffer.bytes / span_buffer.row_bytes / (span_lanes() * streams());
+    }
+    /// True if Span Units have more to choose from than the next row of a lane of their own.
+    bool spans_are_pooled() const {
+        return span.rows == RowAssignment::Pool || slicing.granted() || span.rows_per_cycle > 1;
+    }
+    /// Span Vectors between Span Units and a bank, for each stream: those that wait, and one for
+    /// every stage of the pipelines that lead to the bank, which stop as a whole [assumed].
+    int crossbar_cells() const {
+        const int units = span.units_per_module();
+        const int stages = (span.latency_cycles + span.cycles_per_row - 1) / span.cycles_per_row;
+        const int waiting = (units + scheduler.banks - 1) / scheduler.banks * span.crossbar_depth;
+        return waiting + units * span.rows_per_cycle * stages;
+    }
     /// Bytes of a bank's share of the Packing Buffer, and of a packet in it.
     int packing_share() const { return packing.bytes / scheduler.banks; }
     int packet_bytes() const { return packing.task_bytes * array.pes_per_bank; }
@@ -139,19 +162,14 @@ struct DegsConfig : AcceleratorConfig {
     }
     /// Packets of a bank that may wait for its array slice.
     int packing_lead() const { return std::min(packing_depth(), packing.lead_packets); }
-    /// Span Vectors between a Span Unit and a bank: those in the queue, and one for every stage of
-    /// the unit's pipeline, which stops as a whole [assumed].
-    int crossbar_cells() const {
-        return span.crossbar_depth +
-               (span.latency_cycles + span.cycles_per_row - 1) / span.cycles_per_row;
-    }
     int feature_entries() const {
         return feature_buffer.bytes / feature_buffer.entry_bytes / scheduler.banks;
     }
-    /// The shares of a Sorting Unit in the Gaussian Buffer, for sorted splats and for lists.
-    BufferShare splat_share() const { return {1.0 - gaussian_buffer.sort_share, sorting.count}; }
+    /// The shares in the Gaussian Buffer: of a fetcher for sorted splats, of a Sorting Unit for
+    /// lists.
+    BufferShare splat_share() const { return {1.0 - gaussian_buffer.sort_share, fetchers()}; }
     BufferShare sort_share() const { return {gaussian_buffer.sort_share, sorting.count}; }
-    /// Splat chunks that a Sorting Unit's share of the Gaussian Buffer holds.
+    /// Splat chunks that a fetcher's share of the Gaussian Buffer holds.
     int gaussian_chunks() const {
         return splat_share().bytes_of(gaussian_buffer.bytes) / chunk_bytes();
     }

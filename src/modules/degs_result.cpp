@@ -35,8 +35,8 @@ void Degs::collect_stages(AcceleratorResult& result) const {
     add_stage(result, {"slicing", "Gaussian Slicing Units, without their waiting."},
               config_.slicing.count, sum_of(slicing_, &GaussianSlicingUnit::Stats::busy),
               Counters().add(slicing_));
-    add_stage(result, {"span", "Span Units, without their waiting."}, spans_.size(),
-              sum_of(spans_, &SpanUnit::Stats::busy), Counters().add(spans_));
+    add_stage(result, {"span", "Span Units, without their waiting."}, config_.span.count,
+              sum_of(spans_, &SpanStage::Stats::busy), Counters().add(spans_));
     add_stage(result, {"packing", "Issue Banks with their Packing Units, busy when they issue."},
               banks_.size(), sum_of(banks_, &IssueBank::Stats::busy),
               Counters().add(banks_).add(packing_));
@@ -81,7 +81,7 @@ void Degs::collect_laws(AcceleratorResult& result) const {
     result.conservation.insert(
         result.conservation.end(),
         {
-            {"tasks solved = tasks into the banks", sum_of(spans_, &SpanUnit::Stats::tasks), in},
+            {"tasks solved = tasks into the banks", sum_of(spans_, &SpanStage::Stats::tasks), in},
             {"tasks into the banks = issued + dropped", in, issued + dropped},
             {"tasks issued = packed", issued, packed},
             {"tasks packed = executed", packed, s.useful + s.boundary + s.terminated},
@@ -97,7 +97,7 @@ void Degs::explain(AcceleratorResult& result) const {
                   " splats of cancelled tiles had been fetched and were not sliced.");
     out.push_back(grouped(sum_of(banks_, &IssueBank::Stats::tasks_dropped)) +
                   " tasks of ended pixels were dropped by the Issue Banks and cost no PE slot.");
-    out.push_back(grouped(sum_of(spans_, &SpanUnit::Stats::empty_rows)) +
+    out.push_back(grouped(sum_of(spans_, &SpanStage::Stats::empty_rows)) +
                   " rows of splats cover no pixel of their tile: they cost a Span Unit cycle and "
                   "nothing after it.");
 }
@@ -105,7 +105,7 @@ void Degs::explain(AcceleratorResult& result) const {
 void Degs::collect(AcceleratorResult& result) const {
     collect_frames(result, pixel_buffers_, frame_ends_.background());
     result.tiles = finished_tiles();
-    result.tiles_cancelled = monitor_->stats().tiles_cancelled;
+    result.tiles_cancelled = sum_of(monitors_, &TileMonitor::Stats::tiles_cancelled);
     collect_slots(result);
     collect_stages(result);
     collect_buffers(result);

@@ -16,9 +16,9 @@ using TileNumber = std::uint32_t;
 /// In place of a tile: nothing follows.
 constexpr TileNumber kNoTile = ~TileNumber{0};
 
-/// The tile context that number `turn` gets: `contexts` of them are used in turn.
-inline std::int16_t context_in_turn(std::uint64_t turn, int contexts) {
-    return static_cast<std::int16_t>(turn % contexts);
+/// The tile context that number `turn` gets: `contexts` of them, from `first` on, are used in turn.
+inline std::int16_t context_in_turn(std::uint64_t turn, int contexts, int first = 0) {
+    return static_cast<std::int16_t>(first + turn % contexts);
 }
 
 /// Items of the next chunk of at most `chunk` when `left` are left.
@@ -82,6 +82,7 @@ struct TaskPacket {
     int tasks = 0;          ///< set bits over all parts, <= PEs per array slice
     bool ends_tile = false; ///< the bank has nothing more for `ended_tile`
     TileNumber ended_tile = 0;
+    std::int16_t ended_context = 0;       ///< of the Pixel Buffer, in which ended_tile lies
     std::array<TaskRun, kMaxRuns> runs{}; ///< the first run_count count
 
     TaskPacket() = default;
@@ -103,14 +104,16 @@ private:
         tasks = other.tasks;
         ends_tile = other.ends_tile;
         ended_tile = other.ended_tile;
+        ended_context = other.ended_context;
     }
 };
 
 /// Pixels that have ended, Blending Array -> Issue Bank (paper, Sec. IV-B).
 struct Termination {
     TileNumber tile = 0;
-    std::int16_t row = 0;    ///< inside the tile
-    std::int16_t column = 0; ///< of mask bit 0, a multiple of the segment length
+    std::int16_t row = 0;     ///< inside the tile
+    std::int16_t column = 0;  ///< of mask bit 0, a multiple of the segment length
+    std::int16_t context = 0; ///< of the Pixel Buffer, in which the tile lies
     std::uint32_t mask = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <numeric>
+#include <vector>
 
 namespace degs {
 
@@ -20,6 +21,23 @@ inline std::size_t reachable(int a, int as, int bs) {
         count += shares_row(a, as, b, bs) ? 1 : 0;
     }
     return count;
+}
+
+/// The port of unit `a` of `as` through which it reaches the unit b of `bs` that owns a row, by row
+/// of a tile. Its ports go to the units that share a row with it, in ascending order.
+inline std::vector<std::size_t> ports_of_rows(int tile_size, int a, int as, int bs) {
+    std::vector<std::size_t> port_of(bs, 0);
+    std::size_t port = 0;
+    for (int b = 0; b < bs; ++b) {
+        if (shares_row(a, as, b, bs)) {
+            port_of[b] = port++;
+        }
+    }
+    std::vector<std::size_t> ports;
+    for (int row = 0; row < tile_size; ++row) {
+        ports.push_back(port_of[row % bs]);
+    }
+    return ports;
 }
 
 } // namespace degs

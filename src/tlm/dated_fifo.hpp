@@ -62,6 +62,12 @@ public:
             make_room(writer);
         }
     }
+    /// True if reserve(), which has to follow, will not move the writer's date. The answer is certain, as that of
+    /// Process::arrived(); for FIFOs with Lb >= 1, so that what is read in cycle t makes room from
+    /// t + 1 on, whoever is asked first.
+    bool has_room(Process& writer) {
+        return filled_ < depth_ ? room_date() <= writer.local() : writer.gains_room(*this);
+    }
     void put(Process& writer, const T& value) { put_at(writer, value, 0); }
     /// Like put(), but the item may be read from `ready` on at the earliest (data that is on its
     /// way).

@@ -40,16 +40,37 @@ void Process::sleep_until(Cycle half_after_date) {
     }
 }
 
+Cycle Process::Alarm::own_date() const {
+    const Cycle latency = room ? fifo->release_latency() : fifo->forward_latency();
+    return date > latency ? date - latency : 0;
+}
+
+bool Process::Alarm::proven() const {
+    return room ? !fifo->full() || fifo->room_horizon(kProofDepth) > date
+                : fifo->horizon(kProofDepth) > date;
+}
+
+Process& Process::Alarm::asker() const {
+    return room ? *fifo->writer() : *fifo->reader();
+}
+
 void Process::set_alarm(FifoBase& fifo, Cycle date) {
-    const Cycle latency = fifo.forward_latency();
-    alarm_ = std::min(alarm_, date > latency ? date - latency : 0);
-    for (Alarm& alarm : alarms_) {
-        if (alarm.fifo == &fifo) {
-            alarm.date = date;
+    set_alarm(Alarm{&fifo, date, false});
+}
+
+void Process::set_room_alarm(FifoBase& fifo, Cycle date) {
+    set_alarm(Alarm{&fifo, date, true});
+}
+
+void Process::set_alarm(const Alarm& alarm) {
+    alarm_ = std::min(alarm_, alarm.own_date());
+    for (Alarm& known : alarms_) {
+        if (known.fifo == alarm.fifo && known.room == alarm.room) {
+            known.date = alarm.date;
             return;
         }
     }
-    alarms_.push_back({&fifo, date});
+    alarms_.push_back(alarm);
 }
 
 void Process::pass_alarm() {
@@ -68,11 +89,10 @@ void Process::ring_alarms() {
     alarm_ = no_alarm();
     for (std::size_t i = 0; i < alarms_.size(); ++i) {
         const Alarm alarm = alarms_[i];
-        if (alarm.fifo->horizon(kProofDepth) > alarm.date) {
-            alarm.fifo->reader()->wake();
+        if (alarm.proven()) {
+            alarm.asker().wake();
         } else {
-            const Cycle latency = alarm.fifo->forward_latency();
-            alarm_ = std::min(alarm_, alarm.date > latency ? alarm.date - latency : 0);
+            alarm_ = std::min(alarm_, alarm.own_date());
             alarms_[kept++] = alarm;
         }
     }
@@ -104,7 +124,7 @@ void Process::block_on_room(FifoBase& fifo) {
 }
 
 Cycle Process::bound(int depth) const {
-    if (depth == 0 || !blocked()) {
+    if (depth == 0 || asking_ || !blocked()) {
         return local_;
     }
     if (room_ != nullptr) {
@@ -122,6 +142,26 @@ Cycle Process::bound(int depth) const {
         earliest = std::min(earliest, fifo.empty() ? fifo.horizon(depth - 1) : fifo.head_date());
     }
     return std::max(local_, earliest);
+}
+
+// Reads of cycle t may be decided as late as half a cycle after t, so they are certain at t + 1.
+bool Process::gains_room(FifoBase& output) {
+    const Cycle release = output.release_latency();
+    const sc_core::sc_time certain = clock_->at(local_ < release ? 0 : local_ - release + 1);
+    while (output.full()) {
+        if (strict_ || output.room_horizon(kProofDepth) > local_ ||
+            sc_core::sc_time_stamp() >= certain) {
+            return false;
+        }
+        output.reader()->set_room_alarm(output, local_);
+        asking_ = true;
+        if (!alarms_.empty()) {
+            ring_alarms();
+        }
+        sc_core::wait(certain - sc_core::sc_time_stamp(), wake_);
+        asking_ = false;
+    }
+    return output.free_date() <= local_;
 }
 
 bool Process::arrived_after_asking(FifoBase& input) {

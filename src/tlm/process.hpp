@@ -70,6 +70,10 @@ public:
     /// True if `input` has an item dated up to now. The answer is certain.
     inline bool arrived(FifoBase& input);
 
+    /// True if `output`, which is full as far as the host has come, has a free cell at the local
+    /// date. The answer is certain. See DatedFifo::has_room().
+    bool gains_room(FifoBase& output);
+
     /// A lower bound of the date at which this process can act again, derived from up to `depth`
     /// blocked predecessors. It never falls.
     Cycle bound(int depth) const;
@@ -77,7 +81,7 @@ public:
     // For FifoBase: blocking on one ring, and the wake-up of whoever is blocked.
     void block_on_item(FifoBase& fifo);
     void block_on_room(FifoBase& fifo);
-    bool blocked() const { return input_count_ != 0 || room_ != nullptr; }
+    bool blocked() const { return input_count_ != 0 || room_ != nullptr || asking_; }
     /// Runs `body` in place of a thread whenever `input` has an item.
     void pump_with(Pumped& body, FifoBase& input) {
         body_ = &body;
@@ -99,6 +103,9 @@ public:
     /// Wakes `fifo`'s reader as soon as this process can prove that it will write nothing readable
     /// at or before `date` (checked when the local date passes and when this process blocks).
     void set_alarm(FifoBase& fifo, Cycle date);
+    /// Wakes `fifo`'s writer as soon as this process, its reader, can prove that it will free no
+    /// cell at or before `date`.
+    void set_room_alarm(FifoBase& fifo, Cycle date);
 
 private:
     bool arrived_after_asking(FifoBase& input);
@@ -122,11 +129,17 @@ private:
     std::size_t input_count_ = 0;
     Cycle limit_ = kNever;
     FifoBase* room_ = nullptr;
-    // Readers that want to know when the local date passes.
+    bool asking_ = false; // blocked in gains_room(): may act again at its own date
+    // Others that want to know when the local date passes.
     struct Alarm {
         FifoBase* fifo = nullptr;
-        Cycle date = 0; ///< wanted: proof that nothing dated <= this is still to come
+        Cycle date = 0;         ///< wanted: proof that nothing dated <= this is still to come
+        bool room = false;      ///< the writer asks for a free cell, else the reader for an item
+        Cycle own_date() const; ///< the local date from which the proof may exist
+        bool proven() const;
+        Process& asker() const;
     };
+    void set_alarm(const Alarm& alarm);
     Cycle alarm_; // the earliest of them, if any
     std::vector<Alarm> alarms_;
 };
@@ -157,6 +170,10 @@ public:
     /// First date at which an item that is not in the ring yet could be read.
     Cycle horizon(int depth) const {
         return writer_ == nullptr ? 0 : writer_->bound(depth) + forward_latency_;
+    }
+    /// First date at which a cell could be free, of a FIFO that is full as far as the host has come.
+    Cycle room_horizon(int depth) const {
+        return reader_ == nullptr ? 0 : reader_->bound(depth) + release_latency_;
     }
     virtual const char* fifo_name() const = 0;
 

@@ -43,6 +43,7 @@ private:
         scheduler(c);
         buffers(c);
         front_end(c);
+        streams(c);
         const double ghz[] = {1.0, 1.0, 0.7, 1.7};
         c.clock_ghz = ghz[upto(3)];
         const double bandwidth[] = {204.8, 204.8, 51.2, 1.0, 1e5};
@@ -63,7 +64,7 @@ private:
         c.pipeline.stop_rule = chance(3) ? StopRule::After : StopRule::Refuse;
     }
     void scheduler(DegsConfig& c) {
-        c.scheduler.queue_segments_per_pe = among({1, 2, 4, 9});
+        c.scheduler.queue_segments_per_pe = among({1, 2, 4, 9, 0});
         c.scheduler.segment_length = among({16, 16, 16, 8, 32, 5});
         c.scheduler.segments_per_cycle = among({1, 2, 4});
         c.scheduler.issue_width = among({1, 2, 4, 8});
@@ -86,6 +87,15 @@ private:
         c.span_buffer.bytes = chance(2) ? c.span_buffer.bytes : 8 * c.span.count * among({1, 2});
         c.gaussian_buffer.bytes =
             chance(2) ? c.gaussian_buffer.bytes : among({256, 1024, 2048, 4096});
+    }
+    void streams(DegsConfig& c) {
+        c.slicing.interleave = among({1, 1, 2, 3, 4});
+        c.slicing.count *= c.slicing.interleave;
+        c.pixel_buffer.bytes *= chance(2) ? c.slicing.interleave : 1;
+        c.span_buffer.bytes *= chance(2) ? c.slicing.interleave : 1;
+        c.span.rows = chance(3) ? RowAssignment::Pool : RowAssignment::Fixed;
+        c.span.rows_per_cycle = among({1, 1, 1, 2, 5});
+        c.span.crossbar_width = among({0, 0, 1, 2});
     }
     void front_end(DegsConfig& c) {
         c.projection.chunk = among({64, 8, 1});
@@ -113,7 +123,11 @@ std::string describe(const DegsConfig& c) {
     return std::to_string(c.tile_size) + " px tiles, " + std::to_string(c.slicing.count) + "/" +
            std::to_string(c.span.count) + "/" + std::to_string(c.scheduler.banks) + "/" +
            std::to_string(c.array.pes_per_bank) + ", " + std::to_string(c.contexts()) +
-           " contexts, scan " + std::to_string(static_cast<int>(c.scheduler.scan));
+           " contexts, scan " + std::to_string(static_cast<int>(c.scheduler.scan)) + ", " +
+           std::to_string(c.streams()) + " streams, " +
+           (c.span.rows == RowAssignment::Pool ? "pool of " : "fixed ") +
+           std::to_string(c.span.rows_per_cycle) + " per " + std::to_string(c.span.cycles_per_row) +
+           " cycles, crossbar " + std::to_string(c.span.crossbar_width);
 }
 
 class SmallRunFidelity : public ::testing::TestWithParam<unsigned> {};

@@ -173,11 +173,11 @@ TEST(PackingUnit, RoomIsTheBufferMinusWhatIsQueued) {
 TEST(PackingUnit, EndsOfTilesCostNothing) {
     PackingBench bench;
     bench.drive([&] {
-        bench.unit.end_tile(bench.bank, 0); // alone
+        bench.unit.end_tile(bench.bank, 0, 0); // alone
         bench.add(run_of(0x3, 0, 1));
-        bench.unit.end_tile(bench.bank, 1); // with its tasks
+        bench.unit.end_tile(bench.bank, 1, 0); // with its tasks
         bench.add(run_of(0x4, 0, 2));
-        bench.unit.end_tile(bench.bank, 2); // the open packet has an end already
+        bench.unit.end_tile(bench.bank, 2, 0); // the open packet has an end already
         bench.next_cycle(1);
     });
     ASSERT_EQ(bench.got.size(), 3U);

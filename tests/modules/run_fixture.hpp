@@ -113,7 +113,7 @@ inline Signature DegsRun::signature() const {
     words.add_units("packing", degs().packing());
     words.add_units("slices", degs().slices());
     words.add_units("pixel buffers", degs().pixel_buffers());
-    words.add_unit("monitor", &degs().monitor());
+    words.add_units("monitors", degs().monitors());
     for (const auto& unit : degs().packing()) {
         words.add("idle slots", unit->idle());
     }
@@ -145,12 +145,10 @@ inline void expect_sound(const DegsRun& run) {
     if (degs.config().scheduler.scoreboard) {
         EXPECT_EQ(run.hazards(), 0U);
     }
-    std::uint64_t tiles = 0;
-    for (const auto& unit : degs.pixel_buffers()) {
-        tiles += unit->stats().tiles;
-    }
-    EXPECT_EQ(tiles, run.job().tiles.size() * degs.pixel_buffers().size());
-    EXPECT_EQ(degs.monitor().stats().tiles, run.job().tiles.size());
+    const std::size_t streams = degs.monitors().size();
+    EXPECT_EQ(sum_of(degs.pixel_buffers(), &PixelBuffer::Stats::tiles),
+              run.job().tiles.size() * degs.pixel_buffers().size() / streams);
+    EXPECT_EQ(sum_of(degs.monitors(), &TileMonitor::Stats::tiles), run.job().tiles.size());
 }
 
 /// In double precision with exact ends and the reference's stop rule.

@@ -24,6 +24,7 @@ struct SchedulerBench {
         int queue = 64;
         int issue_width = 4;
         int packets = 64;
+        int spans_per_cycle = 0;
         bool scoreboard = true;
         TerminationGrain grain = TerminationGrain::Segment;
     };
@@ -67,12 +68,12 @@ struct SchedulerBench {
           slice("slice", slice_config(s), time, job, 0, 1, 16) {
         bank.in[0].bind(crossbar);
         bank.terminated.bind(terminated);
-        bank.context_free.bind(contexts);
+        bank.context_free[0].bind(contexts);
         packing.out.bind(packets);
         slice.in.bind(packets);
         slice.terminated.bind(terminated);
-        slice.tile_done.bind(done);
-        slice.tile_state.bind(state);
+        slice.tile_done[0].bind(done);
+        slice.tile_state[0].bind(state);
         for (int row = 0; row < tile; ++row) {
             job.path->begin_row(0, row);
         }
@@ -82,6 +83,7 @@ struct SchedulerBench {
         c.count = 1;
         c.queue_depth = s.queue;
         c.segments_per_cycle = 4;
+        c.spans_per_cycle = s.spans_per_cycle;
         c.issue_width = s.issue_width;
         c.reuse_cycles = s.reuse;
         c.feature_entries = 256;

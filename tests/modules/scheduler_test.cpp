@@ -187,6 +187,25 @@ TEST(IssueBank, BySegmentsEndedPixelsCostTheirSlots) {
     EXPECT_EQ(bench.bank.stats().tasks_dropped, 0U);
 }
 
+// Eight rows wait at the crossbar. The bank cuts four per cycle but takes only as many as the crossbar
+// is wide, and the array executes what it gets: a wire for two units halves their rate.
+class CrossbarWidth : public ::testing::TestWithParam<std::pair<int, Cycle>> {};
+
+TEST_P(CrossbarWidth, LimitsTheSpansPerCycle) {
+    const auto [width, cycles] = GetParam();
+    SchedulerBench::Sizes sizes;
+    sizes.spans_per_cycle = width;
+    sizes.width = 32; // two rows
+    SchedulerBench bench(sizes, {blanket(8, 8, 32, 0.2)});
+    bench.run(SchedulerBench::rows(0, 8, 10));
+    EXPECT_EQ(bench.stats().window.cycles(), cycles);
+    EXPECT_EQ(bench.bank.stats().spans, 8U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Widths, CrossbarWidth,
+                         ::testing::Values(std::pair<int, Cycle>(0, 4), std::pair<int, Cycle>(2, 4),
+                                           std::pair<int, Cycle>(1, 8)));
+
 // One context: the second tile's segments wait in the bank until the Pixel Buffer hands it back.
 TEST(IssueBank, TheNextTileStartsWhenItsContextIsFree) {
     SchedulerBench bench({}, {blanket(16, 8, 32, 0.2)}, 16, 2);

@@ -172,7 +172,7 @@ TEST_P(SmallRunCancel, ATileThatTerminatesAtOnce) {
     config.monitor.cancel = GetParam();
     const auto result = run(config, frame);
     EXPECT_EQ(result->slices(&ArraySlice::Stats::pixels_ended), 512U);
-    EXPECT_EQ(result->degs().monitor().stats().tiles_cancelled, GetParam() ? 2U : 0U);
+    EXPECT_EQ(result->degs().monitors()[0]->stats().tiles_cancelled, GetParam() ? 2U : 0U);
     std::uint64_t records = 0;
     for (const auto& unit : result->degs().fetchers()) {
         records += unit->stats().records;

@@ -2,6 +2,7 @@
 // Span Units, Tile Monitor and Pixel Buffer, one at a time:
 // dates against closed formulas.
 #include "modules/array/pixel_buffer.hpp"
+#include "modules/span_engine/span_pool.hpp"
 #include "modules/span_engine/span_unit.hpp"
 #include "modules/span_engine/tile_monitor.hpp"
 #include "tests/modules/unit_bench.hpp"
@@ -26,7 +27,7 @@ TEST(SpanUnit, ARowPerIntervalAndTheLatencyOfThePipeline) {
     DatedFifo<RowItem> rows("rows", bench.time, 16);
     DatedFifo<SpanItem> bank0("bank0", bench.time, 8, 6);
     DatedFifo<SpanItem> bank1("bank1", bench.time, 8, 6);
-    unit.in.bind(rows);
+    unit.in[0].bind(rows);
     unit.out[0].bind(bank0);
     unit.out[1].bind(bank1);
     bench.script([&](Process& self) {
@@ -85,6 +86,161 @@ TEST(TileMonitor, CancelsWhenTheLastSliceHasReported) {
     EXPECT_EQ(got[0].first, 60U + 4 + 8);
     EXPECT_EQ(unit.stats().tiles, 2U);
     EXPECT_EQ(unit.stats().tiles_cancelled, 1U);
+}
+
+// A slice may end a tile before an older one. Slice 0 has ended all of tile 0 and then of tile 1,
+// slice 1 all of tile 1 and later, with live pixels, tile 0: only tile 1 is over everywhere.
+TEST(TileMonitor, TakesReportsInAnyOrder) {
+    UnitBench bench(make_frame({blanket(16, 8, 64)}, 32, 16, 16)); // two tiles
+    TileMonitor unit("unit", {}, bench.time, bench.job, 2, 1);
+    DatedFifo<SliceReport> slice0("slice0", bench.time, 4, 4);
+    DatedFifo<SliceReport> slice1("slice1", bench.time, 4, 4);
+    DatedFifo<TileNumber> out("out", bench.time, 4, 8);
+    unit.in[0].bind(slice0);
+    unit.in[1].bind(slice1);
+    unit.out[0].bind(out);
+    for (auto* ring : {&slice0, &slice1}) {
+        bench.script([ring, &slice0](Process& self) {
+            ring->connect_writer(self);
+            self.advance(30);
+            const TileNumber first = ring == &slice0 ? 0 : 1;
+            ring->put(self, {first, true});
+            self.advance(10);
+            ring->put(self, {1 - first, ring == &slice0});
+        });
+    }
+    const auto& got = bench.drain(out);
+    sc_core::sc_start();
+    ASSERT_EQ(got.size(), 1U);
+    EXPECT_EQ(got[0].second, 1U);
+    EXPECT_EQ(got[0].first, 40U + 4 + 8);
+    EXPECT_EQ(unit.stats().tiles, 2U);
+}
+
+/// Span Units that share lanes, with a bank's queue of their Span Vectors for every stream.
+struct PoolBench {
+    UnitBench bench;
+    SpanPool unit;
+    std::vector<std::unique_ptr<DatedFifo<RowItem>>> lanes;
+    std::vector<std::unique_ptr<DatedFifo<SpanItem>>> queues;
+
+    PoolBench(const SpanStage::Config& config, const SpanPool::Share& share, int depth)
+        : bench(make_frame({blanket(16, 8, 64)}, 32, 16, 16)), // two tiles
+          unit("unit", config, bench.time, bench.job, share) {
+        for (auto& port : unit.in) {
+            lanes.push_back(std::make_unique<DatedFifo<RowItem>>(
+                ("lane" + std::to_string(lanes.size())).c_str(), bench.time, 64));
+            port.bind(*lanes.back());
+        }
+        for (auto& port : unit.out) {
+            queues.push_back(std::make_unique<DatedFifo<SpanItem>>(
+                ("queue" + std::to_string(queues.size())).c_str(), bench.time, depth,
+                config.latency_cycles, 1));
+            port.bind(*queues.back());
+        }
+    }
+    /// Rows 0 to rows - 1 of tiles into a lane, all there at 10, each with the end of its tile.
+    void feed(std::size_t lane, const std::vector<std::pair<TileNumber, int>>& tiles) {
+        bench.script([this, lane, tiles](Process& self) {
+            lanes[lane]->connect_writer(self);
+            self.advance(9);
+            for (const auto& [tile, rows] : tiles) {
+                for (int row = 0; row <= rows; ++row) {
+                    RowItem item;
+                    item.tile = tile;
+                    item.row = static_cast<std::int16_t>(row);
+                    item.end = row == rows;
+                    lanes[lane]->put(self, item);
+                }
+            }
+        });
+    }
+    /// The cycles from 10 on at which rows were taken, by what came out.
+    static std::vector<Cycle> taken(const std::vector<std::pair<Cycle, SpanItem>>& got,
+                                    int latency) {
+        std::vector<Cycle> dates;
+        for (const auto& [date, item] : got) {
+            if (item.span) {
+                dates.push_back(date - latency - 10);
+            }
+        }
+        return dates;
+    }
+};
+
+// Three units take three rows per cycle, whatever rows these are.
+TEST(SpanPool, AnyFreeUnitTakesARow) {
+    SpanStage::Config config;
+    config.count = 3;
+    config.rows = RowAssignment::Pool;
+    SpanPool::Share share;
+    share.units = 3;
+    PoolBench pool(config, share, 64);
+    pool.feed(0, {{0, 8}, {1, 0}});
+    const auto& got = pool.bench.drain(*pool.queues[0]);
+    sc_core::sc_start();
+    EXPECT_EQ(PoolBench::taken(got, 6), (std::vector<Cycle>{0, 0, 0, 1, 1, 1, 2, 2}));
+    EXPECT_EQ(pool.unit.stats().busy, 8U);
+}
+
+// A unit may take several rows per cycle, or need several cycles for a row.
+class SpanPoolRates : public ::testing::TestWithParam<std::tuple<int, int, std::vector<Cycle>>> {};
+
+TEST_P(SpanPoolRates, ARowPerIntervalOrSeveral) {
+    const auto& [rows_per_cycle, cycles_per_row, dates] = GetParam();
+    SpanStage::Config config;
+    config.rows_per_cycle = rows_per_cycle;
+    config.cycles_per_row = cycles_per_row;
+    PoolBench pool(config, {}, 64);
+    pool.feed(0, {{0, 5}, {1, 0}});
+    const auto& got = pool.bench.drain(*pool.queues[0]);
+    sc_core::sc_start();
+    EXPECT_EQ(PoolBench::taken(got, 6), dates);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, SpanPoolRates,
+                         ::testing::Values(std::tuple(1, 1, std::vector<Cycle>{0, 1, 2, 3, 4}),
+                                           std::tuple(2, 1, std::vector<Cycle>{0, 0, 1, 1, 2}),
+                                           std::tuple(1, 3, std::vector<Cycle>{0, 3, 6, 9, 12})));
+
+// A unit serves its streams in turn, and alone the one that has something left.
+TEST(SpanPool, StreamsTakeTurns) {
+    SpanPool::Share share;
+    share.streams = 2;
+    PoolBench pool({}, share, 64);
+    pool.feed(0, {{0, 3}});
+    pool.feed(1, {{1, 5}});
+    const auto& first = pool.bench.drain(*pool.queues[0]);
+    const auto& second = pool.bench.drain(*pool.queues[1]);
+    sc_core::sc_start();
+    EXPECT_EQ(PoolBench::taken(first, 6), (std::vector<Cycle>{0, 2, 4}));
+    EXPECT_EQ(PoolBench::taken(second, 6), (std::vector<Cycle>{1, 3, 5, 6, 7}));
+    EXPECT_FALSE(first.back().second.span); // the ends of the tiles
+    EXPECT_FALSE(second.back().second.span);
+}
+
+// Queues of two cells, those of the pipeline included. Stream 0's is not read before 40, and its third
+// row waits for the cycle after, the end of the tile for one more. Stream 1's is read as soon as a
+// Span Vector has come, six cycles after its row; it goes on in the cycle after.
+TEST(SpanPool, AFullQueueHoldsUpItsStreamOnly) {
+    SpanPool::Share share;
+    share.streams = 2;
+    PoolBench pool({}, share, 2);
+    pool.feed(0, {{0, 3}});
+    pool.feed(1, {{1, 4}});
+    std::vector<Cycle> dates;
+    pool.bench.script([&](Process& self) {
+        pool.queues[0]->connect_reader(self);
+        self.advance(40);
+        while (dates.size() < 4) {
+            pool.queues[0]->get(self);
+            dates.push_back(self.local());
+        }
+    });
+    const auto& second = pool.bench.drain(*pool.queues[1]);
+    sc_core::sc_start();
+    EXPECT_EQ(dates, (std::vector<Cycle>{40, 40, 41 + 6, 42 + 6}));
+    EXPECT_EQ(PoolBench::taken(second, 6), (std::vector<Cycle>{1, 3, 1 + 7, 3 + 7}));
 }
 
 // A tile is read out at readout_pixels per cycle; its context is free then.

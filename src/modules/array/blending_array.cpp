@@ -13,12 +13,13 @@ ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config
                        const Timebase& time, RenderJob& job, int index, int slices,
                        int segment_length)
     : sc_core::sc_module(name), in("in"), terminated("terminated"),
-      region_ended("region_ended", reachable(index, slices, config.region_listeners)),
-      tile_done("tile_done"), tile_state("tile_state"), config_(config), job_(job), index_(index),
-      slices_(slices), segment_length_(segment_length),
+      region_ended("region_ended",
+                   config.streams * reachable(index, slices, config.region_listeners)),
+      tile_done("tile_done", config.streams), tile_state("tile_state", config.streams),
+      config_(config), job_(job), index_(index), slices_(slices), segment_length_(segment_length),
       segments_per_row_((job.tile_size + segment_length - 1) / segment_length), self_(time),
+      contexts_(std::size_t{1} * config.streams * config.contexts),
       segments_((job.tile_size + slices - 1) / slices * segments_per_row_) {
-    hold_tiles(1);
     if (!config.scoreboard) {
         early_.emplace(job, config.writeback_cycles);
     }
@@ -45,8 +46,12 @@ void ArraySlice::end_of_elaboration() {
     for (auto& listener : region_ended) {
         listener->connect_writer(self_);
     }
-    tile_done->connect_writer(self_);
-    tile_state->connect_writer(self_);
+    for (auto& port : tile_done) {
+        port->connect_writer(self_);
+    }
+    for (auto& port : tile_state) {
+        port->connect_writer(self_);
+    }
 }
 
 // Inlined: a call more per packet is 1 % of a run.
@@ -59,33 +64,32 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
     }
     stats_.packets++;
     stats_.window.include(now);
+    const bool early = early_.has_value();
     for (int i = 0; i < packet.run_count; ++i) {
         const TaskRun& run = packet.runs[i];
-        for (; next_tile_ <= run.tile; ++next_tile_) {
-            start_tile(next_tile_);
-        }
-        check_reuse(run, now);
+        Context& context = context_of(run.task.context, run.tile);
+        check_reuse(context, run, now);
         // A segment is blended when its first task executes: nobody else touches its pixels before
         // its last one, so each packet only has to take its part of the outcome.
         const std::uint32_t first_task = run.task.mask & (0U - run.task.mask);
-        if ((run.part & first_task) != 0 || early_) {
-            outcome_ = early_ ? blend_early(run, now) : job_.path->blend(run.task);
+        if ((run.part & first_task) != 0 || early) {
+            outcome_ = early ? blend_early(context, run, now) : job_.path->blend(run.task);
             const auto count = [](std::uint32_t mask) { return __builtin_popcount(mask); };
             stats_.slots.useful += count(outcome_.useful);
             stats_.slots.boundary += count(outcome_.boundary);
             stats_.slots.terminated += count(outcome_.terminated);
         }
         if ((outcome_.ended & run.part) != 0) {
-            pixels_ended(run, outcome_.ended & run.part);
+            pixels_ended(context, run, outcome_.ended & run.part);
         }
     }
 }
 
 // Without scoreboard another task may come between two parts, so each is blended at its own date. A
 // pixel that two tasks end, the second before it saw the first, is reported once.
-BlendOutcome ArraySlice::blend_early(const TaskRun& run, Cycle date) {
+BlendOutcome ArraySlice::blend_early(const Context& context, const TaskRun& run, Cycle date) {
     BlendOutcome outcome = early_->blend(run, date);
-    outcome.ended &= ~context_of(run.tile).ended_in_segment[run.domain];
+    outcome.ended &= ~context.ended_in_segment[run.domain];
     return outcome;
 }
 
@@ -105,47 +109,29 @@ void ArraySlice::pump() {
         }
         const bool ends = packet.ends_tile;
         const TileNumber tile = packet.ended_tile;
+        const std::int16_t context = packet.ended_context;
         packets_->drop(self_);
         if (ends) {
-            end_tile(tile);
+            end_tile(tile, context);
         }
         if (executed) {
             self_.advance();
         }
         if (ends && job_.over(++tiles_done_)) {
+            end_reports();
             self_.finish();
         }
     }
 }
 
-// Tiles end in order, so those in flight are neighbours.
-void ArraySlice::hold_tiles(TileNumber count) {
-    while (contexts_.size() < count) {
-        const std::size_t before = contexts_.size();
-        contexts_.resize(std::max<std::size_t>(1, 2 * before));
-        for (std::size_t c = before; c < contexts_.size(); ++c) {
-            contexts_[c].live_in_segment.resize(segments_);
-            contexts_[c].ended_in_segment.resize(segments_);
-            contexts_[c].recent.resize(segments_);
-        }
-        for (std::size_t c = 0; c < before; ++c) { // to where its number says
-            Context& home = context_of(contexts_[c].tile);
-            if (&home != &contexts_[c]) {
-                std::swap(home, contexts_[c]);
-            }
-        }
-    }
-}
-
-void ArraySlice::start_tile(TileNumber number) {
-    hold_tiles(number - tiles_done_ + 1);
+void ArraySlice::start_tile(Context& context, TileNumber number) {
     const JobTile& tile = job_.tiles[number];
-    Context& context = context_of(number);
-    std::fill(context.recent.begin(), context.recent.end(), Recent{});
     context.tile = number;
     context.live_pixels = 0;
     context.reported = false;
-    std::fill(context.ended_in_segment.begin(), context.ended_in_segment.end(), 0U);
+    context.live_in_segment.resize(segments_);
+    context.ended_in_segment.assign(segments_, 0);
+    context.recent.assign(segments_, Recent{});
     for (int s = 0; s < segments_; ++s) {
         const int row = s / segments_per_row_ * slices_ + index_;
         const int column = s % segments_per_row_ * segment_length_;
@@ -156,8 +142,8 @@ void ArraySlice::start_tile(TileNumber number) {
 }
 
 // The invariant the scoreboard exists for; see the tests that switch it off.
-void ArraySlice::check_reuse(const TaskRun& run, Cycle date) {
-    Recent& recent = context_of(run.tile).recent[run.domain];
+void ArraySlice::check_reuse(Context& context, const TaskRun& run, Cycle date) {
+    Recent& recent = context.recent[run.domain];
     const Cycle writeback = config_.writeback_cycles;
     const bool late = date - recent.date >= writeback;
     const std::uint32_t busy = late ? 0 : recent.mask;
@@ -166,8 +152,7 @@ void ArraySlice::check_reuse(const TaskRun& run, Cycle date) {
     recent.date = date;
 }
 
-void ArraySlice::pixels_ended(const TaskRun& run, std::uint32_t ended) {
-    Context& context = context_of(run.tile);
+void ArraySlice::pixels_ended(Context& context, const TaskRun& run, std::uint32_t ended) {
     const std::size_t segment = run.domain;
     const int count = __builtin_popcount(ended);
     context.ended_in_segment[segment] |= ended;
@@ -183,34 +168,44 @@ void ArraySlice::pixels_ended(const TaskRun& run, std::uint32_t ended) {
         message.tile = context.tile;
         message.row = run.task.row;
         message.column = run.task.column;
+        message.context = run.task.context;
         message.mask = context.ended_in_segment[segment];
         terminated->put(self_, message);
     }
     if (context.live_pixels == 0 && !context.reported) {
         context.reported = true;
-        tile_state->put(self_, {context.tile, true});
+        tile_state[stream_of(run.task.context)]->put(self_, {context.tile, true});
     }
 }
 
 void ArraySlice::report_region(const Context& context, const TaskRun& run) {
     const std::size_t listener = run.task.row % config_.region_listeners;
+    const std::size_t ports = region_ended.size() / config_.streams;
+    const std::size_t port = stream_of(run.task.context) * ports + port_of_listener_[listener];
     const std::int16_t segment = inside_tile(run.task.column / segment_length_);
-    region_ended[port_of_listener_[listener]]->put(self_, {context.tile, run.task.row, segment});
+    region_ended[port]->put(self_, {context.tile, run.task.row, segment});
 }
 
-void ArraySlice::end_tile(TileNumber number) {
-    for (; next_tile_ <= number; ++next_tile_) {
-        start_tile(next_tile_); // no task of the tile came here
-    }
+// It may be that no task of the tile came here.
+void ArraySlice::end_tile(TileNumber number, std::int16_t in_context) {
     if (early_) {
         early_->finish(number);
     }
-    Context& context = context_of(number);
+    Context& context = context_of(in_context, number);
+    const std::size_t stream = stream_of(in_context);
     if (!context.reported) {
         context.reported = true;
-        tile_state->put(self_, {number, context.live_pixels == 0});
+        tile_state[stream]->put(self_, {number, context.live_pixels == 0});
     }
-    tile_done->put(self_, {number, context.live_pixels == 0});
+    tile_done[stream]->put(self_, {number, context.live_pixels == 0});
+}
+
+// The streams do not know which tile is their last one.
+void ArraySlice::end_reports() {
+    for (int stream = 0; stream < config_.streams && config_.streams > 1; ++stream) {
+        tile_state[stream]->put(self_, {kNoTile, false});
+        tile_done[stream]->put(self_, {kNoTile, false});
+    }
 }
 
 } // namespace degs

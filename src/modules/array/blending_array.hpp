@@ -24,7 +24,9 @@ public:
         int width = 8;            ///< PEs
         int writeback_cycles = 4; ///< execution to pixel state written back (paper: 4)
         TerminationGrain termination = TerminationGrain::Segment;
-        int region_listeners = 0; ///< Slicing Units in all if they skip dead rows, else 0
+        int region_listeners = 0; ///< Slicing Units of a stream if they skip dead rows, else 0
+        int streams = 1;          ///< tile streams
+        int contexts = 1;         ///< tiles of a stream that the Pixel Buffer holds
         bool scoreboard = true;   ///< no pixel comes again before its write-back
     };
     struct Stats {
@@ -43,10 +45,12 @@ public:
 
     FifoPort<TaskPacket> in;
     FifoPort<Termination> terminated; ///< to the bank
-    /// To the Slicing Units that share a row with this slice; empty unless they skip dead rows.
+    /// To the Slicing Units that share a row with this slice, stream by stream; empty unless they
+    /// skip dead rows.
     sc_core::sc_vector<FifoPort<RegionEnded>> region_ended;
-    FifoPort<SliceReport> tile_done;  ///< to the Pixel Buffer, once per tile
-    FifoPort<SliceReport> tile_state; ///< to the Tile Monitor, once per tile
+    // Once per tile, one port per stream; with several streams kNoTile ends the reports.
+    sc_core::sc_vector<FifoPort<SliceReport>> tile_done;  ///< to the Pixel Buffer
+    sc_core::sc_vector<FifoPort<SliceReport>> tile_state; ///< to the Tile Monitor
 
     ArraySlice(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                RenderJob& job, int index, int slices, int segment_length);
@@ -60,7 +64,7 @@ private:
     };
     /// Tile state: what is still alive in this slice's rows.
     struct Context {
-        TileNumber tile = 0;
+        TileNumber tile = kNoTile;
         int live_pixels = 0;
         bool reported = false;
         std::vector<int> live_in_segment;
@@ -70,28 +74,34 @@ private:
     void end_of_elaboration() override;
     void run();
     void pump() override;
-    void start_tile(TileNumber number);
-    void hold_tiles(TileNumber count);
+    /// The context, prepared for the tile if that starts with this call.
+    Context& context_of(std::int16_t context, TileNumber tile) {
+        if (contexts_[context].tile != tile) {
+            start_tile(contexts_[context], tile);
+        }
+        return contexts_[context];
+    }
+    void start_tile(Context& context, TileNumber number);
     void execute(const TaskPacket& packet);
-    BlendOutcome blend_early(const TaskRun& run, Cycle date);
-    void check_reuse(const TaskRun& run, Cycle date);
-    void pixels_ended(const TaskRun& run, std::uint32_t ended);
+    BlendOutcome blend_early(const Context& context, const TaskRun& run, Cycle date);
+    void check_reuse(Context& context, const TaskRun& run, Cycle date);
+    void pixels_ended(Context& context, const TaskRun& run, std::uint32_t ended);
     void report_region(const Context& context, const TaskRun& run);
-    void end_tile(TileNumber number);
-    Context& context_of(TileNumber tile) { return contexts_[tile & (contexts_.size() - 1)]; }
+    void end_tile(TileNumber number, std::int16_t context);
+    void end_reports();
+    std::size_t stream_of(std::int16_t context) const { return context / config_.contexts; }
 
     Config config_;
     RenderJob& job_;
     int index_, slices_, segment_length_, segments_per_row_;
     Process self_;
     DatedFifo<TaskPacket>* packets_ = nullptr; // what `in` is bound to
-    std::vector<Context> contexts_; // as many as tiles have been in flight, a power of two
-    int segments_;                  // of a context
+    std::vector<Context> contexts_;            // those in use have taken host memory
+    int segments_;                             // of a context
     std::vector<std::size_t> port_of_listener_;
     BlendOutcome outcome_; // of the segment whose tasks execute, or of the part without scoreboard
     std::optional<EarlyBlender> early_; // without scoreboard
-    TileNumber tiles_done_ = 0;
-    TileNumber next_tile_ = 0; // first tile that has not started here
+    std::size_t tiles_done_ = 0;
     Stats stats_;
 };
 

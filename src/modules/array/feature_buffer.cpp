@@ -5,37 +5,38 @@
 
 namespace degs {
 
-FeatureBuffer::FeatureBuffer(int entries, int open_splats)
+FeatureBuffer::FeatureBuffer(int entries, int open_splats, int streams)
     : entries_(entries), free_(entries), free_count_(entries_.size()),
-      open_splats_(std::min(open_splats, entries)) {
+      open_splats_(std::min(open_splats, entries / streams)), streams_(streams) {
     std::uint16_t entry = 0;
     for (Free& place : free_) {
         place = {0, entry++};
     }
 }
 
-bool FeatureBuffer::enter(std::uint64_t splat, Cycle now) {
-    if (open_.size() == open_splats_) {
-        close_oldest(now);
+bool FeatureBuffer::enter(std::uint64_t splat, Cycle now, std::size_t stream) {
+    auto& [open, waiting] = streams_[stream];
+    if (open.size() == open_splats_) {
+        close_oldest(open, now);
     }
     if (next_free() > now) {
-        stats_.waits += waiting_ ? 0 : 1;
-        waiting_ = true;
+        stats_.waits += waiting ? 0 : 1;
+        waiting = true;
         return false;
     }
-    waiting_ = false;
+    waiting = false;
     current_ = free_[first_free_].entry;
     first_free_ = next(first_free_);
     free_count_--;
     entries_[current_] = {now, 1};
     current_key_ = splat;
-    open_.push_back({splat, current_});
+    open.push_back({splat, current_});
     return true;
 }
 
-// One of the open splats beside the current one.
-bool FeatureBuffer::find(std::uint64_t splat) {
-    for (const Open& open : open_) {
+// One of the stream's open splats beside the current one.
+bool FeatureBuffer::find(std::uint64_t splat, std::size_t stream) {
+    for (const Open& open : streams_[stream].open) {
         if (open.key == splat) {
             current_key_ = splat;
             current_ = open.entry;
@@ -45,15 +46,16 @@ bool FeatureBuffer::find(std::uint64_t splat) {
     return false;
 }
 
-void FeatureBuffer::close(Cycle now) {
-    while (!open_.empty()) {
-        close_oldest(now);
+void FeatureBuffer::close(Cycle now, std::size_t stream) {
+    std::vector<Open>& open = streams_[stream].open;
+    while (!open.empty()) {
+        close_oldest(open, now);
     }
 }
 
-void FeatureBuffer::close_oldest(Cycle now) {
-    const Open oldest = open_.front();
-    open_.erase(open_.begin());
+void FeatureBuffer::close_oldest(std::vector<Open>& open, Cycle now) {
+    const Open oldest = open.front();
+    open.erase(open.begin());
     if (oldest.key == current_key_) {
         current_key_ = kNobody;
     }

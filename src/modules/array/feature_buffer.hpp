@@ -14,8 +14,9 @@ namespace degs {
 /// One bank's part of the Feature Buffer (paper Table I; Global Gaussian Parameters by G_ID). An
 /// entry is taken when the first row of a splat enters the bank and given back when the last task
 /// of its last row has been written back. A splat is open while more of its rows may come: until
-/// `open_splats` others have entered after it, as many as can send rows in turn. Partitioned per
-/// bank, so that every array slice has its own read port [assumed].
+/// `open_splats` others of its tile stream have entered after it, as many as can send rows in turn.
+/// Open splats of a stream never take the share of another, so that no stream can lock another one
+/// out. Partitioned per bank, so that every array slice has its own read port [assumed].
 class FeatureBuffer {
 public:
     struct Stats {
@@ -25,12 +26,14 @@ public:
         }
     };
 
-    explicit FeatureBuffer(int entries, int open_splats = 1);
+    /// At least one entry per stream.
+    explicit FeatureBuffer(int entries, int open_splats = 1, int streams = 1);
 
-    /// Makes (tile, splat) the splat that enters. False if no entry is free at `now`.
-    bool admit(TileNumber tile, std::uint32_t splat, Cycle now) {
+    /// Makes (tile, splat) the splat that enters; `stream` works on the tile. False if no entry is
+    /// free at `now`.
+    bool admit(TileNumber tile, std::uint32_t splat, Cycle now, std::size_t stream = 0) {
         const std::uint64_t wanted = key(tile, splat);
-        return wanted == current_key_ || find(wanted) || enter(wanted, now);
+        return wanted == current_key_ || find(wanted, stream) || enter(wanted, now, stream);
     }
     /// Entry of the splat that enters.
     std::uint16_t current() const { return current_; }
@@ -43,8 +46,8 @@ public:
             retire(entry, e.needed_until);
         }
     }
-    /// No more rows of the open splats will come.
-    void close(Cycle now);
+    /// No more rows of the stream's open splats will come.
+    void close(Cycle now, std::size_t stream = 0);
     /// Date at which the next entry becomes free; kNever if none is on its way.
     Cycle next_free() const { return free_count_ == 0 ? kNever : free_[first_free_].date; }
     const Stats& stats() const { return stats_; }
@@ -66,9 +69,13 @@ private:
         std::uint64_t key = kNobody;
         std::uint16_t entry = 0;
     };
-    bool find(std::uint64_t splat);
-    bool enter(std::uint64_t splat, Cycle now);
-    void close_oldest(Cycle now);
+    struct Stream {
+        std::vector<Open> open; // in the order of their first rows
+        bool waiting = false;   // a splat has found no entry
+    };
+    bool find(std::uint64_t splat, std::size_t stream);
+    bool enter(std::uint64_t splat, Cycle now, std::size_t stream);
+    void close_oldest(std::vector<Open>& open, Cycle now);
     void retire(std::uint16_t entry, Cycle date);
     std::size_t next(std::size_t i) const { return i + 1 == free_.size() ? 0 : i + 1; }
 
@@ -77,10 +84,9 @@ private:
     std::size_t first_free_ = 0, end_free_ = 0, free_count_;
     Cycle last_retired_ = 0;
     std::size_t open_splats_;
-    std::vector<Open> open_;              // in the order of their first rows
+    std::vector<Stream> streams_;
     std::uint64_t current_key_ = kNobody; // key() of the current splat
     std::uint16_t current_ = 0;
-    bool waiting_ = false;
     Stats stats_;
 };
 

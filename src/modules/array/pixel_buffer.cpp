@@ -121,7 +121,7 @@ TileNumber PixelBuffer::next_tile() {
 // For a granted tile this must be called before the tile is counted.
 int PixelBuffer::context_of(TileNumber number) const {
     const std::uint64_t turn = share_.granted ? stats_.tiles : number;
-    return share_.first_context + context_in_turn(turn, contexts_);
+    return context_in_turn(turn, contexts_, share_.first_context);
 }
 
 void PixelBuffer::finish_tile(TileNumber number) {

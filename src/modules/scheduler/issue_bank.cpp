@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+// The cycle of a bank, its intake, and what ends pixels; issue_bank_issue.cpp has the rest.
 #include "modules/scheduler/issue_bank.hpp"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 namespace degs {
 namespace {
@@ -21,40 +20,52 @@ constexpr int kFirstTiles = 2;
 IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
                      const Timebase& time, const RenderJob& job, PackingUnit& packing, int index,
                      std::size_t inputs, int contexts)
-    : sc_core::sc_module(name), in("in", inputs), terminated("terminated"),
-      context_free("context_free"), config_(config), job_(job), packing_(packing),
+    : sc_core::sc_module(name), in("in", inputs * config.streams), terminated("terminated"),
+      context_free("context_free", config.streams), config_(config), job_(job), packing_(packing),
       contexts_(contexts), tiles_in_flight_(tiles_in_queue(contexts)),
-      by_pixel_(config.termination == TerminationGrain::Pixel), self_(time),
-      segmenter_(job.tile_size, config.segment_length, index, config.count, contexts),
+      by_pixel_(config.termination == TerminationGrain::Pixel), streams_(config.streams),
+      stream_count_(streams_.size()),
+      spans_per_cycle_(config.spans_per_cycle == 0 ? config.segments_per_cycle
+                                                   : config.spans_per_cycle),
+      self_(time), segmenter_(job.tile_size, config.segment_length, index, config.count),
       queue_(config.queue_depth, kFirstTiles,
              Segmenter::domains_per_tile(job.tile_size, config.segment_length, config.count),
-             config.scan),
-      features_(config.feature_entries, config.open_splats), startable_(contexts) {
+             config.scan, config.streams),
+      features_(config.feature_entries, config.open_splats, config.streams),
+      ready_(config.streams, -1) {
+    for (BankStream& stream : streams_) {
+        stream.index = &stream - streams_.data();
+        stream.inputs.resize(inputs);
+        stream.startable = contexts;
+    }
     SC_HAS_PROCESS(IssueBank);
     SC_THREAD(run);
 }
 
 void IssueBank::end_of_elaboration() {
-    for (auto& port : in) {
-        inputs_.push_back(&port.ring());
-        inputs_.back()->connect_reader(self_);
+    std::size_t port = 0;
+    for (BankStream& stream : streams_) {
+        for (BankStream::Input& input : stream.inputs) {
+            input.ring = &in[port++].ring();
+            input.ring->connect_reader(self_);
+        }
+        stream.contexts_freed = &context_free[stream.index].ring();
+        stream.contexts_freed->connect_reader(self_);
     }
     terminations_ = &terminated.ring();
     terminations_->connect_reader(self_);
-    contexts_freed_ = &context_free.ring();
-    contexts_freed_->connect_reader(self_);
     packing_.out->connect_writer(self_);
-    watched_.resize(inputs_.size() + 2);
+    watched_.reserve(in.size() + streams_.size() + 1);
 }
 
 void IssueBank::run() {
-    while (!job_.over(oldest_tile_)) {
+    while (!job_.over(tiles_done_)) {
         const Cycle now = self_.local();
         see_terminations();
         see_contexts();
         accept(now);
         const bool worked = issue(now);
-        const bool over = finish_tiles() && job_.over(oldest_tile_);
+        const bool over = finish_tiles() && job_.over(tiles_done_);
         if (packing_.due(now)) {
             packing_.send_due(self_, idle_cause());
         }
@@ -81,18 +92,33 @@ void IssueBank::see_terminations() {
     }
 }
 
+// A context comes back only after this bank, too, has ended the tile that holds it.
 void IssueBank::see_contexts() {
-    // A context comes back only after this bank, too, has ended the tile that holds it.
-    while (startable_ < oldest_tile_ + contexts_ && self_.arrived(*contexts_freed_)) {
-        startable_ = std::max(startable_, contexts_freed_->take(self_) + 1);
+    if (!contexts_owed_) {
+        return;
+    }
+    contexts_owed_ = false;
+    for (BankStream& stream : streams_) {
+        while (stream.startable < stream.oldest + contexts_ &&
+               self_.arrived(*stream.contexts_freed)) {
+            stream.contexts_freed->drop(self_);
+            ++stream.startable;
+        }
+        contexts_owed_ = contexts_owed_ || stream.startable < stream.oldest + contexts_;
     }
 }
 
 void IssueBank::end_pixels(const Termination& message) {
-    if (!in_flight(message.tile)) {
+    const int first_context = message.context / contexts_ * contexts_;
+    const BankStream& stream = streams_[message.context / contexts_];
+    // The turn that is the first one to have this context and is not over for the bank.
+    const std::size_t place = message.context - first_context;
+    const std::size_t turn =
+        stream.oldest + (place + contexts_ - stream.oldest % contexts_) % contexts_;
+    if (turn >= stream.first_unstarted() || tile_at(stream, turn).number() != message.tile) {
         return; // the tile is over for this bank
     }
-    SegmentQueue::Tile& tile = queue_.tile(message.tile);
+    SegmentQueue::Tile& tile = tile_at(stream, turn);
     const int domain = segmenter_.domain_of(message.row, message.column);
     if (end_pixels(tile, domain, message.mask) == kAllPixels) {
         while (tile.has_waiting(domain)) {
@@ -114,16 +140,18 @@ std::uint32_t IssueBank::end_pixels(SegmentQueue::Tile& tile, int domain,
 }
 
 // Called when the first item of a tile is taken. Pixels outside of the image count as ended.
-void IssueBank::enter_tile() {
-    queue_.hold(oldest_tile_, entering_tile_);
-    const int width = job_.tiles[entering_tile_].width;
-    SegmentQueue::Tile& tile = queue_.tile(entering_tile_);
+void IssueBank::enter_tile(BankStream& stream, TileNumber number) {
+    queue_.hold(stream.oldest, stream.entering, stream.index);
+    const int width = job_.tiles[number].width;
+    SegmentQueue::Tile& tile = tile_at(stream, stream.entering);
+    const int first_context = static_cast<int>(stream.index) * contexts_;
+    tile.name(number, context_in_turn(stream.entering, contexts_, first_context));
     int domain = 0;
     for (const Segmenter::Domain& place : segmenter_.domains()) {
         const int inside = std::clamp(width - place.column, 0, config_.segment_length);
         end_pixels(tile, domain++, ~bits_between(0, inside));
     }
-    entered_ = true;
+    stream.entered = true;
 }
 
 void IssueBank::drop(std::uint32_t mask) {
@@ -132,6 +160,8 @@ void IssueBank::drop(std::uint32_t mask) {
 }
 
 void IssueBank::accept(Cycle now) {
+    spans_left_ = spans_per_cycle_;
+    features_full_ = false;
     for (int budget = config_.segments_per_cycle; budget > 0; --budget) {
         if (!segmenter_.cutting() && !open_span(now)) {
             break;
@@ -142,49 +172,78 @@ void IssueBank::accept(Cycle now) {
     }
 }
 
-// Takes the earliest span that has arrived, ties by input; tile ends on the way cost nothing.
+// Takes a span of the next stream that has one, in turn; a span cut halfway is finished first.
 bool IssueBank::open_span(Cycle now) {
-    for (;;) {
-        DatedFifo<SpanItem>* source = nullptr;
-        for (DatedFifo<SpanItem>* input : inputs_) {
-            if (self_.arrived(*input) && takes(input->front().tile) &&
-                (source == nullptr || input->head_date() < source->head_date())) {
-                source = input;
-            }
-        }
-        if (source == nullptr) {
-            return false;
-        }
-        const SpanItem& item = source->front();
-        features_full_ = item.span && !features_.admit(item.tile, item.span->splat, now);
-        if (features_full_) {
-            return false;
-        }
-        if (!entered_) {
-            enter_tile();
-        }
-        const bool span = item.span.has_value();
-        if (span) {
-            segmenter_.start(item);
-            stats_.spans++;
-            stats_.tasks_in += item.span->length;
-        }
-        source->drop(self_);
-        if (span) {
+    if (spans_left_ == 0) {
+        return false;
+    }
+    for (std::size_t left = stream_count_; left > 0; --left) {
+        BankStream& stream = streams_[next_stream_];
+        next_stream_ = next_stream_ + 1 == stream_count_ ? 0 : next_stream_ + 1;
+        Taken taken;
+        do { // ends of tiles on the way cost nothing
+            taken = take_from(stream, now);
+        } while (taken == Taken::End);
+        if (taken == Taken::Span) {
+            --spans_left_;
             return true;
         }
-        if (++ends_seen_ == inputs_.size()) {
-            features_.close(now);
-            ends_seen_ = 0;
-            ++entering_tile_;
-            entered_ = false;
+    }
+    return false;
+}
+
+// Takes the earliest item that has arrived, ties by input, if it may be taken.
+IssueBank::Taken IssueBank::take_from(BankStream& stream, Cycle now) {
+    BankStream::Input* const source = earliest_input(stream);
+    if (source == nullptr) {
+        return Taken::Nothing;
+    }
+    const SpanItem& item = source->ring->front();
+    const bool span = item.span.has_value();
+    if (span && !features_.admit(item.tile, item.span->splat, now, stream.index)) {
+        features_full_ = true;
+        return Taken::Nothing;
+    }
+    if (!stream.entered) {
+        enter_tile(stream, item.tile);
+    }
+    if (span) {
+        cut_tile_ = &tile_at(stream, stream.entering);
+        segmenter_.start(item, cut_tile_->context());
+        stats_.spans++;
+        stats_.tasks_in += item.span->length;
+    }
+    source->ring->drop(self_);
+    if (!span) {
+        ++source->turn;
+        take_end(stream, now);
+    }
+    return span ? Taken::Span : Taken::End;
+}
+
+BankStream::Input* IssueBank::earliest_input(BankStream& stream) {
+    BankStream::Input* source = nullptr;
+    for (BankStream::Input& input : stream.inputs) {
+        if (self_.arrived(*input.ring) && takes(stream, input) &&
+            (source == nullptr || input.ring->head_date() < source->ring->head_date())) {
+            source = &input;
         }
+    }
+    return source;
+}
+
+void IssueBank::take_end(BankStream& stream, Cycle now) {
+    if (++stream.ends_seen == stream.inputs.size()) {
+        features_.close(now, stream.index);
+        stream.ends_seen = 0;
+        ++stream.entering;
+        stream.entered = false;
     }
 }
 
 // False if the queue has no room; the segment is then cut later.
 bool IssueBank::cut_segment() {
-    SegmentQueue::Tile& tile = queue_.tile(segmenter_.tile());
+    SegmentQueue::Tile& tile = *cut_tile_;
     const int domain = segmenter_.domain();
     const std::uint32_t mask = segmenter_.mask();
     if ((mask & tile.live(domain)) == 0) {
@@ -203,141 +262,6 @@ bool IssueBank::cut_segment() {
     }
     segmenter_.next();
     return true;
-}
-
-// True if anything was issued.
-bool IssueBank::issue(Cycle now) {
-    no_room_ = false;
-    width_limited_ = false;
-    int issued = 0;
-    const TileNumber end = first_unstarted();
-    for (TileNumber number = oldest_tile_; number < end; ++number) {
-        SegmentQueue::Tile& tile = queue_.tile(number);
-        while (tile.waiting() != 0 && issue_one(now, tile)) {
-            if (++issued == config_.issue_width) {
-                width_limited_ = true;
-                stats_.busy++;
-                return true;
-            }
-        }
-    }
-    stats_.busy += issued != 0 ? 1 : 0;
-    return issued != 0;
-}
-
-bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile) {
-    const int domain = queue_.pick(tile, packing_.next_execution(now));
-    if (domain < 0) {
-        return false;
-    }
-    const Segment& segment = tile.front(domain);
-    const std::uint32_t mask = segment.run.task.mask;
-    const std::uint32_t wanted = mask & tile.live(domain);
-    const int tasks = __builtin_popcount(wanted);
-    if (!packing_.room(now, tasks)) {
-        no_room_ = true;
-        return false;
-    }
-    Cycle last = now;
-    if (tasks != 0) {
-        last = packing_.add(self_, segment.run, wanted) + config_.reuse_cycles;
-        if (config_.scoreboard) {
-            queue_.set_ready_at(tile, domain, last);
-        }
-    }
-    stats_.segments_issued++;
-    stats_.tasks_issued += tasks;
-    stats_.tasks_dropped += __builtin_popcount(mask) - tasks;
-    features_.release(segment.feature, last);
-    queue_.pop(tile, domain);
-    return true;
-}
-
-// True if a tile has ended.
-bool IssueBank::finish_tiles() {
-    const TileNumber before = oldest_tile_;
-    while (oldest_tile_ < entering_tile_ && !job_.over(oldest_tile_) && oldest_tile_ < startable_ &&
-           queue_.tile(oldest_tile_).waiting() == 0 &&
-           !(segmenter_.cutting() && segmenter_.tile() == oldest_tile_)) {
-        packing_.end_tile(self_, oldest_tile_);
-        queue_.clear(queue_.tile(oldest_tile_));
-        ++oldest_tile_;
-    }
-    return oldest_tile_ != before;
-}
-
-Idle IssueBank::idle_cause() const {
-    if (queue_.empty()) {
-        return Idle::Starved;
-    }
-    const TileNumber end = first_unstarted();
-    for (TileNumber tile = oldest_tile_; tile < end; ++tile) {
-        if (queue_.tile(tile).waiting() != 0) {
-            return width_limited_ ? Idle::Starved : no_room_ ? Idle::Blocked : Idle::Conflict;
-        }
-    }
-    return Idle::Blocked;
-}
-
-// The next date at which waiting segments may go, if none went at `now`; kNever if none waits.
-Cycle IssueBank::next_ready(Cycle now) const {
-    if (no_room_) {
-        return now + 1;
-    }
-    Cycle earliest = kNever;
-    const TileNumber end = first_unstarted();
-    for (TileNumber number = oldest_tile_; number < end; ++number) {
-        const SegmentQueue::Tile& tile = queue_.tile(number);
-        if (tile.waiting() != 0) {
-            earliest = std::min(earliest, queue_.next_ready(tile));
-        }
-    }
-    return earliest;
-}
-
-// The next cycle in which anything can change, if there is nothing left to do at once: a domain
-// becomes ready, an open packet has to leave, a Feature Buffer entry is freed, or a message
-// arrives.
-Cycle IssueBank::next_date(Cycle now) {
-    const Cycle next = now + 1;
-    Cycle limit = packing_.open_until();
-    const Cycle latency = packing_.next_execution(now) - now;
-    const Cycle ready = next_ready(now);
-    if (ready != kNever) {
-        limit = std::min(limit, std::max(next, ready > latency ? ready - latency : 0));
-    }
-    if (limit == next) {
-        return next; // there is work then, whatever arrives
-    }
-    std::size_t watched = 0;
-    if (!queue_.full() && !segmenter_.cutting()) {
-        bool spans_waiting = false;
-        for (DatedFifo<SpanItem>* input : inputs_) {
-            if (input->empty()) {
-                watched_[watched++] = input;
-            } else if (takes(input->front().tile)) {
-                if (input->head_date() > now) {
-                    watched_[watched++] = input;
-                } else {
-                    spans_waiting = true;
-                }
-            }
-        }
-        if (spans_waiting) { // more than a cycle's worth, or no Feature Buffer entry
-            limit = std::min(limit, features_full_ ? std::max(next, features_.next_free()) : next);
-        }
-    }
-    watched_[watched++] = terminations_;
-    // A context comes back only after this bank, too, has ended the tile that holds it.
-    if (startable_ < oldest_tile_ + contexts_) {
-        watched_[watched++] = contexts_freed_;
-    }
-    limit = self_.next_arrival(watched_.data(), watched, next, std::max(next, limit));
-    if (limit >= kNever) {
-        throw std::logic_error(std::string(name()) + ": nothing left to wait for, but tile " +
-                               std::to_string(oldest_tile_) + " is not finished");
-    }
-    return limit;
 }
 
 } // namespace degs

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
+#include <vector>
 
 #include <systemc>
 
@@ -9,6 +9,7 @@
 #include "config/statistics.hpp"
 #include "modules/array/feature_buffer.hpp"
 #include "modules/render_job.hpp"
+#include "modules/scheduler/bank_stream.hpp"
 #include "modules/scheduler/packing_unit.hpp"
 #include "modules/scheduler/segment_queue.hpp"
 #include "modules/scheduler/segmenter.hpp"
@@ -25,7 +26,10 @@ enum class TerminationGrain { Segment, Pixel };
 /// each as soon as its conflict domain (row x segment) may be updated again. Inside a domain order
 /// is kept; across domains any ready one may go. Segments of terminated regions are dropped.
 ///
-/// In cycle t the bank takes terminations and freed contexts dated <= t, accepts segments, and issues segments.
+/// In cycle t the bank takes terminations and freed contexts dated <= t, accepts segments, and
+/// issues segments. Tiles come in one stream, or in several at once: spans are then taken from the
+/// streams in turn, a tile enters when it has its context of the Pixel Buffer, and the scan rule
+/// also chooses among the streams.
 class IssueBank : public sc_core::sc_module {
 public:
     struct Config {
@@ -36,7 +40,9 @@ public:
         int issue_width = 2;        ///< segments issued per cycle
         int reuse_cycles = 4;       ///< between two updates of a pixel
         int feature_entries = 64;   ///< splats whose parameters the bank may need at once
-        int open_splats = 1;        ///< splats whose rows may arrive in turn
+        int open_splats = 1;        ///< splats of a stream whose rows may arrive in turn
+        int streams = 1;            ///< tile streams
+        int spans_per_cycle = 0;    ///< taken from the crossbar; 0: as many as can be cut
         bool scoreboard = true;
         TerminationGrain termination = TerminationGrain::Segment;
         DomainScan scan = DomainScan::RoundRobin;
@@ -60,11 +66,14 @@ public:
         }
     };
 
-    sc_core::sc_vector<FifoPort<SpanItem>> in; ///< one per Span Unit that reaches this bank
-    FifoPort<Termination> terminated;          ///< from the array slice
-    FifoPort<TileNumber> context_free;         ///< from the Pixel Buffer: tiles that may start
+    /// One per Span Unit that reaches this bank, for the first stream, for the next one, ...
+    sc_core::sc_vector<FifoPort<SpanItem>> in;
+    FifoPort<Termination> terminated; ///< from the array slice
+    /// From the Pixel Buffer, one per stream: another tile may start.
+    sc_core::sc_vector<FifoPort<TileNumber>> context_free;
 
-    /// `packing` takes what the bank issues; it must exist until the bank has finished.
+    /// `packing` takes what the bank issues; it must exist until the bank has finished. `inputs` and
+    /// `contexts` are those of a stream; stream s has the contexts from s * contexts on.
     IssueBank(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
               const RenderJob& job, PackingUnit& packing, int index, std::size_t inputs,
               int contexts);
@@ -74,57 +83,76 @@ public:
 
 private:
     static constexpr std::uint32_t kAllPixels = ~0U;
+    static constexpr std::size_t kNone = ~std::size_t{0};
+
     void end_of_elaboration() override;
     void run();
     void see_terminations();
     void see_contexts();
     void end_pixels(const Termination& message);
     std::uint32_t end_pixels(SegmentQueue::Tile& tile, int domain, std::uint32_t mask) const;
-    void enter_tile();
+
+    // Intake.
+    enum class Taken { Nothing, End, Span };
     void accept(Cycle now);
     bool open_span(Cycle now);
+    Taken take_from(BankStream& stream, Cycle now);
+    BankStream::Input* earliest_input(BankStream& stream);
+    void enter_tile(BankStream& stream, TileNumber number);
+    void take_end(BankStream& stream, Cycle now);
     bool cut_segment();
     void drop(std::uint32_t mask);
-    bool issue(Cycle now);
-    bool issue_one(Cycle now, SegmentQueue::Tile& tile);
-    bool finish_tiles();
-    Idle idle_cause() const;
-    /// The first tile that may not issue, or has nothing to issue yet.
-    TileNumber first_unstarted() const {
-        return std::min(startable_, entering_tile_ + (entered_ ? 1U : 0U));
+    bool takes(const BankStream& stream, const BankStream::Input& input) const {
+        return input.turn == stream.entering &&
+               stream.entering <
+                   (stream_count_ == 1 ? stream.oldest + tiles_in_flight_ : stream.startable);
     }
+
+    // Issue.
+    bool issue(Cycle now);
+    int issue_from(const BankStream& stream, Cycle now);
+    int issue_from_all(Cycle now);
+    int find_ready(BankStream& stream, Cycle now);
+    std::size_t choose_stream() const;
+    bool issue_one(Cycle now, SegmentQueue::Tile& tile, int domain);
+    bool finish_tiles();
+    bool finish_tiles(BankStream& stream);
+
+    // Dates.
+    Idle idle_cause() const;
     Cycle next_ready(Cycle now) const;
     Cycle next_date(Cycle now);
+    bool watch_inputs(Cycle now);
 
-    bool takes(TileNumber tile) const { return tile == entering_tile_ && in_flight(tile); }
-    bool in_flight(TileNumber tile) const {
-        return tile >= oldest_tile_ && tile < oldest_tile_ + tiles_in_flight_;
+    SegmentQueue::Tile& tile_at(const BankStream& stream, std::size_t turn) {
+        return queue_.tile(turn, stream.index);
     }
 
     Config config_;
     const RenderJob& job_;
     PackingUnit& packing_;
-    int contexts_;
-    int tiles_in_flight_;
-    bool by_pixel_; // TerminationGrain::Pixel
-    // The rings to which the ports are bound.
-    std::vector<DatedFifo<SpanItem>*> inputs_;
-    DatedFifo<Termination>* terminations_ = nullptr;
-    DatedFifo<TileNumber>* contexts_freed_ = nullptr;
+    int contexts_;        // of a stream
+    int tiles_in_flight_; // of a single stream
+    bool by_pixel_;       // TerminationGrain::Pixel
+    std::vector<BankStream> streams_;
+    std::size_t stream_count_;                       // theirs, at hand in the hot loop
+    int spans_per_cycle_;                            // that the crossbar delivers
+    bool contexts_owed_ = false;                     // a stream has fewer contexts than it may have
+    DatedFifo<Termination>* terminations_ = nullptr; // what the port is bound to
     Process self_;
     Segmenter segmenter_;
     SegmentQueue queue_;
     FeatureBuffer features_;
-    TileNumber oldest_tile_ = 0; // first tile that is not over for this bank
-    // Tiles below this number have a Pixel Buffer context; at most contexts_ beyond oldest_tile_.
-    TileNumber startable_ = 0;
-    TileNumber entering_tile_ = 0; // tile whose spans are accepted: one at a time, in order
-    bool entered_ = false;         // something of entering_tile_ has been taken
-    std::size_t ends_seen_ = 0;    // inputs that have delivered everything of entering_tile_
-    std::uint64_t sequence_ = 0;   // segments so far
-    bool no_room_ = false;         // a ready segment waits for room in the Packing Buffer
+    SegmentQueue::Tile* cut_tile_ = nullptr; // of the span that is cut
+    std::size_t next_stream_ = 0;            // whose span is taken next
+    int spans_left_ = 0;                     // that may be taken in this cycle
+    std::size_t issued_stream_ = 0;          // that issued last
+    std::vector<int> ready_;                 // by stream: a domain that may issue; -1: none
+    std::size_t tiles_done_ = 0;
+    std::uint64_t sequence_ = 0; // segments so far
+    bool no_room_ = false;       // a ready segment waits for room in the Packing Buffer
     bool width_limited_ = false;
-    bool features_full_ = false;     // the next span waits for a Feature Buffer entry
+    bool features_full_ = false;     // a span waits for a Feature Buffer entry
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
     Stats stats_;
 };

@@ -64,7 +64,7 @@ void PackingUnit::open_packet(Process& bank) {
     ends_tile_ = false;
 }
 
-void PackingUnit::end_tile(Process& bank, TileNumber tile) {
+void PackingUnit::end_tile(Process& bank, TileNumber tile, std::int16_t context) {
     // An open packet may hold the tile's last tasks and stays open for the next tile's; it can
     // carry one end. Without one, the end travels alone and costs the array nothing.
     if (open() && ends_tile_) {
@@ -75,6 +75,7 @@ void PackingUnit::end_tile(Process& bank, TileNumber tile) {
     }
     TaskPacket& packet = ring_->staged();
     packet.ended_tile = tile;
+    packet.ended_context = context;
     if (open()) {
         ends_tile_ = true;
     } else {

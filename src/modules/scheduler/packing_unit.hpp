@@ -52,8 +52,9 @@ public:
     /// Packs those tasks of a segment that `mask` names, at least one; returns the execution date
     /// of the last one.
     Cycle add(Process& bank, const TaskRun& run, std::uint32_t mask);
-    /// Sends the end of `tile`: the bank has nothing more for it.
-    void end_tile(Process& bank, TileNumber tile);
+    /// Sends the end of `tile`, which lies in `context` of the Pixel Buffer: the bank has nothing
+    /// more for it.
+    void end_tile(Process& bank, TileNumber tile, std::int16_t context);
     /// True if an open packet must go at `now`.
     bool due(Cycle now) const { return open_until_ <= now; }
     /// Hands over an open packet whose time has come, its empty slots accounted for by `cause`. Call

@@ -4,10 +4,14 @@
 #include <algorithm>
 
 namespace degs {
-SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan)
+
+SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan,
+                           int streams)
     : domains_(domains_per_tile), words_((domains_per_tile + 63) / 64), scan_(scan),
-      entries_(depth) {
-    add_tiles(tiles_in_flight);
+      entries_(depth), rings_(streams) {
+    for (Ring& ring : rings_) {
+        add_tiles(ring, tiles_in_flight);
+    }
     for (int i = depth - 1; i >= 0; --i) {
         Entry& entry = entries_[i];
         entry.next = free_;
@@ -15,7 +19,7 @@ SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile,
     }
 }
 
-void SegmentQueue::add_tiles(std::size_t count) {
+void SegmentQueue::add_tiles(Ring& ring, std::size_t count) {
     const std::size_t sets = words_ * (2 + kWheel);
     const std::size_t domains = domains_;
     Block& block = blocks_.emplace_back();
@@ -23,7 +27,7 @@ void SegmentQueue::add_tiles(std::size_t count) {
     block.keys.resize(count * domains);
     block.lists.resize(count * domains);
     for (std::size_t t = 0; t < count; ++t) {
-        Tile& tile = tiles_.emplace_back();
+        Tile& tile = ring.tiles.emplace_back();
         tile.lists_ = &block.lists[t * domains];
         tile.keys_ = &block.keys[t * domains];
         tile.occupied_ = &block.bits[t * sets];
@@ -31,16 +35,16 @@ void SegmentQueue::add_tiles(std::size_t count) {
         tile.wheel_ = tile.occupied_ + 2 * words_;
         clear_lists(tile);
     }
-    tile_mask_ = tiles_.size() - 1;
+    ring.mask = ring.tiles.size() - 1;
 }
 
-// Those in flight go to where their number says.
-void SegmentQueue::double_tiles(std::size_t oldest) {
-    const std::size_t before = tiles_.size();
-    add_tiles(before);
-    for (std::size_t number = oldest; number < oldest + before; ++number) {
-        Tile& home = tiles_[number & tile_mask_];
-        Tile& from = tiles_[number & (before - 1)];
+// Those in flight go to where their turn says.
+void SegmentQueue::double_tiles(Ring& ring, std::size_t oldest) {
+    const std::size_t before = ring.tiles.size();
+    add_tiles(ring, before);
+    for (std::size_t turn = oldest; turn < oldest + before; ++turn) {
+        Tile& home = ring.at(turn);
+        Tile& from = ring.tiles[turn & (before - 1)];
         if (&home != &from) {
             std::swap(home, from);
         }
@@ -105,14 +109,14 @@ void SegmentQueue::turn_wheel(Tile& tile, Cycle date) const {
     } while (turned < date);
 }
 
-int SegmentQueue::pick(Tile& tile, Cycle date) const {
+int SegmentQueue::find(Tile& tile, Cycle date) const {
     turn_wheel(tile, date);
-    return scan_ == DomainScan::RoundRobin ? pick_next(tile) : pick_least(tile);
+    return scan_ == DomainScan::RoundRobin ? find_next(tile) : find_least(tile);
 }
 
 // The ready domain of the smallest key. Selected without branches, which would be
 // mispredicted half the time.
-int SegmentQueue::pick_least(const Tile& tile) const {
+int SegmentQueue::find_least(const Tile& tile) const {
     std::uint64_t best_key = ~std::uint64_t{0};
     int best = -1;
     for (std::size_t w = 0; w < words_; ++w) {
@@ -127,8 +131,7 @@ int SegmentQueue::pick_least(const Tile& tile) const {
 }
 
 // The first ready domain from the cursor on, round the end if need be.
-int SegmentQueue::pick_next(Tile& tile) const {
-    int domain = -1;
+int SegmentQueue::find_next(const Tile& tile) const {
     if (words_ == 1) { // as a rule: then without a branch that depends on the data
         const unsigned cursor = tile.cursor_;
         const std::uint64_t bits = tile.ready(0);
@@ -136,21 +139,15 @@ int SegmentQueue::pick_next(Tile& tile) const {
             return -1;
         }
         const std::uint64_t rotated = bits >> cursor | bits << ((64 - cursor) % 64);
-        domain = (__builtin_ctzll(rotated) + cursor) % 64;
-    } else {
-        std::size_t w = word_of(tile.cursor_);
-        std::uint64_t bits = tile.ready(w) & ~(bit_of(tile.cursor_) - 1);
-        for (std::size_t step = 0; bits == 0 && step < words_; ++step) {
-            w = w + 1 < words_ ? w + 1 : 0;
-            bits = tile.ready(w); // last the cursor's word, where nothing is left above the cursor
-        }
-        if (bits == 0) {
-            return -1;
-        }
-        domain = first_of(w, bits);
+        return static_cast<int>((__builtin_ctzll(rotated) + cursor) % 64);
     }
-    tile.cursor_ = domain + 1 < domains_ ? domain + 1 : 0;
-    return domain;
+    std::size_t w = word_of(tile.cursor_);
+    std::uint64_t bits = tile.ready(w) & ~(bit_of(tile.cursor_) - 1);
+    for (std::size_t step = 0; bits == 0 && step < words_; ++step) {
+        w = w + 1 < words_ ? w + 1 : 0;
+        bits = tile.ready(w); // last the cursor's word, where nothing is left above the cursor
+    }
+    return bits == 0 ? -1 : first_of(w, bits);
 }
 
 Cycle SegmentQueue::next_ready(const Tile& tile) const {
@@ -188,6 +185,7 @@ void SegmentQueue::clear(Tile& tile) const {
     clear_lists(tile);
     release_all(tile);
     tile.cursor_ = 0;
+    tile.number_ = kNoTile;
 }
 
 } // namespace degs

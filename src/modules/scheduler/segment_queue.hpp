@@ -23,7 +23,8 @@ enum class DomainScan { RoundRobin, Oldest, Deepest };
 
 /// The waiting segments of one bank: one first-in-first-out list per conflict domain (row x segment
 /// of a tile in flight), all sharing one pool of entries. Keeps, per domain, the pixels that have
-/// ended and the date from which the array may touch it again (the scoreboard).
+/// ended and the date from which the array may touch it again (the scoreboard). Tiles in flight
+/// belong to tile streams, in each of which they are numbered by their turn.
 class SegmentQueue {
     struct Entry {
         Segment segment;
@@ -41,6 +42,12 @@ public:
     /// The part of a tile in flight. Bit sets run over domains, words_ words each.
     class Tile {
     public:
+        void name(TileNumber number, std::int16_t context) {
+            number_ = number;
+            context_ = context;
+        }
+        TileNumber number() const { return number_; }     ///< kNoTile: none
+        std::int16_t context() const { return context_; } ///< of the Pixel Buffer
         /// Segments that wait, in all domains.
         std::size_t waiting() const { return waiting_; }
         bool has_waiting(int domain) const { return lists_[domain].head != nullptr; }
@@ -59,6 +66,8 @@ public:
         friend class SegmentQueue;
         std::uint64_t ready(std::size_t word) const { return occupied_[word] & ~cooling_[word]; }
 
+        TileNumber number_ = kNoTile;
+        std::int16_t context_ = 0;
         std::size_t waiting_ = 0;
         int cursor_ = 0;        // domain after the last that was picked
         Cycle turned_ = 0;      // the wheel has released everything up to this date
@@ -70,21 +79,24 @@ public:
         std::uint64_t* wheel_ = nullptr;    // kWheel sets: released at date mod kWheel
     };
 
-    /// `tiles_in_flight`: a power of two; see hold().
-    SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan);
+    /// `tiles_in_flight`: of each stream, a power of two; see hold().
+    SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile, DomainScan scan,
+                 int streams = 1);
     SegmentQueue(const SegmentQueue&) = delete; // tiles and entries point at each other
     SegmentQueue& operator=(const SegmentQueue&) = delete;
 
-    /// Makes room for the tiles `oldest` .. `latest` together; all others have been cleared.
-    /// Invalidates references to tiles.
-    void hold(std::size_t oldest, std::size_t latest) {
-        while (latest - oldest > tile_mask_) {
-            double_tiles(oldest);
+    /// Makes room for the turns `oldest` .. `latest` of a stream together; all others of the stream
+    /// have been cleared. Invalidates references to its tiles.
+    void hold(std::size_t oldest, std::size_t latest, std::size_t stream = 0) {
+        while (latest - oldest >= rings_[stream].tiles.size()) {
+            double_tiles(rings_[stream], oldest);
         }
     }
-    /// The part of tile `number`; tiles a multiple of tiles_in_flight apart share one.
-    Tile& tile(std::size_t number) { return tiles_[number & tile_mask_]; }
-    const Tile& tile(std::size_t number) const { return tiles_[number & tile_mask_]; }
+    /// The part of a stream's tile; turns a multiple of tiles_in_flight apart share one.
+    Tile& tile(std::size_t turn, std::size_t stream = 0) { return rings_[stream].at(turn); }
+    const Tile& tile(std::size_t turn, std::size_t stream = 0) const {
+        return rings_[stream].at(turn);
+    }
 
     bool full() const { return free_ == nullptr; }
     bool empty() const { return size_ == 0; }
@@ -101,7 +113,22 @@ public:
 
     /// A domain of `tile` that has a segment and may execute at `date`, chosen by the scan rule; -1
     /// if none. Dates of successive calls do not fall.
-    int pick(Tile& tile, Cycle date) const;
+    int pick(Tile& tile, Cycle date) const {
+        const int domain = find(tile, date);
+        took(tile, domain);
+        return domain;
+    }
+    /// The same for a caller that chooses among tiles and calls took() for the one that it takes.
+    int find(Tile& tile, Cycle date) const;
+    /// RoundRobin goes on behind the domain; -1: none was found.
+    void took(Tile& tile, int domain) const {
+        if (scan_ == DomainScan::RoundRobin && domain >= 0) {
+            tile.cursor_ = domain + 1 < domains_ ? domain + 1 : 0;
+        }
+    }
+    /// Of the domains that find() returned for several tiles, the one with the smallest key goes
+    /// first; not for RoundRobin.
+    static std::uint64_t key_of(const Tile& tile, int domain) { return tile.keys_[domain]; }
     /// Earliest date at which a waiting domain of `tile` becomes ready; kNever if none is cooling.
     Cycle next_ready(const Tile& tile) const;
     static constexpr int kWheel = 128;
@@ -117,13 +144,20 @@ private:
                    ? head_sequence | std::uint64_t{~length & 0xFFFFU} << kSequenceBits
                    : head_sequence;
     }
-    void add_tiles(std::size_t count);
-    void double_tiles(std::size_t oldest);
+    /// The tiles of a stream.
+    struct Ring {
+        std::vector<Tile> tiles; // as many as a power of two
+        std::size_t mask = 0;
+        Tile& at(std::size_t turn) { return tiles[turn & mask]; }
+        const Tile& at(std::size_t turn) const { return tiles[turn & mask]; }
+    };
+    void add_tiles(Ring& ring, std::size_t count);
+    void double_tiles(Ring& ring, std::size_t oldest);
     void clear_lists(Tile& tile) const;
     void release_all(Tile& tile) const;
     void turn_wheel(Tile& tile, Cycle date) const;
-    int pick_next(Tile& tile) const;
-    int pick_least(const Tile& tile) const;
+    int find_next(const Tile& tile) const;
+    int find_least(const Tile& tile) const;
     static std::uint64_t bit_of(int domain) { return std::uint64_t{1} << (domain % 64U); }
     static std::size_t word_of(std::size_t domain) { return domain / 64; }
     /// The first domain that is set in word `word` of a set, which is `bits`.
@@ -140,13 +174,13 @@ private:
     };
 
     int domains_;
-    std::size_t words_, tile_mask_ = 0;
+    std::size_t words_;
     DomainScan scan_;
     std::vector<Block> blocks_;
     std::vector<Entry> entries_;
     Entry* free_ = nullptr; // first of the list of free entries
     std::size_t size_ = 0;
-    std::vector<Tile> tiles_;
+    std::vector<Ring> rings_; // by stream
 };
 
 // Inlined in the hot loop, because a call costs as much as the work.

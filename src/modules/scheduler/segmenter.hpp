@@ -20,8 +20,7 @@ public:
     };
 
     /// For bank `index` of `banks`, which owns every row y with y mod banks = index.
-    Segmenter(int tile_size, int length, int index, int banks, int contexts)
-        : length_(length), contexts_(contexts) {
+    Segmenter(int tile_size, int length, int index, int banks) : length_(length) {
         const int per_row = (tile_size + length - 1) / length;
         for (int i = 0; i < tile_size; ++i) {
             first_domain_of_row_.push_back(i / banks * per_row);
@@ -43,8 +42,9 @@ public:
         return first_domain_of_row_[row] + segment_of_column_[column];
     }
 
-    /// Begins with a span; the end of a tile is not one.
-    void start(const SpanItem& item) {
+    /// Begins with a span; the end of a tile is not one. `context` of the Pixel Buffer holds its
+    /// tile.
+    void start(const SpanItem& item, std::int16_t context) {
         const RowSpan& span = *item.span;
         const int first = segment_of_column_[span.x0];
         column_ = first * length_;
@@ -56,10 +56,8 @@ public:
         d0_ = span.d0;
         splat_ = span.splat;
         row_ = span.y;
-        if (tile_ != item.tile) {
-            tile_ = item.tile;
-            context_ = context_in_turn(item.tile, contexts_);
-        }
+        tile_ = item.tile;
+        context_ = context;
     }
     /// True if a segment of the span is left.
     bool cutting() const { return column_ < end_; }
@@ -89,7 +87,7 @@ public:
     }
 
 private:
-    int length_, contexts_;
+    int length_;
     // Tables replace divisions in the hot loop.
     std::vector<Domain> domains_;
     std::vector<int> first_domain_of_row_, segment_of_column_;

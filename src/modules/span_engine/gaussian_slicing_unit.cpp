@@ -16,6 +16,9 @@ void GaussianSlicingUnit::Config::describe(ConfigVisitor& visitor) {
         "count", count, 1, 64,
         "units (paper Table II: 1, 2, 4, 8); divides the Span Units unless they share out the "
         "splats");
+    visitor.integer("interleave", interleave, 1, 16,
+                    "tile streams: tiles that are sliced and blended at once, each with as many of "
+                    "the units; the paper shows overlapping tiles but no rule, so 1 [assumed]");
     visitor.integer("rows_per_cycle", rows_per_cycle, 1, 64,
                     "scanlines per unit and cycle; 8 x 2 units keep 8 Span Units fed although a "
                     "splat's last cycle is rarely full [assumed]");
@@ -68,7 +71,7 @@ void GaussianSlicingUnit::end_of_elaboration() {
 }
 
 void GaussianSlicingUnit::run() {
-    for (TileNumber number = 0; !job_.over(number); ++number) {
+    for (TileNumber number = tile_after(kNoTile); number != kNoTile; number = tile_after(number)) {
         slice_tile(number);
         RowItem end;
         end.tile = number;
@@ -78,6 +81,15 @@ void GaussianSlicingUnit::run() {
         }
     }
     self_.finish();
+}
+
+// kNoTile: there is no next tile, or, as an argument, none before.
+TileNumber GaussianSlicingUnit::tile_after(TileNumber number) {
+    if (config_.granted()) {
+        return in[0]->arrive(self_).tile;
+    }
+    const TileNumber next = number + 1; // 0 after kNoTile
+    return job_.over(next) ? kNoTile : next;
 }
 
 void GaussianSlicingUnit::slice_tile(TileNumber number) {

@@ -29,6 +29,9 @@ enum class SliceDistribution { Broadcast, BroadcastSkip, Splats };
 /// they send a row only when every older splat in work has passed that row, in the same cycle at the
 /// earliest [assumed]. A full lane of the Span Buffer stops all units of the module.
 ///
+/// With several tile streams every stream has units of its own, which share its tiles in the same
+/// way; these are granted one by one.
+///
 /// Drops the splats of a cancelled tile, a chunk per cycle. With skip_dead_rows (not in the paper)
 /// the array also reports rows whose pixels have all ended; they are masked out, sampled once per
 /// chunk.
@@ -36,6 +39,7 @@ class GaussianSlicingUnit : public sc_core::sc_module {
 public:
     struct Config {
         int count = 2;            ///< units
+        int interleave = 1;       ///< tile streams, each with as many of the units
         int rows_per_cycle = 8;   ///< scanlines emitted per unit and cycle
         int splats_per_cycle = 1; ///< splats that a unit takes per cycle at most
         SliceDistribution distribution = SliceDistribution::Broadcast;
@@ -43,9 +47,13 @@ public:
         bool skip_dead_rows = false; ///< leave out rows whose pixels have all ended
         int feedback_cycles = 8;     ///< from the last pixel's end to the units that skip its row
         void describe(ConfigVisitor& visitor);
-        /// Modules among which the rows are dealt; each has units_per_module() units.
-        int modules() const { return distribution == SliceDistribution::Splats ? 1 : count; }
-        int units_per_module() const { return count / modules(); }
+        /// Modules of a stream, among which the rows are dealt; each has units_per_module() units.
+        int modules() const {
+            return distribution == SliceDistribution::Splats ? 1 : count / interleave;
+        }
+        int units_per_module() const { return count / interleave / modules(); }
+        /// Tiles are granted to streams; a single stream takes all.
+        bool granted() const { return interleave > 1; }
     };
     struct Stats {
         Cycle busy = 0;
@@ -60,13 +68,16 @@ public:
         }
     };
 
-    sc_core::sc_vector<FifoPort<SplatChunk>> in; ///< Gaussian Buffer, one per Sorting Unit
-    FifoPort<TileNumber> cancel;                 ///< from the Tile Monitor
-    sc_core::sc_vector<FifoPort<RowItem>> out;   ///< Span Buffer lanes of this unit's rows
+    /// Gaussian Buffer: one per Sorting Unit, tile t from port t modulo their number; or that of
+    /// the stream, whose tiles come one after another until kNoTile.
+    sc_core::sc_vector<FifoPort<SplatChunk>> in;
+    FifoPort<TileNumber> cancel;               ///< from the Tile Monitor
+    sc_core::sc_vector<FifoPort<RowItem>> out; ///< Span Buffer lanes of this unit's rows
     /// From the array slices that share a row with this unit; empty unless skip_dead_rows.
     sc_core::sc_vector<FifoPort<RegionEnded>> region_ended;
 
-    /// `lanes`: Span Units in all; module `index` feeds lanes index, index + modules(), ...
+    /// Module `index` of a stream with `lanes` lanes feeds lanes index, index + modules(), ... Row y
+    /// goes to lane y modulo the lanes.
     GaussianSlicingUnit(const sc_core::sc_module_name& name, const Config& config,
                         const Timebase& time, const RenderJob& job, int index, std::size_t inputs,
                         int lanes, std::size_t slices, int segment_length);
@@ -86,6 +97,7 @@ private:
 
     void end_of_elaboration() override;
     void run();
+    TileNumber tile_after(TileNumber number);
     void slice_tile(TileNumber number);
     bool more_splats(TileNumber number);
     void deal(TileNumber number);

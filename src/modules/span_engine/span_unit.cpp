@@ -1,38 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/span_engine/span_unit.hpp"
 
-#include <new>
-
 #include "modules/row_map.hpp"
 
 namespace degs {
 
-void SpanUnit::Config::describe(ConfigVisitor& visitor) {
-    visitor.integer("count", count, 1, 256, "units (paper Table II: 4, 8, 16, 32)");
-    visitor.integer("cycles_per_row", cycles_per_row, 1, 64,
-                    "cycles per scanline and unit [assumed]");
-    visitor.integer("latency_cycles", latency_cycles, 1, 256,
-                    "cycles from row item to Span Vector: dy, square, LUT, two sums [assumed]");
-    visitor.integer(
-        "crossbar_depth", crossbar_depth, 1, 1024,
-        "Span Vectors that wait between a unit and a bank; those in the pipeline have its "
-        "registers [assumed]");
-}
-
 SpanUnit::SpanUnit(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                    const RenderJob& job, int index, int banks)
-    : sc_core::sc_module(name), in("in"), out("out", reachable(index, config.count, banks)),
-      config_(config), job_(job), self_(time) {
-    std::vector<std::size_t> port_of_bank(banks, 0);
-    std::size_t port = 0;
-    for (int bank = 0; bank < banks; ++bank) {
-        if (shares_row(index, config.count, bank, banks)) {
-            port_of_bank[bank] = port++;
-        }
-    }
-    for (int row = 0; row < job.tile_size; ++row) {
-        port_of_row_.push_back(port_of_bank[row % banks]);
-    }
+    : SpanStage(name, config, job, 1, reachable(index, config.count, banks)), self_(time),
+      port_of_row_(ports_of_rows(job.tile_size, index, config.count, banks)) {
     SC_HAS_PROCESS(SpanUnit);
     if (self_.strict()) {
         SC_THREAD(run);
@@ -40,7 +16,7 @@ SpanUnit::SpanUnit(const sc_core::sc_module_name& name, const Config& config, co
 }
 
 void SpanUnit::end_of_elaboration() {
-    rows_ = &in.ring();
+    rows_ = &in[0].ring();
     rows_->connect_reader(self_);
     if (!self_.strict()) {
         self_.pump_with(*this, *rows_);
@@ -83,22 +59,11 @@ void SpanUnit::take() {
     next_port_ = port_of_row_[row];
     DatedFifo<SpanItem>& ring = *rings_[next_port_];
     holding_ = ring.full();
-    SpanItem& result = holding_ ? held_ : ring.staged();
-    const JobTile& tile = job_.tiles[tile_number];
-    const auto& span = *new (&result.span) std::optional<RowSpan>(
-        job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y));
-    stats_.rows++;
     stats_.busy += config_.cycles_per_row;
-    if (!span) {
-        stats_.empty_rows++;
+    if (!solve(tile_number, splat, row, holding_ ? held_ : ring.staged())) {
         holding_ = false;
         self_.advance(config_.cycles_per_row);
-        return;
-    }
-    result.tile = tile_number;
-    stats_.spans++;
-    stats_.tasks += span->length;
-    if (!holding_) {
+    } else if (!holding_) {
         ring.reserve(self_);
         ring.put_staged(self_);
         self_.advance(config_.cycles_per_row);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/span_engine/tile_monitor.hpp"
 
+#include <algorithm>
+
 namespace degs {
 
 void TileMonitor::Config::describe(ConfigVisitor& visitor) {
@@ -30,31 +32,51 @@ void TileMonitor::end_of_elaboration() {
 }
 
 void TileMonitor::run() {
-    while ((granted_ || !job_.over(stats_.tiles)) && watch_tile()) {
+    std::uint64_t rounds = 0;
+    while ((granted_ || !job_.over(rounds)) && take_reports()) {
+        ++rounds;
     }
     self_.finish();
 }
 
-// False: there are no more tiles.
-bool TileMonitor::watch_tile() {
-    bool all_ended = true;
-    TileNumber number = kNoTile;
+// One report of every slice; false: there are no more. Slices may end tiles in different orders.
+bool TileMonitor::take_reports() {
     for (auto& port : in) {
         const SliceReport report = port->get(self_);
-        number = report.tile;
-        all_ended = report.all_ended && all_ended;
+        if (report.tile == kNoTile) {
+            return false;
+        }
+        Watched& tile = watched(report.tile);
+        tile.reports++;
+        tile.all_ended = tile.all_ended && report.all_ended;
     }
-    if (number == kNoTile) {
-        return false;
-    }
-    stats_.tiles++;
-    if (all_ended && config_.cancel) {
-        stats_.tiles_cancelled++;
-        for (auto& port : out) {
-            port->put(self_, number);
+    const auto complete = [this](const Watched& tile) { return tile.reports == in.size(); };
+    for (const Watched& tile : watched_) {
+        if (complete(tile)) {
+            end_tile(tile);
         }
     }
+    watched_.erase(std::remove_if(watched_.begin(), watched_.end(), complete), watched_.end());
     return true;
+}
+
+TileMonitor::Watched& TileMonitor::watched(TileNumber number) {
+    for (Watched& tile : watched_) {
+        if (tile.number == number) {
+            return tile;
+        }
+    }
+    return watched_.emplace_back(Watched{number, 0, true});
+}
+
+void TileMonitor::end_tile(const Watched& tile) {
+    stats_.tiles++;
+    if (tile.all_ended && config_.cancel) {
+        stats_.tiles_cancelled++;
+        for (auto& port : out) {
+            port->put(self_, tile.number);
+        }
+    }
 }
 
 } // namespace degs

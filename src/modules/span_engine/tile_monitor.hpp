@@ -36,12 +36,21 @@ public:
 private:
     void end_of_elaboration() override;
     void run();
-    bool watch_tile();
+    /// A tile that some slices have reported.
+    struct Watched {
+        TileNumber number;
+        std::size_t reports;
+        bool all_ended; ///< in all slices that have reported
+    };
+    bool take_reports();
+    Watched& watched(TileNumber number);
+    void end_tile(const Watched& tile);
 
     Config config_;
     const RenderJob& job_;
     bool granted_;
     Process self_;
+    std::vector<Watched> watched_;
     Stats stats_;
 };
 

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which segments a bank issues, and the date at which it has something to do again.
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "modules/scheduler/issue_bank.hpp"
+
+namespace degs {
+
+// False if the Packing Buffer has no room for the head of the domain. Inlined in the hot loop.
+inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile,
+                                                                int domain) {
+    const Segment& segment = tile.front(domain);
+    const std::uint32_t mask = segment.run.task.mask;
+    const std::uint32_t wanted = mask & tile.live(domain);
+    const int tasks = __builtin_popcount(wanted);
+    if (!packing_.room(now, tasks)) {
+        no_room_ = true;
+        return false;
+    }
+    Cycle last = now;
+    if (tasks != 0) {
+        last = packing_.add(self_, segment.run, wanted) + config_.reuse_cycles;
+        if (config_.scoreboard) {
+            queue_.set_ready_at(tile, domain, last);
+        }
+    }
+    stats_.segments_issued++;
+    stats_.tasks_issued += tasks;
+    stats_.tasks_dropped += __builtin_popcount(mask) - tasks;
+    features_.release(segment.feature, last);
+    queue_.pop(tile, domain);
+    return true;
+}
+
+// True if anything was issued.
+bool IssueBank::issue(Cycle now) {
+    no_room_ = false;
+    const int issued = stream_count_ == 1 ? issue_from(streams_.front(), now) : issue_from_all(now);
+    width_limited_ = issued == config_.issue_width;
+    stats_.busy += issued != 0 ? 1 : 0;
+    return issued != 0;
+}
+
+// The older tile goes first. Returns the number of segments issued.
+int IssueBank::issue_from(const BankStream& stream, Cycle now) {
+    int issued = 0;
+    const std::size_t end = stream.first_unstarted();
+    for (std::size_t turn = stream.oldest; turn < end; ++turn) {
+        SegmentQueue::Tile& tile = tile_at(stream, turn);
+        while (tile.waiting() != 0) {
+            const int domain = queue_.pick(tile, packing_.next_execution(now));
+            if (domain < 0 || !issue_one(now, tile, domain)) {
+                break;
+            }
+            if (++issued == config_.issue_width) {
+                return issued;
+            }
+        }
+    }
+    return issued;
+}
+
+// One of the streams after the other; a domain that was found stays ready until it is issued.
+int IssueBank::issue_from_all(Cycle now) {
+    std::fill(ready_.begin(), ready_.end(), -1);
+    int issued = 0;
+    while (issued < config_.issue_width) {
+        for (BankStream& stream : streams_) {
+            if (ready_[stream.index] < 0) {
+                stream.issuing = stream.oldest;
+                ready_[stream.index] = find_ready(stream, now);
+            }
+        }
+        const std::size_t chosen = choose_stream();
+        if (chosen == kNone) {
+            break;
+        }
+        SegmentQueue::Tile& tile = tile_at(streams_[chosen], streams_[chosen].issuing);
+        if (!issue_one(now, tile, ready_[chosen])) {
+            break; // there is no room for anybody
+        }
+        queue_.took(tile, ready_[chosen]);
+        ready_[chosen] = -1;
+        issued_stream_ = chosen;
+        ++issued;
+    }
+    return issued;
+}
+
+// A domain of the stream that may issue, in its oldest tile from `issuing` on that has one; -1: none.
+int IssueBank::find_ready(BankStream& stream, Cycle now) {
+    const std::size_t end = stream.first_unstarted();
+    for (; stream.issuing < end; ++stream.issuing) {
+        SegmentQueue::Tile& tile = tile_at(stream, stream.issuing);
+        const int domain =
+            tile.waiting() == 0 ? -1 : queue_.find(tile, packing_.next_execution(now));
+        if (domain >= 0) {
+            return domain;
+        }
+    }
+    return -1;
+}
+
+// The stream whose ready domain goes first by the scan rule.
+std::size_t IssueBank::choose_stream() const {
+    std::size_t chosen = kNone;
+    std::uint64_t least = ~std::uint64_t{0};
+    for (std::size_t i = 0; i < streams_.size(); ++i) {
+        // In turn, the stream that issued last at the end.
+        const std::size_t s = (issued_stream_ + 1 + i) % streams_.size();
+        if (ready_[s] < 0) {
+            continue;
+        }
+        if (config_.scan == DomainScan::RoundRobin) {
+            return s;
+        }
+        const std::uint64_t key =
+            SegmentQueue::key_of(queue_.tile(streams_[s].issuing, s), ready_[s]);
+        if (key < least) {
+            least = key;
+            chosen = s;
+        }
+    }
+    return chosen;
+}
+
+// True if a tile has ended.
+bool IssueBank::finish_tiles() {
+    bool finished = false;
+    for (BankStream& stream : streams_) {
+        finished = finish_tiles(stream) || finished;
+    }
+    return finished;
+}
+
+bool IssueBank::finish_tiles(BankStream& stream) {
+    const std::size_t before = stream.oldest;
+    while (stream.oldest < stream.entering && stream.oldest < stream.startable) {
+        SegmentQueue::Tile& tile = tile_at(stream, stream.oldest);
+        if (tile.waiting() != 0 || (segmenter_.cutting() && cut_tile_ == &tile)) {
+            break;
+        }
+        packing_.end_tile(self_, tile.number(), tile.context());
+        queue_.clear(tile);
+        ++stream.oldest;
+        ++tiles_done_;
+        contexts_owed_ = true;
+    }
+    return stream.oldest != before;
+}
+
+Idle IssueBank::idle_cause() const {
+    if (queue_.empty()) {
+        return Idle::Starved;
+    }
+    for (const BankStream& stream : streams_) {
+        const std::size_t end = stream.first_unstarted();
+        for (std::size_t turn = stream.oldest; turn < end; ++turn) {
+            if (queue_.tile(turn, stream.index).waiting() != 0) {
+                return width_limited_ ? Idle::Starved : no_room_ ? Idle::Blocked : Idle::Conflict;
+            }
+        }
+    }
+    return Idle::Blocked;
+}
+
+// The next date at which waiting segments may go, if none went at `now`; kNever if none waits.
+Cycle IssueBank::next_ready(Cycle now) const {
+    if (no_room_) {
+        return now + 1;
+    }
+    Cycle earliest = kNever;
+    for (const BankStream& stream : streams_) {
+        const std::size_t end = stream.first_unstarted();
+        for (std::size_t turn = stream.oldest; turn < end; ++turn) {
+            const SegmentQueue::Tile& tile = queue_.tile(turn, stream.index);
+            if (tile.waiting() != 0) {
+                earliest = std::min(earliest, queue_.next_ready(tile));
+            }
+        }
+    }
+    return earliest;
+}
+
+// Watches the inputs from which the next span may come. True if one of them has a span by now.
+bool IssueBank::watch_inputs(Cycle now) {
+    bool waiting = false;
+    for (const BankStream& stream : streams_) {
+        for (const BankStream::Input& input : stream.inputs) {
+            if (input.ring->empty()) {
+                watched_.push_back(input.ring);
+            } else if (takes(stream, input)) {
+                if (input.ring->head_date() > now) {
+                    watched_.push_back(input.ring);
+                } else {
+                    waiting = true;
+                }
+            }
+        }
+    }
+    return waiting;
+}
+
+// The next cycle in which anything can change, if there is nothing left to do at once: a domain
+// becomes ready, an open packet has to leave, a Feature Buffer entry is freed, or a message
+// arrives.
+Cycle IssueBank::next_date(Cycle now) {
+    const Cycle next = now + 1;
+    Cycle limit = packing_.open_until();
+    const Cycle latency = packing_.next_execution(now) - now;
+    const Cycle ready = next_ready(now);
+    if (ready != kNever) {
+        limit = std::min(limit, std::max(next, ready > latency ? ready - latency : 0));
+    }
+    if (limit == next) {
+        return next; // there is work then, whatever arrives
+    }
+    watched_.clear();
+    if (!queue_.full() && !segmenter_.cutting() && watch_inputs(now)) {
+        // More than a cycle's worth, or no Feature Buffer entry.
+        const bool entries_only = features_full_ && stream_count_ == 1;
+        limit = std::min(limit, entries_only ? std::max(next, features_.next_free()) : next);
+    }
+    watched_.push_back(terminations_);
+    for (const BankStream& stream : streams_) {
+        if (stream.startable < stream.oldest + contexts_) {
+            watched_.push_back(stream.contexts_freed);
+        }
+    }
+    limit = self_.next_arrival(watched_.data(), watched_.size(), next, std::max(next, limit));
+    if (limit >= kNever) {
+        throw std::logic_error(std::string(name()) + ": nothing left to wait for, but after " +
+                               std::to_string(tiles_done_) + " tiles there is another one");
+    }
+    return limit;
+}
+
+} // namespace degs

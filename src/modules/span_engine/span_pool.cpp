@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/span_engine/span_pool.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "modules/row_map.hpp"
+
+namespace degs {
+
+SpanPool::SpanPool(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+                   const RenderJob& job, const Share& share)
+    : SpanStage(name, config, job, std::size_t{1} * share.streams * share.lanes,
+                share.streams * reachable(share.index, share.of, share.banks)),
+      self_(time), share_(share),
+      port_of_row_(ports_of_rows(job.tile_size, share.index, share.of, share.banks)),
+      streams_(share.streams), free_from_(share.units, 0) {
+    SC_HAS_PROCESS(SpanPool);
+    SC_THREAD(run);
+}
+
+void SpanPool::end_of_elaboration() {
+    for (auto& port : in) {
+        port->connect_reader(self_);
+        lanes_.push_back({&port.ring(), lanes_.size() / share_.lanes, 0});
+    }
+    const std::size_t ports = out.size() / streams_.size();
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        streams_[i / ports].rings.push_back(&out[i].ring());
+        out[i]->connect_writer(self_);
+    }
+    watched_.reserve(lanes_.size());
+}
+
+void SpanPool::run() {
+    while (!job_.over(tiles_done_)) {
+        waiting_ = false;
+        for (Lane& lane : lanes_) {
+            take_ends(lane);
+        }
+        take_rows();
+        self_.advance_to(job_.over(tiles_done_) ? self_.local() : next_date());
+    }
+    self_.finish();
+}
+
+// Every free unit takes up to rows_per_cycle rows, from the lanes in turn.
+void SpanPool::take_rows() {
+    const Cycle now = self_.local();
+    for (Cycle& free_from : free_from_) {
+        if (free_from > now) {
+            continue;
+        }
+        int taken = 0;
+        std::size_t in_vain = 0; // lanes since the last row
+        while (taken < config_.rows_per_cycle && in_vain < lanes_.size()) {
+            Lane& lane = lanes_[next_lane_];
+            next_lane_ = next_lane_ + 1 == lanes_.size() ? 0 : next_lane_ + 1;
+            const bool took = take_from(lane);
+            taken += took ? 1 : 0;
+            in_vain = took ? 0 : in_vain + 1;
+        }
+        if (taken != 0) {
+            free_from = now + config_.cycles_per_row;
+            stats_.busy += config_.cycles_per_row;
+        }
+    }
+}
+
+// True if the lane had a row whose bank has a place for its Span Vector.
+bool SpanPool::take_from(Lane& lane) {
+    take_ends(lane);
+    if (!sees_row(lane)) {
+        return false;
+    }
+    const RowItem item = lane.rows->front();
+    DatedFifo<SpanItem>& ring = *streams_[lane.stream].rings[port_of_row_[item.row]];
+    if (!ring.has_room(self_)) {
+        waiting_ = true;
+        return false;
+    }
+    ring.reserve(self_);
+    lane.rows->drop(self_);
+    if (solve(item.tile, item.splat, item.row, ring.staged())) {
+        ring.put_staged(self_);
+    }
+    return true;
+}
+
+// A lane does not run ahead of the other lanes of its stream: tiles end in all of them together.
+bool SpanPool::sees_row(Lane& lane) {
+    return lane.turn == streams_[lane.stream].turn && self_.arrived(*lane.rows) &&
+           !lane.rows->front().end;
+}
+
+// Ends of tiles cost no unit's time.
+void SpanPool::take_ends(Lane& lane) {
+    Stream& stream = streams_[lane.stream];
+    if (stream.ending == kNoTile && lane.turn == stream.turn && self_.arrived(*lane.rows) &&
+        lane.rows->front().end) {
+        const TileNumber tile = lane.rows->front().tile;
+        lane.rows->drop(self_);
+        ++lane.turn;
+        if (++stream.ends == static_cast<std::size_t>(share_.lanes)) {
+            stream.ends = 0;
+            stream.ending = tile;
+            stream.end_port = 0;
+        }
+    }
+    if (stream.ending != kNoTile && !send_end(stream)) {
+        waiting_ = true;
+    }
+}
+
+// To every bank that the module reaches; false if one has no place for it yet.
+bool SpanPool::send_end(Stream& stream) {
+    for (; stream.end_port < stream.rings.size(); ++stream.end_port) {
+        DatedFifo<SpanItem>& ring = *stream.rings[stream.end_port];
+        if (!ring.has_room(self_)) {
+            return false;
+        }
+        ring.reserve(self_);
+        SpanItem& end = ring.staged();
+        end.tile = stream.ending;
+        end.span.reset();
+        ring.put_staged(self_);
+    }
+    stream.ending = kNoTile;
+    ++stream.turn;
+    ++tiles_done_;
+    return true;
+}
+
+// The next cycle in which a unit may have something to take.
+Cycle SpanPool::next_date() {
+    const Cycle next = self_.local() + 1;
+    if (waiting_) {
+        return next;
+    }
+    const Cycle free = *std::min_element(free_from_.begin(), free_from_.end());
+    const Cycle from = std::max(next, free);
+    watched_.clear();
+    for (const Lane& lane : lanes_) {
+        if (lane.turn == streams_[lane.stream].turn) {
+            watched_.push_back(lane.rows);
+        }
+    }
+    const Cycle date = self_.next_arrival(watched_.data(), watched_.size(), from, kNever);
+    if (date >= kNever) {
+        throw std::logic_error(std::string(name()) + ": nothing left to wait for, but after " +
+                               std::to_string(tiles_done_) + " tiles there is another one");
+    }
+    return date;
+}
+
+} // namespace degs

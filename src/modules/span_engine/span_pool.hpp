@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "modules/span_engine/span_stage.hpp"
+
+namespace degs {
+
+/// Span Units that share lanes: one unit that serves several tile streams, or a pool of units that
+/// take rows of any lane. In each cycle the free units take rows from the lanes in turn, from each
+/// lane in order. A row is taken only when the crossbar has a place for its Span Vector, which a
+/// unit knows in the cycle after the bank has freed it, so a lane that has to wait holds up no
+/// other. All Span Vectors of a stream for one bank go through one queue, which keeps the order of
+/// splats within a row.
+class SpanPool : public SpanStage {
+public:
+    /// What the module serves.
+    struct Share {
+        int index = 0, of = 1; ///< it reaches the banks that share a row with part `index` of `of`
+        int banks = 1;
+        int streams = 1;
+        int lanes = 1; ///< of a stream
+        int units = 1;
+    };
+    SpanPool(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+             const RenderJob& job, const Share& share);
+
+private:
+    struct Lane {
+        DatedFifo<RowItem>* rows = nullptr;
+        std::size_t stream = 0;
+        std::size_t turn = 0; // ends of tiles that it has delivered
+    };
+    struct Stream {
+        std::vector<DatedFifo<SpanItem>*> rings; // by port
+        std::size_t turn = 0;                    // ends of tiles that have been sent
+        std::size_t ends = 0;                    // lanes that have delivered the next one
+        TileNumber ending = kNoTile;             // the tile whose end has to be sent; kNoTile: none
+        std::size_t end_port = 0;                // to which port
+    };
+
+    void end_of_elaboration() override;
+    void run();
+    void take_rows();
+    bool take_from(Lane& lane);
+    void take_ends(Lane& lane);
+    bool send_end(Stream& stream);
+    bool sees_row(Lane& lane);
+    Cycle next_date();
+
+    Process self_;
+    Share share_;
+    std::vector<std::size_t> port_of_row_; // by row inside the tile
+    std::vector<Lane> lanes_;
+    std::vector<Stream> streams_;
+    std::size_t next_lane_ = 0;    // from which a row is taken next
+    std::vector<Cycle> free_from_; // by unit
+    bool waiting_ = false;         // a row or an end waits for a place in the crossbar
+    std::size_t tiles_done_ = 0;
+    std::vector<FifoBase*> watched_;
+};
+
+} // namespace degs

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/span_engine/span_stage.hpp"
+
+#include <new>
+
+namespace degs {
+
+void SpanStage::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("count", count, 1, 256, "units (paper Table II: 4, 8, 16, 32)");
+    visitor.choice("rows", rows, {"fixed", "pool"},
+                   "the unit that solves row y of a tile: y modulo their number, or any that is "
+                   "free; the paper does not say it [assumed]");
+    visitor.integer("rows_per_cycle", rows_per_cycle, 1, 64,
+                    "scanlines that a unit takes per cycle (paper, Sec. IV-A: one)");
+    visitor.integer("cycles_per_row", cycles_per_row, 1, 64,
+                    "cycles per scanline and unit [assumed]");
+    visitor.integer("latency_cycles", latency_cycles, 1, 256,
+                    "cycles from row item to Span Vector: dy, square, LUT, two sums [assumed]");
+    visitor.integer("crossbar_depth", crossbar_depth, 1, 1024,
+                    "Span Vectors that wait between a unit and a bank; those in the pipeline have "
+                    "its registers [assumed]");
+    visitor.integer("crossbar_width", crossbar_width, 0, 64,
+                    "Span Vectors that a bank takes from the crossbar per cycle; 0: as many as it "
+                    "can cut [assumed]");
+    visitor.require(
+        rows_per_cycle == 1 || cycles_per_row == 1,
+        {"rows_per_cycle", "must be 1 where a row takes several cycles", "1", {"cycles_per_row"}});
+}
+
+// The pixels of the span are made in place, because a copy of what was just written waits for the
+// write.
+bool SpanStage::solve(TileNumber number, std::uint32_t splat, int row, SpanItem& result) {
+    const JobTile& tile = job_.tiles[number];
+    const auto& span = *new (&result.span) std::optional<RowSpan>(
+        job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y));
+    result.tile = number;
+    stats_.rows++;
+    if (!span) {
+        stats_.empty_rows++;
+        return false;
+    }
+    stats_.spans++;
+    stats_.tasks += span->length;
+    return true;
+}
+
+} // namespace degs

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+
+#include "config/config.hpp"
+#include "config/statistics.hpp"
+#include "modules/render_job.hpp"
+#include "tlm/dated_fifo.hpp"
+
+namespace degs {
+
+/// Which Span Unit solves a row: the one whose number is the row's modulo their number, or any that
+/// is free.
+enum class RowAssignment { Fixed, Pool };
+
+/// Span Units: they solve scanlines (centre, half-width, ends, g0 and d0; paper, Sec. III-A and
+/// IV-A) and send the Span Vectors through the spatial crossbar to bank y mod banks. A row that
+/// misses every pixel of the tile costs its cycle and sends nothing.
+class SpanStage : public sc_core::sc_module {
+public:
+    struct Config {
+        int count = 8; ///< units
+        RowAssignment rows = RowAssignment::Fixed;
+        int rows_per_cycle = 1; ///< that a unit takes; more than 1 needs cycles_per_row 1
+        int cycles_per_row = 1; ///< initiation interval
+        int latency_cycles = 6; ///< pipeline from row item to Span Vector
+        int crossbar_depth = 2; ///< Span Vectors that wait between a unit and a bank
+        int crossbar_width = 0; ///< Span Vectors that a bank takes per cycle; 0: all it can cut
+        void describe(ConfigVisitor& visitor);
+        /// Modules of the stage; each has units_per_module() units.
+        int modules() const { return rows == RowAssignment::Pool ? 1 : count; }
+        int units_per_module() const { return count / modules(); }
+    };
+    struct Stats {
+        Cycle busy = 0;
+        std::uint64_t rows = 0, spans = 0, empty_rows = 0, tasks = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("rows", rows, "rows", "Rows of splats solved.");
+            v.count("empty_rows", empty_rows, "rows",
+                    "Solved rows that cover no pixel of their tile.");
+            v.count("spans", spans, "spans", "Span Vectors found.");
+            v.count("tasks", tasks, "tasks", "Pixels in these spans.");
+        }
+    };
+
+    sc_core::sc_vector<FifoPort<RowItem>> in; ///< Span Buffer lanes, those of a stream together
+    /// The banks that the module can reach, ascending; those of a stream together.
+    sc_core::sc_vector<FifoPort<SpanItem>> out;
+
+    const Stats& stats() const { return stats_; }
+
+protected:
+    SpanStage(const sc_core::sc_module_name& name, const Config& config, const RenderJob& job,
+              std::size_t inputs, std::size_t outputs)
+        : sc_core::sc_module(name), in("in", inputs), out("out", outputs), config_(config),
+          job_(job) {}
+
+    /// Solves a row of a splat in `result`. False: it misses every pixel of the tile.
+    bool solve(TileNumber number, std::uint32_t splat, int row, SpanItem& result);
+
+    Config config_;
+    const RenderJob& job_;
+    Stats stats_;
+};
+
+} // namespace degs
