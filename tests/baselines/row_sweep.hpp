@@ -127,13 +127,16 @@ struct RowSweepConfig : AcceleratorConfig {
         visitor.integer("tile_size", tile_size, 4, 32, "px, and lanes");
         visitor.section("pixel_buffer", parts.pixel_buffer, "tiles in flight");
         visitor.section("memory", parts.memory, "off-chip memory");
-        parts.pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_size, 1, {"tile_size"});
+        parts.pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), 1, {"tile_size"});
     }
     int pes() const override { return tile_size; }
     int tile_size_px() const override { return tile_size; }
     TileMode tile_mode() const override { return TileMode::Exact; }
     DataPathOptions data_path() const override { return PipelineConfig{}.data_path(); }
-    int tile_contexts() const override { return parts.pixel_buffer.contexts(tile_size); }
+    int tile_contexts() const override { return parts.pixel_buffer.contexts(tile_pixels()); }
+    PixelBuffer::TilePixels tile_pixels() const {
+        return {tile_size, PipelineConfig{}.pixel_bits()};
+    }
     TrafficConfig records() const override { return parts.front.traffic; }
     void read_floats() override {
         parts.front.traffic.geometry_bytes = kFloatGeometryBytes;
