@@ -26,7 +26,7 @@ trap 'rm -rf "$out"' EXIT
 # `tuned` and single precision (the baselines) above 70 dB.
 floor_of() {
     case $1 in
-    degs-64-tuned) echo 70 ;;
+    *-tuned) echo 70 ;;
     degs-*) echo 50 ;;
     *) echo 70 ;;
     esac
