@@ -155,7 +155,7 @@ void Degs::build_scheduler() {
     bank.termination = s.termination;
     bank.scan = s.scan;
     const PackingUnit::Config packing{config_.array.pes_per_bank, config_.packing.latency_cycles,
-                                      config_.packing_lead()};
+                                      config_.packing_lead(), config_.packing.reorganisation};
     next_span_port_.assign(spans_.size(), 0);
     for (int b = 0; b < s.banks; ++b) {
         packing_.push_back(
@@ -199,6 +199,7 @@ void Degs::build_array() {
     slice.streams = config_.streams();
     slice.contexts = config_.contexts_per_stream();
     slice.scoreboard = config_.scheduler.scoreboard;
+    slice.tests = !config_.span.parsing;
     next_region_port_.assign(slicing_.size(), 0);
     for (int b = 0; b < config_.scheduler.banks; ++b) {
         slices_.push_back(std::make_unique<ArraySlice>(

@@ -86,6 +86,9 @@ void DegsConfig::Packing::describe(ConfigVisitor& visitor) {
                     "terminated tasks [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 64,
                     "cycles from issue to execution: prefix sum and shift, buffer read [assumed]");
+    visitor.boolean("reorganisation", reorganisation,
+                    "compact tasks of different spans into one packet (paper, Sec. IV-B); false, "
+                    "for ablations: a packet has tasks of one span only");
 }
 
 void DegsConfig::Array::describe(ConfigVisitor& visitor) {

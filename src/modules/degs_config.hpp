@@ -59,6 +59,7 @@ struct DegsConfig : AcceleratorConfig {
         int task_bytes = 16;
         int lead_packets = 5;
         int latency_cycles = 2;
+        bool reorganisation = true;
         void describe(ConfigVisitor& visitor);
     };
     struct Array {

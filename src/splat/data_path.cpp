@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "splat/coupled_row.hpp"
 #include "splat/lanes/blend_lanes.hpp"
 #include "splat/lanes/checked_row.hpp"
 #include "splat/numbers/quantized_data_path.hpp"
@@ -68,9 +69,7 @@ SpanRecord<T> derive(const ProjectedSplat& splat) {
     const double reach = std::sqrt(splat.q_threshold * splat.cov_c);
     record.rows = {nearest_pixel(std::ceil(splat.mu_y - reach)),
                    nearest_pixel(std::floor(splat.mu_y + reach))};
-    const double reach_x = std::sqrt(splat.q_threshold * splat.cov_a);
-    record.columns = {nearest_pixel(std::ceil(splat.mu_x - reach_x)),
-                      nearest_pixel(std::floor(splat.mu_x + reach_x))};
+    record.columns = columns_of_box(splat);
     return record;
 }
 
@@ -113,6 +112,8 @@ public:
         // A rounded span end may lie a pixel beyond the box; outward ends always do.
         return spans_[splat].columns.widened(2 + options_.delta);
     }
+
+    PixelRange box_columns(std::uint32_t splat) const override { return spans_[splat].columns; }
 
     // The ellipse between two columns is convex, so its lowest row is that of the
     // ellipse's own lowest point if that lies between them, else where the nearer column

@@ -118,6 +118,8 @@ public:
     virtual PixelRange rows_in_columns(std::uint32_t splat, int x_begin, int x_end) const = 0;
     /// The image columns (unclipped) that the splat's ellipse meets.
     virtual PixelRange columns(std::uint32_t splat) const = 0;
+    /// Those of the bounding box of the ellipse as it was projected, to the pixel.
+    virtual PixelRange box_columns(std::uint32_t splat) const = 0;
     /// Solves image row `y` for the columns [x_begin, x_end) of a tile whose top row is `tile_y`
     /// (paper Eq. 12-15, 19). Nothing if no pixel of the tile is covered.
     virtual std::optional<RowSpan> solve_row(std::uint32_t splat, int y, int x_begin, int x_end,

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "config/ratio.hpp"
+#include "splat/coupled_row.hpp"
 #include "splat/pixel_index.hpp"
 #include "splat/pixel_mask.hpp"
 
@@ -25,9 +27,9 @@ int ones(std::uint32_t mask) {
 class DataPathRenderer::TileBlender {
 public:
     TileBlender(const FrameWorkload& work, const DataPathRender& options, DataPathCounts& counts)
-        : work_(work), rows_in_columns_(options.rows_in_columns), counts_(counts),
-          path_(make_data_path(options.numbers, work.tile_size, 1)), base_(path_->add_frame(work)),
-          live_in_row_(work.tile_size), row_(work.tile_size) {}
+        : work_(work), rows_in_columns_(options.rows_in_columns), parsing_(options.parsing),
+          counts_(counts), path_(make_data_path(options.numbers, work.tile_size, 1)),
+          base_(path_->add_frame(work)), live_in_row_(work.tile_size), row_(work.tile_size) {}
 
     /// Blends the tile's list; false if it has none.
     bool blend(int column, int row);
@@ -37,9 +39,13 @@ public:
 private:
     void blend_splat(std::uint32_t splat);
     void blend_span(const RowSpan& span);
+    std::optional<RowSpan> span_of(std::uint32_t splat, int y) const {
+        return parsing_ ? path_->solve_row(splat, y, box_.x0, box_.x1 + 1, box_.y0)
+                        : row_of_box(*path_, splat, y, box_.x0, box_.x1 + 1, box_.y0);
+    }
 
     const FrameWorkload& work_;
-    bool rows_in_columns_;
+    bool rows_in_columns_, parsing_;
     DataPathCounts& counts_;
     std::unique_ptr<DataPath> path_;
     std::uint32_t base_;           ///< index of the frame's first splat
@@ -77,7 +83,7 @@ void DataPathRenderer::TileBlender::blend_splat(std::uint32_t splat) {
         if (live_in_row_[y - box_.y0] == 0) {
             continue;
         }
-        if (const auto span = path_->solve_row(splat, y, box_.x0, box_.x1 + 1, box_.y0)) {
+        if (const auto span = span_of(splat, y)) {
             blend_span(*span);
         }
     }
@@ -95,7 +101,8 @@ void DataPathRenderer::TileBlender::blend_span(const RowSpan& span) {
         task.mask = bits_between(std::max(span.x0 - column, 0), std::min(end + 1 - column, kRun));
         task.column = inside_tile(column);
         task.offset = inside_tile(column - span.base);
-        const BlendOutcome outcome = path_->blend(task);
+        const BlendOutcome outcome =
+            parsing_ ? path_->blend(task) : path_->test(test_of(task, box_.x0, box_.y0));
         counts_.useful += ones(outcome.useful);
         counts_.boundary += ones(outcome.boundary);
         counts_.terminated += ones(outcome.terminated);

@@ -22,8 +22,11 @@ struct DataPathCounts {
 struct DataPathRender {
     DataPathOptions numbers;
     /// Rows per splat: all that its ellipse meets (slicing.rows: splat) or those that it meets in
-    /// the tile's columns (tile). The two differ for spans that are wider than the ellipse.
+    /// the tile's columns (tile). The two differ for rows of pixels that are wider than the ellipse.
     bool rows_in_columns = false;
+    /// Rows are solved, or as wide as the splat's bounding box, and pixels test themselves
+    /// (span.parsing).
+    bool parsing = true;
     /// Is called now and then with the share that is done, 0 .. 1.
     std::function<void(double)> progress;
 };

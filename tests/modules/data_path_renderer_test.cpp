@@ -18,12 +18,14 @@ struct Numbers {
     StopRule stop;
     SlicedRows rows;
     int segment_length;
+    bool parsing = true;
 };
 std::ostream& operator<<(std::ostream& out, const Numbers& n) {
     return out << arithmetic_names()[static_cast<std::size_t>(n.format)] << "_ends"
                << static_cast<int>(n.ends) << "_" << n.delta
                << (n.stop == StopRule::Refuse ? "_refuse" : "_after")
-               << (n.rows == SlicedRows::Tile ? "_tile_" : "_splat_") << n.segment_length;
+               << (n.rows == SlicedRows::Tile ? "_tile_" : "_splat_") << n.segment_length
+               << (n.parsing ? "" : "_tested");
 }
 
 class SmallRunAgainstRenderer : public ::testing::TestWithParam<std::tuple<Numbers, Shape>> {};
@@ -37,6 +39,7 @@ TEST_P(SmallRunAgainstRenderer, SameImageAndTasks) {
     config.pipeline.stop_rule = numbers.stop;
     config.slicing.rows = numbers.rows;
     config.scheduler.segment_length = numbers.segment_length;
+    config.span.parsing = numbers.parsing;
     const FrameWorkload frame = random_frame(7, 75, 53, shape.tile, 160);
     DegsRun run("degs", config, {&frame});
     sc_core::sc_start();
@@ -44,6 +47,7 @@ TEST_P(SmallRunAgainstRenderer, SameImageAndTasks) {
     DataPathRender options;
     options.numbers = config.data_path();
     options.rows_in_columns = numbers.rows == SlicedRows::Tile;
+    options.parsing = numbers.parsing;
     DataPathRenderer renderer(frame, options);
     const Image image = renderer.render(all_tiles(frame));
     EXPECT_TRUE(same_bytes(image, run.image()));
@@ -62,6 +66,10 @@ constexpr Numbers kNumbers[] = {
     {Arithmetic::Paper, SpanEnds::Exact, 0, StopRule::After, SlicedRows::Splat, 5},
     {Arithmetic::Tuned, SpanEnds::Exact, 0, StopRule::Refuse, SlicedRows::Splat, 16},
     {Arithmetic::Tuned, SpanEnds::Outward, 1, StopRule::Refuse, SlicedRows::Tile, 9},
+    {Arithmetic::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, SlicedRows::Tile, 16, false},
+    {Arithmetic::Fp32, SpanEnds::Outward, 0, StopRule::After, SlicedRows::Splat, 7, false},
+    {Arithmetic::Paper, SpanEnds::Slope, 0, StopRule::Refuse, SlicedRows::Splat, 16, false},
+    {Arithmetic::Tuned, SpanEnds::Exact, 0, StopRule::After, SlicedRows::Tile, 9, false},
 };
 INSTANTIATE_TEST_SUITE_P(Numbers, SmallRunAgainstRenderer,
                          ::testing::Combine(::testing::ValuesIn(kNumbers),

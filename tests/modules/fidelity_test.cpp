@@ -44,6 +44,8 @@ private:
         buffers(c);
         front_end(c);
         streams(c);
+        c.span.parsing = !chance(3);
+        c.packing.reorganisation = !chance(3);
         const double ghz[] = {1.0, 1.0, 0.7, 1.7};
         c.clock_ghz = ghz[upto(3)];
         const double bandwidth[] = {204.8, 204.8, 51.2, 1.0, 1e5};
@@ -127,7 +129,9 @@ std::string describe(const DegsConfig& c) {
            std::to_string(c.streams()) + " streams, " +
            (c.span.rows == RowAssignment::Pool ? "pool of " : "fixed ") +
            std::to_string(c.span.rows_per_cycle) + " per " + std::to_string(c.span.cycles_per_row) +
-           " cycles, crossbar " + std::to_string(c.span.crossbar_width);
+           " cycles, crossbar " + std::to_string(c.span.crossbar_width) +
+           (c.span.parsing ? "" : ", rows not solved") +
+           (c.packing.reorganisation ? "" : ", spans not compacted");
 }
 
 class SmallRunFidelity : public ::testing::TestWithParam<unsigned> {};

@@ -27,14 +27,17 @@ struct PackingBench {
         TaskPacket packet;
     };
     Timebase time;
-    PackingUnit unit{"unit", PackingUnit::Config{4, static_cast<int>(kLatency), 8}};
+    PackingUnit unit;
     DatedFifo<TaskPacket> ring{"ring", time, 12, kLatency};
     Process bank{time};
     Process array{time};
     std::vector<Got> got;
     std::unique_ptr<Script> driver, listener;
 
-    PackingBench() { unit.out.bind(ring); }
+    explicit PackingBench(bool reorganisation = true)
+        : unit("unit", {4, static_cast<int>(kLatency), 8, reorganisation}) {
+        unit.out.bind(ring);
+    }
     void drive(const std::function<void()>& body) {
         ring.connect_writer(bank);
         driver = std::make_unique<Script>("driver", [this, body] {
@@ -57,10 +60,22 @@ struct PackingBench {
         unit.close_cycles(bank, until, Idle::Conflict);
         bank.advance_to(until);
     }
+    /// The same for every cycle until then.
+    void next_cycles(Cycle until) {
+        while (bank.local() < until) {
+            next_cycle(bank.local() + 1);
+        }
+    }
 };
 
 int bits(std::uint32_t mask) {
     return __builtin_popcount(mask);
+}
+
+TaskRun run_of_splat(std::uint32_t splat, std::uint32_t mask, std::int16_t row) {
+    TaskRun run = run_of(mask, row);
+    run.task.splat = splat;
+    return run;
 }
 
 // Segments of 3, 6, 1 and 2 tasks: 12 tasks, 3 packets of 4, nothing reordered.
@@ -155,17 +170,90 @@ TEST(PackingUnit, NothingIsIdleAfterTheLastPacket) {
 TEST(PackingUnit, RoomIsTheBufferMinusWhatIsQueued) {
     PackingBench bench;
     bench.drive([&] {
-        EXPECT_TRUE(bench.unit.room(0, 32));
-        EXPECT_FALSE(bench.unit.room(0, 33));
+        EXPECT_TRUE(bench.unit.room(0, run_of(1), 32));
+        EXPECT_FALSE(bench.unit.room(0, run_of(1), 33));
         bench.add(run_of(0xFFFFFF)); // 6 packets, slots 2 to 7
         for (int now = 0; now < 12; ++now) {
             const int queued = std::max(6 - now, 0);
-            EXPECT_TRUE(bench.unit.room(now, 4 * (8 - queued))) << now;
-            EXPECT_FALSE(bench.unit.room(now, 4 * (8 - queued) + 1)) << now;
+            EXPECT_TRUE(bench.unit.room(now, run_of(1), 4 * (8 - queued))) << now;
+            EXPECT_FALSE(bench.unit.room(now, run_of(1), 4 * (8 - queued) + 1)) << now;
             bench.next_cycle(now + 1);
         }
     });
     EXPECT_EQ(bench.got.size(), 6U);
+}
+
+/// Single tasks of two rows, of one row and two splats, and of one span in two segments; then six
+/// tasks of one span and one of another.
+std::vector<TaskRun> seven_runs() {
+    return {run_of_splat(0, 1, 0), run_of_splat(0, 1, 1), run_of_splat(1, 1, 1),
+            run_of_splat(1, 2, 1), run_of_splat(1, 4, 0), run_of_splat(2, 0x3F, 0),
+            run_of_splat(3, 1, 0)};
+}
+
+std::vector<int> tasks_of(const std::vector<PackingBench::Got>& got) {
+    std::vector<int> tasks;
+    for (const PackingBench::Got& one : got) {
+        tasks.push_back(one.packet.tasks);
+    }
+    return tasks;
+}
+
+TEST(PackingUnit, CompactsSpans) {
+    PackingBench bench;
+    bench.drive([&] {
+        for (const TaskRun& run : seven_runs()) {
+            bench.add(run);
+        }
+        bench.next_cycle(9);
+    });
+    EXPECT_EQ(tasks_of(bench.got), (std::vector<int>{4, 4, 4}));
+    EXPECT_EQ(bench.unit.idle().total(), 0U);
+}
+
+// 12 tasks of six spans, one of which is longer than a packet: seven packets in place of three.
+TEST(PackingUnit, WithoutReorganisationAPacketHasTasksOfOneSpan) {
+    PackingBench bench(false);
+    bench.drive([&] {
+        std::vector<Cycle> last;
+        for (const TaskRun& run : seven_runs()) {
+            last.push_back(bench.add(run));
+        }
+        EXPECT_EQ(last, (std::vector<Cycle>{2, 3, 4, 4, 5, 7, 8}));
+        bench.next_cycles(9);
+    });
+    EXPECT_EQ(tasks_of(bench.got), (std::vector<int>{1, 1, 2, 1, 4, 2, 1}));
+    for (std::size_t p = 0; p < bench.got.size(); ++p) {
+        EXPECT_EQ(bench.got[p].date, kLatency + p);
+        const TaskPacket& packet = bench.got[p].packet;
+        for (int r = 1; r < packet.run_count; ++r) {
+            EXPECT_EQ(packet.runs[r].task.splat, packet.runs[0].task.splat);
+            EXPECT_EQ(packet.runs[r].task.row, packet.runs[0].task.row);
+        }
+    }
+    // Tasks of other spans waited behind the first six packets; the last one left at its date.
+    EXPECT_EQ(bench.unit.idle().blocked, 3U + 3 + 2 + 3 + 0 + 2);
+    EXPECT_EQ(bench.unit.idle().conflict, 3U);
+}
+
+// A packet that another span closes counts as a full one.
+TEST(PackingUnit, WithoutReorganisationRoomIsThatOfWholePackets) {
+    PackingBench bench(false);
+    bench.drive([&] {
+        bench.add(run_of_splat(0, 1, 0));
+        EXPECT_TRUE(bench.unit.room(0, run_of_splat(0, 0, 0), 31));
+        EXPECT_FALSE(bench.unit.room(0, run_of_splat(0, 0, 0), 32));
+        EXPECT_TRUE(bench.unit.room(0, run_of_splat(1, 0, 0), 28));
+        EXPECT_FALSE(bench.unit.room(0, run_of_splat(1, 0, 0), 29));
+        for (std::uint32_t splat = 1; splat < 8; ++splat) {
+            EXPECT_TRUE(bench.unit.room(0, run_of_splat(splat, 0, 0), 1));
+            bench.add(run_of_splat(splat, 1, 0));
+        }
+        EXPECT_FALSE(bench.unit.room(0, run_of_splat(8, 0, 0), 1));
+        EXPECT_TRUE(bench.unit.room(0, run_of_splat(7, 0, 0), 3));
+        bench.next_cycles(9);
+    });
+    EXPECT_EQ(bench.got.size(), 8U);
 }
 
 // An end of tile rides on the open packet that holds the tile's last tasks, or travels alone and

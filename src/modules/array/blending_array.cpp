@@ -19,9 +19,10 @@ ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config
       config_(config), job_(job), index_(index), slices_(slices), segment_length_(segment_length),
       segments_per_row_((job.tile_size + segment_length - 1) / segment_length), self_(time),
       contexts_(std::size_t{1} * config.streams * config.contexts),
-      segments_((job.tile_size + slices - 1) / slices * segments_per_row_) {
+      segments_((job.tile_size + slices - 1) / slices * segments_per_row_),
+      plain_(config.scoreboard && !config.tests), blender_(job, config.tests) {
     if (!config.scoreboard) {
-        early_.emplace(job, config.writeback_cycles);
+        early_.emplace(job, config.writeback_cycles, config.tests);
     }
     port_of_listener_.resize(config.region_listeners, 0);
     std::size_t port = 0;
@@ -73,7 +74,7 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
         // its last one, so each packet only has to take its part of the outcome.
         const std::uint32_t first_task = run.task.mask & (0U - run.task.mask);
         if ((run.part & first_task) != 0 || early) {
-            outcome_ = early ? blend_early(context, run, now) : job_.path->blend(run.task);
+            outcome_ = plain_ ? job_.path->blend(run.task) : blend_otherwise(context, run, now);
             const auto count = [](std::uint32_t mask) { return __builtin_popcount(mask); };
             stats_.slots.useful += count(outcome_.useful);
             stats_.slots.boundary += count(outcome_.boundary);
@@ -83,6 +84,10 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
             pixels_ended(context, run, outcome_.ended & run.part);
         }
     }
+}
+
+BlendOutcome ArraySlice::blend_otherwise(const Context& context, const TaskRun& run, Cycle date) {
+    return early_ ? blend_early(context, run, date) : blender_.blend(run.task, run.tile);
 }
 
 // Without scoreboard another task may come between two parts, so each is blended at its own date. A

@@ -8,6 +8,7 @@
 #include "config/statistics.hpp"
 #include "modules/array/early_blender.hpp"
 #include "modules/array/slot_account.hpp"
+#include "modules/array/task_blender.hpp"
 #include "modules/render_job.hpp"
 #include "modules/scheduler/issue_bank.hpp"
 #include "tlm/dated_fifo.hpp"
@@ -15,7 +16,8 @@
 namespace degs {
 
 /// One slice of the Blending Array: the PEs that serve one bank (paper, Sec. IV-C). It executes one
-/// packet per cycle, in order. The data path computes q_n, alpha and the recurrence. Pixel state is
+/// packet per cycle, in order. The data path computes q_n, alpha and the recurrence; without span
+/// parsing the PEs also test whether their pixel is inside the ellipse. Pixel state is
 /// written back after `writeback_cycles`, and the reports that a pixel or a whole segment has ended
 /// leave at the same date. The slice never stalls, because a packet is issued only when nothing can stop it.
 class ArraySlice : public sc_core::sc_module, private Pumped {
@@ -28,6 +30,7 @@ public:
         int streams = 1;          ///< tile streams
         int contexts = 1;         ///< tiles of a stream that the Pixel Buffer holds
         bool scoreboard = true;   ///< no pixel comes again before its write-back
+        bool tests = false;       ///< PEs test whether their pixel is inside the ellipse
     };
     struct Stats {
         SlotAccount slots; ///< executed tasks by class; idle slots are the Packing Unit's
@@ -83,6 +86,7 @@ private:
     }
     void start_tile(Context& context, TileNumber number);
     void execute(const TaskPacket& packet);
+    BlendOutcome blend_otherwise(const Context& context, const TaskRun& run, Cycle date);
     BlendOutcome blend_early(const Context& context, const TaskRun& run, Cycle date);
     void check_reuse(Context& context, const TaskRun& run, Cycle date);
     void pixels_ended(Context& context, const TaskRun& run, std::uint32_t ended);
@@ -100,6 +104,8 @@ private:
     int segments_;                             // of a context
     std::vector<std::size_t> port_of_listener_;
     BlendOutcome outcome_; // of the segment whose tasks execute, or of the part without scoreboard
+    bool plain_;           // solved tasks and a scoreboard: asked once per segment, so in one place
+    TaskBlender blender_;
     std::optional<EarlyBlender> early_; // without scoreboard
     std::size_t tiles_done_ = 0;
     Stats stats_;

@@ -19,7 +19,7 @@ BlendOutcome EarlyBlender::blend(const TaskRun& run, Cycle date) {
         const int i = __builtin_ctz(left);
         seen[i] = path.read_pixel(task.context, task.row, task.column + i);
     }
-    const BlendOutcome outcome = path.blend(task);
+    const BlendOutcome outcome = blender_.blend(task, run.tile);
     for (std::uint32_t left = task.mask; left != 0; left &= left - 1) {
         const int i = __builtin_ctz(left);
         const int column = task.column + i;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 
+#include "modules/array/task_blender.hpp"
 #include "modules/render_job.hpp"
 
 namespace degs {
@@ -15,7 +16,8 @@ namespace degs {
 /// written back; its counts of updates are those of the tasks executed.
 class EarlyBlender {
 public:
-    EarlyBlender(RenderJob& job, int writeback_cycles) : job_(job), latency_(writeback_cycles) {}
+    EarlyBlender(RenderJob& job, int writeback_cycles, bool tests = false)
+        : job_(job), blender_(job, tests), latency_(writeback_cycles) {}
 
     /// Executes the part of a segment's tasks at `date`, which never falls from call to call.
     BlendOutcome blend(const TaskRun& run, Cycle date);
@@ -32,6 +34,7 @@ private:
     void write(const WriteBack& update);
 
     RenderJob& job_;
+    TaskBlender blender_;
     Cycle latency_;
     std::deque<WriteBack> under_way_; // by date
 };

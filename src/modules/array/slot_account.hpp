@@ -55,7 +55,7 @@ inline constexpr std::array<SlotClass, 7> kSlotClasses{{
     {"starved", &SlotAccount::starved,
      "No task: none waited, or the issue width let no more through."},
     {"blocked", &SlotAccount::blocked,
-     "No task: those that waited had no Pixel Buffer context or no room for packets."},
+     "No task: those that waited had no Pixel Buffer context or no place in a packet."},
     {"drain", &SlotAccount::drain, "No task: this part of the array had finished, others had not."},
 }};
 

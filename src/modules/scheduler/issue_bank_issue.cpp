@@ -15,7 +15,7 @@ inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, Segme
     const std::uint32_t mask = segment.run.task.mask;
     const std::uint32_t wanted = mask & tile.live(domain);
     const int tasks = __builtin_popcount(wanted);
-    if (!packing_.room(now, tasks)) {
+    if (!packing_.room(now, segment.run, tasks)) {
         no_room_ = true;
         return false;
     }

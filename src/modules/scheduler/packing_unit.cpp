@@ -29,6 +29,9 @@ Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask) {
     std::uint32_t left = mask;
     int count = __builtin_popcount(left);
     Cycle execution = 0;
+    if (!config_.reorganisation && !joins(run)) {
+        send(bank, Idle::Blocked);
+    }
     while (count != 0) {
         if (!open()) {
             open_packet(bank);
@@ -49,6 +52,20 @@ Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask) {
         }
     }
     return execution;
+}
+
+// All runs of the packet are of one span.
+bool PackingUnit::joins(const TaskRun& run) const {
+    if (!open()) {
+        return true;
+    }
+    const TaskRun& other = ring_->staged().runs.front();
+    return run.task.splat == other.task.splat && run.task.row == other.task.row &&
+           run.tile == other.tile;
+}
+
+bool PackingUnit::fits_behind(Cycle now, const TaskRun& run, int tasks) const {
+    return joins(run) || fits(now, config_.width + tasks);
 }
 
 void PackingUnit::open_packet(Process& bank) {

@@ -28,6 +28,9 @@ public:
         int width = 8;          ///< tasks per packet = PEs per array slice
         int latency_cycles = 2; ///< issue to execution, unloaded: pack, read the buffer
         int depth = 32;         ///< packets that wait in the Packing Buffer
+        /// A packet may have tasks of different spans; false: of one span only, so that a segment of
+        /// another span closes an open packet.
+        bool reorganisation = true;
     };
     struct Stats {
         std::uint64_t packets = 0, tasks = 0;
@@ -42,12 +45,11 @@ public:
 
     /// Execution date of the next task if it is packed at `now`.
     Cycle next_execution(Cycle now) const { return std::max(now + latency_, next_slot_); }
-    /// True if there is room for `tasks` more tasks at `now`. Packets on their way through the
-    /// pipeline, which are those that execute before now + latency, lie in its registers.
-    bool room(Cycle now, int tasks) const {
-        const Cycle queued = next_execution(now) - (now + latency_);
-        // ceil((open + new) / width) more packets fit, without dividing.
-        return queued * width_ + (tasks_ + tasks) <= capacity_;
+    /// True if there is room for `tasks` tasks of `run` more at `now`. Packets on their way through
+    /// the pipeline, which are those that execute before now + latency, lie in its registers.
+    bool room(Cycle now, const TaskRun& run, int tasks) const {
+        return fits(now, tasks_ + tasks) &&
+               (config_.reorganisation || fits_behind(now, run, tasks));
     }
     /// Packs those tasks of a segment that `mask` names, at least one; returns the execution date
     /// of the last one.
@@ -79,6 +81,15 @@ private:
     void end_of_elaboration() override { ring_ = &out.ring(); }
     bool open() const { return tasks_ != 0; }
     bool started() const { return next_slot_ != 0; } // a packet has been sent or opened
+    // ceil(tasks / width) packets fit, that which is open among them; without dividing.
+    bool fits(Cycle now, int tasks) const {
+        const Cycle queued = next_execution(now) - (now + latency_);
+        return queued * width_ + tasks <= capacity_;
+    }
+    // Without reorganisation: `run` may go to the packet that is open, if any.
+    bool joins(const TaskRun& run) const;
+    // The same: there is room for its tasks, in that packet or behind it.
+    bool fits_behind(Cycle now, const TaskRun& run, int tasks) const;
     void open_packet(Process& bank);
     void send(Process& bank, Idle cause);
 

@@ -3,10 +3,15 @@
 
 #include <new>
 
+#include "splat/coupled_row.hpp"
+
 namespace degs {
 
 void SpanStage::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("count", count, 1, 256, "units (paper Table II: 4, 8, 16, 32)");
+    visitor.boolean("parsing", parsing,
+                    "solve rows (paper, Sec. III-A); false, for ablations: a row is as wide as the "
+                    "splat's bounding box, and the PEs test every pixel (paper, Sec. II-B)");
     visitor.choice("rows", rows, {"fixed", "pool"},
                    "the unit that solves row y of a tile: y modulo their number, or any that is "
                    "free; the paper does not say it [assumed]");
@@ -31,8 +36,10 @@ void SpanStage::Config::describe(ConfigVisitor& visitor) {
 // write.
 bool SpanStage::solve(TileNumber number, std::uint32_t splat, int row, SpanItem& result) {
     const JobTile& tile = job_.tiles[number];
+    const int y = tile.y + row, x_end = tile.x + tile.width;
     const auto& span = *new (&result.span) std::optional<RowSpan>(
-        job_.path->solve_row(splat, tile.y + row, tile.x, tile.x + tile.width, tile.y));
+        config_.parsing ? job_.path->solve_row(splat, y, tile.x, x_end, tile.y)
+                        : row_of_box(*job_.path, splat, y, tile.x, x_end, tile.y));
     result.tile = number;
     stats_.rows++;
     if (!span) {

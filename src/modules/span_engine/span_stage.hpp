@@ -20,7 +20,8 @@ enum class RowAssignment { Fixed, Pool };
 class SpanStage : public sc_core::sc_module {
 public:
     struct Config {
-        int count = 8; ///< units
+        int count = 8;       ///< units
+        bool parsing = true; ///< false: rows are not solved, see row_of_box()
         RowAssignment rows = RowAssignment::Fixed;
         int rows_per_cycle = 1; ///< that a unit takes; more than 1 needs cycles_per_row 1
         int cycles_per_row = 1; ///< initiation interval

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "splat/coupled_row.hpp"
 #include "splat/numbers/quantized_extent.hpp"
 #include "splat/numbers/quantized_pixels.hpp"
 #include "splat/pixel_index.hpp"
@@ -42,6 +43,7 @@ public:
         for (const ProjectedSplat& splat : workload.splats) {
             splats_.push_back(row_.record(splat));
             extents_.emplace_back(row_, slack_, splats_.back());
+            boxes_.push_back(columns_of_box(splat));
             pixels_->add(splats_.back());
         }
         return base;
@@ -57,6 +59,8 @@ public:
     PixelRange rows(std::uint32_t splat) const override { return extents_[splat].rows(); }
 
     PixelRange columns(std::uint32_t splat) const override { return extents_[splat].columns(); }
+
+    PixelRange box_columns(std::uint32_t splat) const override { return boxes_[splat]; }
 
     PixelRange rows_in_columns(std::uint32_t splat, int x_begin, int x_end) const override {
         return extents_[splat].rows_in_columns(x_begin, x_end);
@@ -179,6 +183,7 @@ private:
     std::unique_ptr<QuantizedPixels> pixels_;
     std::vector<QuantizedSplat> splats_;
     std::vector<QuantizedExtent> extents_;
+    std::vector<PixelRange> boxes_; // columns
 };
 
 } // namespace
