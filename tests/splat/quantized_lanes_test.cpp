@@ -199,6 +199,12 @@ TEST(LaneNumbers, RefusesWhatFloatsCannotCarry) {
     odd.exp.entries = 24;
     EXPECT_FALSE(lanes_can(odd));
     EXPECT_TRUE(lanes_can(number_set("tuned")));
+    NumberSet wide = number_set("tuned");
+    wide.exp.argument = parse_format("q18.12"); // 31 bits, more than an fp32 lane carries
+    EXPECT_FALSE(lanes_can(wide));
+    wide = number_set("tuned");
+    wide.exp.values = wide.exp.argument = parse_format("q18.12");
+    EXPECT_FALSE(lanes_can(wide));
 }
 
 } // namespace

@@ -168,7 +168,10 @@ std::vector<Variant> variants(LaneFamily family) {
 
 bool lanes_can(const NumberSet& set) {
     std::vector<NumberFormat> formats = pe_results(set);
-    formats.insert(formats.end(), {set.conic, set.g0, set.d0, set.colour});
+    formats.insert(formats.end(), {set.conic, set.g0, set.d0, set.colour, set.exp.values});
+    if (!set.exp.argument.is_fp64()) { // else nothing is rounded to it
+        formats.push_back(set.exp.argument);
+    }
     for (const NumberFormat& format : formats) {
         if (format.is_fp64() || !format.fits_float()) {
             return false;
