@@ -33,9 +33,9 @@ inline std::vector<std::size_t> ports_of_rows(int tile_size, int a, int as, int 
             port_of[b] = port++;
         }
     }
-    std::vector<std::size_t> ports;
+    std::vector<std::size_t> ports(tile_size);
     for (int row = 0; row < tile_size; ++row) {
-        ports.push_back(port_of[row % bs]);
+        ports[row] = port_of[row % bs];
     }
     return ports;
 }
