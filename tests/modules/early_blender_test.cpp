@@ -135,6 +135,27 @@ TEST(EarlyBlender, ATileEndsAlone) {
     EXPECT_NEAR(bench.job.path->read_pixel(0, 5, 3).transmittance, 0.75, kNear);
 }
 
+// Parts of a row's tasks at 10, 12, 14 and 16: each pixel comes again after 4 cycles, when it is
+// written back. At 17 one pixel of either part comes too early; at 21 nothing is under way but those.
+TEST(EarlyBlender, CountsPixelsThatComeBeforeTheirWriteBack) {
+    Bench bench(std::vector<ProjectedSplat>(6, test::one_row(0, 7, 2, 0.1)));
+    EarlyBlender pes(bench.job, 4);
+    const std::pair<Cycle, std::uint32_t> parts[] = {{10, 0x0F}, {12, 0xF0}, {14, 0x0F},
+                                                     {16, 0xF0}, {17, 0x11}, {21, 0x33}};
+    const std::uint64_t hazards[] = {0, 0, 0, 0, 2, 2};
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        TaskRun run = bench.run_of(i);
+        ASSERT_EQ(run.task.mask, 0xFFU);
+        run.part = parts[i].second;
+        pes.blend(run, parts[i].first);
+        EXPECT_EQ(pes.hazards(), hazards[i]) << i;
+    }
+    TaskRun other = bench.run_of(0); // another row
+    other.task.row = 3;
+    pes.blend(other, 22);
+    EXPECT_EQ(pes.hazards(), 2U);
+}
+
 /// One PE for each bank, so that a packet is one task and a pixel comes again in the next cycle.
 DegsConfig one_pe_without_scoreboard() {
     DegsConfig config = test::shaped(exact_arithmetic(), {16, 2, 8, 8, 1});

@@ -259,5 +259,23 @@ TEST_P(Hazards, OnlyTheScoreboardPreventsThem) {
 
 INSTANTIATE_TEST_SUITE_P(Scoreboard, Hazards, ::testing::Bool());
 
+// Without scoreboard segments of 16 px execute back to back. In packets of 4 each pixel comes again
+// after 4 cycles, when it is just written back, although its segment is never at rest.
+TEST(IssueBank, HazardsCountBySinglePixels) {
+    constexpr std::uint32_t kSplats = 30;
+    std::vector<SchedulerBench::Feed> feeds;
+    for (std::uint32_t i = 0; i < kSplats; ++i) {
+        feeds.push_back({10, i, 3});
+    }
+    SchedulerBench::Sizes sizes;
+    sizes.width = 4;
+    sizes.packets = 64;
+    sizes.scoreboard = false;
+    SchedulerBench bench(sizes, std::vector<ProjectedSplat>(kSplats, blanket(8, 8, 100, 0.05)));
+    bench.run(feeds);
+    EXPECT_EQ(bench.stats().window.cycles(), kSplats * 4);
+    EXPECT_EQ(bench.stats().hazards, 0U);
+}
+
 } // namespace
 } // namespace degs

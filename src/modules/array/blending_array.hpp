@@ -99,10 +99,10 @@ private:
     RenderJob& job_;
     int index_, slices_, segment_length_, segments_per_row_;
     Process self_;
-    DatedFifo<TaskPacket>* packets_ = nullptr; // what `in` is bound to
+    DatedFifo<TaskPacket>* packets_ = nullptr; // the ring behind `in`
     std::vector<Context> contexts_;            // those in use have taken host memory
     int segments_;                             // of a context
-    std::vector<std::size_t> port_of_listener_;
+    std::vector<std::size_t> port_of_row_; // in region_ended, of a stream; empty without listeners
     BlendOutcome outcome_; // of the segment whose tasks execute, or of the part without scoreboard
     bool plain_;           // solved tasks and a scoreboard: asked once per segment, so in one place
     TaskBlender blender_;

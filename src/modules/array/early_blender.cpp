@@ -14,6 +14,7 @@ BlendOutcome EarlyBlender::blend(const TaskRun& run, Cycle date) {
     DataPath& path = *job_.path;
     BlendTask task = run.task;
     task.mask = run.part;
+    hazards_ += __builtin_popcount(pending(task, run.tile));
     std::array<PixelValue, 32> seen; // by bit of the mask
     for (std::uint32_t left = task.mask; left != 0; left &= left - 1) {
         const int i = __builtin_ctz(left);
@@ -40,6 +41,18 @@ void EarlyBlender::finish(TileNumber tile) {
         std::remove_if(under_way_.begin(), under_way_.end(),
                        [tile](const WriteBack& update) { return update.tile == tile; }),
         under_way_.end());
+}
+
+// The tasks whose pixels have an update that is not written back.
+std::uint32_t EarlyBlender::pending(const BlendTask& task, TileNumber tile) const {
+    std::uint32_t pixels = 0;
+    for (const WriteBack& update : under_way_) {
+        const int i = update.column - task.column;
+        if (update.tile == tile && update.row == task.row && i >= 0 && i < 32) {
+            pixels |= 1U << i;
+        }
+    }
+    return pixels & task.mask;
 }
 
 void EarlyBlender::write(const WriteBack& update) {

@@ -23,6 +23,8 @@ public:
     BlendOutcome blend(const TaskRun& run, Cycle date);
     /// Writes back all that is under way to a tile, of which no further task follows.
     void finish(TileNumber tile);
+    /// Pixels so far that a task updated although an earlier update was not written back yet.
+    std::uint64_t hazards() const { return hazards_; }
 
 private:
     struct WriteBack {
@@ -32,11 +34,13 @@ private:
         PixelValue value;
     };
     void write(const WriteBack& update);
+    std::uint32_t pending(const BlendTask& task, TileNumber tile) const;
 
     RenderJob& job_;
     TaskBlender blender_;
     Cycle latency_;
     std::deque<WriteBack> under_way_; // by date
+    std::uint64_t hazards_ = 0;
 };
 
 } // namespace degs

@@ -6,8 +6,8 @@
 
 namespace degs {
 
-/// What the PEs do with the tasks of a segment: they blend the pixels that a Span Unit has found
-/// inside the ellipse or, without span parsing, first test each of them.
+/// Executes the tasks of a segment as the PEs do: it blends the pixels that a Span Unit has found
+/// inside the ellipse or, without span parsing, first tests each of them.
 class TaskBlender {
 public:
     TaskBlender(RenderJob& job, bool tests) : job_(job), tests_(tests) {}
