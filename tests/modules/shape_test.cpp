@@ -69,24 +69,34 @@ INSTANTIATE_TEST_SUITE_P(
                (std::get<0>(pair.param) ? "_large" : "_small");
     });
 
+/// A run for each of `values`, to which `apply` sets the default design.
+template <class Value, class Apply>
+std::vector<std::unique_ptr<DegsRun>> run_series(const FrameWorkload& frame,
+                                                 const std::vector<Value>& values, Apply apply) {
+    std::vector<std::unique_ptr<DegsRun>> runs;
+    for (const Value value : values) {
+        DegsConfig config;
+        apply(config, value);
+        runs.push_back(std::make_unique<DegsRun>("degs" + std::to_string(runs.size()), config,
+                                                 std::vector<const FrameWorkload*>{&frame}));
+    }
+    sc_core::sc_start();
+    return runs;
+}
+
 class ShapeOfPacking : public ::testing::TestWithParam<bool> {};
 
 // Where the bytes decide how many segments wait, 1 to 300 per bank here, time falls with them until
 // they stop to matter.
 TEST_P(ShapeOfPacking, TimeFollowsTheBytes) {
     const FrameWorkload frame = medium_frame(GetParam());
-    const int bytes[] = {3200, 3296, 3456, 3840, 4608, 6144, 12288, 32768};
-    std::vector<std::unique_ptr<DegsRun>> runs;
-    for (const int size : bytes) {
-        DegsConfig config;
+    const std::vector<int> bytes{3200, 3296, 3456, 3840, 4608, 6144, 12288, 32768};
+    const auto runs = run_series(frame, bytes, [](DegsConfig& config, int size) {
         config.scheduler.queue_segments_per_pe = 0;
         config.packing.bytes = size;
         config.packing.lead_packets = 3;
         config.scheduler.scan = DomainScan::Oldest;
-        runs.push_back(std::make_unique<DegsRun>("degs" + std::to_string(runs.size()), config,
-                                                 std::vector<const FrameWorkload*>{&frame}));
-    }
-    sc_core::sc_start();
+    });
     const auto cycles = [&runs](std::size_t i) {
         return static_cast<double>(runs[i]->degs().finished());
     };
@@ -106,15 +116,10 @@ class ShapeOfMemory : public ::testing::TestWithParam<bool> {};
 // Time falls with bandwidth until something else limits, and never under the time of the bytes.
 TEST_P(ShapeOfMemory, TimeFollowsTheBandwidth) {
     const FrameWorkload frame = medium_frame(GetParam());
-    const double bandwidths[] = {1, 2, 4, 8, 16, 51.2, 102.4, 204.8};
-    std::vector<std::unique_ptr<DegsRun>> runs;
-    for (const double bandwidth : bandwidths) {
-        DegsConfig config;
+    const std::vector<double> bandwidths{1, 2, 4, 8, 16, 51.2, 102.4, 204.8};
+    const auto runs = run_series(frame, bandwidths, [](DegsConfig& config, double bandwidth) {
         config.memory.bandwidth_gb_per_s = bandwidth;
-        runs.push_back(std::make_unique<DegsRun>("degs" + std::to_string(runs.size()), config,
-                                                 std::vector<const FrameWorkload*>{&frame}));
-    }
-    sc_core::sc_start();
+    });
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const auto cycles = static_cast<double>(runs[i]->degs().finished());
         const MemoryStreams::Traffic traffic = runs[i]->degs().streams().total();

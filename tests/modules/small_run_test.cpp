@@ -130,7 +130,7 @@ TEST(SmallRun, TheReuseDistanceHoldsAtTheArray) {
     EXPECT_EQ(result->packets(), 40U);
 }
 
-// What the scoreboard is for: without it the image is wrong.
+// Without a scoreboard the image is wrong.
 TEST(SmallRun, WithoutScoreboardPixelsAreUpdatedTooEarly) {
     const FrameWorkload frame = random_frame(2, 64, 64, 32, 150);
     DegsConfig config = tiles_of(32);

@@ -59,62 +59,61 @@ TEST(SpanUnit, ARowPerIntervalAndTheLatencyOfThePipeline) {
     EXPECT_EQ(unit.stats().busy, 9U);
 }
 
-// Reports of all slices, then the latency of the ring that stands for the wires.
-TEST(TileMonitor, CancelsWhenTheLastSliceHasReported) {
-    UnitBench bench(make_frame({blanket(16, 8, 64)}, 32, 16, 16)); // two tiles
-    const TileMonitor::Config config;
-    TileMonitor unit("unit", config, bench.time, bench.job, 2, 1);
-    DatedFifo<SliceReport> slice0("slice0", bench.time, 4, 4);
-    DatedFifo<SliceReport> slice1("slice1", bench.time, 4, 4);
-    DatedFifo<TileNumber> out("out", bench.time, 4, 8);
-    unit.in[0].bind(slice0);
-    unit.in[1].bind(slice1);
-    unit.out[0].bind(out);
-    for (auto* ring : {&slice0, &slice1}) {
-        bench.script([ring, &slice0](Process& self) {
-            ring->connect_writer(self);
-            self.advance(ring == &slice0 ? 30 : 50);
-            ring->put(self, {0, ring == &slice0}); // one slice still has live pixels
-            self.advance(10);
-            ring->put(self, {1, true});
+/// A Tile Monitor of two slices and two tiles. Reports take 4 cycles to it, a cancellation 8 from it.
+struct MonitorBench {
+    /// A slice reports a tile at `date`; `ended`: all its pixels have ended.
+    struct Report {
+        Cycle date;
+        TileNumber tile;
+        bool ended;
+    };
+    UnitBench bench{make_frame({blanket(16, 8, 64)}, 32, 16, 16)};
+    TileMonitor unit{"unit", {}, bench.time, bench.job, 2, 1};
+    DatedFifo<SliceReport> slice0{"slice0", bench.time, 4, 4};
+    DatedFifo<SliceReport> slice1{"slice1", bench.time, 4, 4};
+    DatedFifo<TileNumber> out{"out", bench.time, 4, 8};
+
+    MonitorBench() {
+        unit.in[0].bind(slice0);
+        unit.in[1].bind(slice1);
+        unit.out[0].bind(out);
+    }
+    void feed(DatedFifo<SliceReport>& slice, const std::vector<Report>& reports) {
+        bench.script([&slice, reports](Process& self) {
+            slice.connect_writer(self);
+            for (const Report& report : reports) {
+                self.advance_to(report.date);
+                slice.put(self, {report.tile, report.ended});
+            }
         });
     }
-    const auto& got = bench.drain(out);
-    sc_core::sc_start();
-    ASSERT_EQ(got.size(), 1U);
-    EXPECT_EQ(got[0].second, 1U);
-    EXPECT_EQ(got[0].first, 60U + 4 + 8);
-    EXPECT_EQ(unit.stats().tiles, 2U);
-    EXPECT_EQ(unit.stats().tiles_cancelled, 1U);
+    /// Tile 1 is cancelled, and nothing else, when its last report at `date` has gone both ways.
+    void expect_tile_1_cancelled(Cycle date) {
+        const auto& got = bench.drain(out);
+        sc_core::sc_start();
+        ASSERT_EQ(got.size(), 1U);
+        EXPECT_EQ(got[0].second, 1U);
+        EXPECT_EQ(got[0].first, date + 4 + 8);
+        EXPECT_EQ(unit.stats().tiles, 2U);
+        EXPECT_EQ(unit.stats().tiles_cancelled, 1U);
+    }
+};
+
+// Slice 1 still has live pixels of tile 0.
+TEST(TileMonitor, CancelsWhenTheLastSliceHasReported) {
+    MonitorBench monitor;
+    monitor.feed(monitor.slice0, {{30, 0, true}, {40, 1, true}});
+    monitor.feed(monitor.slice1, {{50, 0, false}, {60, 1, true}});
+    monitor.expect_tile_1_cancelled(60);
 }
 
 // A slice may end a tile before an older one. Slice 0 has ended all of tile 0 and then of tile 1,
 // slice 1 all of tile 1 and later, with live pixels, tile 0: only tile 1 is over everywhere.
 TEST(TileMonitor, TakesReportsInAnyOrder) {
-    UnitBench bench(make_frame({blanket(16, 8, 64)}, 32, 16, 16)); // two tiles
-    TileMonitor unit("unit", {}, bench.time, bench.job, 2, 1);
-    DatedFifo<SliceReport> slice0("slice0", bench.time, 4, 4);
-    DatedFifo<SliceReport> slice1("slice1", bench.time, 4, 4);
-    DatedFifo<TileNumber> out("out", bench.time, 4, 8);
-    unit.in[0].bind(slice0);
-    unit.in[1].bind(slice1);
-    unit.out[0].bind(out);
-    for (auto* ring : {&slice0, &slice1}) {
-        bench.script([ring, &slice0](Process& self) {
-            ring->connect_writer(self);
-            self.advance(30);
-            const TileNumber first = ring == &slice0 ? 0 : 1;
-            ring->put(self, {first, true});
-            self.advance(10);
-            ring->put(self, {1 - first, ring == &slice0});
-        });
-    }
-    const auto& got = bench.drain(out);
-    sc_core::sc_start();
-    ASSERT_EQ(got.size(), 1U);
-    EXPECT_EQ(got[0].second, 1U);
-    EXPECT_EQ(got[0].first, 40U + 4 + 8);
-    EXPECT_EQ(unit.stats().tiles, 2U);
+    MonitorBench monitor;
+    monitor.feed(monitor.slice0, {{30, 0, true}, {40, 1, true}});
+    monitor.feed(monitor.slice1, {{30, 1, true}, {40, 0, false}});
+    monitor.expect_tile_1_cancelled(40);
 }
 
 /// Span Units that share lanes, with a bank's queue of their Span Vectors for every stream.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/tlm/arbitration_reference.hpp"
+#include "tests/tlm/process_bench.hpp"
 
 namespace degs {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 using test::CycleByCycle;
 using test::DatedSystem;
 using test::Logs;
+using test::ProcessBench;
 using test::Script;
 using test::SystemSpec;
 
@@ -64,15 +66,6 @@ TEST_P(SmallRunArbitration, EqualsCycleByCycleInBothFidelities) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, SmallRunArbitration, ::testing::Range(1U, 9U));
-
-/// A ring whose two sides are processes of the same test.
-struct ProcessBench {
-    explicit ProcessBench(Fidelity fidelity = Fidelity::Exact) : time{ClockDomain(1.0), fidelity} {}
-    std::unique_ptr<DatedFifo<int>> ring(const char* name, std::size_t depth, Cycle forward = 1) {
-        return std::make_unique<DatedFifo<int>>(name, time, depth, forward);
-    }
-    Timebase time;
-};
 
 // The writer waits for a cell of `busy`; the cell is free again at 5, but the writer has not run
 // yet when the arbiter asks. The writer's next date is 5 and not that of `busy`'s reader, who has
@@ -262,81 +255,6 @@ TEST_P(ProcessIn, ArrivedIsExactToTheCycle) {
 }
 
 // A process that everybody asks for its date has one alarm per listener; there is no limit.
-// Read at 6 with release latency 2: no room at 7, room at 8. The writer asks before the reader's host
-// time has come that far.
-TEST_P(ProcessIn, RoomIsExactToTheCycle) {
-    ProcessBench bench(GetParam());
-    DatedFifo<int> ring("ring", bench.time, 1, 1, 2);
-    Process writer(bench.time);
-    Process reader(bench.time);
-    ring.connect_writer(writer);
-    ring.connect_reader(reader);
-    const Script write("write", [&] {
-        EXPECT_TRUE(ring.has_room(writer));
-        ring.put(writer, 1);
-        for (writer.advance(); writer.local() < 8; writer.advance()) {
-            EXPECT_FALSE(ring.has_room(writer)) << writer.local();
-        }
-        EXPECT_TRUE(ring.has_room(writer));
-        ring.put(writer, 2);
-        EXPECT_EQ(writer.local(), 8U);
-        writer.finish();
-    });
-    const Script read("read", [&] {
-        reader.advance(6);
-        EXPECT_EQ(ring.take(reader), 1);
-        reader.advance(20);
-        EXPECT_EQ(ring.get(reader), 2);
-        reader.finish();
-    });
-    sc_core::sc_start();
-    EXPECT_EQ(writer.local(), kNever);
-    EXPECT_EQ(reader.local(), kNever);
-}
-
-// Two writers that ask for room and an arbiter that asks for items, all of each other: whoever has
-// the earliest date goes on. Either writer's ring holds one item that is read every third cycle.
-TEST_P(ProcessIn, WritersAndReadersMayAskEachOther) {
-    ProcessBench bench(GetParam());
-    DatedFifo<int> rings[] = {{"ring0", bench.time, 1, 1, 1}, {"ring1", bench.time, 1, 1, 1}};
-    Process writers[] = {Process(bench.time), Process(bench.time)};
-    Process arbiter(bench.time);
-    std::vector<Cycle> written[2];
-    std::vector<std::unique_ptr<Script>> scripts;
-    for (int w = 0; w < 2; ++w) {
-        rings[w].connect_writer(writers[w]);
-        rings[w].connect_reader(arbiter);
-        scripts.push_back(std::make_unique<Script>(("write" + std::to_string(w)).c_str(), [&, w] {
-            while (written[w].size() < 20) {
-                if (rings[w].has_room(writers[w])) {
-                    written[w].push_back(writers[w].local());
-                    rings[w].put(writers[w], 0);
-                }
-                writers[w].advance();
-            }
-            writers[w].finish();
-        }));
-    }
-    const Script arbitrate("arbitrate", [&] {
-        for (int left = 40; left > 0; arbiter.advance()) {
-            auto& ring = rings[arbiter.local() % 3 % 2]; // 0, 1, 0; 0, 1, 0; ...
-            if (arbiter.local() % 3 != 2 && arbiter.arrived(ring)) {
-                ring.drop(arbiter);
-                --left;
-            }
-        }
-        arbiter.finish();
-    });
-    sc_core::sc_start();
-    ASSERT_EQ(written[0].size(), 20U);
-    ASSERT_EQ(written[1].size(), 20U);
-    // Written at 0; read at 3, 6, ... and 1, 4, ...; written again in the cycle after.
-    for (Cycle i = 1; i < 20; ++i) {
-        EXPECT_EQ(written[0][i], 3 * i + 1);
-        EXPECT_EQ(written[1][i], 3 * i - 1);
-    }
-}
-
 TEST_P(ProcessIn, AnyNumberOfReadersMayAskOneWriter) {
     constexpr std::size_t kReaders = 200;
     ProcessBench bench(GetParam());
@@ -388,11 +306,7 @@ TEST_P(ProcessIn, LocalDatesOnlyRise) {
     sc_core::sc_start();
 }
 
-INSTANTIATE_TEST_SUITE_P(Fidelities, ProcessIn,
-                         ::testing::Values(Fidelity::Exact, Fidelity::Strict),
-                         [](const auto& fidelity) {
-                             return fidelity.param == Fidelity::Exact ? "Exact" : "Strict";
-                         });
+INSTANTIATE_TEST_SUITE_P(Fidelities, ProcessIn, test::both_fidelities(), test::fidelity_name);
 
 } // namespace
 } // namespace degs
