@@ -6,7 +6,7 @@
 # again; so the script goes on where it was stopped, and a changed program or configuration needs another FOLDER. All of
 # it takes many hours; --quick runs two small comparisons.
 # Environment variables choose what is run, as lists of words:
-#     DESIGNS      names of files in configs/ without .yaml (default: four families with 16 to 1024 PEs, degs-64-tuned)
+#     DESIGNS      names of files in configs/ without .yaml (default: all)
 #     SCENES       trained scenes in DEGS_SCENES (default ../shared/scenes), or synthetic:NAME,gaussians=N
 #     RESOLUTIONS  (default: 720p 1080p 2k 4k 8k)
 #     CAMERAS      (default: 2 1; close-ups, and the same scenes small)
@@ -25,10 +25,6 @@ while [[ ${1:-} == --* ]]; do
 done
 out=${1:-$(mktemp -d)}
 
-families=()
-for design in degs gscore gbu gcc; do
-    for pes in 16 64 256 1024; do families+=("$design-$pes"); done
-done
 trained="flowers guitar seal skull st-peter"
 if [[ $quick == yes ]]; then
     read -ra designs <<<"${DESIGNS:-degs-64 gscore-64 gbu-64 gcc-64}"
@@ -36,7 +32,7 @@ if [[ $quick == yes ]]; then
     read -ra resolutions <<<"${RESOLUTIONS:-720p}"
     read -ra cameras <<<"${CAMERAS:-1}"
 else
-    read -ra designs <<<"${DESIGNS:-${families[*]} degs-64-tuned}"
+    read -ra designs <<<"${DESIGNS:-$(basename -s .yaml configs/*.yaml | tr '\n' ' ')}"
     read -ra scenes <<<"${SCENES:-$trained synthetic:landscape,gaussians=3000000}"
     read -ra resolutions <<<"${RESOLUTIONS:-720p 1080p 2k 4k 8k}"
     read -ra cameras <<<"${CAMERAS:-2 1}"

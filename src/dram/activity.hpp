@@ -9,7 +9,7 @@
 
 namespace degs::dram {
 
-/// What the channels of a memory have done by a date, and how evenly they were loaded.
+/// Counts of all channels of a memory up to a date, and the load of each of them.
 struct Activity {
     Channel::Stats all;                       ///< sums over the channels
     std::vector<std::uint64_t> channel_bytes; ///< that each data bus has transferred

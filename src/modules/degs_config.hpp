@@ -137,7 +137,8 @@ struct DegsConfig : AcceleratorConfig {
         return span.rows == RowAssignment::Pool || slicing.granted() || span.rows_per_cycle > 1;
     }
     /// Span Vectors between Span Units and a bank, for each stream: those that wait, and one for
-    /// every stage of the pipelines that lead to the bank, which stop as a whole [assumed].
+    /// every stage of the pipelines that lead to the bank. Stages fill up while the bank takes
+    /// nothing [assumed].
     int crossbar_cells() const {
         const int units = span.units_per_module();
         const int stages = (span.latency_cycles + span.cycles_per_row - 1) / span.cycles_per_row;

@@ -53,7 +53,7 @@ void Degs::collect_buffers(AcceleratorResult& result) const {
                c.span_buffer.bytes, c.span_lane_depth(), span_buffer());
     add_buffer(result, {"crossbar", "Span Vectors; Table I of the paper does not count them."}, 0,
                c.crossbar_cells(), crossbar());
-    // More cells than the buffer has packets: the pipeline and ends of tiles, see build_array().
+    // More cells than the buffer has packets: the pipeline and ends of tiles, see connect_slice().
     const std::uint64_t packing_cells = packing_rings_.front()->depth();
     add_buffer(result,
                {"packing_buffer",

@@ -138,7 +138,7 @@ private:
     std::size_t stream_count_;                       // theirs, at hand in the hot loop
     int spans_per_cycle_;                            // that the crossbar delivers
     bool contexts_owed_ = false;                     // a stream has fewer contexts than it may have
-    DatedFifo<Termination>* terminations_ = nullptr; // what the port is bound to
+    DatedFifo<Termination>* terminations_ = nullptr; // the ring behind `terminated`
     Process self_;
     Segmenter segmenter_;
     SegmentQueue queue_;

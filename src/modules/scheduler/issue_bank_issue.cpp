@@ -79,7 +79,7 @@ int IssueBank::issue_from_all(Cycle now) {
         }
         SegmentQueue::Tile& tile = tile_at(streams_[chosen], streams_[chosen].issuing);
         if (!issue_one(now, tile, ready_[chosen])) {
-            break; // there is no room for anybody
+            break; // nothing overtakes what waits for room
         }
         queue_.took(tile, ready_[chosen]);
         ready_[chosen] = -1;
