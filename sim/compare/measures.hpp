@@ -19,10 +19,11 @@ enum class Measure {
     LatencyMs,
     Fps,
     ThroughputFps, ///< of the camera path
-    Useful,        ///< this and the next six: shares of the slots, in the order of kSlotClasses
+    Useful,        ///< this and the next seven: shares of the slots, in the order of kSlotClasses
     Boundary,
     Terminated,
     Conflict,
+    Ports,
     Starved,
     Blocked,
     Drain,

@@ -12,6 +12,7 @@
 #include "modules/front_end/tile_front_end.hpp"
 #include "modules/front_end/tile_grants.hpp"
 #include "modules/memory_streams.hpp"
+#include "modules/span_engine/parameter_release.hpp"
 
 namespace degs {
 
@@ -59,13 +60,18 @@ private:
     using Rings = std::vector<std::unique_ptr<DatedFifo<T>>>;
 
     template <class T>
-    DatedFifo<T>& ring(Rings<T>& rings, const char* name, int depth, int latency);
+    DatedFifo<T>& ring(Rings<T>& rings, const char* name, int depth, int latency) {
+        return add_ring(rings, name, time_, depth, latency);
+    }
     template <class T>
-    DatedFifo<T>& wire(Rings<T>& rings, const char* name, int latency);
+    DatedFifo<T>& wire(Rings<T>& rings, const char* name, int latency) {
+        return add_wire(rings, name, time_, latency);
+    }
     void build_front_end();
     void build_fetchers();
     void build_slicing();
     void build_spans();
+    void build_parameter_release();
     std::unique_ptr<SpanStage> make_span_module(int index);
     void build_scheduler();
     void connect_crossbar(int bank);
@@ -79,6 +85,7 @@ private:
     void collect_buffers(AcceleratorResult& result) const;
     void collect_laws(AcceleratorResult& result) const;
     void explain(AcceleratorResult& result) const;
+    void explain_ports(AcceleratorResult& result) const;
 
     DegsConfig config_;
     Timebase time_;
@@ -89,6 +96,7 @@ private:
     std::vector<std::unique_ptr<SplatFetcher>> fetchers_; // one per Sorting Unit, or per stream
     std::unique_ptr<TileGrants> grants_;                  // of streams
     std::vector<std::unique_ptr<GaussianSlicingUnit>> slicing_;
+    std::vector<std::unique_ptr<ParameterRelease>> releases_;
     std::vector<std::unique_ptr<SpanStage>> spans_;
     std::vector<std::unique_ptr<IssueBank>> banks_;
     std::vector<std::unique_ptr<PackingUnit>> packing_;
@@ -109,6 +117,10 @@ private:
     // While wiring: the next port of each Slicing Unit and of each module of Span Units.
     std::vector<std::size_t> next_region_port_, next_span_port_;
     Rings<SliceReport> done_rings_, state_rings_;
+    Rings<ChunkSliced> sliced_rings_;
+    Rings<RowCount> row_count_rings_;
+    Rings<RowSolved> solved_rings_;
+    Rings<ChunkReleased> place_rings_;
     Rings<TileNumber> context_rings_, cancel_rings_;
 };
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tlm/ceil_div.hpp"
+
 namespace degs {
 namespace {
 
@@ -33,6 +35,14 @@ void DegsConfig::GaussianBuffer::describe(ConfigVisitor& visitor) {
     visitor.real(
         "sort_share", sort_share, 0.05, 0.95,
         "share of the buffer for lists being sorted; the rest holds sorted splats [assumed]");
+    ports.describe(visitor,
+                   "splats written by a fetcher, and read by the Slicing Units that share a part, "
+                   "per cycle and SRAM bank; 0: unlimited [assumed]",
+                   "SRAM banks of such a part; splats are dealt to them in turn [assumed]");
+    visitor.choice("temporary", temporary, {"sliced", "spans"},
+                   "how long a chunk of splats keeps its place: until a Slicing Unit has taken the "
+                   "last one [assumed: rows carry what Span Units need], or until the spans of all "
+                   "of them have been made (paper, Sec. IV-A)");
 }
 
 void DegsConfig::SpanBuffer::describe(ConfigVisitor& visitor) {
@@ -40,6 +50,8 @@ void DegsConfig::SpanBuffer::describe(ConfigVisitor& visitor) {
                     "bytes (paper Table I: 2 KB), split among Span Units");
     visitor.integer("row_bytes", row_bytes, 1, 256,
                     "bytes per row work item: G_ID 4, row 2, tags 2 [assumed]");
+    ports.describe(visitor, "rows written and rows read per cycle and lane, which is an SRAM bank; "
+                            "0: unlimited [assumed]");
 }
 
 void DegsConfig::Scheduler::describe(ConfigVisitor& visitor) {
@@ -89,6 +101,8 @@ void DegsConfig::Packing::describe(ConfigVisitor& visitor) {
     visitor.boolean("reorganisation", reorganisation,
                     "compact tasks of different spans into one packet (paper, Sec. IV-B); false, "
                     "for ablations: a packet has tasks of one span only");
+    ports.describe(visitor, "segments written and segments read per cycle and bank; packets lie in "
+                            "a memory of their own; 0: unlimited [assumed]");
 }
 
 void DegsConfig::Array::describe(ConfigVisitor& visitor) {
@@ -102,6 +116,23 @@ void DegsConfig::FeatureBuffers::describe(ConfigVisitor& visitor) {
     visitor.integer("bytes", bytes, 16, 1 << 30, "bytes (paper Table I: 8 KB), split among banks");
     visitor.integer("entry_bytes", entry_bytes, 1, 256,
                     "bytes per splat: A, three colours, tag [assumed]");
+    visitor.integer("fill_cycles", fill.cycles, 0, 1024,
+                    "cycles that writing an entry takes, with which its first span waits unless "
+                    "the Packing Unit's pipeline hides it; 0: it is there at once [assumed]");
+    fill.ports.describe(visitor,
+                        "splats written, and splats read by the tasks of a packet, per cycle and "
+                        "SRAM bank; 0: unlimited [assumed]",
+                        "SRAM banks of an Issue Bank's part; entries are dealt to them in turn "
+                        "[assumed]");
+}
+
+void DegsConfig::PixelBuffers::describe(ConfigVisitor& visitor) {
+    PixelBuffer::Config::describe(visitor);
+    ports.describe(visitor,
+                   "pixels read and pixels written by the tasks of a packet, per cycle and SRAM "
+                   "bank; 0: unlimited [assumed]",
+                   "SRAM banks of an Issue Bank's part of a tile context; pixels are dealt to them "
+                   "in turn, row after row [assumed]");
 }
 
 void DegsConfig::describe(ConfigVisitor& visitor) {
@@ -158,13 +189,21 @@ void DegsConfig::require_sizes(ConfigVisitor& visitor) const {
                      {"feature_buffer.entry_bytes", "scheduler.banks"}});
 }
 
+// A segment can straddle one packet more than it fills. Limited ports end a packet where two pixels
+// lie in one SRAM bank, which are at least as many pixels apart as there are banks.
+int DegsConfig::packets_per_segment() const {
+    const BankedSramPorts& ports = pixel_buffer.ports;
+    const int pixels =
+        ports.limited() ? std::min(array.pes_per_bank, ports.sram_banks) : array.pes_per_bank;
+    return ceil_div(scheduler.segment_length, pixels) + 1;
+}
+
 void DegsConfig::require_packing(ConfigVisitor& visitor) const {
-    // A segment of s pixels can straddle one packet more than it fills.
-    const int packets =
-        (scheduler.segment_length + array.pes_per_bank - 1) / array.pes_per_bank + 1;
-    visitor.require_at_least("packing.lead_packets", packing.lead_packets, packets,
-                             "because a segment may lie in that many packets",
-                             {"scheduler.segment_length", "array.pes_per_bank"});
+    const int packets = packets_per_segment();
+    visitor.require_at_least(
+        "packing.lead_packets", packing.lead_packets, packets,
+        "because a segment may lie in that many packets",
+        {"scheduler.segment_length", "array.pes_per_bank", "pixel_buffer.sram_banks"});
     const std::int64_t bank = std::int64_t{queue_depth()} * scheduler.segment_bytes +
                               std::int64_t{packets} * packing.task_bytes * array.pes_per_bank;
     visitor.require_at_least("packing.bytes", packing.bytes, bank * scheduler.banks,

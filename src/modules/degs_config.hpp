@@ -21,6 +21,10 @@
 
 namespace degs {
 
+/// When a chunk of splats leaves its place in the Gaussian Buffer: once its last splat has been
+/// taken by a Slicing Unit, or once the spans of all its splats have been made.
+enum class ParameterLife { Sliced, Spans };
+
 /// A complete DeGS accelerator; defaults are the paper's 64-PE design (Tables I and II), read
 /// literally. Capacities are in bytes; the depths of rings follow from record sizes.
 struct DegsConfig : AcceleratorConfig {
@@ -33,11 +37,14 @@ struct DegsConfig : AcceleratorConfig {
     struct GaussianBuffer {
         int bytes = 72 * 1024;
         double sort_share = 0.5; ///< of the buffer, for lists being sorted
+        BankedSramPorts ports;
+        ParameterLife temporary = ParameterLife::Sliced;
         void describe(ConfigVisitor& visitor);
     };
     struct SpanBuffer {
         int bytes = 2 * 1024;
         int row_bytes = 8;
+        SramPorts ports;
         void describe(ConfigVisitor& visitor);
     };
     static constexpr int kMostSegmentsPerPe = 256;
@@ -60,6 +67,7 @@ struct DegsConfig : AcceleratorConfig {
         int lead_packets = 5;
         int latency_cycles = 2;
         bool reorganisation = true;
+        SramPorts ports;
         void describe(ConfigVisitor& visitor);
     };
     struct Array {
@@ -67,9 +75,14 @@ struct DegsConfig : AcceleratorConfig {
         int writeback_cycles = 4;
         void describe(ConfigVisitor& visitor);
     };
+    struct PixelBuffers : PixelBuffer::Config {
+        BankedSramPorts ports; ///< in each Issue Bank's part of a context
+        void describe(ConfigVisitor& visitor);
+    };
     struct FeatureBuffers {
         int bytes = 8 * 1024;
         int entry_bytes = 16;
+        FeatureBuffer::Fill fill;
         void describe(ConfigVisitor& visitor);
     };
 
@@ -88,7 +101,7 @@ struct DegsConfig : AcceleratorConfig {
     Packing packing;
     FeatureBuffers feature_buffer;
     Array array;
-    PixelBuffer::Config pixel_buffer;
+    PixelBuffers pixel_buffer;
     TileMonitor::Config monitor;
     MainMemoryConfig memory;
 
@@ -175,6 +188,14 @@ struct DegsConfig : AcceleratorConfig {
     int gaussian_chunks() const {
         return splat_share().bytes_of(gaussian_buffer.bytes) / chunk_bytes();
     }
+    /// Some SRAM has a limited number of ports.
+    bool ports_limited() const {
+        return gaussian_buffer.ports.limited() || span_buffer.ports.limited() ||
+               packing.ports.limited() || feature_buffer.fill.ports.limited() ||
+               pixel_buffer.ports.limited();
+    }
+    /// Temporary Gaussian Parameters live until the spans are made.
+    bool parameters_wait() const { return gaussian_buffer.temporary == ParameterLife::Spans; }
     /// Keys that a Sorting Unit's share of the Gaussian Buffer holds.
     int sort_capacity() const {
         return sort_share().bytes_of(gaussian_buffer.bytes) / traffic.list_entry_bytes;
@@ -182,6 +203,8 @@ struct DegsConfig : AcceleratorConfig {
 
 private:
     PixelBuffer::TilePixels tile_pixels() const { return {tile_size, pipeline.pixel_bits()}; }
+    /// Packets in which a segment may lie at most.
+    int packets_per_segment() const;
     int chunk_bytes() const { return traffic.splat_bytes * fetching.chunk; }
     void require_counts(ConfigVisitor& visitor) const;
     void require_sizes(ConfigVisitor& visitor) const;

@@ -100,6 +100,29 @@ void Degs::explain(AcceleratorResult& result) const {
     out.push_back(grouped(sum_of(spans_, &SpanStage::Stats::empty_rows)) +
                   " rows of splats cover no pixel of their tile: they cost a Span Unit cycle and "
                   "nothing after it.");
+    explain_ports(result);
+}
+
+void Degs::explain_ports(AcceleratorResult& result) const {
+    if (!config_.ports_limited()) {
+        result.left_out.emplace_back(
+            "Every SRAM had as many ports as anybody wanted (the keys `ports`).");
+        return;
+    }
+    using G = GaussianSlicingUnit::Stats;
+    std::uint64_t fills = 0;
+    for (const auto& bank : banks_) {
+        fills += bank->features().stats().fill_waits;
+    }
+    result.left_out.push_back("Taken SRAM ports left " + grouped(result.slots.ports) +
+                              " PE-cycles without a task. Slicing Units waited " +
+                              grouped(sum_of(slicing_, &G::splat_port_waits)) +
+                              " cycles for the Gaussian Buffer and " +
+                              grouped(sum_of(slicing_, &G::row_port_waits)) +
+                              " for the Span Buffer, lanes of the Span Buffer " +
+                              grouped(sum_of(spans_, &SpanStage::Stats::row_port_waits)) +
+                              " for Span Units, and Issue Banks " + grouped(fills) +
+                              " for entries of the Feature Buffer that were being written.");
 }
 
 void Degs::collect(AcceleratorResult& result) const {

@@ -51,6 +51,19 @@ struct SplatChunk {
     bool last = false; ///< nothing of this tile follows
 };
 
+/// Splat Fetcher's chunk whose last row has been sent, Slicing Unit -> Parameter Release.
+struct ChunkSliced {
+    std::size_t fetcher = 0; ///< among those that feed the Slicing Unit
+};
+/// Rows of that chunk in a lane.
+struct RowCount {
+    std::uint32_t rows = 0;
+};
+/// Span Unit -> Parameter Release: a row has become a Span Vector, or misses its tile.
+struct RowSolved {};
+/// Parameter Release -> Splat Fetcher: the oldest chunk has left its place in the Gaussian Buffer.
+struct ChunkReleased {};
+
 /// One scanline of one splat inside a tile, Gaussian Slicing Unit -> Span Unit.
 struct RowItem {
     TileNumber tile = 0;

@@ -100,5 +100,31 @@ TEST(FeatureBuffer, HoldsAsManySplatsAsItHasEntries) {
     EXPECT_EQ(buffer.current(), entries[2]);
 }
 
+// Writing an entry takes four cycles. Splats that enter together wait for each other where they need
+// the same port: two ports, or two SRAM banks, or none to wait for.
+class FeatureFill : public ::testing::TestWithParam<std::tuple<int, int, Cycle>> {};
+
+TEST_P(FeatureFill, TakesAPort) {
+    const auto [ports, sram_banks, second] = GetParam();
+    FeatureBuffer::Fill fill;
+    fill.cycles = 4;
+    fill.ports.ports = ports;
+    fill.ports.sram_banks = sram_banks;
+    FeatureBuffer buffer(8, 2, 1, fill);
+    ASSERT_TRUE(buffer.admit(0, 1, 10));
+    EXPECT_FALSE(buffer.filled_by(13));
+    EXPECT_TRUE(buffer.filled_by(14));
+    ASSERT_TRUE(buffer.admit(0, 2, 10));
+    EXPECT_FALSE(buffer.filled_by(second - 1));
+    EXPECT_TRUE(buffer.filled_by(second));
+    EXPECT_EQ(buffer.stats().fill_waits, 2U);
+    ASSERT_TRUE(buffer.admit(0, 1, 30)); // more rows of the first need no writing
+    EXPECT_TRUE(buffer.filled_by(30));
+}
+
+INSTANTIATE_TEST_SUITE_P(Ports, FeatureFill,
+                         ::testing::Values(std::tuple(0, 1, 14), std::tuple(1, 1, 18),
+                                           std::tuple(2, 1, 14), std::tuple(1, 2, 14)));
+
 } // namespace
 } // namespace degs

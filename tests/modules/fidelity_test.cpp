@@ -44,6 +44,7 @@ private:
         buffers(c);
         front_end(c);
         streams(c);
+        ports(c);
         c.span.parsing = !chance(3);
         c.packing.reorganisation = !chance(3);
         const double ghz[] = {1.0, 1.0, 0.7, 1.7};
@@ -98,6 +99,18 @@ private:
         c.span.rows = chance(3) ? RowAssignment::Pool : RowAssignment::Fixed;
         c.span.rows_per_cycle = among({1, 1, 1, 2, 5});
         c.span.crossbar_width = among({0, 0, 1, 2});
+    }
+    void ports(DegsConfig& c) {
+        c.gaussian_buffer.ports.ports = among({0, 0, 1, 2});
+        c.gaussian_buffer.ports.sram_banks = among({1, 1, 3});
+        c.gaussian_buffer.temporary = chance(3) ? ParameterLife::Spans : ParameterLife::Sliced;
+        c.span_buffer.ports.ports = among({0, 0, 1, 2});
+        c.packing.ports.ports = among({0, 0, 1, 2});
+        c.feature_buffer.fill.cycles = among({0, 1, 5});
+        c.feature_buffer.fill.ports.ports = among({0, 0, 1, 2});
+        c.feature_buffer.fill.ports.sram_banks = among({1, 2, 8});
+        c.pixel_buffer.ports.ports = among({0, 0, 1, 2});
+        c.pixel_buffer.ports.sram_banks = among({16, 8, 3, 1, 64});
     }
     void front_end(DegsConfig& c) {
         c.projection.chunk = among({64, 8, 1});

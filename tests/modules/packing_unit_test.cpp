@@ -34,8 +34,8 @@ struct PackingBench {
     std::vector<Got> got;
     std::unique_ptr<Script> driver, listener;
 
-    explicit PackingBench(bool reorganisation = true)
-        : unit("unit", {4, static_cast<int>(kLatency), 8, reorganisation}) {
+    explicit PackingBench(bool reorganisation = true, const PacketPorts::Config& ports = {})
+        : unit("unit", {4, static_cast<int>(kLatency), 8, reorganisation, ports}) {
         unit.out.bind(ring);
     }
     void drive(const std::function<void()>& body) {
@@ -278,6 +278,124 @@ TEST(PackingUnit, EndsOfTilesCostNothing) {
     }
     EXPECT_EQ(bench.got[1].date, kLatency);
     EXPECT_EQ(bits(bench.got[1].packet.runs[1].part), 1);
+}
+
+/// Ports of the Pixel Buffer, or of the Feature Buffer, on tiles of 16 px that one bank has alone.
+PacketPorts::Config pixel_ports(int ports, int sram_banks) {
+    PacketPorts::Config config;
+    config.tile_size = 16;
+    config.banks = 1;
+    config.pixels.ports = ports;
+    config.pixels.sram_banks = sram_banks;
+    return config;
+}
+PacketPorts::Config feature_ports(int ports, int sram_banks) {
+    PacketPorts::Config config;
+    config.features.ports = ports;
+    config.features.sram_banks = sram_banks;
+    return config;
+}
+
+/// Adds one run after the other at cycle 0; returns the tasks of every packet.
+std::vector<int> packets_of(const PacketPorts::Config& ports,
+                            const std::vector<std::pair<TaskRun, int>>& runs) {
+    PackingBench bench(true, ports);
+    bench.drive([&] {
+        for (const auto& [run, entry] : runs) {
+            EXPECT_TRUE(bench.unit.room_by_ports(0, run, run.task.mask, entry));
+            bench.unit.add(bench.bank, run, run.task.mask, entry);
+        }
+        bench.next_cycles(20);
+    });
+    std::vector<int> tasks;
+    for (const auto& got : bench.got) {
+        EXPECT_EQ(got.date, kLatency + tasks.size());
+        tasks.push_back(got.packet.tasks);
+    }
+    return tasks;
+}
+
+// Eight tasks, all of the pixels 0 of their rows: in four SRAM banks these lie in the same one.
+class PixelPorts : public ::testing::TestWithParam<std::tuple<int, int, std::size_t>> {};
+
+TEST_P(PixelPorts, TasksOfOneSramBankTakeACycleEach) {
+    const auto [ports, sram_banks, packets] = GetParam();
+    std::vector<std::pair<TaskRun, int>> runs;
+    for (std::int16_t row = 0; row < 8; ++row) {
+        runs.emplace_back(run_of(0x1, row), 0);
+    }
+    const std::vector<int> tasks = packets_of(pixel_ports(ports, sram_banks), runs);
+    EXPECT_EQ(tasks, std::vector<int>(packets, static_cast<int>(8 / packets)));
+}
+
+// Four tasks per packet at most. 64 SRAM banks hold four rows of 16 px.
+INSTANTIATE_TEST_SUITE_P(Ports, PixelPorts,
+                         ::testing::Values(std::tuple(0, 4, 2), std::tuple(1, 4, 8),
+                                           std::tuple(2, 4, 4), std::tuple(4, 4, 2),
+                                           std::tuple(1, 32, 4), std::tuple(1, 64, 2)));
+
+// Neighbours lie in different SRAM banks; a segment is cut where a bank comes again.
+TEST(PackingPorts, ASegmentIsCutWhereAnSramBankComesAgain) {
+    EXPECT_EQ(packets_of(pixel_ports(1, 3), {{run_of(0xFF), 0}}), (std::vector<int>{3, 3, 2}));
+}
+
+TEST(PackingPorts, TwoTasksAtADistanceOfAllSramBanks) {
+    EXPECT_EQ(packets_of(pixel_ports(1, 4), {{run_of(0x11), 0}}), (std::vector<int>{1, 1}));
+}
+
+TEST(PackingPorts, EveryTileContextHasSramBanksOfItsOwn) {
+    TaskRun other = run_of(0x1);
+    other.task.context = 1;
+    EXPECT_EQ(packets_of(pixel_ports(1, 4), {{run_of(0x1), 0}, {other, 0}}), (std::vector<int>{2}));
+}
+
+// Eight tasks of eight splats; the parameters of entries 0, 2, 4, ... lie in one of two SRAM banks.
+class FeaturePorts : public ::testing::TestWithParam<std::tuple<int, int, int, std::size_t>> {};
+
+TEST_P(FeaturePorts, SplatsOfOneSramBankTakeACycleEach) {
+    const auto [ports, sram_banks, step, packets] = GetParam();
+    std::vector<std::pair<TaskRun, int>> runs;
+    for (std::int16_t i = 0; i < 8; ++i) {
+        runs.emplace_back(run_of(0x1, i), i * step);
+    }
+    const std::vector<int> tasks = packets_of(feature_ports(ports, sram_banks), runs);
+    EXPECT_EQ(tasks, std::vector<int>(packets, static_cast<int>(8 / packets)));
+}
+
+// A step of 0: all tasks are of one splat and share a read.
+INSTANTIATE_TEST_SUITE_P(Ports, FeaturePorts,
+                         ::testing::Values(std::tuple(0, 1, 1, 2), std::tuple(1, 1, 1, 8),
+                                           std::tuple(2, 1, 1, 4), std::tuple(1, 1, 0, 2),
+                                           std::tuple(1, 2, 1, 4), std::tuple(1, 2, 2, 8),
+                                           std::tuple(1, 4, 1, 2)));
+
+// Slots that a taken port leaves empty are counted as such.
+TEST(PackingPorts, EmptySlotsHaveACauseOfTheirOwn) {
+    PackingBench bench(true, pixel_ports(1, 4));
+    bench.drive([&] {
+        bench.add(run_of(0x1, 0));
+        bench.add(run_of(0x1, 1)); // ends the packet of the first
+        bench.next_cycles(20);
+        bench.add(run_of(0x1, 2));
+        bench.next_cycles(40);
+    });
+    EXPECT_EQ(bench.unit.idle().ports, 3U);
+    EXPECT_EQ(bench.unit.idle().conflict, 3U + 18 * 4 + 3);
+}
+
+// Room for eight packets; each of these tasks needs one of its own.
+TEST(PackingPorts, PacketsThatAreNotFullTakeRoom) {
+    PackingBench bench(true, pixel_ports(1, 4));
+    bench.drive([&] {
+        for (std::int16_t row = 0; row < 8; ++row) {
+            EXPECT_TRUE(bench.unit.room_by_ports(0, run_of(0x1, row), 0x1, 0)) << row;
+            bench.add(run_of(0x1, row));
+        }
+        EXPECT_FALSE(bench.unit.room_by_ports(0, run_of(0x1, 8), 0x1, 0));
+        EXPECT_TRUE(bench.unit.room_by_ports(0, run_of(0x2, 8), 0x2, 0)); // joins the last one
+        bench.next_cycle(1);
+        EXPECT_TRUE(bench.unit.room_by_ports(1, run_of(0x1, 8), 0x1, 0));
+    });
 }
 
 } // namespace

@@ -25,6 +25,8 @@ struct SchedulerBench {
         int issue_width = 4;
         int packets = 64;
         int spans_per_cycle = 0;
+        int segment_ports = 0;
+        int fill_cycles = 0;
         bool scoreboard = true;
         TerminationGrain grain = TerminationGrain::Segment;
     };
@@ -85,6 +87,8 @@ struct SchedulerBench {
         c.segments_per_cycle = 4;
         c.spans_per_cycle = s.spans_per_cycle;
         c.issue_width = s.issue_width;
+        c.segment_ports.ports = s.segment_ports;
+        c.fill.cycles = s.fill_cycles;
         c.reuse_cycles = s.reuse;
         c.feature_entries = 256;
         c.scoreboard = s.scoreboard;

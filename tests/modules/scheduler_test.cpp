@@ -277,5 +277,56 @@ TEST(IssueBank, HazardsCountBySinglePixels) {
     EXPECT_EQ(bench.stats().hazards, 0U);
 }
 
+// Eight rows wait at the crossbar, packets take two of them, and the Packing Buffer's ports let so
+// many segments in and out per cycle: one takes twice as long as two. Two are what the array executes.
+class SegmentPorts : public ::testing::TestWithParam<std::pair<int, Cycle>> {};
+
+TEST_P(SegmentPorts, LimitTheSegmentsPerCycle) {
+    const auto [ports, cycles] = GetParam();
+    SchedulerBench::Sizes sizes;
+    sizes.segment_ports = ports;
+    sizes.width = 32; // two rows
+    SchedulerBench bench(sizes, {blanket(8, 8, 32, 0.2)});
+    bench.run(SchedulerBench::rows(0, 8, 10));
+    EXPECT_EQ(bench.stats().window.cycles(), cycles);
+    EXPECT_EQ(bench.accounted(), bench.window_slots());
+}
+
+INSTANTIATE_TEST_SUITE_P(Ports, SegmentPorts,
+                         ::testing::Values(std::pair<int, Cycle>(0, 4), std::pair<int, Cycle>(2, 4),
+                                           std::pair<int, Cycle>(1, 8)));
+
+// Segments that waited for the read port say so: two wait in the queue, one may go.
+TEST(IssueBankPorts, AWaitForTheReadPortHasACauseOfItsOwn) {
+    SchedulerBench::Sizes sizes;
+    sizes.segment_ports = 1;
+    sizes.width = 32;
+    sizes.reuse = 20; // two rows at 10, whose next segments wait together until the first may go
+    SchedulerBench bench(sizes, {blanket(8, 8, 32, 0.2), blanket(8, 8, 32, 0.2)});
+    bench.run({{10, 0, 0}, {11, 0, 1}, {12, 1, 0}, {13, 1, 1}});
+    EXPECT_EQ(bench.stats().window.last, 12U + 1 + 20);
+    EXPECT_EQ(bench.accounted(), bench.window_slots());
+}
+
+// The first row of a splat waits until its parameters have been written, as far as the way from issue
+// to execution does not hide it; the second row of the splat follows at once.
+class FeatureFillTime : public ::testing::TestWithParam<std::pair<int, Cycle>> {};
+
+TEST_P(FeatureFillTime, DelaysTheFirstRow) {
+    const auto [cycles, first] = GetParam();
+    SchedulerBench::Sizes sizes;
+    sizes.fill_cycles = cycles;
+    SchedulerBench bench(sizes, {blanket(8, 8, 32, 0.2)});
+    bench.run(SchedulerBench::rows(0, 2, 10));
+    EXPECT_EQ(bench.stats().window.first, first);
+    EXPECT_EQ(bench.stats().window.last, first + 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cycles, FeatureFillTime,
+                         ::testing::Values(std::pair<int, Cycle>(0, 12),
+                                           std::pair<int, Cycle>(2, 12),
+                                           std::pair<int, Cycle>(3, 13),
+                                           std::pair<int, Cycle>(9, 19)));
+
 } // namespace
 } // namespace degs

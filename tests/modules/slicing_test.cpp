@@ -224,5 +224,46 @@ TEST(GaussianSlicingUnit, DropsWhatWasCancelled) {
     EXPECT_EQ(slicing.unit.stats().splats_cancelled, 1U);
 }
 
+// Four units that share out eight splats of a row each, with as many reads per cycle as there are
+// ports and SRAM banks: 8 / 4, 8 / 2 and 8 / 1 cycles.
+class SlicingPorts : public ::testing::TestWithParam<std::tuple<int, int, Cycle>> {};
+
+TEST_P(SlicingPorts, LimitTheSplatsPerCycle) {
+    const auto [ports, sram_banks, cycles] = GetParam();
+    GaussianSlicingUnit::Config config = sharing(4);
+    config.splat_ports.ports = ports;
+    config.splat_ports.sram_banks = sram_banks;
+    std::vector<ProjectedSplat> splats;
+    for (int i = 0; i < 8; ++i) {
+        splats.push_back(one_pixel(i, i));
+    }
+    SlicingBench slicing(splats, 16, config, 0, 16);
+    slicing.run(8);
+    EXPECT_EQ(slicing.sent(7).back() + 1, cycles);
+    EXPECT_EQ(slicing.unit.stats().splat_port_waits, cycles == 2 ? 0U : cycles - 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ports, SlicingPorts,
+                         ::testing::Values(std::tuple(0, 1, 2), std::tuple(4, 1, 2),
+                                           std::tuple(2, 1, 4), std::tuple(1, 2, 4),
+                                           std::tuple(1, 1, 8)));
+
+// Four units whose splats all have row 3: they write to one lane, in order of depth.
+class SlicingRowPorts : public ::testing::TestWithParam<std::pair<int, std::vector<Cycle>>> {};
+
+TEST_P(SlicingRowPorts, LimitTheRowsPerLaneAndCycle) {
+    GaussianSlicingUnit::Config config = sharing(4);
+    config.row_ports.ports = GetParam().first;
+    SlicingBench slicing(std::vector<ProjectedSplat>(4, one_pixel(2, 3)), 16, config, 0, 16);
+    slicing.run(4);
+    EXPECT_EQ(slicing.sent(3), GetParam().second);
+    EXPECT_EQ(slicing.splats(3), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Ports, SlicingRowPorts,
+                         ::testing::Values(std::pair(0, std::vector<Cycle>{0, 0, 0, 0}),
+                                           std::pair(2, std::vector<Cycle>{0, 0, 1, 1}),
+                                           std::pair(1, std::vector<Cycle>{0, 1, 2, 3})));
+
 } // namespace
 } // namespace degs

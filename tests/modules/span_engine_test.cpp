@@ -202,6 +202,28 @@ INSTANTIATE_TEST_SUITE_P(Rates, SpanPoolRates,
                                            std::tuple(2, 1, std::vector<Cycle>{0, 0, 1, 1, 2}),
                                            std::tuple(1, 3, std::vector<Cycle>{0, 3, 6, 9, 12})));
 
+// Four units at one lane, which gives as many rows per cycle as it has ports.
+class SpanPoolPorts : public ::testing::TestWithParam<std::pair<int, std::vector<Cycle>>> {};
+
+TEST_P(SpanPoolPorts, LimitTheRowsOfALane) {
+    SpanStage::Config config;
+    config.count = 4;
+    config.rows = RowAssignment::Pool;
+    config.row_ports.ports = GetParam().first;
+    SpanPool::Share share;
+    share.units = 4;
+    PoolBench pool(config, share, 64);
+    pool.feed(0, {{0, 4}, {1, 0}});
+    const auto& got = pool.bench.drain(*pool.queues[0]);
+    sc_core::sc_start();
+    EXPECT_EQ(PoolBench::taken(got, 6), GetParam().second);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ports, SpanPoolPorts,
+                         ::testing::Values(std::pair(0, std::vector<Cycle>{0, 0, 0, 0}),
+                                           std::pair(2, std::vector<Cycle>{0, 0, 1, 1}),
+                                           std::pair(1, std::vector<Cycle>{0, 1, 2, 3})));
+
 // A unit serves its streams in turn, and alone the one that has something left.
 TEST(SpanPool, StreamsTakeTurns) {
     SpanPool::Share share;

@@ -60,7 +60,7 @@ void expect_well_formed(const std::string& svg) {
     EXPECT_TRUE(open.empty());
 }
 
-const std::array<double, 7> kShares{0.5, 0.2, 0.1, 0.1, 0.05, 0.0, 0.05};
+const std::array<double, 8> kShares{0.5, 0.2, 0.1, 0.05, 0.05, 0.05, 0.0, 0.05};
 
 TEST(Svg, TextsOfUsersAreHarmless) {
     Svg svg;
@@ -88,7 +88,7 @@ TEST(Svg, LongWordsAreCutAtACharacter) {
 TEST(SlotsPlot, BarsAreSharesOfOneWidth) {
     const std::string svg =
         slots_svg("Title", {{"first view", {{"a", "", kShares}, {"b", "64 PEs", kShares}}},
-                            {"second view", {{"a", "", {1, 0, 0, 0, 0, 0, 0}}}}});
+                            {"second view", {{"a", "", {1, 0, 0, 0, 0, 0, 0, 0}}}}});
     expect_well_formed(svg);
     for (const char* words : {"Title", "first view", "second view", "64 PEs", ">100<", ">50.0<"}) {
         EXPECT_THAT(svg, HasSubstr(words));

@@ -5,9 +5,11 @@
 
 namespace degs {
 
-FeatureBuffer::FeatureBuffer(int entries, int open_splats, int streams)
+FeatureBuffer::FeatureBuffer(int entries, int open_splats, int streams, const Fill& fill)
     : entries_(entries), free_(entries), free_count_(entries_.size()),
-      open_splats_(std::min(open_splats, entries / streams)), streams_(streams) {
+      open_splats_(std::min(open_splats, entries / streams)), fill_(fill),
+      write_ports_(std::size_t{1} * fill.ports.sram_banks * fill.ports.ports, 0),
+      streams_(streams) {
     std::uint16_t entry = 0;
     for (Free& place : free_) {
         place = {0, entry++};
@@ -28,7 +30,7 @@ bool FeatureBuffer::enter(std::uint64_t splat, Cycle now, std::size_t stream) {
     current_ = free_[first_free_].entry;
     first_free_ = next(first_free_);
     free_count_--;
-    entries_[current_] = {now, 1};
+    entries_[current_] = {now, 1, fill(current_, now)};
     current_key_ = splat;
     open.push_back({splat, current_});
     return true;
@@ -63,6 +65,18 @@ void FeatureBuffer::close_oldest(std::vector<Open>& open, Cycle now) {
     if (--e.held == 0) {
         retire(oldest.entry, std::max(now, e.needed_until));
     }
+}
+
+// Takes the port of the entry's SRAM bank that is free first; returns the date at which it is done.
+Cycle FeatureBuffer::fill(std::uint16_t entry, Cycle now) {
+    const int ports = fill_.ports.ports;
+    if (ports == 0 || fill_.cycles == 0) {
+        return now + fill_.cycles;
+    }
+    const auto first = write_ports_.begin() + entry % fill_.ports.sram_banks * ports;
+    Cycle& port = *std::min_element(first, first + ports);
+    port = std::max(port, now) + fill_.cycles;
+    return port;
 }
 
 void FeatureBuffer::retire(std::uint16_t entry, Cycle date) {

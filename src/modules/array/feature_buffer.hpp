@@ -7,6 +7,7 @@
 
 #include "config/statistics.hpp"
 #include "modules/messages.hpp"
+#include "modules/sram_ports.hpp"
 #include "tlm/clock_domain.hpp"
 
 namespace degs {
@@ -19,15 +20,26 @@ namespace degs {
 /// out. Partitioned per bank, so that every array slice has its own read port [assumed].
 class FeatureBuffer {
 public:
+    /// How the parameters of a splat come from the Gaussian Buffer. They are sent along with the
+    /// splat's rows and written when the first row enters the bank [assumed].
+    struct Fill {
+        int cycles = 0;        ///< that writing an entry takes; 0: it is there at once
+        BankedSramPorts ports; ///< an entry takes a write port of its SRAM bank for that time
+    };
     struct Stats {
         std::uint64_t waits = 0;
+        std::uint64_t fill_waits = 0;
         void describe(StatsVisitor& v) const {
             v.count("waits", waits, "splats", "Splats that found no free entry and waited.");
+            v.count("fill_waits", fill_waits, "cycles",
+                    "Spans that waited until the parameters of their splat had been written.");
         }
     };
 
     /// At least one entry per stream.
-    explicit FeatureBuffer(int entries, int open_splats = 1, int streams = 1);
+    FeatureBuffer(int entries, int open_splats, int streams, const Fill& fill);
+    explicit FeatureBuffer(int entries, int open_splats = 1, int streams = 1)
+        : FeatureBuffer(entries, open_splats, streams, Fill()) {}
 
     /// Makes (tile, splat) the splat that enters; `stream` works on the tile. False if no entry is
     /// free at `now`.
@@ -37,6 +49,12 @@ public:
     }
     /// Entry of the splat that enters.
     std::uint16_t current() const { return current_; }
+    /// True if the parameters of the splat that enters can be read at `date`.
+    bool filled_by(Cycle date) {
+        const bool filled = entries_[current_].filled <= date;
+        stats_.fill_waits += filled ? 0 : 1;
+        return filled;
+    }
     void hold(std::uint16_t entry) { entries_[entry].held++; }
     /// One held task group is done; the entry is needed until `date`.
     void release(std::uint16_t entry, Cycle date) {
@@ -56,6 +74,7 @@ private:
     struct Entry {
         Cycle needed_until = 0;
         std::uint32_t held = 0; ///< task groups, and one while more rows may come
+        Cycle filled = 0;       ///< date from which it can be read
     };
     struct Free {
         Cycle date; // from which it may be taken
@@ -77,6 +96,7 @@ private:
     bool enter(std::uint64_t splat, Cycle now, std::size_t stream);
     void close_oldest(std::vector<Open>& open, Cycle now);
     void retire(std::uint16_t entry, Cycle date);
+    Cycle fill(std::uint16_t entry, Cycle now);
     std::size_t next(std::size_t i) const { return i + 1 == free_.size() ? 0 : i + 1; }
 
     std::vector<Entry> entries_;
@@ -84,6 +104,8 @@ private:
     std::size_t first_free_ = 0, end_free_ = 0, free_count_;
     Cycle last_retired_ = 0;
     std::size_t open_splats_;
+    Fill fill_;
+    std::vector<Cycle> write_ports_; // dates at which they are free, SRAM bank by bank
     std::vector<Stream> streams_;
     std::uint64_t current_key_ = kNobody; // key() of the current splat
     std::uint16_t current_ = 0;

@@ -11,24 +11,28 @@
 namespace degs {
 
 /// Why a PE slot did no useful work. The same classes serve every accelerator.
-enum class Idle { Conflict, Starved, Blocked };
+enum class Idle { Conflict, Ports, Starved, Blocked };
 
 /// PE-cycles by class. Every PE-cycle of the blending window falls in exactly one.
 struct SlotAccount {
     std::uint64_t useful = 0, boundary = 0, terminated = 0;
-    std::uint64_t conflict = 0, starved = 0, blocked = 0, drain = 0;
+    std::uint64_t conflict = 0, ports = 0, starved = 0, blocked = 0, drain = 0;
 
     void idle(Idle cause, std::uint64_t slots) {
-        (cause == Idle::Conflict ? conflict : cause == Idle::Starved ? starved : blocked) += slots;
+        (cause == Idle::Conflict  ? conflict
+         : cause == Idle::Ports   ? ports
+         : cause == Idle::Starved ? starved
+                                  : blocked) += slots;
     }
     std::uint64_t total() const {
-        return useful + boundary + terminated + conflict + starved + blocked + drain;
+        return useful + boundary + terminated + conflict + ports + starved + blocked + drain;
     }
     SlotAccount& operator+=(const SlotAccount& o) {
         useful += o.useful;
         boundary += o.boundary;
         terminated += o.terminated;
         conflict += o.conflict;
+        ports += o.ports;
         starved += o.starved;
         blocked += o.blocked;
         drain += o.drain;
@@ -44,7 +48,7 @@ struct SlotClass {
     const char* sentence;
 };
 /// In the order of all results and pictures.
-inline constexpr std::array<SlotClass, 7> kSlotClasses{{
+inline constexpr std::array<SlotClass, 8> kSlotClasses{{
     {"useful", &SlotAccount::useful, "A task inside the ellipse was blended."},
     {"boundary", &SlotAccount::boundary,
      "The task was outside the ellipse (alpha < 1/255) or outside the image."},
@@ -52,6 +56,8 @@ inline constexpr std::array<SlotClass, 7> kSlotClasses{{
      "The task was inside, but its pixel had ended or refused the splat."},
     {"conflict", &SlotAccount::conflict,
      "No task: all that waited were within the reuse distance."},
+    {"ports", &SlotAccount::ports,
+     "No task: the ports of an SRAM took no more in this cycle; 0 if ports are unlimited."},
     {"starved", &SlotAccount::starved,
      "No task: none waited, or the issue width let no more through."},
     {"blocked", &SlotAccount::blocked,

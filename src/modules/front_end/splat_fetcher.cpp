@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tlm/ceil_div.hpp"
+
 namespace degs {
 
 void SplatFetcher::Config::describe(ConfigVisitor& visitor) {
@@ -15,9 +17,9 @@ SplatFetcher::SplatFetcher(const sc_core::sc_module_name& name, const Config& co
                            const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
                            std::size_t readers, bool instant, bool granted, ReuseCache* cache)
     : sc_core::sc_module(name), sorted("sorted"), cancel("cancel"), out("out", readers),
-      request("request", granted ? 1 : 0), records("records", time), config_(config),
-      traffic_(traffic), job_(job), instant_(instant), granted_(granted), cache_(cache),
-      self_(time), answered_(config.chunks_in_flight, 0) {
+      request("request", granted ? 1 : 0), released("released", config.chunks == 0 ? 0 : readers),
+      records("records", time), config_(config), traffic_(traffic), job_(job), instant_(instant),
+      granted_(granted), cache_(cache), self_(time), answered_(config.chunks_in_flight, 0) {
     SC_HAS_PROCESS(SplatFetcher);
     SC_THREAD(run);
 }
@@ -30,6 +32,9 @@ void SplatFetcher::end_of_elaboration() {
     }
     for (auto& port : request) {
         port->connect_writer(self_);
+    }
+    for (auto& port : released) {
+        port->connect_reader(self_);
     }
 }
 
@@ -86,14 +91,36 @@ Cycle SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
     return oldest;
 }
 
+// In the buffer of every reader.
+void SplatFetcher::wait_for_place() {
+    for (auto& port : out) {
+        port->reserve(self_);
+    }
+    if (places_taken_ < config_.chunks) {
+        ++places_taken_;
+        return;
+    }
+    for (auto& port : released) {
+        port->get(self_);
+    }
+}
+
 void SplatFetcher::emit(const SplatChunk& chunk, Cycle ready) {
     for (auto& port : out) {
         port->put_at(self_, chunk, ready);
     }
-    if (!instant_) {
-        self_.advance();
-        stats_.busy++;
-    }
+    const Cycle written = write_cycles(chunk);
+    self_.advance(written);
+    stats_.busy += instant_ ? 0 : written;
+}
+
+// Writing a chunk takes a cycle, or nothing where records are there at once, or what ports need.
+Cycle SplatFetcher::write_cycles(const SplatChunk& chunk) const {
+    const int least = instant_ ? 0 : 1;
+    const int count = static_cast<int>(chunk.count);
+    return config_.splat_ports.limited() && count != 0
+               ? std::max(least, ceil_div(count, config_.splat_ports.neighbours(count)))
+               : least;
 }
 
 void SplatFetcher::fetch(const SortedRun& run) {
@@ -102,9 +129,7 @@ void SplatFetcher::fetch(const SortedRun& run) {
         SplatChunk chunk;
         chunk.tile = run.tile;
         chunk.first = tile.first + done_;
-        for (auto& port : out) {
-            port->reserve(self_);
-        }
+        wait_for_place();
         Cycle ready = self_.local();
         if (cancelled(run.tile)) {
             stats_.records_cancelled += tile.count - done_;

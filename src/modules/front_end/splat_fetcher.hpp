@@ -6,6 +6,7 @@
 #include "config/statistics.hpp"
 #include "modules/front_end/reuse_cache.hpp"
 #include "modules/render_job.hpp"
+#include "modules/sram_ports.hpp"
 #include "modules/traffic.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
@@ -20,6 +21,9 @@ public:
     struct Config {
         int chunk = 16;           ///< splat records per request and hand-over
         int chunks_in_flight = 8; ///< record requests outstanding
+        /// Of the readers' buffer, whose section has the keys: a chunk is written before the next.
+        BankedSramPorts splat_ports;
+        std::size_t chunks = 0; ///< places for chunks; 0: those of the rings to the readers
         void describe(ConfigVisitor& visitor);
     };
     struct Stats {
@@ -38,6 +42,8 @@ public:
     /// To the Tile Dispatcher: the readers have been handed the last chunk of the tile before.
     /// Empty unless tiles are granted.
     sc_core::sc_vector<FifoPort<TileRequest>> request;
+    /// One per reader if there are config.chunks: a chunk has left its place.
+    sc_core::sc_vector<FifoPort<ChunkReleased>> released;
     MemoryPort records;
 
     /// `instant`: records arrive as soon as the readers have room for them, without memory; see
@@ -56,7 +62,9 @@ private:
     void run();
     SortedRun next_run();
     void fetch(const SortedRun& run);
+    void wait_for_place();
     void emit(const SplatChunk& chunk, Cycle ready);
+    Cycle write_cycles(const SplatChunk& chunk) const;
     bool cancelled(TileNumber number);
     Cycle read(const JobTile& tile, const SplatChunk& chunk);
 
@@ -68,6 +76,7 @@ private:
     Process self_;
     TileNumber cancelled_before_ = 0; // tiles below this number are cancelled or over
     TileNumber skipped_ = kNoTile;    // its readers have had the chunk that ends it
+    std::size_t places_taken_ = 0;    // by chunks, if they are counted
     std::uint64_t done_ = 0;          // entries of the tile being fetched
     std::vector<Cycle> answered_;     // ring of completion dates of the latest requests
     std::uint64_t requests_ = 0;

@@ -15,24 +15,32 @@ int tiles_in_queue(int contexts) {
 // The queue holds more when they come.
 constexpr int kFirstTiles = 2;
 
+// Every cut writes a segment, and every issue reads one.
+IssueBank::Config within_ports(IssueBank::Config config) {
+    config.segments_per_cycle = config.segment_ports.of(config.segments_per_cycle);
+    config.issue_width = config.segment_ports.of(config.issue_width);
+    return config;
+}
+
 } // namespace
 
 IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
                      const Timebase& time, const RenderJob& job, PackingUnit& packing, int index,
                      std::size_t inputs, int contexts)
     : sc_core::sc_module(name), in("in", inputs * config.streams), terminated("terminated"),
-      context_free("context_free", config.streams), config_(config), job_(job), packing_(packing),
-      contexts_(contexts), tiles_in_flight_(tiles_in_queue(contexts)),
-      by_pixel_(config.termination == TerminationGrain::Pixel), streams_(config.streams),
-      stream_count_(streams_.size()),
-      spans_per_cycle_(config.spans_per_cycle == 0 ? config.segments_per_cycle
+      context_free("context_free", config.streams), config_(within_ports(config)), job_(job),
+      packing_(packing), contexts_(contexts), tiles_in_flight_(tiles_in_queue(contexts)),
+      by_pixel_(config.termination == TerminationGrain::Pixel), fills_(config.fill.cycles != 0),
+      streams_(config.streams), stream_count_(streams_.size()),
+      spans_per_cycle_(config.spans_per_cycle == 0 ? config_.segments_per_cycle
                                                    : config.spans_per_cycle),
       self_(time), segmenter_(job.tile_size, config.segment_length, index, config.count),
       queue_(config.queue_depth, kFirstTiles,
              Segmenter::domains_per_tile(job.tile_size, config.segment_length, config.count),
              config.scan, config.streams),
-      features_(config.feature_entries, config.open_splats, config.streams),
-      ready_(config.streams, -1) {
+      features_(config.feature_entries, config.open_splats, config.streams, config.fill),
+      ready_(config.streams, -1),
+      width_cause_(config_.issue_width < config.issue_width ? Idle::Ports : Idle::Starved) {
     for (BankStream& stream : streams_) {
         stream.index = &stream - streams_.data();
         stream.inputs.resize(inputs);
@@ -202,6 +210,9 @@ IssueBank::Taken IssueBank::take_from(BankStream& stream, Cycle now) {
     const bool span = item.span.has_value();
     if (span && !features_.admit(item.tile, item.span->splat, now, stream.index)) {
         features_full_ = true;
+        return Taken::Nothing;
+    }
+    if (span && fills_ && !features_.filled_by(packing_.next_execution(now))) {
         return Taken::Nothing;
     }
     if (!stream.entered) {

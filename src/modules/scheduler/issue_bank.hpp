@@ -43,6 +43,10 @@ public:
         int open_splats = 1;        ///< splats of a stream whose rows may arrive in turn
         int streams = 1;            ///< tile streams
         int spans_per_cycle = 0;    ///< taken from the crossbar; 0: as many as can be cut
+        /// Of the waiting segments in a bank's part of the Packing Buffer. Packets lie in a memory
+        /// of their own, of which one is written and one is read per cycle at most [assumed].
+        SramPorts segment_ports;
+        FeatureBuffer::Fill fill;
         bool scoreboard = true;
         TerminationGrain termination = TerminationGrain::Segment;
         DomainScan scan = DomainScan::RoundRobin;
@@ -134,6 +138,7 @@ private:
     int contexts_;        // of a stream
     int tiles_in_flight_; // of a single stream
     bool by_pixel_;       // TerminationGrain::Pixel
+    bool fills_;          // filling a Feature Buffer entry takes time
     std::vector<BankStream> streams_;
     std::size_t stream_count_;                       // theirs, at hand in the hot loop
     int spans_per_cycle_;                            // that the crossbar delivers
@@ -152,6 +157,7 @@ private:
     std::uint64_t sequence_ = 0; // segments so far
     bool no_room_ = false;       // a ready segment waits for room in the Packing Buffer
     bool width_limited_ = false;
+    Idle width_cause_;               // what limits the width
     bool features_full_ = false;     // a span waits for a Feature Buffer entry
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
     Stats stats_;

@@ -15,13 +15,14 @@ inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, Segme
     const std::uint32_t mask = segment.run.task.mask;
     const std::uint32_t wanted = mask & tile.live(domain);
     const int tasks = __builtin_popcount(wanted);
-    if (!packing_.room(now, segment.run, tasks)) {
+    if (!packing_.room(now, segment.run, tasks) ||
+        !packing_.room_by_ports(now, segment.run, wanted, segment.feature)) {
         no_room_ = true;
         return false;
     }
     Cycle last = now;
     if (tasks != 0) {
-        last = packing_.add(self_, segment.run, wanted) + config_.reuse_cycles;
+        last = packing_.add(self_, segment.run, wanted, segment.feature) + config_.reuse_cycles;
         if (config_.scoreboard) {
             queue_.set_ready_at(tile, domain, last);
         }
@@ -159,7 +160,7 @@ Idle IssueBank::idle_cause() const {
         const std::size_t end = stream.first_unstarted();
         for (std::size_t turn = stream.oldest; turn < end; ++turn) {
             if (queue_.tile(turn, stream.index).waiting() != 0) {
-                return width_limited_ ? Idle::Starved : no_room_ ? Idle::Blocked : Idle::Conflict;
+                return width_limited_ ? width_cause_ : no_room_ ? Idle::Blocked : Idle::Conflict;
             }
         }
     }

@@ -23,14 +23,22 @@ std::uint32_t lowest_bits(std::uint32_t mask, int count) {
 
 PackingUnit::PackingUnit(const sc_core::sc_module_name& name, const Config& config)
     : sc_core::sc_module(name), out("out"), config_(config), latency_(config.latency_cycles),
-      width_(config.width), capacity_(width_ * config.depth) {}
+      width_(config.width), capacity_(width_ * config.depth) {
+    if (config.ports.limited()) {
+        ports_.emplace(config.ports);
+        trial_.emplace(config.ports);
+    }
+}
 
-Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask) {
+Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask, int entry) {
     std::uint32_t left = mask;
     int count = __builtin_popcount(left);
     Cycle execution = 0;
     if (!config_.reorganisation && !joins(run)) {
         send(bank, Idle::Blocked);
+    }
+    if (ports_) {
+        return add_by_ports(bank, run, mask, entry);
     }
     while (count != 0) {
         if (!open()) {
@@ -39,11 +47,7 @@ Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask) {
         execution = next_slot_;
         const int taken = std::min(count, config_.width - tasks_);
         const std::uint32_t part = taken == count ? left : lowest_bits(left, taken);
-        TaskPacket& packet = ring_->staged();
-        TaskRun& packed = packet.runs[packet.run_count++];
-        packed = run;
-        packed.task.mask = mask;
-        packed.part = part;
+        put(run, mask, part);
         left ^= part;
         count -= taken;
         tasks_ += taken;
@@ -52,6 +56,60 @@ Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask) {
         }
     }
     return execution;
+}
+
+// In the open packet; tasks_ counts them elsewhere.
+inline void PackingUnit::put(const TaskRun& run, std::uint32_t mask, std::uint32_t part) {
+    TaskPacket& packet = ring_->staged();
+    TaskRun& packed = packet.runs[packet.run_count++];
+    packed = run;
+    packed.task.mask = mask;
+    packed.part = part;
+}
+
+// Every part ends where the packet is full or a port is taken.
+Cycle PackingUnit::add_by_ports(Process& bank, const TaskRun& run, std::uint32_t mask, int entry) {
+    Cycle execution = 0;
+    for (std::uint32_t left = mask; left != 0;) {
+        if (!open()) {
+            open_packet(bank);
+        }
+        execution = next_slot_;
+        const std::uint32_t part = ports_->take(run.task, left, entry, config_.width - tasks_);
+        if (part != 0) {
+            put(run, mask, part);
+        }
+        left ^= part;
+        tasks_ += __builtin_popcount(part);
+        if (tasks_ == config_.width) {
+            send(bank, Idle::Starved);
+        } else if (left != 0) {
+            send(bank, Idle::Ports);
+        }
+    }
+    return execution;
+}
+
+bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry) {
+    const bool joined = open() && (config_.reorganisation || joins(run));
+    Cycle packets = joined ? 0 : 1; // beside the open one
+    int tasks = joined ? tasks_ : 0;
+    if (joined) {
+        trial_ = ports_;
+    } else {
+        trial_->clear();
+    }
+    for (std::uint32_t left = mask; left != 0;) {
+        const std::uint32_t part = trial_->take(run.task, left, entry, config_.width - tasks);
+        left ^= part;
+        if (left != 0) { // in the next packet
+            ++packets;
+            tasks = 0;
+            trial_->clear();
+        }
+    }
+    const Cycle queued = next_execution(now) - (now + latency_) + (open() ? 1 : 0);
+    return (queued + packets) * width_ <= capacity_;
 }
 
 // All runs of the packet are of one span.
@@ -76,6 +134,9 @@ void PackingUnit::open_packet(Process& bank) {
         since_last_ = SlotAccount{};
     }
     next_slot_ = slot;
+    if (ports_) {
+        ports_->clear();
+    }
     open_until_ = slot - latency_;
     ring_->staged().run_count = 0;
     ends_tile_ = false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include <systemc>
 
@@ -9,6 +10,7 @@
 #include "config/statistics.hpp"
 #include "modules/array/slot_account.hpp"
 #include "modules/messages.hpp"
+#include "modules/scheduler/packet_ports.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
@@ -31,6 +33,9 @@ public:
         /// A packet may have tasks of different spans; false: of one span only, so that a segment of
         /// another span closes an open packet.
         bool reorganisation = true;
+        /// A packet has no two tasks that want the same port of the Pixel or Feature Buffer in one
+        /// cycle: a task that finds its port taken begins the next packet [assumed].
+        PacketPorts::Config ports{};
     };
     struct Stats {
         std::uint64_t packets = 0, tasks = 0;
@@ -51,9 +56,14 @@ public:
         return fits(now, tasks_ + tasks) &&
                (config_.reorganisation || fits_behind(now, run, tasks));
     }
+    /// The same for the tasks `mask` with limited ports, where packets need not be full; `entry` of
+    /// the Feature Buffer has the parameters of their splat.
+    bool room_by_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry) {
+        return !ports_ || mask == 0 || fits_ports(now, run, mask, entry);
+    }
     /// Packs those tasks of a segment that `mask` names, at least one; returns the execution date
-    /// of the last one.
-    Cycle add(Process& bank, const TaskRun& run, std::uint32_t mask);
+    /// of the last one. `entry` as above.
+    Cycle add(Process& bank, const TaskRun& run, std::uint32_t mask, int entry = 0);
     /// Sends the end of `tile`, which lies in `context` of the Pixel Buffer: the bank has nothing
     /// more for it.
     void end_tile(Process& bank, TileNumber tile, std::int16_t context);
@@ -90,6 +100,9 @@ private:
     bool joins(const TaskRun& run) const;
     // The same: there is room for its tasks, in that packet or behind it.
     bool fits_behind(Cycle now, const TaskRun& run, int tasks) const;
+    bool fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry);
+    Cycle add_by_ports(Process& bank, const TaskRun& run, std::uint32_t mask, int entry);
+    void put(const TaskRun& run, std::uint32_t mask, std::uint32_t part);
     void open_packet(Process& bank);
     void send(Process& bank, Idle cause);
 
@@ -104,6 +117,7 @@ private:
     // goes before now + latency passes its date, so next_execution() need not ask which.
     Cycle next_slot_ = 0;
     Cycle open_until_ = kNever;
+    std::optional<PacketPorts> ports_, trial_; // of the open packet, and of one that is tried
     SlotAccount idle_;
     SlotAccount since_last_; // idle after the last packet; counts once another one comes
     Stats stats_;

@@ -2,12 +2,14 @@
 #include "modules/span_engine/gaussian_slicing_unit.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace degs {
 namespace {
 
 // Rows remember the ends of 63 segments; the last bit stands for all further ones and never ends.
 constexpr int kLastBit = 63;
+constexpr int kUnlimited = std::numeric_limits<int>::max();
 
 } // namespace
 
@@ -46,8 +48,11 @@ GaussianSlicingUnit::GaussianSlicingUnit(const sc_core::sc_module_name& name, co
                                          int segment_length)
     : sc_core::sc_module(name), in("in", inputs), cancel("cancel"),
       out("out", lanes / config.modules()),
-      region_ended("region_ended", config.skip_dead_rows ? slices : 0), config_(config), job_(job),
-      index_(index), segment_length_(segment_length), self_(time) {
+      region_ended("region_ended", config.skip_dead_rows ? slices : 0),
+      sliced("sliced", config.reports_chunks ? 1 : 0),
+      row_counts("row_counts", config.reports_chunks ? out.size() : 0), config_(config), job_(job),
+      index_(index), segment_length_(segment_length), self_(time),
+      open_chunks_(sliced, row_counts) {
     for (int row = 0; row < job.tile_size; ++row) {
         lane_of_row_.push_back((row % lanes) / config.modules());
     }
@@ -68,6 +73,8 @@ void GaussianSlicingUnit::end_of_elaboration() {
         lanes_.push_back(&port.ring());
         lanes_.back()->connect_writer(self_);
     }
+    row_writes_.resize(lanes_.size());
+    open_chunks_.connect_writer(self_);
 }
 
 void GaussianSlicingUnit::run() {
@@ -98,8 +105,9 @@ void GaussianSlicingUnit::slice_tile(TileNumber number) {
     dealt_ = 0;
     for (;;) {
         dropping_ = false;
+        splat_reads_left_ = config_.splat_ports.neighbours(kUnlimited);
         deal(number);
-        if (slices_.empty() && !dropping_) {
+        if (slices_.empty() && !dropping_ && splat_reads_left_ != 0) {
             return;
         }
         work(number);
@@ -126,12 +134,15 @@ void GaussianSlicingUnit::deal(TileNumber number) {
 
 // The tile's next splat that costs the unit something, if it is there at this date.
 std::optional<GaussianSlicingUnit::Slice> GaussianSlicingUnit::next_slice(TileNumber number) {
-    while (more_splats(number)) {
+    while (splat_reads_left_ != 0 && more_splats(number)) {
+        --splat_reads_left_;
         const Slice slice = begin(number);
         if (!slice.done() || config_.distribution != SliceDistribution::BroadcastSkip) {
             return slice;
         }
+        open_chunks_.finish_splat(self_, slice.chunk);
     }
+    stats_.splat_port_waits += splat_reads_left_ == 0 && dealt_ < chunk_.count ? 1 : 0;
     return {};
 }
 
@@ -153,6 +164,7 @@ bool GaussianSlicingUnit::more_splats(TileNumber number) {
             see_ended_regions(number);
             expect_splats();
         }
+        open_chunks_.open(self_, number % in.size(), chunk_.count - dealt_);
     }
     return true;
 }
@@ -165,7 +177,10 @@ void GaussianSlicingUnit::work(TileNumber number) {
         const Slice slice = slices_[i];
         if (!slice.done()) {
             passed = std::min(passed, slice.row);
-        } else if (slice.splats_left > 1) {
+            continue;
+        }
+        open_chunks_.finish_splat(self_, slice.chunk);
+        if (slice.splats_left > 1) {
             if (std::optional<Slice> next = next_slice(number)) {
                 next->rows_left = slice.rows_left;
                 next->splats_left = slice.splats_left - 1;
@@ -186,9 +201,14 @@ void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before)
         if (slice.rows_left == 0) {
             return;
         }
-        --slice.rows_left;
-        DatedFifo<RowItem>& lane = *lanes_[lane_of_row_[slice.row]];
+        const std::size_t lane_number = lane_of_row_[slice.row];
+        DatedFifo<RowItem>& lane = *lanes_[lane_number];
         lane.reserve(self_);
+        if (!takes_row_port(lane_number)) {
+            return;
+        }
+        --slice.rows_left;
+        open_chunks_.count_row(slice.chunk, lane_number);
         RowItem& item = lane.staged();
         item.tile = number;
         item.splat = slice.splat;
@@ -197,6 +217,23 @@ void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before)
         lane.put_staged(self_);
         stats_.rows++;
     }
+}
+
+// A lane is an SRAM bank. The units share its write ports.
+bool GaussianSlicingUnit::takes_row_port(std::size_t lane) {
+    if (!config_.row_ports.limited()) {
+        return true;
+    }
+    Writes& writes = row_writes_[lane];
+    if (writes.date != self_.local()) {
+        writes = {self_.local(), 0};
+    }
+    if (writes.count == config_.row_ports.ports) {
+        ++stats_.row_port_waits;
+        return false;
+    }
+    ++writes.count;
+    return true;
 }
 
 bool GaussianSlicingUnit::cancelled(TileNumber number) {
@@ -245,6 +282,7 @@ GaussianSlicingUnit::Slice GaussianSlicingUnit::begin(TileNumber number) {
     const JobTile& tile = job_.tiles[number];
     Slice slice;
     slice.splat = splat_of(dealt_++);
+    slice.chunk = open_chunks_.latest();
     const PixelRange met =
         config_.rows == SlicedRows::Tile
             ? job_.path->rows_in_columns(slice.splat, tile.x, tile.x + tile.width)

@@ -8,6 +8,8 @@
 #include "config/config.hpp"
 #include "config/statistics.hpp"
 #include "modules/render_job.hpp"
+#include "modules/span_engine/open_chunks.hpp"
+#include "modules/sram_ports.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
@@ -46,6 +48,10 @@ public:
         SlicedRows rows = SlicedRows::Splat;
         bool skip_dead_rows = false; ///< leave out rows whose pixels have all ended
         int feedback_cycles = 8;     ///< from the last pixel's end to the units that skip its row
+        // Of the buffers at both ends; their own sections have the keys.
+        BankedSramPorts splat_ports; ///< of a module's part of the Gaussian Buffer
+        SramPorts row_ports;         ///< of a lane of the Span Buffer
+        bool reports_chunks = false; ///< to Parameter Release
         void describe(ConfigVisitor& visitor);
         /// Modules of a stream, among which the rows are dealt; each has units_per_module() units.
         int modules() const {
@@ -58,6 +64,7 @@ public:
     struct Stats {
         Cycle busy = 0;
         std::uint64_t splats = 0, rows = 0, rows_skipped = 0, splats_cancelled = 0;
+        std::uint64_t splat_port_waits = 0, row_port_waits = 0;
         void describe(StatsVisitor& v) const {
             v.count("splats", splats, "splats", "Splats taken in, by every unit that reads them.");
             v.count("splats_cancelled", splats_cancelled, "splats",
@@ -65,6 +72,11 @@ public:
             v.count("rows", rows, "rows", "Rows of splats sent to the Span Units.");
             v.count("rows_skipped", rows_skipped, "rows",
                     "Rows not sent because all their pixels had ended (skip_dead_rows).");
+            v.count(
+                "splat_port_waits", splat_port_waits, "cycles",
+                "Units that could not read their next splat: gaussian_buffer.ports were taken.");
+            v.count("row_port_waits", row_port_waits, "cycles",
+                    "Units that could not write their next row: span_buffer.ports were taken.");
         }
     };
 
@@ -75,6 +87,10 @@ public:
     sc_core::sc_vector<FifoPort<RowItem>> out; ///< Span Buffer lanes of this unit's rows
     /// From the array slices that share a row with this unit; empty unless skip_dead_rows.
     sc_core::sc_vector<FifoPort<RegionEnded>> region_ended;
+
+    /// To Parameter Release, see there; empty unless parameters live until the spans are made.
+    sc_core::sc_vector<FifoPort<ChunkSliced>> sliced;
+    sc_core::sc_vector<FifoPort<RowCount>> row_counts;
 
     /// Module `index` of a stream with `lanes` lanes feeds lanes index, index + modules(), ... Row y
     /// goes to lane y modulo the lanes.
@@ -92,6 +108,7 @@ private:
         std::uint64_t below = 0; // a bit per segment that its box covers
         int rows_left = 0;       // that the unit may send in this cycle
         int splats_left = 0;     // that it may take in this cycle, this one included
+        std::uint64_t chunk = 0; // see OpenChunks
         bool done() const { return row > last; }
     };
 
@@ -110,6 +127,7 @@ private:
     Slice begin(TileNumber number);
     std::uint64_t segments_below(const JobTile& tile, std::uint32_t splat) const;
     void send_rows(TileNumber number, Slice& slice, int before);
+    bool takes_row_port(std::size_t lane);
 
     Config config_;
     const RenderJob& job_;
@@ -119,11 +137,18 @@ private:
     TileNumber cancelled_before_ = 0;
     std::vector<std::size_t> lane_of_row_;   // output port by row inside the tile
     std::vector<DatedFifo<RowItem>*> lanes_; // what the ports are bound to
-    std::vector<std::uint64_t> ended_;       // per row of the tile being sliced: a bit per segment
-    SplatChunk chunk_;                       // the one being dealt
-    std::uint32_t dealt_ = 0;                // splats of it
-    bool dropping_ = false;                  // a chunk in this cycle
-    std::vector<Slice> slices_;              // in work, oldest first
+    struct Writes {
+        Cycle date = 0;
+        int count = 0;
+    };
+    std::vector<Writes> row_writes_;   // by lane: those of the latest cycle
+    int splat_reads_left_ = 0;         // in this cycle
+    std::vector<std::uint64_t> ended_; // per row of the tile being sliced: a bit per segment
+    SplatChunk chunk_;                 // the one being dealt
+    std::uint32_t dealt_ = 0;          // splats of it
+    bool dropping_ = false;            // a chunk in this cycle
+    std::vector<Slice> slices_;        // in work, oldest first
+    OpenChunks open_chunks_;
     Stats stats_;
 };
 

@@ -23,13 +23,14 @@ SpanPool::SpanPool(const sc_core::sc_module_name& name, const Config& config, co
 void SpanPool::end_of_elaboration() {
     for (auto& port : in) {
         port->connect_reader(self_);
-        lanes_.push_back({&port.ring(), lanes_.size() / share_.lanes, 0});
+        lanes_.push_back({&port.ring(), lanes_.size() / share_.lanes, 0, 0, 0});
     }
     const std::size_t ports = out.size() / streams_.size();
     for (std::size_t i = 0; i < out.size(); ++i) {
         streams_[i / ports].rings.push_back(&out[i].ring());
         out[i]->connect_writer(self_);
     }
+    connect_reports(self_);
     watched_.reserve(lanes_.size());
 }
 
@@ -74,6 +75,10 @@ bool SpanPool::take_from(Lane& lane) {
     if (!sees_row(lane)) {
         return false;
     }
+    if (!has_port(lane)) {
+        ++stats_.row_port_waits;
+        return false;
+    }
     const RowItem item = lane.rows->front();
     DatedFifo<SpanItem>& ring = *streams_[lane.stream].rings[port_of_row_[item.row]];
     if (!ring.has_room(self_)) {
@@ -81,7 +86,9 @@ bool SpanPool::take_from(Lane& lane) {
         return false;
     }
     ring.reserve(self_);
+    ++lane.reads;
     lane.rows->drop(self_);
+    report(self_, &lane - lanes_.data());
     if (solve(item.tile, item.splat, item.row, ring.staged())) {
         ring.put_staged(self_);
     }
@@ -92,6 +99,15 @@ bool SpanPool::take_from(Lane& lane) {
 bool SpanPool::sees_row(Lane& lane) {
     return lane.turn == streams_[lane.stream].turn && self_.arrived(*lane.rows) &&
            !lane.rows->front().end;
+}
+
+// A lane is an SRAM bank.
+bool SpanPool::has_port(Lane& lane) {
+    if (lane.read != self_.local()) {
+        lane.read = self_.local();
+        lane.reads = 0;
+    }
+    return !config_.row_ports.limited() || lane.reads < config_.row_ports.ports;
 }
 
 // Ends of tiles cost no unit's time.

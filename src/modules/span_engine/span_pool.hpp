@@ -31,6 +31,8 @@ private:
         DatedFifo<RowItem>* rows = nullptr;
         std::size_t stream = 0;
         std::size_t turn = 0; // ends of tiles that it has delivered
+        Cycle read = 0;       // date of the latest read
+        int reads = 0;        // at that date
     };
     struct Stream {
         std::vector<DatedFifo<SpanItem>*> rings; // by port
@@ -47,6 +49,7 @@ private:
     void take_ends(Lane& lane);
     bool send_end(Stream& stream);
     bool sees_row(Lane& lane);
+    bool has_port(Lane& lane);
     Cycle next_date();
 
     Process self_;

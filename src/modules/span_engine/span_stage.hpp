@@ -6,6 +6,7 @@
 #include "config/config.hpp"
 #include "config/statistics.hpp"
 #include "modules/render_job.hpp"
+#include "modules/sram_ports.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
@@ -23,11 +24,13 @@ public:
         int count = 8;       ///< units
         bool parsing = true; ///< false: rows are not solved, see row_of_box()
         RowAssignment rows = RowAssignment::Fixed;
-        int rows_per_cycle = 1; ///< that a unit takes; more than 1 needs cycles_per_row 1
-        int cycles_per_row = 1; ///< initiation interval
-        int latency_cycles = 6; ///< pipeline from row item to Span Vector
-        int crossbar_depth = 2; ///< Span Vectors that wait between a unit and a bank
-        int crossbar_width = 0; ///< Span Vectors that a bank takes per cycle; 0: all it can cut
+        int rows_per_cycle = 1;    ///< that a unit takes; more than 1 needs cycles_per_row 1
+        int cycles_per_row = 1;    ///< initiation interval
+        int latency_cycles = 6;    ///< pipeline from row item to Span Vector
+        int crossbar_depth = 2;    ///< Span Vectors that wait between a unit and a bank
+        int crossbar_width = 0;    ///< Span Vectors that a bank takes per cycle; 0: all it can cut
+        SramPorts row_ports;       ///< of a lane of the Span Buffer, whose section has the key
+        bool reports_rows = false; ///< to Parameter Release
         void describe(ConfigVisitor& visitor);
         /// Modules of the stage; each has units_per_module() units.
         int modules() const { return rows == RowAssignment::Pool ? 1 : count; }
@@ -36,12 +39,15 @@ public:
     struct Stats {
         Cycle busy = 0;
         std::uint64_t rows = 0, spans = 0, empty_rows = 0, tasks = 0;
+        std::uint64_t row_port_waits = 0;
         void describe(StatsVisitor& v) const {
             v.count("rows", rows, "rows", "Rows of splats solved.");
             v.count("empty_rows", empty_rows, "rows",
                     "Solved rows that cover no pixel of their tile.");
             v.count("spans", spans, "spans", "Span Vectors found.");
             v.count("tasks", tasks, "tasks", "Pixels in these spans.");
+            v.count("row_port_waits", row_port_waits, "cycles",
+                    "Lanes that could not give their next row: span_buffer.ports were taken.");
         }
     };
 
@@ -49,14 +55,28 @@ public:
     /// The banks that the module can reach, ascending; those of a stream together.
     sc_core::sc_vector<FifoPort<SpanItem>> out;
 
+    /// To Parameter Release, one per lane; empty unless parameters live until the spans are made.
+    sc_core::sc_vector<FifoPort<RowSolved>> solved;
+
     const Stats& stats() const { return stats_; }
 
 protected:
     SpanStage(const sc_core::sc_module_name& name, const Config& config, const RenderJob& job,
               std::size_t inputs, std::size_t outputs)
-        : sc_core::sc_module(name), in("in", inputs), out("out", outputs), config_(config),
-          job_(job) {}
+        : sc_core::sc_module(name), in("in", inputs), out("out", outputs),
+          solved("solved", config.reports_rows ? inputs : 0), config_(config), job_(job) {}
 
+    void connect_reports(Process& self) {
+        for (auto& port : solved) {
+            port->connect_writer(self);
+        }
+    }
+    /// The row that has just been taken from a lane.
+    void report(Process& self, std::size_t lane) {
+        if (config_.reports_rows) {
+            solved[lane]->put(self, {});
+        }
+    }
     /// Solves a row of a splat in `result`. False: it misses every pixel of the tile.
     bool solve(TileNumber number, std::uint32_t splat, int row, SpanItem& result);
 

@@ -25,6 +25,7 @@ void SpanUnit::end_of_elaboration() {
         rings_.push_back(&port.ring());
         rings_.back()->connect_writer(self_);
     }
+    connect_reports(self_);
 }
 
 void SpanUnit::run() {
@@ -56,6 +57,7 @@ void SpanUnit::take() {
         holding_ = true;
         return;
     }
+    report(self_, 0);
     next_port_ = port_of_row_[row];
     DatedFifo<SpanItem>& ring = *rings_[next_port_];
     holding_ = ring.full();
