@@ -203,9 +203,8 @@ void describe_format(ConfigVisitor& visitor, const char* key, NumberFormat& form
     }
 }
 
-Rounder::Rounder(const NumberFormat& format)
-    : exact_(format.is_fp64()), fixed_(format.kind == NumberFormat::Kind::Fixed) {
-    if (exact_) {
+Rounder::Rounder(const NumberFormat& format) : fixed_(format.kind == NumberFormat::Kind::Fixed) {
+    if (format.is_fp64()) {
         return;
     }
     max_ = format.max();
@@ -214,6 +213,7 @@ Rounder::Rounder(const NumberFormat& format)
     if (fixed_) {
         return;
     }
+    odd_ = 1;
     shift_ = 52 - format.fraction_bits;
     half_less_one_ = (std::uint64_t{1} << (shift_ - 1)) - 1;
     keep_ = ~((std::uint64_t{1} << shift_) - 1);

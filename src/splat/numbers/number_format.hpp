@@ -69,21 +69,19 @@ public:
     explicit Rounder(const NumberFormat& format);
 
     double operator()(double x) const {
-        if (exact_) {
-            return x;
-        }
         if (fixed_) { // adding and subtracting 1.5 * 2^52 units rounds to whole units
             const double y = (x + magic_) - magic_;
             return y >= min_ && y <= max_ ? y : outside(x);
         }
         // What lies between the smallest normal and the largest value: half a unit less one is
-        // added to the pattern, and the last bit that is kept, before the rest is cut.
+        // added to the pattern, and the last bit that is kept, before the rest is cut. With fp64 all
+        // patterns stay as they are.
         std::uint64_t bits = 0;
         std::memcpy(&bits, &x, sizeof bits);
         if ((bits & magnitude_) - low_ > range_) {
             return beside(x);
         }
-        bits += half_less_one_ + ((bits >> shift_) & 1U);
+        bits += half_less_one_ + ((bits >> shift_) & odd_);
         bits &= keep_;
         double y = 0;
         std::memcpy(&y, &bits, sizeof y);
@@ -94,11 +92,12 @@ private:
     double beside(double x) const;
     double outside(double x) const;
 
-    bool exact_ = true;
     bool fixed_ = false;
     double min_ = 0, max_ = 0, magic_ = 0; // magic_: of fixed formats, and of subnormals
     // Patterns of doubles; magnitude_ keeps the sign bit if there are no negative values.
-    std::uint64_t magnitude_ = 0, low_ = 0, range_ = 0, half_less_one_ = 0, keep_ = 0;
+    std::uint64_t magnitude_ = 0, low_ = 0, range_ = 0, half_less_one_ = 0,
+                  keep_ = ~std::uint64_t{0};
+    std::uint64_t odd_ = 0; // 1 if anything is cut off
     int shift_ = 0;
 };
 
