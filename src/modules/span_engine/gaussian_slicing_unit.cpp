@@ -51,7 +51,7 @@ GaussianSlicingUnit::GaussianSlicingUnit(const sc_core::sc_module_name& name, co
       region_ended("region_ended", config.skip_dead_rows ? slices : 0),
       sliced("sliced", config.reports_chunks ? 1 : 0),
       row_counts("row_counts", config.reports_chunks ? out.size() : 0), config_(config), job_(job),
-      index_(index), segment_length_(segment_length), self_(time),
+      index_(index), modules_(config.modules()), segment_length_(segment_length), self_(time),
       open_chunks_(sliced, row_counts) {
     for (int row = 0; row < job.tile_size; ++row) {
         lane_of_row_.push_back((row % lanes) / config.modules());
@@ -119,11 +119,9 @@ void GaussianSlicingUnit::slice_tile(TileNumber number) {
 void GaussianSlicingUnit::deal(TileNumber number) {
     const std::size_t units = config_.units_per_module();
     while (slices_.size() < units) {
-        const std::optional<Slice> slice = next_slice(number);
-        if (!slice) {
+        if (!add_slice(number)) {
             break;
         }
-        slices_.push_back(*slice);
     }
     for (Slice& slice : slices_) {
         slice.rows_left = config_.rows_per_cycle;
@@ -132,18 +130,20 @@ void GaussianSlicingUnit::deal(TileNumber number) {
     stats_.busy += slices_.size();
 }
 
-// The tile's next splat that costs the unit something, if it is there at this date.
-std::optional<GaussianSlicingUnit::Slice> GaussianSlicingUnit::next_slice(TileNumber number) {
+// Takes the tile's next splat that costs the unit something, if it is there at this date.
+bool GaussianSlicingUnit::add_slice(TileNumber number) {
     while (splat_reads_left_ != 0 && more_splats(number)) {
         --splat_reads_left_;
-        const Slice slice = begin(number);
+        Slice& slice = slices_.emplace_back();
+        begin(number, slice);
         if (!slice.done() || config_.distribution != SliceDistribution::BroadcastSkip) {
-            return slice;
+            return true;
         }
         open_chunks_.finish_splat(self_, slice.chunk);
+        slices_.pop_back();
     }
     stats_.splat_port_waits += splat_reads_left_ == 0 && dealt_ < chunk_.count ? 1 : 0;
-    return {};
+    return false;
 }
 
 // True if the tile has a splat at this date. Waits for one only if no unit has work. A chunk of a
@@ -181,10 +181,9 @@ void GaussianSlicingUnit::work(TileNumber number) {
         }
         open_chunks_.finish_splat(self_, slice.chunk);
         if (slice.splats_left > 1) {
-            if (std::optional<Slice> next = next_slice(number)) {
-                next->rows_left = slice.rows_left;
-                next->splats_left = slice.splats_left - 1;
-                slices_.push_back(*next);
+            if (add_slice(number)) {
+                slices_.back().rows_left = slice.rows_left;
+                slices_.back().splats_left = slice.splats_left - 1;
             }
         }
     }
@@ -193,7 +192,7 @@ void GaussianSlicingUnit::work(TileNumber number) {
 }
 
 void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before) {
-    for (; slice.row <= slice.last && slice.row < before; slice.row += config_.modules()) {
+    for (; slice.row <= slice.last && slice.row < before; slice.row += modules_) {
         if ((slice.below & ~ended_[slice.row]) == 0) {
             stats_.rows_skipped++;
             continue;
@@ -278,9 +277,8 @@ std::uint64_t GaussianSlicingUnit::segments_below(const JobTile& tile, std::uint
     return upto(last_bit) & ~(upto(first_bit) >> 1);
 }
 
-GaussianSlicingUnit::Slice GaussianSlicingUnit::begin(TileNumber number) {
+void GaussianSlicingUnit::begin(TileNumber number, Slice& slice) {
     const JobTile& tile = job_.tiles[number];
-    Slice slice;
     slice.splat = splat_of(dealt_++);
     slice.chunk = open_chunks_.latest();
     const PixelRange met =
@@ -288,12 +286,11 @@ GaussianSlicingUnit::Slice GaussianSlicingUnit::begin(TileNumber number) {
             ? job_.path->rows_in_columns(slice.splat, tile.x, tile.x + tile.width)
             : job_.path->rows(slice.splat);
     const PixelRange rows = met.within(tile.rows()).relative_to(tile.y);
-    const int modules = config_.modules();
-    slice.row = rows.first + (index_ - rows.first % modules + modules) % modules; // first of ours
+    // The first one of ours.
+    slice.row = rows.first + (index_ - rows.first % modules_ + modules_) % modules_;
     slice.last = rows.last;
     slice.below = config_.skip_dead_rows ? segments_below(tile, slice.splat) : ~std::uint64_t{0};
     stats_.splats++;
-    return slice;
 }
 
 } // namespace degs

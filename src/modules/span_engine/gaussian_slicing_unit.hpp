@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include <systemc>
 
@@ -123,15 +123,15 @@ private:
     void see_ended_regions(TileNumber number);
     void expect_splats() const;
     std::uint32_t splat_of(std::uint32_t place) const;
-    std::optional<Slice> next_slice(TileNumber number);
-    Slice begin(TileNumber number);
+    bool add_slice(TileNumber number);
+    void begin(TileNumber number, Slice& slice);
     std::uint64_t segments_below(const JobTile& tile, std::uint32_t splat) const;
     void send_rows(TileNumber number, Slice& slice, int before);
     bool takes_row_port(std::size_t lane);
 
     Config config_;
     const RenderJob& job_;
-    int index_;
+    int index_, modules_; // of a stream
     int segment_length_;
     Process self_;
     TileNumber cancelled_before_ = 0;

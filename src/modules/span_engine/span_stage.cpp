@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/span_engine/span_stage.hpp"
 
-#include <new>
-
-#include "splat/coupled_row.hpp"
-
 namespace degs {
 
 void SpanStage::Config::describe(ConfigVisitor& visitor) {
@@ -30,25 +26,6 @@ void SpanStage::Config::describe(ConfigVisitor& visitor) {
     visitor.require(
         rows_per_cycle == 1 || cycles_per_row == 1,
         {"rows_per_cycle", "must be 1 where a row takes several cycles", "1", {"cycles_per_row"}});
-}
-
-// The pixels of the span are made in place, because a copy of what was just written waits for the
-// write.
-bool SpanStage::solve(TileNumber number, std::uint32_t splat, int row, SpanItem& result) {
-    const JobTile& tile = job_.tiles[number];
-    const int y = tile.y + row, x_end = tile.x + tile.width;
-    const auto& span = *new (&result.span) std::optional<RowSpan>(
-        config_.parsing ? job_.path->solve_row(splat, y, tile.x, x_end, tile.y)
-                        : row_of_box(*job_.path, splat, y, tile.x, x_end, tile.y));
-    result.tile = number;
-    stats_.rows++;
-    if (!span) {
-        stats_.empty_rows++;
-        return false;
-    }
-    stats_.spans++;
-    stats_.tasks += span->length;
-    return true;
 }
 
 } // namespace degs

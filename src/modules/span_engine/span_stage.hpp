@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <new>
+
 #include <systemc>
 
 #include "config/config.hpp"
 #include "config/statistics.hpp"
 #include "modules/render_job.hpp"
 #include "modules/sram_ports.hpp"
+#include "splat/coupled_row.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
@@ -78,11 +81,31 @@ protected:
         }
     }
     /// Solves a row of a splat in `result`. False: it misses every pixel of the tile.
-    bool solve(TileNumber number, std::uint32_t splat, int row, SpanItem& result);
+    inline bool solve(TileNumber number, std::uint32_t splat, int row, SpanItem& result);
 
     Config config_;
     const RenderJob& job_;
     Stats stats_;
 };
+
+// Inlined in the hot loops. The pixels of the span are made in place, because a copy of what was just
+// written waits for the write.
+inline __attribute__((always_inline)) bool SpanStage::solve(TileNumber number, std::uint32_t splat,
+                                                            int row, SpanItem& result) {
+    const JobTile& tile = job_.tiles[number];
+    const int y = tile.y + row, x_end = tile.x + tile.width;
+    const auto& span = *new (&result.span) std::optional<RowSpan>(
+        config_.parsing ? job_.path->solve_row(splat, y, tile.x, x_end, tile.y)
+                        : row_of_box(*job_.path, splat, y, tile.x, x_end, tile.y));
+    result.tile = number;
+    stats_.rows++;
+    if (!span) {
+        stats_.empty_rows++;
+        return false;
+    }
+    stats_.spans++;
+    stats_.tasks += span->length;
+    return true;
+}
 
 } // namespace degs

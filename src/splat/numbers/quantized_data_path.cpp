@@ -86,8 +86,13 @@ public:
 
     void begin_row(int context, int row) override { rows_.release(context, row); }
 
+    // The first update of a row is apart, so that all others pass through without a frame of this.
     BlendOutcome blend(const BlendTask& task) override {
-        return pixels_->blend(task, refuse_, at(task.context, task.row, task.column));
+        if (!rows_.placed(task.context, task.row)) {
+            return begin_and_blend(task);
+        }
+        return pixels_->blend(task, refuse_,
+                              rows_.first_pixel(task.context, task.row) + task.column);
     }
 
     BlendOutcome test(const PixelTest& test) override {
@@ -172,6 +177,9 @@ public:
     }
 
 private:
+    [[gnu::noinline]] BlendOutcome begin_and_blend(const BlendTask& task) {
+        return pixels_->blend(task, refuse_, at(task.context, task.row, task.column));
+    }
     std::size_t at(int context, int row, int column) {
         return rows_.ready(context, row, *pixels_) + column;
     }
