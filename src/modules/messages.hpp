@@ -98,6 +98,9 @@ struct TaskPacket {
     std::int16_t ended_context = 0;       ///< of the Pixel Buffer, in which ended_tile lies
     std::array<TaskRun, kMaxRuns> runs{}; ///< the first run_count count
 
+    const TaskRun* begin() const { return runs.data(); }
+    const TaskRun* end() const { return runs.data() + run_count; }
+
     TaskPacket() = default;
     TaskPacket(const TaskPacket& other) { copy(other); }
     TaskPacket& operator=(const TaskPacket& other) {

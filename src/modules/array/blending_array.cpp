@@ -18,7 +18,7 @@ ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config
       tile_done("tile_done", config.streams), tile_state("tile_state", config.streams),
       config_(config), job_(job), index_(index), slices_(slices), segment_length_(segment_length),
       segments_per_row_((job.tile_size + segment_length - 1) / segment_length), self_(time),
-      contexts_(std::size_t{1} * config.streams * config.contexts),
+      contexts_(std::size_t{1} * config.streams * config.contexts), current_(&contexts_.front()),
       segments_((job.tile_size + slices - 1) / slices * segments_per_row_),
       plain_(config.scoreboard && !config.tests), blender_(job, config.tests) {
     if (!config.scoreboard) {
@@ -62,8 +62,7 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
     stats_.packets++;
     stats_.window.include(now);
     const bool early = early_.has_value();
-    for (int i = 0; i < packet.run_count; ++i) {
-        const TaskRun& run = packet.runs[i];
+    for (const TaskRun& run : packet) {
         Context& context = context_of(run.task.context, run.tile);
         if (!early) {
             check_reuse(context, run, now);
@@ -152,7 +151,9 @@ void ArraySlice::check_reuse(Context& context, const TaskRun& run, Cycle date) {
     const Cycle writeback = config_.writeback_cycles;
     const bool late = date - recent.date >= writeback;
     const std::uint32_t busy = late ? 0 : recent.mask;
-    stats_.hazards += __builtin_popcount(busy & run.part);
+    if ((busy & run.part) != 0) { // never with a scoreboard
+        stats_.hazards += __builtin_popcount(busy & run.part);
+    }
     recent.mask = busy | run.part;
     recent.date = date;
 }
@@ -168,7 +169,7 @@ void ArraySlice::pixels_ended(Context& context, const TaskRun& run, std::uint32_
     if (all && config_.region_listeners != 0) {
         report_region(context, run);
     }
-    if (all || config_.termination != TerminationGrain::Segment) {
+    if (all || config_.termination == TerminationGrain::Pixel) {
         Termination message;
         message.tile = context.tile;
         message.row = run.task.row;

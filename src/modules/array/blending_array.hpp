@@ -79,19 +79,24 @@ private:
     void pump() override;
     /// The context, prepared for the tile if that starts with this call.
     Context& context_of(std::int16_t context, TileNumber tile) {
-        if (contexts_[context].tile != tile) {
-            start_tile(contexts_[context], tile);
+        if (current_->tile != tile) {
+            current_ = &contexts_[context];
+            if (current_->tile != tile) {
+                start_tile(*current_, tile);
+            }
         }
-        return contexts_[context];
+        return *current_;
     }
-    void start_tile(Context& context, TileNumber number);
+    [[gnu::noinline]] void start_tile(Context& context, TileNumber number);
     void execute(const TaskPacket& packet);
-    BlendOutcome blend_otherwise(const Context& context, const TaskRun& run, Cycle date);
+    // What is rare stays out of the loop over packets, which then keeps more in registers.
+    [[gnu::noinline]] BlendOutcome blend_otherwise(const Context& context, const TaskRun& run,
+                                                   Cycle date);
     BlendOutcome blend_early(const Context& context, const TaskRun& run, Cycle date);
     void check_reuse(Context& context, const TaskRun& run, Cycle date);
-    void pixels_ended(Context& context, const TaskRun& run, std::uint32_t ended);
+    [[gnu::noinline]] void pixels_ended(Context& context, const TaskRun& run, std::uint32_t ended);
     void report_region(const Context& context, const TaskRun& run);
-    void end_tile(TileNumber number, std::int16_t context);
+    [[gnu::noinline]] void end_tile(TileNumber number, std::int16_t context);
     void end_reports();
     std::size_t stream_of(std::int16_t context) const { return context / config_.contexts; }
 
@@ -101,6 +106,7 @@ private:
     Process self_;
     DatedFifo<TaskPacket>* packets_ = nullptr; // the ring behind `in`
     std::vector<Context> contexts_;            // those in use have taken host memory
+    Context* current_;                         // asked for last
     int segments_;                             // of a context
     std::vector<std::size_t> port_of_row_; // in region_ended, of a stream; empty without listeners
     BlendOutcome outcome_; // of the segment whose tasks execute, or of the part without scoreboard

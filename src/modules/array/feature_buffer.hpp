@@ -67,7 +67,7 @@ public:
     /// No more rows of the stream's open splats will come.
     void close(Cycle now, std::size_t stream = 0);
     /// Date at which the next entry becomes free; kNever if none is on its way.
-    Cycle next_free() const { return free_count_ == 0 ? kNever : free_[first_free_].date; }
+    Cycle next_free() const { return free_count_ == 0 ? kNever : first_free_->date; }
     const Stats& stats() const { return stats_; }
 
 private:
@@ -89,21 +89,23 @@ private:
         std::uint16_t entry = 0;
     };
     struct Stream {
-        std::vector<Open> open; // in the order of their first rows
-        bool waiting = false;   // a splat has found no entry
+        std::vector<Open> open; // ring in the order of their first rows
+        std::size_t oldest = 0, count = 0;
+        bool waiting = false; // a splat has found no entry
     };
     bool find(std::uint64_t splat, std::size_t stream);
     bool enter(std::uint64_t splat, Cycle now, std::size_t stream);
-    void close_oldest(std::vector<Open>& open, Cycle now);
+    void close_oldest(Stream& own, Cycle now);
     void retire(std::uint16_t entry, Cycle date);
     Cycle fill(std::uint16_t entry, Cycle now);
-    std::size_t next(std::size_t i) const { return i + 1 == free_.size() ? 0 : i + 1; }
+    Free* next(Free* place) { return place == &free_.back() ? &free_.front() : place + 1; }
 
     std::vector<Entry> entries_;
     std::vector<Free> free_; // ring in order of dates, which do not fall
-    std::size_t first_free_ = 0, end_free_ = 0, free_count_;
+    Free* first_free_;
+    Free* end_free_;
+    std::size_t free_count_;
     Cycle last_retired_ = 0;
-    std::size_t open_splats_;
     Fill fill_;
     std::vector<Cycle> write_ports_; // dates at which they are free, SRAM bank by bank
     std::vector<Stream> streams_;
