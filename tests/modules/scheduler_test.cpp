@@ -114,6 +114,79 @@ TEST(IssueBank, OtherDomainsFillTheGap) {
     EXPECT_EQ(bench.stats().hazards, 0U);
 }
 
+struct Feedback {
+    int packing_latency, reuse, writeback;
+};
+std::ostream& operator<<(std::ostream& out, const Feedback& f) {
+    return out << "latency" << f.packing_latency << "_reuse" << f.reuse << "_back" << f.writeback;
+}
+class TerminationOf : public ::testing::TestWithParam<Feedback> {};
+
+// alpha = 0.98: T is 0.02, 4e-4, and the third splat is refused and ends the row. Its report is
+// back at e2 + writeback; segment k more is issued at e2 + k reuse - latency, so those issued
+// before the report are executed in vain, the others dropped.
+TEST_P(TerminationOf, SegmentsBehindTheReportAreDropped) {
+    constexpr std::uint64_t kSplats = 20;
+    const Feedback f = GetParam();
+    SchedulerBench::Sizes sizes;
+    sizes.packing_latency = f.packing_latency;
+    sizes.reuse = f.reuse;
+    sizes.writeback = f.writeback;
+    SchedulerBench bench(sizes, std::vector<ProjectedSplat>(kSplats, blanket(8, 8, 1e4, 0.98)));
+    std::vector<SchedulerBench::Feed> feeds;
+    for (std::uint32_t i = 0; i < kSplats; ++i) {
+        feeds.push_back({10, i, 0});
+    }
+    bench.run(feeds);
+    std::uint64_t executed = 3;
+    for (int k = 1; k * f.reuse - f.packing_latency < f.writeback; ++k) {
+        ++executed;
+    }
+    EXPECT_EQ(bench.stats().packets, executed);
+    EXPECT_EQ(bench.stats().slots.useful, 2U * 16);
+    EXPECT_EQ(bench.stats().slots.terminated, (executed - 2) * 16);
+    EXPECT_EQ(bench.stats().pixels_ended, 16U);
+    EXPECT_EQ(bench.bank.stats().tasks_dropped, (kSplats - executed) * 16);
+    EXPECT_EQ(bench.bank.stats().tasks_in, kSplats * 16);
+}
+
+INSTANTIATE_TEST_SUITE_P(Delays, TerminationOf,
+                         ::testing::Values(Feedback{1, 4, 4}, Feedback{2, 4, 4}, Feedback{4, 4, 4},
+                                           Feedback{5, 4, 4}, Feedback{2, 13, 4}, Feedback{3, 4, 1},
+                                           Feedback{9, 5, 5}));
+
+/// Three splats end one pixel; six more cover its whole row.
+std::vector<SchedulerBench::Feed> end_one_pixel(std::vector<ProjectedSplat>& splats) {
+    std::vector<SchedulerBench::Feed> feeds;
+    for (std::uint32_t i = 0; i < 9; ++i) {
+        splats.push_back(i < 3 ? one_pixel(4, 0, 0.98) : one_row(0, 15, 0, 0.1));
+        feeds.push_back({i < 3 ? Cycle{10} : Cycle{60}, i, 0});
+    }
+    return feeds;
+}
+
+TEST(IssueBank, ByPixelsEndedPixelsAreMaskedOut) {
+    std::vector<ProjectedSplat> splats;
+    const auto feeds = end_one_pixel(splats);
+    SchedulerBench::Sizes sizes;
+    sizes.grain = TerminationGrain::Pixel;
+    SchedulerBench bench(sizes, splats);
+    bench.run(feeds);
+    EXPECT_EQ(bench.stats().slots.useful, 2U + 6 * 15);
+    EXPECT_EQ(bench.stats().slots.terminated, 1U);
+    EXPECT_EQ(bench.bank.stats().tasks_dropped, 6U);
+}
+
+TEST(IssueBank, BySegmentsEndedPixelsCostTheirSlots) {
+    std::vector<ProjectedSplat> splats;
+    const auto feeds = end_one_pixel(splats);
+    SchedulerBench bench({}, splats);
+    bench.run(feeds);
+    EXPECT_EQ(bench.stats().slots.useful, 2U + 6 * 15);
+    EXPECT_EQ(bench.stats().slots.terminated, 1U + 6);
+    EXPECT_EQ(bench.bank.stats().tasks_dropped, 0U);
+}
+
 // Eight rows wait at the crossbar. The bank cuts four per cycle but takes only as many as the crossbar
 // is wide, and the array executes what it gets: a wire for two units halves their rate.
 class CrossbarWidth : public ::testing::TestWithParam<std::pair<int, Cycle>> {};

@@ -20,14 +20,18 @@ struct BankStream {
     };
 
     std::size_t index = 0;
+    BankStream* next = nullptr; ///< whose spans are taken after those of this one
     std::vector<Input> inputs;
     DatedFifo<TileNumber>* contexts_freed = nullptr;
     std::size_t oldest = 0;    ///< first turn that is not over for the bank
     std::size_t startable = 0; ///< turns below this one have a context of the Pixel Buffer
     std::size_t entering = 0;  ///< turn whose spans are accepted: one at a time, in order
+    bool enterable = true;     ///< it may have spans in the queue
     bool entered = false;      ///< something of it has been taken
     std::size_t ends_seen = 0; ///< inputs that have delivered everything of it
-    std::size_t issuing = 0;   ///< turn that is looked at in this cycle
+    // Its tiles that may issue: places in the bank's list, which is stream by stream.
+    std::size_t first_started = 0, end_started = 0;
+    std::size_t issuing = 0; ///< place that is looked at in this cycle
 
     /// The first turn that may not issue, or has nothing to issue yet.
     std::size_t first_unstarted() const {

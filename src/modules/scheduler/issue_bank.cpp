@@ -30,9 +30,8 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
     : sc_core::sc_module(name), in("in", inputs * config.streams), terminated("terminated"),
       context_free("context_free", config.streams), config_(within_ports(config)), job_(job),
       packing_(packing), contexts_(contexts), tiles_in_flight_(tiles_in_queue(contexts)),
-      by_task_(config.termination == TerminationGrain::Task),
-      sees_pixels_(config.termination != TerminationGrain::Segment),
-      fills_(config.fill.cycles != 0), streams_(config.streams), stream_count_(streams_.size()),
+      by_pixel_(config.termination == TerminationGrain::Pixel), fills_(config.fill.cycles != 0),
+      streams_(config.streams), stream_count_(streams_.size()),
       spans_per_cycle_(config.spans_per_cycle == 0 ? config_.segments_per_cycle
                                                    : config.spans_per_cycle),
       self_(time), segmenter_(job.tile_size, config.segment_length, index, config.count),
@@ -40,10 +39,11 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
              Segmenter::domains_per_tile(job.tile_size, config.segment_length, config.count),
              config.scan, config.streams),
       features_(config.feature_entries, config.open_splats, config.streams, config.fill),
-      ready_(config.streams, -1),
+      next_stream_(&streams_.front()), ready_(config.streams, -1),
       width_cause_(config_.issue_width < config.issue_width ? Idle::Ports : Idle::Starved) {
     for (BankStream& stream : streams_) {
         stream.index = &stream - streams_.data();
+        stream.next = &streams_[(stream.index + 1) % streams_.size()];
         stream.inputs.resize(inputs);
         stream.startable = contexts;
     }
@@ -107,13 +107,31 @@ void IssueBank::see_contexts() {
         return;
     }
     contexts_owed_ = false;
+    bool gained = false;
     for (BankStream& stream : streams_) {
         while (stream.startable < stream.oldest + contexts_ &&
                self_.arrived(*stream.contexts_freed)) {
             stream.contexts_freed->drop(self_);
             ++stream.startable;
+            gained = true;
         }
         contexts_owed_ = contexts_owed_ || stream.startable < stream.oldest + contexts_;
+    }
+    if (gained) {
+        list_started();
+    }
+}
+
+// Called when a tile has begun, got a context, or ended.
+void IssueBank::list_started() {
+    started_.clear();
+    for (BankStream& stream : streams_) {
+        stream.first_started = started_.size();
+        for (std::size_t turn = stream.oldest; turn < stream.first_unstarted(); ++turn) {
+            started_.push_back(&tile_at(stream, turn));
+        }
+        stream.end_started = started_.size();
+        stream.enterable = stream.entering < end_of_intake(stream);
     }
 }
 
@@ -144,7 +162,7 @@ std::uint32_t IssueBank::end_pixels(SegmentQueue::Tile& tile, int domain,
                                     std::uint32_t mask) const {
     const std::uint32_t ended = tile.end_pixels(domain, mask);
     const bool all = ended == kAllPixels;
-    tile.set_live(domain, sees_pixels_ || all ? ~ended : kAllPixels);
+    tile.set_live(domain, by_pixel_ || all ? ~ended : kAllPixels);
     return ended;
 }
 
@@ -161,6 +179,7 @@ void IssueBank::enter_tile(BankStream& stream, TileNumber number) {
         end_pixels(tile, domain++, ~bits_between(0, inside));
     }
     stream.entered = true;
+    list_started();
 }
 
 void IssueBank::drop(std::uint32_t mask) {
@@ -181,28 +200,10 @@ void IssueBank::accept(Cycle now) {
     }
 }
 
-// Takes a span of the next stream that has one, in turn; a span cut halfway is finished first.
-bool IssueBank::open_span(Cycle now) {
-    if (spans_left_ == 0) {
-        return false;
-    }
-    for (std::size_t left = stream_count_; left > 0; --left) {
-        BankStream& stream = streams_[next_stream_];
-        next_stream_ = next_stream_ + 1 == stream_count_ ? 0 : next_stream_ + 1;
-        Taken taken;
-        do { // ends of tiles on the way cost nothing
-            taken = take_from(stream, now);
-        } while (taken == Taken::End);
-        if (taken == Taken::Span) {
-            --spans_left_;
-            return true;
-        }
-    }
-    return false;
-}
-
-// Takes the earliest item that has arrived, ties by input, if it may be taken.
-IssueBank::Taken IssueBank::take_from(BankStream& stream, Cycle now) {
+// Takes the earliest item that has arrived, ties by input, if it may be taken. Inlined in the hot
+// loop.
+inline __attribute__((always_inline)) IssueBank::Taken IssueBank::take_from(BankStream& stream,
+                                                                            Cycle now) {
     BankStream::Input* const source = earliest_input(stream);
     if (source == nullptr) {
         return Taken::Nothing;
@@ -233,6 +234,27 @@ IssueBank::Taken IssueBank::take_from(BankStream& stream, Cycle now) {
     return span ? Taken::Span : Taken::End;
 }
 
+// Takes a span of the next stream that has one, in turn; a span cut halfway is finished first.
+bool IssueBank::open_span(Cycle now) {
+    if (spans_left_ == 0) {
+        return false;
+    }
+    BankStream* const first = next_stream_;
+    do {
+        BankStream& stream = *next_stream_;
+        next_stream_ = stream.next;
+        Taken taken;
+        do { // ends of tiles on the way cost nothing
+            taken = take_from(stream, now);
+        } while (taken == Taken::End);
+        if (taken == Taken::Span) {
+            --spans_left_;
+            return true;
+        }
+    } while (next_stream_ != first);
+    return false;
+}
+
 BankStream::Input* IssueBank::earliest_input(BankStream& stream) {
     BankStream::Input* source = nullptr;
     for (BankStream::Input& input : stream.inputs) {
@@ -249,6 +271,8 @@ void IssueBank::take_end(BankStream& stream, Cycle now) {
         features_.close(now, stream.index);
         stream.ends_seen = 0;
         ++stream.entering;
+        ++closing_;
+        stream.enterable = stream.entering < end_of_intake(stream);
         stream.entered = false;
     }
 }

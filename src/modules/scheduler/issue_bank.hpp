@@ -17,11 +17,9 @@
 
 namespace degs {
 
-/// What the bank skips of the work for ended pixels (paper, Sec. IV-B). `Segment`: all segments of a
-/// region, row x stride, whose pixels have all ended; the array reports whole regions. The others
-/// need reports of single pixels. `Task`: each segment whose own pixels have all ended; any other
-/// one is issued whole. `Pixel`: every ended pixel.
-enum class TerminationGrain { Segment, Task, Pixel };
+/// The grain in which the array reports ended pixels and the bank skips them: whole segments
+/// (paper, Sec. IV-B), or single pixels.
+enum class TerminationGrain { Segment, Pixel };
 
 /// One Issue Bank of the Packing Scheduler (paper, Sec. IV-B): takes the row spans of its rows in
 /// depth order, cuts them at fixed strides (Segmenter), and issues segments to its Packing Unit,
@@ -95,7 +93,9 @@ private:
     void run();
     void see_terminations();
     void see_contexts();
-    void end_pixels(const Termination& message);
+    // What is rare stays out of the loop over cycles, which then keeps more in registers.
+    [[gnu::noinline]] void list_started();
+    [[gnu::noinline]] void end_pixels(const Termination& message);
     std::uint32_t end_pixels(SegmentQueue::Tile& tile, int domain, std::uint32_t mask) const;
 
     // Intake.
@@ -104,25 +104,26 @@ private:
     bool open_span(Cycle now);
     Taken take_from(BankStream& stream, Cycle now);
     BankStream::Input* earliest_input(BankStream& stream);
-    void enter_tile(BankStream& stream, TileNumber number);
-    void take_end(BankStream& stream, Cycle now);
+    [[gnu::noinline]] void enter_tile(BankStream& stream, TileNumber number);
+    [[gnu::noinline]] void take_end(BankStream& stream, Cycle now);
     bool cut_segment();
     void drop(std::uint32_t mask);
-    bool takes(const BankStream& stream, const BankStream::Input& input) const {
-        return input.turn == stream.entering &&
-               stream.entering <
-                   (stream_count_ == 1 ? stream.oldest + tiles_in_flight_ : stream.startable);
+    static bool takes(const BankStream& stream, const BankStream::Input& input) {
+        return input.turn == stream.entering && stream.enterable;
+    }
+    std::size_t end_of_intake(const BankStream& stream) const {
+        return stream_count_ == 1 ? stream.oldest + tiles_in_flight_ : stream.startable;
     }
 
     // Issue.
     bool issue(Cycle now);
-    int issue_from(const BankStream& stream, Cycle now);
-    int issue_from_all(Cycle now);
+    int issue_in_order(Cycle now);
+    [[gnu::noinline]] int issue_from_all(Cycle now);
     int find_ready(BankStream& stream, Cycle now);
     std::size_t choose_stream() const;
     bool issue_one(Cycle now, SegmentQueue::Tile& tile, int domain);
     bool finish_tiles();
-    bool finish_tiles(BankStream& stream);
+    [[gnu::noinline]] void finish_tiles(BankStream& stream);
 
     // Dates.
     Idle idle_cause() const;
@@ -139,20 +140,21 @@ private:
     PackingUnit& packing_;
     int contexts_;        // of a stream
     int tiles_in_flight_; // of a single stream
-    bool by_task_;        // TerminationGrain::Task
-    bool sees_pixels_;    // not TerminationGrain::Segment
+    bool by_pixel_;       // TerminationGrain::Pixel
     bool fills_;          // filling a Feature Buffer entry takes time
     std::vector<BankStream> streams_;
-    std::size_t stream_count_;                       // theirs, at hand in the hot loop
-    int spans_per_cycle_;                            // that the crossbar delivers
-    bool contexts_owed_ = false;                     // a stream has fewer contexts than it may have
+    std::size_t stream_count_;                 // theirs, at hand in the hot loop
+    int spans_per_cycle_;                      // that the crossbar delivers
+    bool contexts_owed_ = false;               // a stream has fewer contexts than it may have
+    std::vector<SegmentQueue::Tile*> started_; // that may issue: stream by stream, oldest first
+    std::size_t closing_ = 0;                  // tiles of which nothing more will be taken
     DatedFifo<Termination>* terminations_ = nullptr; // the ring behind `terminated`
     Process self_;
     Segmenter segmenter_;
     SegmentQueue queue_;
     FeatureBuffer features_;
     SegmentQueue::Tile* cut_tile_ = nullptr; // of the span that is cut
-    std::size_t next_stream_ = 0;            // whose span is taken next
+    BankStream* next_stream_;                // whose span is taken next
     int spans_left_ = 0;                     // that may be taken in this cycle
     std::size_t issued_stream_ = 0;          // that issued last
     std::vector<int> ready_;                 // by stream: a domain that may issue; -1: none

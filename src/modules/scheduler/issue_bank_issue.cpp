@@ -13,10 +13,7 @@ inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, Segme
                                                                 int domain) {
     const Segment& segment = tile.front(domain);
     const std::uint32_t mask = segment.run.task.mask;
-    std::uint32_t wanted = mask & tile.live(domain);
-    if (wanted != mask && by_task_ && wanted != 0) {
-        wanted = mask; // one live task takes the others along
-    }
+    const std::uint32_t wanted = mask & tile.live(domain);
     const int tasks = __builtin_popcount(wanted);
     if (!packing_.room(now, segment.run, tasks) ||
         !packing_.room_by_ports(now, segment.run, wanted, segment.feature)) {
@@ -41,21 +38,19 @@ inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, Segme
 // True if anything was issued.
 bool IssueBank::issue(Cycle now) {
     no_room_ = false;
-    const int issued = stream_count_ == 1 ? issue_from(streams_.front(), now) : issue_from_all(now);
+    const int issued = stream_count_ == 1 ? issue_in_order(now) : issue_from_all(now);
     width_limited_ = issued == config_.issue_width;
     stats_.busy += issued != 0 ? 1 : 0;
     return issued != 0;
 }
 
 // The older tile goes first. Returns the number of segments issued.
-int IssueBank::issue_from(const BankStream& stream, Cycle now) {
+int IssueBank::issue_in_order(Cycle now) {
     int issued = 0;
-    const std::size_t end = stream.first_unstarted();
-    for (std::size_t turn = stream.oldest; turn < end; ++turn) {
-        SegmentQueue::Tile& tile = tile_at(stream, turn);
-        while (tile.waiting() != 0) {
-            const int domain = queue_.pick(tile, packing_.next_execution(now));
-            if (domain < 0 || !issue_one(now, tile, domain)) {
+    for (SegmentQueue::Tile* const tile : started_) {
+        while (tile->waiting() != 0) {
+            const int domain = queue_.pick(*tile, packing_.next_execution(now));
+            if (domain < 0 || !issue_one(now, *tile, domain)) {
                 break;
             }
             if (++issued == config_.issue_width) {
@@ -73,7 +68,7 @@ int IssueBank::issue_from_all(Cycle now) {
     while (issued < config_.issue_width) {
         for (BankStream& stream : streams_) {
             if (ready_[stream.index] < 0) {
-                stream.issuing = stream.oldest;
+                stream.issuing = stream.first_started;
                 ready_[stream.index] = find_ready(stream, now);
             }
         }
@@ -81,7 +76,7 @@ int IssueBank::issue_from_all(Cycle now) {
         if (chosen == kNone) {
             break;
         }
-        SegmentQueue::Tile& tile = tile_at(streams_[chosen], streams_[chosen].issuing);
+        SegmentQueue::Tile& tile = *started_[streams_[chosen].issuing];
         if (!issue_one(now, tile, ready_[chosen])) {
             break; // nothing overtakes what waits for room
         }
@@ -95,9 +90,8 @@ int IssueBank::issue_from_all(Cycle now) {
 
 // A domain of the stream that may issue, in its oldest tile from `issuing` on that has one; -1: none.
 int IssueBank::find_ready(BankStream& stream, Cycle now) {
-    const std::size_t end = stream.first_unstarted();
-    for (; stream.issuing < end; ++stream.issuing) {
-        SegmentQueue::Tile& tile = tile_at(stream, stream.issuing);
+    for (; stream.issuing < stream.end_started; ++stream.issuing) {
+        SegmentQueue::Tile& tile = *started_[stream.issuing];
         const int domain =
             tile.waiting() == 0 ? -1 : queue_.find(tile, packing_.next_execution(now));
         if (domain >= 0) {
@@ -120,8 +114,7 @@ std::size_t IssueBank::choose_stream() const {
         if (config_.scan == DomainScan::RoundRobin) {
             return s;
         }
-        const std::uint64_t key =
-            SegmentQueue::key_of(queue_.tile(streams_[s].issuing, s), ready_[s]);
+        const std::uint64_t key = SegmentQueue::key_of(*started_[streams_[s].issuing], ready_[s]);
         if (key < least) {
             least = key;
             chosen = s;
@@ -132,15 +125,21 @@ std::size_t IssueBank::choose_stream() const {
 
 // True if a tile has ended.
 bool IssueBank::finish_tiles() {
-    bool finished = false;
-    for (BankStream& stream : streams_) {
-        finished = finish_tiles(stream) || finished;
+    if (closing_ == 0) {
+        return false;
     }
-    return finished;
+    const std::size_t before = closing_;
+    for (BankStream& stream : streams_) {
+        finish_tiles(stream);
+    }
+    if (closing_ == before) {
+        return false;
+    }
+    list_started();
+    return true;
 }
 
-bool IssueBank::finish_tiles(BankStream& stream) {
-    const std::size_t before = stream.oldest;
+void IssueBank::finish_tiles(BankStream& stream) {
     while (stream.oldest < stream.entering && stream.oldest < stream.startable) {
         SegmentQueue::Tile& tile = tile_at(stream, stream.oldest);
         if (tile.waiting() != 0 || (segmenter_.cutting() && cut_tile_ == &tile)) {
@@ -150,21 +149,18 @@ bool IssueBank::finish_tiles(BankStream& stream) {
         queue_.clear(tile);
         ++stream.oldest;
         ++tiles_done_;
+        --closing_;
         contexts_owed_ = true;
     }
-    return stream.oldest != before;
 }
 
 Idle IssueBank::idle_cause() const {
     if (queue_.empty()) {
         return Idle::Starved;
     }
-    for (const BankStream& stream : streams_) {
-        const std::size_t end = stream.first_unstarted();
-        for (std::size_t turn = stream.oldest; turn < end; ++turn) {
-            if (queue_.tile(turn, stream.index).waiting() != 0) {
-                return width_limited_ ? width_cause_ : no_room_ ? Idle::Blocked : Idle::Conflict;
-            }
+    for (const SegmentQueue::Tile* const tile : started_) {
+        if (tile->waiting() != 0) {
+            return width_limited_ ? width_cause_ : no_room_ ? Idle::Blocked : Idle::Conflict;
         }
     }
     return Idle::Blocked;
@@ -176,13 +172,9 @@ Cycle IssueBank::next_ready(Cycle now) const {
         return now + 1;
     }
     Cycle earliest = kNever;
-    for (const BankStream& stream : streams_) {
-        const std::size_t end = stream.first_unstarted();
-        for (std::size_t turn = stream.oldest; turn < end; ++turn) {
-            const SegmentQueue::Tile& tile = queue_.tile(turn, stream.index);
-            if (tile.waiting() != 0) {
-                earliest = std::min(earliest, queue_.next_ready(tile));
-            }
+    for (const SegmentQueue::Tile* const tile : started_) {
+        if (tile->waiting() != 0) {
+            earliest = std::min(earliest, queue_.next_ready(*tile));
         }
     }
     return earliest;
@@ -228,9 +220,11 @@ Cycle IssueBank::next_date(Cycle now) {
         limit = std::min(limit, entries_only ? std::max(next, features_.next_free()) : next);
     }
     watched_.push_back(terminations_);
-    for (const BankStream& stream : streams_) {
-        if (stream.startable < stream.oldest + contexts_) {
-            watched_.push_back(stream.contexts_freed);
+    if (contexts_owed_) {
+        for (const BankStream& stream : streams_) {
+            if (stream.startable < stream.oldest + contexts_) {
+                watched_.push_back(stream.contexts_freed);
+            }
         }
     }
     limit = self_.next_arrival(watched_.data(), watched_.size(), next, std::max(next, limit));

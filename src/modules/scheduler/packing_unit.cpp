@@ -2,25 +2,6 @@
 #include "modules/scheduler/packing_unit.hpp"
 
 namespace degs {
-namespace {
-
-/// The lowest `count` set bits of `mask`, which has more than that.
-std::uint32_t lowest_bits(std::uint32_t mask, int count) {
-    const std::uint32_t lowest = mask & (0U - mask);
-    const std::uint32_t first = (lowest << count) - lowest;
-    if ((mask & first) == first) { // neighbours, as nearly always
-        return first;
-    }
-    std::uint32_t picked = 0;
-    for (; count > 0; --count) {
-        picked |= mask & (0U - mask);
-        mask &= mask - 1;
-    }
-    return picked;
-}
-
-} // namespace
-
 PackingUnit::PackingUnit(const sc_core::sc_module_name& name, const Config& config)
     : sc_core::sc_module(name), out("out"), config_(config), latency_(config.latency_cycles),
       width_(config.width), capacity_(width_ * config.depth) {
@@ -28,43 +9,6 @@ PackingUnit::PackingUnit(const sc_core::sc_module_name& name, const Config& conf
         ports_.emplace(config.ports);
         trial_.emplace(config.ports);
     }
-}
-
-Cycle PackingUnit::add(Process& bank, const TaskRun& run, std::uint32_t mask, int entry) {
-    std::uint32_t left = mask;
-    int count = __builtin_popcount(left);
-    Cycle execution = 0;
-    if (!config_.reorganisation && !joins(run)) {
-        send(bank, Idle::Blocked);
-    }
-    if (ports_) {
-        return add_by_ports(bank, run, mask, entry);
-    }
-    while (count != 0) {
-        if (!open()) {
-            open_packet(bank);
-        }
-        execution = next_slot_;
-        const int taken = std::min(count, config_.width - tasks_);
-        const std::uint32_t part = taken == count ? left : lowest_bits(left, taken);
-        put(run, mask, part);
-        left ^= part;
-        count -= taken;
-        tasks_ += taken;
-        if (tasks_ == config_.width) {
-            send(bank, Idle::Starved);
-        }
-    }
-    return execution;
-}
-
-// In the open packet; tasks_ counts them elsewhere.
-inline void PackingUnit::put(const TaskRun& run, std::uint32_t mask, std::uint32_t part) {
-    TaskPacket& packet = ring_->staged();
-    TaskRun& packed = packet.runs[packet.run_count++];
-    packed = run;
-    packed.task.mask = mask;
-    packed.part = part;
 }
 
 // Every part ends where the packet is full or a port is taken.
@@ -120,10 +64,6 @@ bool PackingUnit::joins(const TaskRun& run) const {
     const TaskRun& other = ring_->staged().runs.front();
     return run.task.splat == other.task.splat && run.task.row == other.task.row &&
            run.tile == other.tile;
-}
-
-bool PackingUnit::fits_behind(Cycle now, const TaskRun& run, int tasks) const {
-    return joins(run) || fits(now, config_.width + tasks);
 }
 
 void PackingUnit::open_packet(Process& bank) {

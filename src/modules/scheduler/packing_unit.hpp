@@ -11,6 +11,7 @@
 #include "modules/array/slot_account.hpp"
 #include "modules/messages.hpp"
 #include "modules/scheduler/packet_ports.hpp"
+#include "splat/pixel_mask.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
@@ -54,7 +55,7 @@ public:
     /// the pipeline, which are those that execute before now + latency, lie in its registers.
     bool room(Cycle now, const TaskRun& run, int tasks) const {
         return fits(now, tasks_ + tasks) &&
-               (config_.reorganisation || fits_behind(now, run, tasks));
+               (config_.reorganisation || joins(run) || fits(now, config_.width + tasks));
     }
     /// The same for the tasks `mask` with limited ports, where packets need not be full; `entry` of
     /// the Feature Buffer has the parameters of their splat.
@@ -63,7 +64,7 @@ public:
     }
     /// Packs those tasks of a segment that `mask` names, at least one; returns the execution date
     /// of the last one. `entry` as above.
-    Cycle add(Process& bank, const TaskRun& run, std::uint32_t mask, int entry = 0);
+    inline Cycle add(Process& bank, const TaskRun& run, std::uint32_t mask, int entry = 0);
     /// Sends the end of `tile`, which lies in `context` of the Pixel Buffer: the bank has nothing
     /// more for it.
     void end_tile(Process& bank, TileNumber tile, std::int16_t context);
@@ -98,11 +99,9 @@ private:
     }
     // Without reorganisation: `run` may go to the packet that is open, if any.
     bool joins(const TaskRun& run) const;
-    // The same: there is room for its tasks, in that packet or behind it.
-    bool fits_behind(Cycle now, const TaskRun& run, int tasks) const;
     bool fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry);
     Cycle add_by_ports(Process& bank, const TaskRun& run, std::uint32_t mask, int entry);
-    void put(const TaskRun& run, std::uint32_t mask, std::uint32_t part);
+    inline void put(const TaskRun& run, std::uint32_t mask, std::uint32_t part);
     void open_packet(Process& bank);
     void send(Process& bank, Idle cause);
 
@@ -122,5 +121,44 @@ private:
     SlotAccount since_last_; // idle after the last packet; counts once another one comes
     Stats stats_;
 };
+
+// In the open packet; tasks_ counts them elsewhere.
+inline void PackingUnit::put(const TaskRun& run, std::uint32_t mask, std::uint32_t part) {
+    TaskPacket& packet = ring_->staged();
+    TaskRun& packed = packet.runs[packet.run_count++];
+    packed = run;
+    packed.task.mask = mask;
+    packed.part = part;
+}
+
+// Inlined in the hot loop of the bank.
+inline __attribute__((always_inline)) Cycle PackingUnit::add(Process& bank, const TaskRun& run,
+                                                             std::uint32_t mask, int entry) {
+    std::uint32_t left = mask;
+    int count = __builtin_popcount(left);
+    Cycle execution = 0;
+    if (!config_.reorganisation && !joins(run)) {
+        send(bank, Idle::Blocked);
+    }
+    if (ports_) {
+        return add_by_ports(bank, run, mask, entry);
+    }
+    while (count != 0) {
+        if (!open()) {
+            open_packet(bank);
+        }
+        execution = next_slot_;
+        const int taken = std::min(count, config_.width - tasks_);
+        const std::uint32_t part = taken == count ? left : lowest_bits(left, taken);
+        put(run, mask, part);
+        left ^= part;
+        count -= taken;
+        tasks_ += taken;
+        if (tasks_ == config_.width) {
+            send(bank, Idle::Starved);
+        }
+    }
+    return execution;
+}
 
 } // namespace degs

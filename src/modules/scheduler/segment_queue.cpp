@@ -79,39 +79,8 @@ void SegmentQueue::release_all(Tile& tile) const {
     std::fill_n(tile.wheel_, words_ * kWheel, 0);
 }
 
-void SegmentQueue::turn_wheel(Tile& tile, Cycle date) const {
-    if (date <= tile.turned_) {
-        return;
-    }
-    if (date >= tile.turned_ + kWheel) {
-        release_all(tile);
-        tile.turned_ = date;
-        return;
-    }
-    Cycle turned = tile.turned_;
-    tile.turned_ = date;
-    if (words_ == 1) {
-        std::uint64_t cooling = *tile.cooling_;
-        do {
-            std::uint64_t& released = tile.wheel_[++turned % kWheel];
-            cooling &= ~released;
-            released = 0;
-        } while (turned < date);
-        *tile.cooling_ = cooling;
-        return;
-    }
-    do {
-        std::uint64_t* const released = tile.wheel_ + ++turned % kWheel * words_;
-        for (std::size_t w = 0; w < words_; ++w) {
-            tile.cooling_[w] &= ~released[w];
-            released[w] = 0;
-        }
-    } while (turned < date);
-}
-
 int SegmentQueue::find(Tile& tile, Cycle date) const {
-    turn_wheel(tile, date);
-    return scan_ == DomainScan::RoundRobin ? find_next(tile) : find_least(tile);
+    return search(tile, date);
 }
 
 // The ready domain of the smallest key. Selected without branches, which would be
@@ -128,26 +97,6 @@ int SegmentQueue::find_least(const Tile& tile) const {
         }
     }
     return best;
-}
-
-// The first ready domain from the cursor on, round the end if need be.
-int SegmentQueue::find_next(const Tile& tile) const {
-    if (words_ == 1) { // as a rule: then without a branch that depends on the data
-        const unsigned cursor = tile.cursor_;
-        const std::uint64_t bits = tile.ready(0);
-        if (bits == 0) {
-            return -1;
-        }
-        const std::uint64_t rotated = bits >> cursor | bits << ((64 - cursor) % 64);
-        return static_cast<int>((__builtin_ctzll(rotated) + cursor) % 64);
-    }
-    std::size_t w = word_of(tile.cursor_);
-    std::uint64_t bits = tile.ready(w) & ~(bit_of(tile.cursor_) - 1);
-    for (std::size_t step = 0; bits == 0 && step < words_; ++step) {
-        w = w + 1 < words_ ? w + 1 : 0;
-        bits = tile.ready(w); // last the cursor's word, where nothing is left above the cursor
-    }
-    return bits == 0 ? -1 : first_of(w, bits);
 }
 
 Cycle SegmentQueue::next_ready(const Tile& tile) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -114,7 +115,7 @@ public:
     /// A domain of `tile` that has a segment and may execute at `date`, chosen by the scan rule; -1
     /// if none. Dates of successive calls do not fall.
     int pick(Tile& tile, Cycle date) const {
-        const int domain = find(tile, date);
+        const int domain = search(tile, date);
         took(tile, domain);
         return domain;
     }
@@ -155,8 +156,9 @@ private:
     void double_tiles(Ring& ring, std::size_t oldest);
     void clear_lists(Tile& tile) const;
     void release_all(Tile& tile) const;
-    void turn_wheel(Tile& tile, Cycle date) const;
-    int find_next(const Tile& tile) const;
+    inline void turn_wheel(Tile& tile, Cycle date) const;
+    inline int search(Tile& tile, Cycle date) const;
+    inline int find_next(const Tile& tile) const;
     int find_least(const Tile& tile) const;
     static std::uint64_t bit_of(int domain) { return std::uint64_t{1} << (domain % 64U); }
     static std::size_t word_of(std::size_t domain) { return domain / 64; }
@@ -182,6 +184,61 @@ private:
     std::size_t size_ = 0;
     std::vector<Ring> rings_; // by stream
 };
+
+// To a later date than before.
+inline __attribute__((always_inline)) void SegmentQueue::turn_wheel(Tile& tile, Cycle date) const {
+    if (date >= tile.turned_ + kWheel) {
+        release_all(tile);
+        tile.turned_ = date;
+        return;
+    }
+    Cycle turned = tile.turned_;
+    tile.turned_ = date;
+    if (words_ == 1) {
+        std::uint64_t cooling = *tile.cooling_;
+        do {
+            std::uint64_t& released = tile.wheel_[++turned % kWheel];
+            cooling &= ~released;
+            released = 0;
+        } while (turned < date);
+        *tile.cooling_ = cooling;
+        return;
+    }
+    do {
+        std::uint64_t* const released = tile.wheel_ + ++turned % kWheel * words_;
+        for (std::size_t w = 0; w < words_; ++w) {
+            tile.cooling_[w] &= ~released[w];
+            released[w] = 0;
+        }
+    } while (turned < date);
+}
+
+// The first ready domain from the cursor on, round the end if need be.
+inline __attribute__((always_inline)) int SegmentQueue::find_next(const Tile& tile) const {
+    if (words_ == 1) { // as a rule: then without a branch that depends on the data
+        const unsigned cursor = tile.cursor_;
+        const std::uint64_t bits = tile.ready(0);
+        if (bits == 0) {
+            return -1;
+        }
+        const std::uint64_t rotated = bits >> cursor | bits << ((64 - cursor) % 64);
+        return static_cast<int>((__builtin_ctzll(rotated) + cursor) % 64);
+    }
+    std::size_t w = word_of(tile.cursor_);
+    std::uint64_t bits = tile.ready(w) & ~(bit_of(tile.cursor_) - 1);
+    for (std::size_t step = 0; bits == 0 && step < words_; ++step) {
+        w = w + 1 < words_ ? w + 1 : 0;
+        bits = tile.ready(w); // last the cursor's word, where nothing is left above the cursor
+    }
+    return bits == 0 ? -1 : first_of(w, bits);
+}
+
+inline __attribute__((always_inline)) int SegmentQueue::search(Tile& tile, Cycle date) const {
+    if (date > tile.turned_) {
+        turn_wheel(tile, date);
+    }
+    return scan_ == DomainScan::RoundRobin ? find_next(tile) : find_least(tile);
+}
 
 // Inlined in the hot loop, because a call costs as much as the work.
 inline __attribute__((always_inline)) void SegmentQueue::pop(Tile& tile, int domain) {

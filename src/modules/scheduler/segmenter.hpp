@@ -20,7 +20,8 @@ public:
     };
 
     /// For bank `index` of `banks`, which owns every row y with y mod banks = index.
-    Segmenter(int tile_size, int length, int index, int banks) : length_(length) {
+    Segmenter(int tile_size, int length, int index, int banks)
+        : length_(length), full_(std::uint64_t{1} << length) {
         const int per_row = (tile_size + length - 1) / length;
         for (int i = 0; i < tile_size; ++i) {
             first_domain_of_row_.push_back(i / banks * per_row);
@@ -49,8 +50,8 @@ public:
         const int first = segment_of_column_[span.x0];
         column_ = first * length_;
         domain_ = first_domain_of_row_[span.y] + first;
-        begin_ = span.x0;
-        end_ = span.x0 + span.length;
+        low_ = std::uint64_t{1} << (span.x0 - column_);
+        left_ = span.x0 + span.length - column_;
         base_ = span.base;
         g0_ = span.g0;
         d0_ = span.d0;
@@ -60,12 +61,13 @@ public:
         context_ = context;
     }
     /// True if a segment of the span is left.
-    bool cutting() const { return column_ < end_; }
+    bool cutting() const { return left_ > 0; }
     TileNumber tile() const { return tile_; }
     /// Domain of the next segment.
     int domain() const { return domain_; }
     std::uint32_t mask() const {
-        return bits_between(std::max(begin_ - column_, 0), std::min(end_ - column_, length_));
+        const std::uint64_t high = left_ < length_ ? std::uint64_t{1} << left_ : full_;
+        return static_cast<std::uint32_t>(high - low_);
     }
     /// Puts the tasks `mask` of the next segment together. It writes field by field, because a copy
     /// of data that was just written would wait for the write.
@@ -83,11 +85,14 @@ public:
     }
     void next() {
         column_ += length_;
+        left_ -= length_;
+        low_ = 1;
         ++domain_;
     }
 
 private:
     int length_;
+    std::uint64_t full_; // the bit behind a segment
     // Tables replace divisions in the hot loop.
     std::vector<Domain> domains_;
     std::vector<int> first_domain_of_row_, segment_of_column_;
@@ -95,7 +100,9 @@ private:
     TileNumber tile_ = kNoTile;
     std::uint32_t splat_ = 0;
     double g0_ = 0, d0_ = 0;
-    int begin_ = 0, end_ = 0, base_ = 0, column_ = 0, domain_ = 0;
+    int base_ = 0, column_ = 0, domain_ = 0;
+    int left_ = 0;          // columns from column_ to the end of the span
+    std::uint64_t low_ = 1; // bit of the segment's first pixel
     std::int16_t row_ = 0, context_ = 0;
 };
 
