@@ -80,8 +80,9 @@ void DegsConfig::Scheduler::describe(ConfigVisitor& visitor) {
                     "enforce reuse_cycles; false shows what it is for: a pixel that comes again "
                     "before its write-back reads the older state, and the image is wrong");
     visitor.choice(
-        "termination", termination, {"segment", "pixel"},
-        "what is skipped: segments whose pixels have all ended (paper), or single pixels");
+        "termination", termination, {"segment", "task", "pixel"},
+        "what is skipped: all segments of a region of segment_length pixels that has ended "
+        "(paper), segments whose own pixels have all ended, or single ended pixels");
     visitor.choice("scan", scan, {"round_robin", "oldest", "deepest"},
                    "which ready conflict domain issues first [assumed]");
 }

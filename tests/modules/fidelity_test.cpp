@@ -72,7 +72,7 @@ private:
         c.scheduler.segments_per_cycle = among({1, 2, 4});
         c.scheduler.issue_width = among({1, 2, 4, 8});
         c.scheduler.reuse_cycles = among({4, 4, 7, 13});
-        c.scheduler.termination = chance(2) ? TerminationGrain::Pixel : TerminationGrain::Segment;
+        c.scheduler.termination = static_cast<TerminationGrain>(upto(2));
         c.scheduler.scan = static_cast<DomainScan>(upto(2));
         c.scheduler.scoreboard = !chance(8);
         c.packing.latency_cycles = among({1, 2, 2, 5});

@@ -169,7 +169,7 @@ void ArraySlice::pixels_ended(Context& context, const TaskRun& run, std::uint32_
     if (all && config_.region_listeners != 0) {
         report_region(context, run);
     }
-    if (all || config_.termination == TerminationGrain::Pixel) {
+    if (all || config_.termination != TerminationGrain::Segment) {
         Termination message;
         message.tile = context.tile;
         message.row = run.task.row;

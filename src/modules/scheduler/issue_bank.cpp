@@ -30,8 +30,9 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
     : sc_core::sc_module(name), in("in", inputs * config.streams), terminated("terminated"),
       context_free("context_free", config.streams), config_(within_ports(config)), job_(job),
       packing_(packing), contexts_(contexts), tiles_in_flight_(tiles_in_queue(contexts)),
-      by_pixel_(config.termination == TerminationGrain::Pixel), fills_(config.fill.cycles != 0),
-      streams_(config.streams), stream_count_(streams_.size()),
+      by_task_(config.termination == TerminationGrain::Task),
+      sees_pixels_(config.termination != TerminationGrain::Segment),
+      fills_(config.fill.cycles != 0), streams_(config.streams), stream_count_(streams_.size()),
       spans_per_cycle_(config.spans_per_cycle == 0 ? config_.segments_per_cycle
                                                    : config.spans_per_cycle),
       self_(time), segmenter_(job.tile_size, config.segment_length, index, config.count),
@@ -162,7 +163,7 @@ std::uint32_t IssueBank::end_pixels(SegmentQueue::Tile& tile, int domain,
                                     std::uint32_t mask) const {
     const std::uint32_t ended = tile.end_pixels(domain, mask);
     const bool all = ended == kAllPixels;
-    tile.set_live(domain, by_pixel_ || all ? ~ended : kAllPixels);
+    tile.set_live(domain, sees_pixels_ || all ? ~ended : kAllPixels);
     return ended;
 }
 

@@ -17,9 +17,11 @@
 
 namespace degs {
 
-/// The grain in which the array reports ended pixels and the bank skips them: whole segments
-/// (paper, Sec. IV-B), or single pixels.
-enum class TerminationGrain { Segment, Pixel };
+/// What the bank skips of the work for ended pixels (paper, Sec. IV-B). `Segment`: all segments of a
+/// region, row x stride, whose pixels have all ended; the array reports whole regions. The others
+/// need reports of single pixels. `Task`: each segment whose own pixels have all ended; any other
+/// one is issued whole. `Pixel`: every ended pixel.
+enum class TerminationGrain { Segment, Task, Pixel };
 
 /// One Issue Bank of the Packing Scheduler (paper, Sec. IV-B): takes the row spans of its rows in
 /// depth order, cuts them at fixed strides (Segmenter), and issues segments to its Packing Unit,
@@ -140,7 +142,8 @@ private:
     PackingUnit& packing_;
     int contexts_;        // of a stream
     int tiles_in_flight_; // of a single stream
-    bool by_pixel_;       // TerminationGrain::Pixel
+    bool by_task_;        // TerminationGrain::Task
+    bool sees_pixels_;    // not TerminationGrain::Segment
     bool fills_;          // filling a Feature Buffer entry takes time
     std::vector<BankStream> streams_;
     std::size_t stream_count_;                 // theirs, at hand in the hot loop

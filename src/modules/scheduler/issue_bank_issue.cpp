@@ -13,7 +13,10 @@ inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, Segme
                                                                 int domain) {
     const Segment& segment = tile.front(domain);
     const std::uint32_t mask = segment.run.task.mask;
-    const std::uint32_t wanted = mask & tile.live(domain);
+    std::uint32_t wanted = mask & tile.live(domain);
+    if (wanted != mask && by_task_ && wanted != 0) {
+        wanted = mask; // one live task takes the others along
+    }
     const int tasks = __builtin_popcount(wanted);
     if (!packing_.room(now, segment.run, tasks) ||
         !packing_.room_by_ports(now, segment.run, wanted, segment.feature)) {
