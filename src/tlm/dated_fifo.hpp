@@ -287,7 +287,7 @@ private:
     }
     /// An event remembers its earliest notification only. So the next item and the next free cell
     /// are announced anew whenever a side has moved or a foreign block starts to listen.
-    void announce() const {
+    __attribute__((noinline)) void announce() const {
         if (filled_ != 0) {
             notify_foreign(foreign_item_, front_->date);
         }

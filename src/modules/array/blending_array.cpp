@@ -55,9 +55,7 @@ void ArraySlice::end_of_elaboration() {
 inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket& packet) {
     const Cycle now = self_.local();
     if (now != packet.slot) {
-        throw std::logic_error(std::string(name()) + ": a packet planned for cycle " +
-                               std::to_string(packet.slot) + " executes in cycle " +
-                               std::to_string(now));
+        refuse(packet);
     }
     stats_.packets++;
     stats_.window.include(now);
@@ -81,6 +79,12 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
             pixels_ended(context, run, outcome_.ended & run.part);
         }
     }
+}
+
+void ArraySlice::refuse(const TaskPacket& packet) const {
+    throw std::logic_error(std::string(name()) + ": a packet planned for cycle " +
+                           std::to_string(packet.slot) + " executes in cycle " +
+                           std::to_string(self_.local()));
 }
 
 BlendOutcome ArraySlice::blend_otherwise(const Context& context, const TaskRun& run, Cycle date) {

@@ -90,6 +90,7 @@ private:
     [[gnu::noinline]] void start_tile(Context& context, TileNumber number);
     void execute(const TaskPacket& packet);
     // What is rare stays out of the loop over packets, which then keeps more in registers.
+    [[noreturn, gnu::noinline]] void refuse(const TaskPacket& packet) const;
     [[gnu::noinline]] BlendOutcome blend_otherwise(const Context& context, const TaskRun& run,
                                                    Cycle date);
     BlendOutcome blend_early(const Context& context, const TaskRun& run, Cycle date);

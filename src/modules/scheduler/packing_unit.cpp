@@ -66,22 +66,6 @@ bool PackingUnit::joins(const TaskRun& run) const {
            run.tile == other.tile;
 }
 
-void PackingUnit::open_packet(Process& bank) {
-    ring_->reserve(bank); // free by its dates; the host may not have emptied it yet
-    const Cycle slot = next_execution(bank.local());
-    if (slot > next_slot_) { // else nothing was idle
-        idle_ += since_last_;
-        since_last_ = SlotAccount{};
-    }
-    next_slot_ = slot;
-    if (ports_) {
-        ports_->clear();
-    }
-    open_until_ = slot - latency_;
-    ring_->staged().run_count = 0;
-    ends_tile_ = false;
-}
-
 void PackingUnit::end_tile(Process& bank, TileNumber tile, std::int16_t context) {
     // An open packet may hold the tile's last tasks and stays open for the next tile's; it can
     // carry one end. Without one, the end travels alone and costs the array nothing.
@@ -115,20 +99,6 @@ void PackingUnit::close_cycles(Process& bank, Cycle until, Idle cause) {
         const Cycle first_idle = next_execution(bank.local());
         since_last_.idle(cause, (until + latency_ - first_idle) * width_);
     }
-}
-
-void PackingUnit::send(Process& bank, Idle cause) {
-    TaskPacket& packet = ring_->staged();
-    packet.slot = next_slot_++;
-    packet.tasks = tasks_;
-    packet.ends_tile = ends_tile_;
-    stats_.packets++;
-    stats_.tasks += tasks_;
-    idle_.idle(cause, config_.width - tasks_);
-    tasks_ = 0;
-    open_until_ = kNever;
-    ends_tile_ = false;
-    ring_->put_staged(bank);
 }
 
 } // namespace degs

@@ -99,11 +99,12 @@ private:
     }
     // Without reorganisation: `run` may go to the packet that is open, if any.
     bool joins(const TaskRun& run) const;
-    bool fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry);
-    Cycle add_by_ports(Process& bank, const TaskRun& run, std::uint32_t mask, int entry);
+    [[gnu::noinline]] bool fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry);
+    [[gnu::noinline]] Cycle add_by_ports(Process& bank, const TaskRun& run, std::uint32_t mask,
+                                         int entry);
     inline void put(const TaskRun& run, std::uint32_t mask, std::uint32_t part);
-    void open_packet(Process& bank);
-    void send(Process& bank, Idle cause);
+    inline void open_packet(Process& bank);
+    inline void send(Process& bank, Idle cause);
 
     Config config_;
     Cycle latency_;
@@ -122,6 +123,37 @@ private:
     Stats stats_;
 };
 
+// What follows is inlined in the hot loop of the bank.
+inline __attribute__((always_inline)) void PackingUnit::open_packet(Process& bank) {
+    ring_->reserve(bank); // free by its dates; the host may not have emptied it yet
+    const Cycle slot = next_execution(bank.local());
+    if (slot > next_slot_) { // else nothing was idle
+        idle_ += since_last_;
+        since_last_ = SlotAccount{};
+    }
+    next_slot_ = slot;
+    if (ports_) {
+        ports_->clear();
+    }
+    open_until_ = slot - latency_;
+    ring_->staged().run_count = 0;
+    ends_tile_ = false;
+}
+
+inline __attribute__((always_inline)) void PackingUnit::send(Process& bank, Idle cause) {
+    TaskPacket& packet = ring_->staged();
+    packet.slot = next_slot_++;
+    packet.tasks = tasks_;
+    packet.ends_tile = ends_tile_;
+    stats_.packets++;
+    stats_.tasks += tasks_;
+    idle_.idle(cause, config_.width - tasks_);
+    tasks_ = 0;
+    open_until_ = kNever;
+    ends_tile_ = false;
+    ring_->put_staged(bank);
+}
+
 // In the open packet; tasks_ counts them elsewhere.
 inline void PackingUnit::put(const TaskRun& run, std::uint32_t mask, std::uint32_t part) {
     TaskPacket& packet = ring_->staged();
@@ -131,7 +163,6 @@ inline void PackingUnit::put(const TaskRun& run, std::uint32_t mask, std::uint32
     packed.part = part;
 }
 
-// Inlined in the hot loop of the bank.
 inline __attribute__((always_inline)) Cycle PackingUnit::add(Process& bank, const TaskRun& run,
                                                              std::uint32_t mask, int entry) {
     std::uint32_t left = mask;

@@ -120,12 +120,12 @@ private:
     void deal(TileNumber number);
     void work(TileNumber number);
     bool cancelled(TileNumber number);
-    void see_ended_regions(TileNumber number);
-    void expect_splats() const;
+    [[gnu::noinline]] void see_ended_regions(TileNumber number);
+    [[gnu::noinline]] void expect_splats() const;
     std::uint32_t splat_of(std::uint32_t place) const;
     bool add_slice(TileNumber number);
     void begin(TileNumber number, Slice& slice);
-    std::uint64_t segments_below(const JobTile& tile, std::uint32_t splat) const;
+    [[gnu::noinline]] std::uint64_t segments_below(const JobTile& tile, std::uint32_t splat) const;
     void send_rows(TileNumber number, Slice& slice, int before);
     bool takes_row_port(std::size_t lane);
 

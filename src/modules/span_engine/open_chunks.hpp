@@ -29,12 +29,13 @@ public:
     /// A chunk of that many splats is taken; none if they are dropped.
     void open(Process& self, std::size_t fetcher, std::uint32_t splats) {
         if (reported()) {
+            ++opened_;
             chunks_.push_back({fetcher, splats, std::vector<std::uint32_t>(rows_.size(), 0)});
             report(self);
         }
     }
     /// Number of the chunk that was taken last.
-    std::uint64_t latest() const { return first_ + chunks_.size() - 1; }
+    std::uint64_t latest() const { return opened_ - 1; }
     void count_row(std::uint64_t chunk, std::size_t lane) {
         if (reported()) {
             ++chunks_[chunk - first_].rows[lane];
@@ -69,6 +70,7 @@ private:
     Rows& rows_;
     std::deque<Chunk> chunks_; // oldest first
     std::uint64_t first_ = 0;  // number of the oldest
+    std::uint64_t opened_ = 0; // chunks so far
 };
 
 } // namespace degs
