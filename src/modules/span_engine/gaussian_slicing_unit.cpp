@@ -172,6 +172,7 @@ bool GaussianSlicingUnit::more_splats(TileNumber number) {
 // In the order of age: an older splat passes a row before a younger one sends it.
 void GaussianSlicingUnit::work(TileNumber number) {
     int passed = job_.tile_size; // the first row that some older splat has not passed
+    bool finished = false;
     for (std::size_t i = 0; i < slices_.size(); ++i) {
         send_rows(number, slices_[i], passed);
         const Slice slice = slices_[i];
@@ -179,6 +180,7 @@ void GaussianSlicingUnit::work(TileNumber number) {
             passed = std::min(passed, slice.row);
             continue;
         }
+        finished = true;
         open_chunks_.finish_splat(self_, slice.chunk);
         if (slice.splats_left > 1) {
             if (add_slice(number)) {
@@ -187,8 +189,10 @@ void GaussianSlicingUnit::work(TileNumber number) {
             }
         }
     }
-    const auto done = [](const Slice& slice) { return slice.done(); };
-    slices_.erase(std::remove_if(slices_.begin(), slices_.end(), done), slices_.end());
+    if (finished) {
+        const auto done = [](const Slice& slice) { return slice.done(); };
+        slices_.erase(std::remove_if(slices_.begin(), slices_.end(), done), slices_.end());
+    }
 }
 
 void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before) {

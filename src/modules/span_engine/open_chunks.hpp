@@ -16,7 +16,8 @@ class OpenChunks {
 public:
     using Sliced = sc_core::sc_vector<FifoPort<ChunkSliced>>; // one, or none: nothing is reported
     using Rows = sc_core::sc_vector<FifoPort<RowCount>>;
-    OpenChunks(Sliced& sliced, Rows& rows) : sliced_(sliced), rows_(rows) {}
+    OpenChunks(Sliced& sliced, Rows& rows)
+        : sliced_(sliced), rows_(rows), reported_(sliced.size() != 0) {}
 
     void connect_writer(Process& self) {
         for (auto& port : sliced_) {
@@ -28,7 +29,7 @@ public:
     }
     /// A chunk of that many splats is taken; none if they are dropped.
     void open(Process& self, std::size_t fetcher, std::uint32_t splats) {
-        if (reported()) {
+        if (reported_) {
             ++opened_;
             chunks_.push_back({fetcher, splats, std::vector<std::uint32_t>(rows_.size(), 0)});
             report(self);
@@ -37,13 +38,13 @@ public:
     /// Number of the chunk that was taken last.
     std::uint64_t latest() const { return opened_ - 1; }
     void count_row(std::uint64_t chunk, std::size_t lane) {
-        if (reported()) {
+        if (reported_) {
             ++chunks_[chunk - first_].rows[lane];
         }
     }
     /// The last row of a splat has been sent.
     void finish_splat(Process& self, std::uint64_t chunk) {
-        if (reported()) {
+        if (reported_) {
             --chunks_[chunk - first_].splats_left;
             report(self);
         }
@@ -55,7 +56,6 @@ private:
         std::uint32_t splats_left;
         std::vector<std::uint32_t> rows;
     };
-    bool reported() const { return sliced_.size() != 0; }
     void report(Process& self) {
         for (; !chunks_.empty() && chunks_.front().splats_left == 0; ++first_) {
             sliced_[0]->put(self, {chunks_.front().fetcher});
@@ -68,6 +68,7 @@ private:
 
     Sliced& sliced_;
     Rows& rows_;
+    bool reported_;
     std::deque<Chunk> chunks_; // oldest first
     std::uint64_t first_ = 0;  // number of the oldest
     std::uint64_t opened_ = 0; // chunks so far
