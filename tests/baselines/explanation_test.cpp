@@ -67,9 +67,21 @@ TEST_F(SmallRunExplanation, Degs) {
     expect(count("fetching", "records_cancelled"),
            {sentence(count("slicing", "splats_cancelled"), " splats of cancelled tiles"),
             sentence(count("packing", "tasks_dropped"), " tasks of ended pixels were dropped"),
-            sentence(count("span", "empty_rows"), " rows of splats cover no pixel")});
+            sentence(count("span", "empty_rows"), " rows of splats cover no pixel"),
+            StartsWith("Every SRAM had as many ports as anybody wanted")});
     EXPECT_GT(count("packing", "tasks_dropped"), 0U);
     EXPECT_GT(result.tiles_cancelled, 0U);
+}
+
+TEST_F(SmallRunExplanation, TakenPorts) {
+    DegsConfig config;
+    config.pixel_buffer.ports.ports = 1;
+    config.pixel_buffer.ports.sram_banks = 8;
+    run(config);
+    EXPECT_GT(result.slots.ports, 0U);
+    EXPECT_THAT(result.left_out, Contains(StartsWith("Taken SRAM ports left " +
+                                                     grouped(result.slots.ports) + " PE-cycles")));
+    EXPECT_THAT(result.left_out, Not(Contains(StartsWith("Every SRAM had"))));
 }
 
 TEST_F(SmallRunExplanation, Gscore) {

@@ -25,10 +25,10 @@ std::ostream& operator<<(std::ostream& out, const Broken& broken) {
 const std::vector<Broken>& broken_rules() {
     static const std::string lpddr5 = "memory.lpddr5.";
     static const std::vector<Broken> all = {
-        {"degs-64", {"slicing.count=3"}, "slicing.count"},
-        {"degs-64", {"span.count=7"}, "slicing.count"},
+        {"degs-64", {"slicing.distribution=broadcast", "slicing.count=3"}, "slicing.count"},
+        {"degs-64", {"slicing.distribution=broadcast", "span.count=7"}, "slicing.count"},
         {"degs-64", {"scheduler.reuse_cycles=2"}, "scheduler.reuse_cycles"},
-        {"degs-64", {"pixel_buffer.bytes=16383"}, "pixel_buffer.bytes"},
+        {"degs-64", {"pixel_buffer.bytes=8191"}, "pixel_buffer.bytes"},
         {"degs-64",
          {"tile_size=4", "pixel_buffer.state_bytes=1", "pixel_buffer.bytes=1073741824"},
          "pixel_buffer.bytes"},
@@ -52,9 +52,9 @@ const std::vector<Broken>& broken_rules() {
          {"slicing.interleave=2", "pixel_buffer.bytes=32768", "slicing.count=1"},
          "slicing.interleave"},
         {"degs-64",
-         {"slicing.interleave=2", "pixel_buffer.bytes=32768", "slicing.count=6"},
+         {"slicing.distribution=broadcast_skip", "slicing.interleave=2", "slicing.count=6"},
          "slicing.count"},
-        {"degs-64", {"slicing.interleave=2"}, "pixel_buffer.bytes"},
+        {"degs-64", {"slicing.interleave=2", "pixel_buffer.bytes=16383"}, "pixel_buffer.bytes"},
         {"degs-64",
          {"slicing.interleave=2", "pixel_buffer.bytes=32768", "feature_buffer.bytes=200"},
          "feature_buffer.bytes"},
@@ -129,7 +129,8 @@ INSTANTIATE_TEST_SUITE_P(All, ConfigRules, testing::ValuesIn(broken_rules()));
 
 TEST(ConfigRuleSentences, NameBothLines) {
     const std::string file = std::string(DEGS_CONFIGS) + "/degs-64.yaml";
-    const std::string sentence = sentence_of("degs-64", {"slicing.count=3"});
+    const std::string sentence =
+        sentence_of("degs-64", {"slicing.distribution=broadcast", "slicing.count=3"});
     EXPECT_EQ(sentence.find("--set slicing.count=3: key 'slicing.count' is 3, but must divide "
                             "span.count; 2 would do (span.count is 8 at " +
                             file + ":"),

@@ -146,7 +146,8 @@ TEST(Configs, WrongFormatsAreNamed) {
 TEST(Configs, Degs64IsTheDefaultButForItsNumbers) {
     const std::string file = std::string(DEGS_CONFIGS) + "/degs-64.yaml";
     const RunConfig single =
-        load_run_config(file, {"pipeline.numbers=fp32", "pipeline.span_ends=outward"});
+        load_run_config(file, {"pipeline.numbers=fp32", "pipeline.span_ends=outward",
+                               "pixel_buffer.state_bytes=16"});
     EXPECT_EQ(resolved(single).dump(2), resolved(RunConfig{}).dump(2));
 }
 
@@ -155,11 +156,11 @@ TEST(Configs, SixtyFourPesHaveTheMemoryOfTableI) {
         EXPECT_EQ(load_degs(name).sram_bytes(), 130 * 1024) << name;
         EXPECT_EQ(load_degs(name).pes(), 64) << name;
     }
-    EXPECT_EQ(load_degs("degs-64").contexts(), 1);
+    EXPECT_EQ(load_degs("degs-64").contexts(), 2);
     EXPECT_EQ(load_degs("degs-64-tuned").contexts(), 2);
 }
 
-// Table II, and one tile context as the Pixel Buffer scales with the PEs.
+// Table II, and two tile contexts as the Pixel Buffer scales with the PEs.
 TEST(Configs, ScalingPointsAreThoseOfThePaper) {
     struct Row {
         int pes, tile, slicing, spans, banks, width;
@@ -177,7 +178,7 @@ TEST(Configs, ScalingPointsAreThoseOfThePaper) {
         EXPECT_EQ(config.scheduler.issue_width, std::max(1, row.width / 4));
         EXPECT_EQ(config.scheduler.segments_per_cycle, std::max(1, row.width / 4));
         EXPECT_EQ(config.pixel_buffer.bytes, row.pes * 256);
-        EXPECT_EQ(config.contexts(), 1);
+        EXPECT_EQ(config.contexts(), 2);
         EXPECT_EQ(config.span_lane_depth(), 32);
         EXPECT_EQ(config.feature_entries(), 64);
     }

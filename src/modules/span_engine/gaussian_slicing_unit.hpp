@@ -44,7 +44,7 @@ public:
         int interleave = 1;       ///< tile streams, each with as many of the units
         int rows_per_cycle = 8;   ///< scanlines emitted per unit and cycle
         int splats_per_cycle = 1; ///< splats that a unit takes per cycle at most
-        SliceDistribution distribution = SliceDistribution::Broadcast;
+        SliceDistribution distribution = SliceDistribution::Splats;
         SlicedRows rows = SlicedRows::Splat;
         bool skip_dead_rows = false; ///< leave out rows whose pixels have all ended
         int feedback_cycles = 8;     ///< from the last pixel's end to the units that skip its row
