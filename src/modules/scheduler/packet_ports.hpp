@@ -26,25 +26,53 @@ public:
         bool limited() const { return pixels.limited() || features.limited(); }
     };
 
-    explicit PacketPorts(const Config& config) : config_(config) {}
+    explicit PacketPorts(const Config& config);
 
     /// For the next packet.
-    void clear();
+    void clear() {
+        ++packet_;
+        reads_.clear();
+    }
     /// Takes the lowest tasks of `mask` whose ports are free, at most `most`, and returns them; 0 if
     /// there is none. `entry` of the Feature Buffer has the splat's parameters. A packet without
     /// tasks takes at least one.
     std::uint32_t take(const BlendTask& task, std::uint32_t mask, int entry, int most);
+    /// Becomes a packet that takes the same tasks of `context` as `other` does.
+    void imitate(const PacketPorts& other, int context);
 
 private:
-    struct PixelReads {
-        int context, sram_bank, count;
+    struct Read {
+        int entry, sram_bank;
     };
     bool reads_parameters(int entry);
-    bool reads_pixel(int context, int address);
+    std::uint32_t take_pixels(const BlendTask& task, std::uint32_t mask, int most);
+    /// Those of a context, all of them free if the packet has no task there.
+    std::uint64_t* ports_of(std::size_t context) {
+        if (context >= last_use_.size()) {
+            last_use_.resize(context + 1, 0);
+            taken_.resize((context + 1) * context_words_, 0);
+        }
+        std::uint64_t* const ports = &taken_[context * context_words_];
+        if (last_use_[context] != packet_) {
+            last_use_[context] = packet_;
+            for (std::size_t word = 0; word < context_words_; ++word) {
+                ports[word] = 0;
+            }
+        }
+        return ports;
+    }
+    std::uint32_t full_from(const std::uint64_t* ports, int bank) const;
+    void use(std::uint64_t* ports, int bank, std::uint32_t pixels) const;
 
     Config config_;
-    std::vector<PixelReads> pixels_; // of this packet, as few as it has tasks
-    std::vector<int> entries_;
+    std::vector<int> first_of_row_, bank_of_column_; // SRAM banks; their sum is a pixel's, modulo
+    // Pixel Buffer: for every context and port, a bit per SRAM bank whose port of that number is
+    // taken. Ports of a bank are taken in ascending order.
+    std::size_t words_, context_words_;
+    std::vector<std::uint64_t> taken_;
+    std::vector<std::uint64_t> last_use_; // of a context: a value of packet_
+    std::uint64_t packet_ = 1;
+    std::vector<Read> reads_; // Feature Buffer
 };
 
 } // namespace degs

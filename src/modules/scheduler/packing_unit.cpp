@@ -35,11 +35,15 @@ Cycle PackingUnit::add_by_ports(Process& bank, const TaskRun& run, std::uint32_t
 }
 
 bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry) {
+    const Cycle queued = next_execution(now) - (now + latency_) + (open() ? 1 : 0);
+    if ((queued + __builtin_popcount(mask)) * width_ <= capacity_) {
+        return true; // even if each task ended a packet
+    }
     const bool joined = open() && (config_.reorganisation || joins(run));
     Cycle packets = joined ? 0 : 1; // beside the open one
     int tasks = joined ? tasks_ : 0;
     if (joined) {
-        trial_ = ports_;
+        trial_->imitate(*ports_, run.task.context);
     } else {
         trial_->clear();
     }
@@ -52,7 +56,6 @@ bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, 
             trial_->clear();
         }
     }
-    const Cycle queued = next_execution(now) - (now + latency_) + (open() ? 1 : 0);
     return (queued + packets) * width_ <= capacity_;
 }
 
