@@ -134,11 +134,12 @@ END
 }
 
 readings_small-tiles() { # the paper's Table III: tiles of 16 px, 64 PEs
-    local design m
+    local design m class=open
     for design in degs-64 degs-64-tuned; do
         for m in 1 2 4 8; do
-            echo "$design-$m | $design | open | tile_size=16 slicing.interleave=$m slicing.count=$((m > 2 ? m : 2))"
+            echo "$design-$m | $design | $class | tile_size=16 slicing.interleave=$m slicing.count=$((m > 2 ? m : 2))"
         done
+        class=against
     done
     echo "degs-64-wide | degs-64 | open | tile_size=16 $wide slicing.interleave=8 slicing.count=8"
     echo "gscore-64 | gscore-64 | shipped |"
