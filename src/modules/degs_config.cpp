@@ -201,10 +201,10 @@ int DegsConfig::packets_per_segment() const {
 
 void DegsConfig::require_packing(ConfigVisitor& visitor) const {
     const int packets = packets_per_segment();
-    visitor.require_at_least(
-        "packing.lead_packets", packing.lead_packets, packets,
-        "because a segment may lie in that many packets",
-        {"scheduler.segment_length", "array.pes_per_bank", "pixel_buffer.sram_banks"});
+    visitor.require_at_least("packing.lead_packets", packing.lead_packets, packets,
+                             "because a segment may lie in that many packets",
+                             {"scheduler.segment_length", "array.pes_per_bank",
+                              "pixel_buffer.ports", "pixel_buffer.sram_banks"});
     const std::int64_t bank = std::int64_t{queue_depth()} * scheduler.segment_bytes +
                               std::int64_t{packets} * packing.task_bytes * array.pes_per_bank;
     visitor.require_at_least("packing.bytes", packing.bytes, bank * scheduler.banks,

@@ -37,7 +37,7 @@ struct DegsConfig : AcceleratorConfig {
     struct GaussianBuffer {
         int bytes = 72 * 1024;
         double sort_share = 0.5; ///< of the buffer, for lists being sorted
-        BankedSramPorts ports;
+        BankedSramPorts ports{{0}, 4};
         ParameterLife temporary = ParameterLife::Sliced;
         void describe(ConfigVisitor& visitor);
     };
@@ -76,13 +76,13 @@ struct DegsConfig : AcceleratorConfig {
         void describe(ConfigVisitor& visitor);
     };
     struct PixelBuffers : PixelBuffer::Config {
-        BankedSramPorts ports; ///< in each Issue Bank's part of a context
+        BankedSramPorts ports{{0}, 32}; ///< in each Issue Bank's part of a context
         void describe(ConfigVisitor& visitor);
     };
     struct FeatureBuffers {
         int bytes = 8 * 1024;
         int entry_bytes = 16;
-        FeatureBuffer::Fill fill;
+        FeatureBuffer::Fill fill{0, {{0}, 8}};
         void describe(ConfigVisitor& visitor);
     };
 
