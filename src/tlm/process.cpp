@@ -32,11 +32,13 @@ void Process::sleep() {
     sc_core::wait(wake_);
 }
 
-void Process::sleep_until(Cycle half_after_date) {
-    const sc_core::sc_time target = clock_->half_after(half_after_date);
+// Most sleeps end before their time. So a timeout is not taken back but serves later sleeps, too: an
+// event keeps its earliest notification. Entering one in the kernel's timed queue costs far more.
+void Process::doze_until(const sc_core::sc_time& date) {
     const sc_core::sc_time now = sc_core::sc_time_stamp();
-    if (target > now) {
-        sc_core::wait(target - now, wake_);
+    if (date > now) {
+        timeout_.notify(date - now);
+        sc_core::wait(wake_or_timeout_);
     }
 }
 
@@ -158,7 +160,7 @@ bool Process::gains_room(FifoBase& output) {
         if (!alarms_.empty()) {
             ring_alarms();
         }
-        sc_core::wait(certain - sc_core::sc_time_stamp(), wake_);
+        doze_until(certain);
         asking_ = false;
     }
     return output.free_date() <= local_;
@@ -225,7 +227,7 @@ Cycle Process::next_arrival(FifoBase* const* inputs, std::size_t count, Cycle fr
         if (known == kNever) {
             sleep();
         } else {
-            sleep_until(known);
+            doze_until(clock_->half_after(known));
         }
         input_count_ = 0;
     }

@@ -41,7 +41,10 @@ struct Timebase {
 class Process {
 public:
     explicit Process(const Timebase& time)
-        : clock_(&time.clock), strict_(time.fidelity == Fidelity::Strict), alarm_(no_alarm()) {}
+        : clock_(&time.clock), strict_(time.fidelity == Fidelity::Strict), alarm_(no_alarm()) {
+        wake_or_timeout_ |= wake_;
+        wake_or_timeout_ |= timeout_;
+    }
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
     ~Process() = default;
@@ -114,7 +117,8 @@ private:
     /// each date.
     Cycle no_alarm() const { return strict_ ? 0 : kNever; }
     void sleep();
-    void sleep_until(Cycle half_after_date);
+    /// Sleeps until woken, at the longest until kernel time `date`. May return without either.
+    void doze_until(const sc_core::sc_time& date);
     /// The work of advance_to() beyond alarm_.
     void pass_alarm();
     void ring_alarms();
@@ -124,6 +128,8 @@ private:
     Cycle local_ = 0;
     Pumped* body_ = nullptr;
     sc_core::sc_event wake_;
+    sc_core::sc_event timeout_; // stays announced when the process is woken, see doze_until()
+    sc_core::sc_event_or_list wake_or_timeout_;
     // The ring on which the process is blocked, for bound().
     std::vector<FifoBase*> inputs_{1, nullptr}; // the first input_count_ count
     std::size_t input_count_ = 0;
