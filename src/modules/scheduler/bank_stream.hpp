@@ -32,6 +32,7 @@ struct BankStream {
     // Its tiles that may issue: places in the bank's list, which is stream by stream.
     std::size_t first_started = 0, end_started = 0;
     std::size_t issuing = 0; ///< place that is looked at in this cycle
+    int ready = -1;          ///< a domain of that tile that may issue in this cycle; -1: none
 
     /// The first turn that may not issue, or has nothing to issue yet.
     std::size_t first_unstarted() const {

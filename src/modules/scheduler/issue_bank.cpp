@@ -40,7 +40,7 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
              Segmenter::domains_per_tile(job.tile_size, config.segment_length, config.count),
              config.scan, config.streams),
       features_(config.feature_entries, config.open_splats, config.streams, config.fill),
-      next_stream_(&streams_.front()), ready_(config.streams, -1),
+      next_stream_(&streams_.front()), issued_stream_(&streams_.front()),
       width_cause_(config_.issue_width < config.issue_width ? Idle::Ports : Idle::Starved) {
     for (BankStream& stream : streams_) {
         stream.index = &stream - streams_.data();
@@ -259,7 +259,7 @@ bool IssueBank::open_span(Cycle now) {
 BankStream::Input* IssueBank::earliest_input(BankStream& stream) {
     BankStream::Input* source = nullptr;
     for (BankStream::Input& input : stream.inputs) {
-        if (self_.arrived(*input.ring) && takes(stream, input) &&
+        if (takes(stream, input) && self_.arrived(*input.ring) &&
             (source == nullptr || input.ring->head_date() < source->ring->head_date())) {
             source = &input;
         }

@@ -89,7 +89,6 @@ public:
 
 private:
     static constexpr std::uint32_t kAllPixels = ~0U;
-    static constexpr std::size_t kNone = ~std::size_t{0};
 
     void end_of_elaboration() override;
     void run();
@@ -121,8 +120,8 @@ private:
     bool issue(Cycle now);
     int issue_in_order(Cycle now);
     [[gnu::noinline]] int issue_from_all(Cycle now);
-    int find_ready(BankStream& stream, Cycle now);
-    std::size_t choose_stream() const;
+    void find_ready(BankStream& stream, Cycle now);
+    BankStream* choose_stream(Cycle now, bool last);
     bool issue_one(Cycle now, SegmentQueue::Tile& tile, int domain);
     bool finish_tiles();
     [[gnu::noinline]] void finish_tiles(BankStream& stream);
@@ -159,8 +158,7 @@ private:
     SegmentQueue::Tile* cut_tile_ = nullptr; // of the span that is cut
     BankStream* next_stream_;                // whose span is taken next
     int spans_left_ = 0;                     // that may be taken in this cycle
-    std::size_t issued_stream_ = 0;          // that issued last
-    std::vector<int> ready_;                 // by stream: a domain that may issue; -1: none
+    BankStream* issued_stream_;              // that issued last
     std::size_t tiles_done_ = 0;
     std::uint64_t sequence_ = 0; // segments so far
     bool no_room_ = false;       // a ready segment waits for room in the Packing Buffer

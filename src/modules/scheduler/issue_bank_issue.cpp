@@ -66,63 +66,69 @@ int IssueBank::issue_in_order(Cycle now) {
 
 // One of the streams after the other; a domain that was found stays ready until it is issued.
 int IssueBank::issue_from_all(Cycle now) {
-    std::fill(ready_.begin(), ready_.end(), -1);
+    for (BankStream& stream : streams_) {
+        stream.ready = -1;
+    }
     int issued = 0;
     while (issued < config_.issue_width) {
-        for (BankStream& stream : streams_) {
-            if (ready_[stream.index] < 0) {
-                stream.issuing = stream.first_started;
-                ready_[stream.index] = find_ready(stream, now);
-            }
-        }
-        const std::size_t chosen = choose_stream();
-        if (chosen == kNone) {
+        BankStream* const chosen = choose_stream(now, issued + 1 == config_.issue_width);
+        if (chosen == nullptr) {
             break;
         }
-        SegmentQueue::Tile& tile = *started_[streams_[chosen].issuing];
-        if (!issue_one(now, tile, ready_[chosen])) {
+        SegmentQueue::Tile& tile = *started_[chosen->issuing];
+        if (!issue_one(now, tile, chosen->ready)) {
             break; // nothing overtakes what waits for room
         }
-        queue_.took(tile, ready_[chosen]);
-        ready_[chosen] = -1;
+        queue_.took(tile, chosen->ready);
+        chosen->ready = -1;
         issued_stream_ = chosen;
         ++issued;
     }
     return issued;
 }
 
-// A domain of the stream that may issue, in its oldest tile from `issuing` on that has one; -1: none.
-int IssueBank::find_ready(BankStream& stream, Cycle now) {
-    for (; stream.issuing < stream.end_started; ++stream.issuing) {
-        SegmentQueue::Tile& tile = *started_[stream.issuing];
-        const int domain =
-            tile.waiting() == 0 ? -1 : queue_.find(tile, packing_.next_execution(now));
-        if (domain >= 0) {
-            return domain;
-        }
-    }
-    return -1;
-}
-
-// The stream whose ready domain goes first by the scan rule.
-std::size_t IssueBank::choose_stream() const {
-    std::size_t chosen = kNone;
-    std::uint64_t least = ~std::uint64_t{0};
-    for (std::size_t i = 0; i < streams_.size(); ++i) {
-        // In turn, the stream that issued last at the end.
-        const std::size_t s = (issued_stream_ + 1 + i) % streams_.size();
-        if (ready_[s] < 0) {
+// Looks for a domain of the stream that may issue, in its oldest tile that has one.
+void IssueBank::find_ready(BankStream& stream, Cycle now) {
+    const Cycle date = packing_.next_execution(now);
+    for (std::size_t place = stream.first_started; place < stream.end_started; ++place) {
+        SegmentQueue::Tile& tile = *started_[place];
+        if (tile.waiting() == 0) {
             continue;
         }
-        if (config_.scan == DomainScan::RoundRobin) {
-            return s;
-        }
-        const std::uint64_t key = SegmentQueue::key_of(*started_[streams_[s].issuing], ready_[s]);
-        if (key < least) {
-            least = key;
-            chosen = s;
+        stream.ready = queue_.find(tile, date);
+        if (stream.ready >= 0) {
+            stream.issuing = place;
+            return;
         }
     }
+}
+
+// The stream whose ready domain goes first by the scan rule; nullptr: there is none. All streams are
+// searched, because what they have at this date counts also for later issues of the cycle; for the
+// `last` one only as far as needed.
+BankStream* IssueBank::choose_stream(Cycle now, bool last) {
+    const bool in_turn = config_.scan == DomainScan::RoundRobin;
+    BankStream* chosen = nullptr;
+    std::uint64_t least = ~std::uint64_t{0};
+    BankStream* stream = issued_stream_; // goes last
+    do {
+        stream = stream->next;
+        if (stream->ready < 0) {
+            find_ready(*stream, now);
+        }
+        if (stream->ready < 0 || (in_turn && chosen != nullptr)) {
+            continue;
+        }
+        if (in_turn && last) {
+            return stream;
+        }
+        const std::uint64_t key =
+            in_turn ? 0 : SegmentQueue::key_of(*started_[stream->issuing], stream->ready);
+        if (key < least) {
+            least = key;
+            chosen = stream;
+        }
+    } while (stream != issued_stream_);
     return chosen;
 }
 
@@ -221,6 +227,9 @@ Cycle IssueBank::next_date(Cycle now) {
         // More than a cycle's worth, or no Feature Buffer entry.
         const bool entries_only = features_full_ && stream_count_ == 1;
         limit = std::min(limit, entries_only ? std::max(next, features_.next_free()) : next);
+        if (limit == next) {
+            return next;
+        }
     }
     watched_.push_back(terminations_);
     if (contexts_owed_) {

@@ -23,7 +23,7 @@ SpanPool::SpanPool(const sc_core::sc_module_name& name, const Config& config, co
 void SpanPool::end_of_elaboration() {
     for (auto& port : in) {
         port->connect_reader(self_);
-        lanes_.push_back({&port.ring(), lanes_.size() / share_.lanes, 0, 0, 0});
+        lanes_.push_back({&port.ring(), &streams_[lanes_.size() / share_.lanes]});
     }
     const std::size_t ports = out.size() / streams_.size();
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -38,7 +38,9 @@ void SpanPool::run() {
     while (!job_.over(tiles_done_)) {
         waiting_ = false;
         for (Lane& lane : lanes_) {
-            take_ends(lane);
+            if (!lane.has_row) {
+                look_at(lane);
+            }
         }
         take_rows();
         self_.advance_to(job_.over(tiles_done_) ? self_.local() : next_date());
@@ -46,47 +48,59 @@ void SpanPool::run() {
     self_.finish();
 }
 
-// Every free unit takes up to rows_per_cycle rows, from the lanes in turn.
+// Every free unit takes up to rows_per_cycle rows.
 void SpanPool::take_rows() {
     const Cycle now = self_.local();
     for (Cycle& free_from : free_from_) {
         if (free_from > now) {
             continue;
         }
-        int taken = 0;
-        std::size_t in_vain = 0; // lanes since the last row
-        while (taken < config_.rows_per_cycle && in_vain < lanes_.size()) {
-            Lane& lane = lanes_[next_lane_];
-            next_lane_ = next_lane_ + 1 == lanes_.size() ? 0 : next_lane_ + 1;
-            const bool took = take_from(lane);
-            taken += took ? 1 : 0;
-            in_vain = took ? 0 : in_vain + 1;
-        }
-        if (taken != 0) {
+        ends_passed_ = false;
+        if (take_for_unit() != 0) {
             free_from = now + config_.cycles_per_row;
             stats_.busy += config_.cycles_per_row;
+        } else if (!ends_passed_ && !config_.row_ports.limited()) {
+            return; // the other units find nothing, either; waits for a port are counted for each
         }
     }
 }
 
-// True if the lane had a row whose bank has a place for its Span Vector.
-bool SpanPool::take_from(Lane& lane) {
-    take_ends(lane);
-    if (!sees_row(lane)) {
+// From the lanes in turn. Returns the number of rows.
+int SpanPool::take_for_unit() {
+    int taken = 0;
+    std::size_t in_vain = 0; // lanes since the last row
+    while (taken < config_.rows_per_cycle && in_vain < lanes_.size()) {
+        Lane& lane = lanes_[next_lane_];
+        next_lane_ = next_lane_ + 1 == lanes_.size() ? 0 : next_lane_ + 1;
+        const bool took = take_from(lane);
+        taken += took ? 1 : 0;
+        in_vain = took ? 0 : in_vain + 1;
+    }
+    return taken;
+}
+
+// True if the lane had a row whose bank has a place for its Span Vector. Inlined in the hot loop.
+inline __attribute__((always_inline)) bool SpanPool::take_from(Lane& lane) {
+    if (!lane.has_row && !lane.looked_at) {
+        look_at(lane);
+    }
+    if (!lane.has_row) {
         return false;
     }
-    if (!has_port(lane)) {
+    if (config_.row_ports.limited() && !has_port(lane)) {
         ++stats_.row_port_waits;
         return false;
     }
     const RowItem item = lane.rows->front();
-    DatedFifo<SpanItem>& ring = *streams_[lane.stream].rings[port_of_row_[item.row]];
+    DatedFifo<SpanItem>& ring = *lane.stream->rings[port_of_row_[item.row]];
     if (!ring.has_room(self_)) {
         waiting_ = true;
         return false;
     }
     ring.reserve(self_);
     ++lane.reads;
+    lane.has_row = false;
+    lane.looked_at = false;
     lane.rows->drop(self_);
     report(self_, &lane - lanes_.data());
     if (solve(item.tile, item.splat, item.row, ring.staged())) {
@@ -96,9 +110,49 @@ bool SpanPool::take_from(Lane& lane) {
 }
 
 // A lane does not run ahead of the other lanes of its stream: tiles end in all of them together.
-bool SpanPool::sees_row(Lane& lane) {
-    return lane.turn == streams_[lane.stream].turn && self_.arrived(*lane.rows) &&
-           !lane.rows->front().end;
+// Ends cost no unit's time.
+void SpanPool::look_at(Lane& lane) {
+    lane.looked_at = true;
+    const Stream& stream = *lane.stream;
+    if (lane.turn != stream.turn) {
+        if (stream.ending != kNoTile) {
+            pass_end(lane);
+        }
+    } else if (self_.arrived(*lane.rows)) {
+        lane.has_row = !lane.rows->front().end;
+        if (!lane.has_row) {
+            pass_end(lane);
+        }
+    }
+}
+
+// Takes an end of the lane, unless one of its stream has still to be sent, and sends what is
+// complete.
+void SpanPool::pass_end(Lane& lane) {
+    Stream& stream = *lane.stream;
+    if (stream.ending == kNoTile) {
+        const TileNumber tile = lane.rows->front().tile;
+        lane.rows->drop(self_);
+        ++lane.turn;
+        ends_passed_ = true;
+        if (++stream.ends == static_cast<std::size_t>(share_.lanes)) {
+            stream.ends = 0;
+            stream.ending = tile;
+            stream.end_port = 0;
+        }
+    }
+    if (stream.ending == kNoTile) {
+        return;
+    }
+    if (!send_end(stream)) {
+        waiting_ = true;
+        return;
+    }
+    ends_passed_ = true;
+    for (Lane& other : lanes_) {
+        other.looked_at = false;
+    }
+    lane.has_row = self_.arrived(*lane.rows) && !lane.rows->front().end;
 }
 
 // A lane is an SRAM bank.
@@ -107,26 +161,7 @@ bool SpanPool::has_port(Lane& lane) {
         lane.read = self_.local();
         lane.reads = 0;
     }
-    return !config_.row_ports.limited() || lane.reads < config_.row_ports.ports;
-}
-
-// Ends of tiles cost no unit's time.
-void SpanPool::take_ends(Lane& lane) {
-    Stream& stream = streams_[lane.stream];
-    if (stream.ending == kNoTile && lane.turn == stream.turn && self_.arrived(*lane.rows) &&
-        lane.rows->front().end) {
-        const TileNumber tile = lane.rows->front().tile;
-        lane.rows->drop(self_);
-        ++lane.turn;
-        if (++stream.ends == static_cast<std::size_t>(share_.lanes)) {
-            stream.ends = 0;
-            stream.ending = tile;
-            stream.end_port = 0;
-        }
-    }
-    if (stream.ending != kNoTile && !send_end(stream)) {
-        waiting_ = true;
-    }
+    return lane.reads < config_.row_ports.ports;
 }
 
 // To every bank that the module reaches; false if one has no place for it yet.
@@ -154,11 +189,16 @@ Cycle SpanPool::next_date() {
     if (waiting_) {
         return next;
     }
-    const Cycle free = *std::min_element(free_from_.begin(), free_from_.end());
+    const Cycle free = config_.cycles_per_row == 1
+                           ? next
+                           : *std::min_element(free_from_.begin(), free_from_.end());
     const Cycle from = std::max(next, free);
     watched_.clear();
     for (const Lane& lane : lanes_) {
-        if (lane.turn == streams_[lane.stream].turn) {
+        if (lane.turn == lane.stream->turn) {
+            if (!lane.rows->empty() && lane.rows->head_date() <= from) {
+                return from; // what else comes until then is asked at that date
+            }
             watched_.push_back(lane.rows);
         }
     }

@@ -27,13 +27,6 @@ public:
              const RenderJob& job, const Share& share);
 
 private:
-    struct Lane {
-        DatedFifo<RowItem>* rows = nullptr;
-        std::size_t stream = 0;
-        std::size_t turn = 0; // ends of tiles that it has delivered
-        Cycle read = 0;       // date of the latest read
-        int reads = 0;        // at that date
-    };
     struct Stream {
         std::vector<DatedFifo<SpanItem>*> rings; // by port
         std::size_t turn = 0;                    // ends of tiles that have been sent
@@ -41,14 +34,25 @@ private:
         TileNumber ending = kNoTile;             // the tile whose end has to be sent; kNoTile: none
         std::size_t end_port = 0;                // to which port
     };
+    struct Lane {
+        DatedFifo<RowItem>* rows = nullptr;
+        Stream* stream = nullptr;
+        std::size_t turn = 0;   // ends of tiles that it has delivered
+        Cycle read = 0;         // date of the latest read
+        int reads = 0;          // at that date
+        bool has_row = false;   // its next item is known to be a row that has arrived
+        bool looked_at = false; // at this date, and nothing has changed since then
+    };
 
     void end_of_elaboration() override;
     void run();
     void take_rows();
+    int take_for_unit();
     bool take_from(Lane& lane);
-    void take_ends(Lane& lane);
+    void look_at(Lane& lane);
+    // What is rare stays out of the loop over cycles, which then keeps more in registers.
+    [[gnu::noinline]] void pass_end(Lane& lane);
     bool send_end(Stream& stream);
-    bool sees_row(Lane& lane);
     bool has_port(Lane& lane);
     Cycle next_date();
 
@@ -60,6 +64,7 @@ private:
     std::size_t next_lane_ = 0;    // from which a row is taken next
     std::vector<Cycle> free_from_; // by unit
     bool waiting_ = false;         // a row or an end waits for a place in the crossbar
+    bool ends_passed_ = false;     // since a unit began to look for rows
     std::size_t tiles_done_ = 0;
     std::vector<FifoBase*> watched_;
 };
