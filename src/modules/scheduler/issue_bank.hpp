@@ -120,8 +120,9 @@ private:
     bool issue(Cycle now);
     int issue_in_order(Cycle now);
     [[gnu::noinline]] int issue_from_all(Cycle now);
-    void find_ready(BankStream& stream, Cycle now);
-    BankStream* choose_stream(Cycle now, bool last);
+    bool find_ready(BankStream& stream, Cycle now);
+    BankStream* first_ready(Cycle now, bool last);
+    BankStream* least_ready(Cycle now);
     bool issue_one(Cycle now, SegmentQueue::Tile& tile, int domain);
     bool finish_tiles();
     [[gnu::noinline]] void finish_tiles(BankStream& stream);

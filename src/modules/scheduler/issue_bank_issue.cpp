@@ -69,9 +69,11 @@ int IssueBank::issue_from_all(Cycle now) {
     for (BankStream& stream : streams_) {
         stream.ready = -1;
     }
+    const bool in_turn = config_.scan == DomainScan::RoundRobin;
     int issued = 0;
     while (issued < config_.issue_width) {
-        BankStream* const chosen = choose_stream(now, issued + 1 == config_.issue_width);
+        const bool last = issued + 1 == config_.issue_width;
+        BankStream* const chosen = in_turn ? first_ready(now, last) : least_ready(now);
         if (chosen == nullptr) {
             break;
         }
@@ -87,48 +89,48 @@ int IssueBank::issue_from_all(Cycle now) {
     return issued;
 }
 
-// Looks for a domain of the stream that may issue, in its oldest tile that has one.
-void IssueBank::find_ready(BankStream& stream, Cycle now) {
-    const Cycle date = packing_.next_execution(now);
-    for (std::size_t place = stream.first_started; place < stream.end_started; ++place) {
+// Looks for a domain of the stream that may issue, in its oldest tile that has one. False if there
+// is none.
+inline bool IssueBank::find_ready(BankStream& stream, Cycle now) {
+    for (std::size_t place = stream.first_started; stream.ready < 0 && place < stream.end_started;
+         ++place) {
         SegmentQueue::Tile& tile = *started_[place];
-        if (tile.waiting() == 0) {
-            continue;
-        }
-        stream.ready = queue_.find(tile, date);
-        if (stream.ready >= 0) {
+        if (tile.waiting() != 0) {
+            stream.ready = queue_.find(tile, packing_.next_execution(now));
             stream.issuing = place;
-            return;
         }
     }
+    return stream.ready >= 0;
 }
 
-// The stream whose ready domain goes first by the scan rule; nullptr: there is none. All streams are
-// searched, because what they have at this date counts also for later issues of the cycle; for the
-// `last` one only as far as needed.
-BankStream* IssueBank::choose_stream(Cycle now, bool last) {
-    const bool in_turn = config_.scan == DomainScan::RoundRobin;
-    BankStream* chosen = nullptr;
-    std::uint64_t least = ~std::uint64_t{0};
-    BankStream* stream = issued_stream_; // goes last
+// The next stream that has a ready domain, that which issued last at the end; nullptr: there is none.
+// All streams are searched, because what they have at this date counts for later issues of the
+// cycle; for the `last` one only as far as needed.
+inline BankStream* IssueBank::first_ready(Cycle now, bool last) {
+    BankStream* first = nullptr;
+    BankStream* stream = issued_stream_;
     do {
         stream = stream->next;
-        if (stream->ready < 0) {
-            find_ready(*stream, now);
+        if (find_ready(*stream, now) && first == nullptr) {
+            first = stream;
         }
-        if (stream->ready < 0 || (in_turn && chosen != nullptr)) {
-            continue;
+    } while (stream != issued_stream_ && (first == nullptr || !last));
+    return first;
+}
+
+// The stream whose ready domain has the smallest key; nullptr: there is none.
+BankStream* IssueBank::least_ready(Cycle now) {
+    BankStream* chosen = nullptr;
+    std::uint64_t least = ~std::uint64_t{0};
+    for (BankStream& stream : streams_) {
+        if (find_ready(stream, now)) {
+            const std::uint64_t key = SegmentQueue::key_of(*started_[stream.issuing], stream.ready);
+            if (key < least) {
+                least = key;
+                chosen = &stream;
+            }
         }
-        if (in_turn && last) {
-            return stream;
-        }
-        const std::uint64_t key =
-            in_turn ? 0 : SegmentQueue::key_of(*started_[stream->issuing], stream->ready);
-        if (key < least) {
-            least = key;
-            chosen = stream;
-        }
-    } while (stream != issued_stream_);
+    }
     return chosen;
 }
 
