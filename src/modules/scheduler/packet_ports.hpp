@@ -6,6 +6,7 @@
 
 #include "modules/sram_ports.hpp"
 #include "splat/data_path.hpp"
+#include "tlm/ceil_div.hpp"
 
 namespace degs {
 
@@ -37,6 +38,12 @@ public:
     /// there is none. `entry` of the Feature Buffer has the splat's parameters. A packet without
     /// tasks takes at least one.
     std::uint32_t take(const BlendTask& task, std::uint32_t mask, int entry, int most);
+    /// The most packets of `width` tasks that the tasks `mask` of a row take beside one that is open.
+    /// Neighbours in a row lie in different SRAM banks, unless there are too few of those.
+    int most_packets(std::uint32_t mask, int width) const {
+        const int tasks = __builtin_popcount(mask);
+        return !spreads(mask) ? tasks : tasks <= width ? 1 : ceil_div(tasks, width);
+    }
     /// Becomes a packet that takes the same tasks of `context` as `other` does.
     void imitate(const PacketPorts& other, int context);
 
@@ -44,6 +51,12 @@ private:
     struct Read {
         int entry, sram_bank;
     };
+    // No two tasks of a row want the same SRAM bank.
+    bool spreads(std::uint32_t mask) const {
+        constexpr int kBits = 32;
+        return !config_.pixels.limited() ||
+               kBits - __builtin_clz(mask) - __builtin_ctz(mask) <= config_.pixels.sram_banks;
+    }
     bool reads_parameters(int entry);
     std::uint32_t take_pixels(const BlendTask& task, std::uint32_t mask, int most);
     /// Those of a context, all of them free if the packet has no task there.

@@ -36,8 +36,8 @@ Cycle PackingUnit::add_by_ports(Process& bank, const TaskRun& run, std::uint32_t
 
 bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry) {
     const Cycle queued = next_execution(now) - (now + latency_) + (open() ? 1 : 0);
-    if ((queued + __builtin_popcount(mask)) * width_ <= capacity_) {
-        return true; // even if each task ended a packet
+    if ((queued + ports_->most_packets(mask, config_.width)) * width_ <= capacity_) {
+        return true; // even if the open packet takes none of them
     }
     const bool joined = open() && (config_.reorganisation || joins(run));
     Cycle packets = joined ? 0 : 1; // beside the open one

@@ -51,16 +51,22 @@ void SpanPool::run() {
 // Every free unit takes up to rows_per_cycle rows.
 void SpanPool::take_rows() {
     const Cycle now = self_.local();
-    for (Cycle& free_from : free_from_) {
-        if (free_from > now) {
+    for (std::size_t unit = 0; unit < free_from_.size(); ++unit) {
+        if (free_from_[unit] > now) {
             continue;
         }
         ends_passed_ = false;
+        const std::uint64_t waits_before = stats_.row_port_waits;
         if (take_for_unit() != 0) {
-            free_from = now + config_.cycles_per_row;
+            free_from_[unit] = now + config_.cycles_per_row;
             stats_.busy += config_.cycles_per_row;
-        } else if (!ends_passed_ && !config_.row_ports.limited()) {
-            return; // the other units find nothing, either; waits for a port are counted for each
+        } else if (!ends_passed_) {
+            // The other free units find nothing, either, and wait for the same ports.
+            const auto others =
+                std::count_if(free_from_.begin() + std::ptrdiff_t(unit) + 1, free_from_.end(),
+                              [now](Cycle from) { return from <= now; });
+            stats_.row_port_waits += (stats_.row_port_waits - waits_before) * others;
+            return;
         }
     }
 }
