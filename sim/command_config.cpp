@@ -2,11 +2,13 @@
 // degs config: what a configuration file may say.
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "config/config_document.hpp"
 #include "config/config_words.hpp"
 #include "config/error.hpp"
 #include "sim/commands.hpp"
+#include "sim/config_difference.hpp"
 #include "sim/run_config.hpp"
 #include "sim/statistics_list.hpp"
 #include "sim/text/standard_output.hpp"
@@ -20,6 +22,8 @@ struct ConfigOptions {
     std::string config;
     std::vector<std::string> overrides;
     std::string format = "text";
+    std::optional<int> pes;             ///< of the design of a family that is wanted
+    std::vector<std::string> different; ///< two configurations to be compared
     bool stats = false;
     std::string of = "run"; ///< the command whose statistics are listed
     std::string section;    ///< of the statistics
@@ -41,15 +45,52 @@ std::string text(const std::vector<KeyDoc>& keys) {
 }
 
 /// A file, or the defaults of an accelerator by name.
-RunConfig config_of(const ConfigOptions& options) {
-    if (!options.has_config) {
-        return RunConfig{};
-    }
+RunConfig config_of(const std::string& name, const std::vector<std::string>& overrides) {
     std::error_code ignored;
-    if (is_accelerator(options.config) && !std::filesystem::exists(options.config, ignored)) {
-        return default_run_config(options.config, options.overrides);
+    if (is_accelerator(name) && !std::filesystem::exists(name, ignored)) {
+        return default_run_config(name, overrides);
     }
-    return load_run_config(options.config, options.overrides);
+    return load_run_config(name, overrides);
+}
+
+RunConfig config_of(const ConfigOptions& options) {
+    if (options.pes) {
+        if (!is_accelerator(options.config)) {
+            throw InputError("--pes makes the design of a family, so it takes the name of an "
+                             "accelerator (" +
+                             config_words::list(accelerator_names()) + "), not " +
+                             config_words::quote(options.config) + ".");
+        }
+        return sized_run_config(options.config, *options.pes, options.overrides);
+    }
+    return options.has_config ? config_of(options.config, options.overrides) : RunConfig{};
+}
+
+std::string difference_of(const ConfigOptions& options) {
+    std::vector<std::vector<KeyDoc>> documents;
+    for (const std::string& name : options.different) {
+        const RunConfig config = config_of(name, {});
+        print_warnings(config.warnings);
+        documents.push_back(document(config));
+    }
+    const std::vector<KeyDifference> keys = difference(documents.front(), documents.back());
+    if (options.format == "yaml") {
+        throw InputError(
+            "--diff has the formats text and markdown; 'yaml' is for one configuration.");
+    }
+    return (options.format == "markdown" ? difference_markdown : difference_text)(
+        keys, options.different.front(), options.different.back());
+}
+
+/// A file that says how it was made; with --pes this is what is wanted if no format is named.
+std::string file_text(const RunConfig& config, const ConfigOptions& options) {
+    std::string head;
+    if (options.pes) {
+        head = "# " + config.accelerator().name + ", written by 'degs config " + options.config +
+               " --pes " + std::to_string(*options.pes) +
+               "'. docs/families.md explains the rule of its sizes.\n";
+    }
+    return head + resolved_yaml(config);
 }
 
 std::string statistics(const RunConfig& config, const ConfigOptions& options) {
@@ -71,6 +112,10 @@ std::string statistics(const RunConfig& config, const ConfigOptions& options) {
 }
 
 void run(const ConfigOptions& options) {
+    if (!options.different.empty()) {
+        print(difference_of(options));
+        return;
+    }
     const RunConfig config = config_of(options);
     print_warnings(config.warnings);
     if (options.stats) {
@@ -78,7 +123,7 @@ void run(const ConfigOptions& options) {
     } else if (options.format == "markdown") {
         print(markdown_table(document(config)));
     } else if (options.format == "yaml") {
-        print(resolved_yaml(config));
+        print(file_text(config, options));
     } else {
         print(text(document(config)));
     }
@@ -102,11 +147,28 @@ void add_config_command(CLI::App& program) {
         ->take_all()
         ->expected(1)
         ->needs(file);
-    command
-        ->add_option("--format", options->format,
-                     "text, markdown, or yaml: a complete file that can be run")
-        ->check(CLI::IsMember({"text", "markdown", "yaml"}))
-        ->capture_default_str();
+    CLI::Option* pes =
+        command
+            ->add_option("--pes", options->pes,
+                         "writes the complete design with this number of PEs of the family of an "
+                         "accelerator, which is named instead of a file")
+            ->type_name("INT")
+            ->needs(file);
+    CLI::Option* diff =
+        command
+            ->add_option("--diff", options->different,
+                         "the keys in which two configurations differ; files, or names of "
+                         "accelerators for their defaults")
+            ->type_name("FILE FILE")
+            ->expected(2)
+            ->excludes(file)
+            ->excludes(pes);
+    CLI::Option* format =
+        command
+            ->add_option("--format", options->format,
+                         "text, markdown, or yaml: a complete file that can be run")
+            ->check(CLI::IsMember({"text", "markdown", "yaml"}))
+            ->capture_default_str();
     CLI::Option* stats =
         command->add_flag("--stats", options->stats,
                           "the statistics that a run on this accelerator reports, with units and "
@@ -120,8 +182,13 @@ void add_config_command(CLI::App& program) {
                      "a part of the statistics: stages, stages.span or timing.cycles")
         ->type_name("PATH")
         ->needs(stats);
-    command->callback([options, file] {
+    diff->excludes(stats);
+    pes->excludes(stats);
+    command->callback([options, file, pes, format] {
         options->has_config = file->count() != 0; // "" is a name, too
+        if (pes->count() != 0 && format->count() == 0) {
+            options->format = "yaml";
+        }
         run(*options);
     });
 }

@@ -66,6 +66,14 @@ RunConfig load_run_config(const std::string& file, const std::vector<std::string
     return load_run_config(ConfigSource::from_tree(std::move(tree), overrides));
 }
 
+std::vector<std::string> accelerator_names() {
+    std::vector<std::string> names;
+    for (const AcceleratorKind& kind : accelerator_kinds()) {
+        names.emplace_back(kind.name);
+    }
+    return names;
+}
+
 bool is_accelerator(const std::string& kind) {
     const std::vector<AcceleratorKind>& kinds = accelerator_kinds();
     return std::any_of(kinds.begin(), kinds.end(),
@@ -79,6 +87,14 @@ RunConfig default_run_config(const std::string& kind, const std::vector<std::str
     accelerator.kind = ConfigNode::Kind::kScalar;
     accelerator.text = kind;
     return load_run_config(ConfigSource::from_tree(std::move(tree), overrides));
+}
+
+RunConfig sized_run_config(const std::string& kind, int pes,
+                           const std::vector<std::string>& overrides) {
+    RunConfig config = default_run_config(kind, {});
+    config.scale_to(pes);
+    config.warnings = ConfigSource::from_overrides(overrides).load(config);
+    return config;
 }
 
 RunConfig load_run_config(const ConfigSource& source) {

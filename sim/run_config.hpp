@@ -29,6 +29,8 @@ public:
     std::vector<std::string> warnings;
 
     const AcceleratorConfig& accelerator() const { return *model_; }
+    /// See AcceleratorConfig::scale_to.
+    void scale_to(int pes) { model_->scale_to(pes); }
     /// The name of this kind of accelerator in a file, e.g. "degs".
     std::string kind() const;
 
@@ -48,8 +50,13 @@ RunConfig load_run_config(const std::string& file, const std::vector<std::string
 /// The same for a file that has been read.
 RunConfig load_run_config(const ConfigSource& source);
 
+/// The kinds of accelerators that a file may name.
+std::vector<std::string> accelerator_names();
 /// Whether a file may name this kind of accelerator.
 bool is_accelerator(const std::string& kind);
+/// The design of a kind's family with that many PEs, with overrides. Throws InputError.
+RunConfig sized_run_config(const std::string& kind, int pes,
+                           const std::vector<std::string>& overrides);
 /// The defaults of a kind of accelerator, with overrides. Throws InputError.
 RunConfig default_run_config(const std::string& kind, const std::vector<std::string>& overrides);
 

@@ -53,6 +53,7 @@ struct GbuConfig : AcceleratorConfig {
         return std::make_unique<GbuConfig>(*this);
     }
     void describe(ConfigVisitor& visitor) override;
+    void scale_to(int pes) override;
     int tile_size_px() const override { return tile_size; }
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }

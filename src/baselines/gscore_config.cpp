@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "modules/family_size.hpp"
+
 namespace degs {
 
 void GscoreConfig::Buffer::describe(ConfigVisitor& visitor) {
@@ -38,6 +40,20 @@ void GscoreConfig::describe(ConfigVisitor& visitor) {
     visitor.section("memory", memory, "off-chip memory");
     visitor.does_not_follow("area", "array.lanes");
     require_sizes(visitor);
+}
+
+void GscoreConfig::scale_to(int pes) {
+    require_family_size(
+        "gscore", pes, 1024, "must be a square of 4, 8, 16 or 32 px", [](int number) {
+            const int side = whole_root(number);
+            return side * side == number && side >= 4 && power_of_two_below(side) == side;
+        });
+    name = "gscore-" + std::to_string(pes);
+    array.lanes = pes;
+    buffer.bytes = per_pe(buffer.bytes, pes);
+    constexpr int kTiles = 2;
+    pixel_buffer.bytes = kTiles * pixel_buffer.state_bytes * array.tile_size() * array.tile_size();
+    pixel_buffer.readout_pixels = pes;
 }
 
 void GscoreConfig::require_sizes(ConfigVisitor& visitor) const {

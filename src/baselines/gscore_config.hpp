@@ -45,6 +45,7 @@ struct GscoreConfig : AcceleratorConfig {
         return std::make_unique<GscoreConfig>(*this);
     }
     void describe(ConfigVisitor& visitor) override;
+    void scale_to(int pes) override;
     int pes() const override { return array.lanes; }
     int tile_size_px() const override { return array.tile_size(); }
     TileMode tile_mode() const override { return pipeline.tiles; }

@@ -64,9 +64,19 @@ public:
         require(value == below, {key, "must be a power of two", std::to_string(below)});
     }
 
+    /// A design that can be built, but whose parts are out of proportion: the same as a rule, but a
+    /// reader only warns. `rule` completes "but": "should be at least 2 to fill a packet".
+    virtual void advise(bool in_proportion, const ConfigRule& rule) {
+        (void)in_proportion, (void)rule;
+    }
+    /// The same for a value of which a part is of no use. A reader warns only if an override gives
+    /// the key, because then somebody expects that it has an effect.
+    virtual void advise_if_set(bool of_use, const ConfigRule& rule) { (void)of_use, (void)rule; }
+
     /// Says that `key`, a value or a section, has no effect while `decider` has its present value;
     /// both are of this section and visited before. `reason` completes "has no effect, because". A
-    /// reader warns if the source names the key, unless what names the decider was written over it.
+    /// reader warns if the source gives the key another value than its default, unless what names
+    /// the decider was written over it.
     virtual void unused(const char* key, const char* decider, const char* reason) {
         (void)key, (void)decider, (void)reason;
     }

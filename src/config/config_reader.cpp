@@ -92,41 +92,46 @@ void ConfigReader::end_section() {
 
 void ConfigReader::integer(const char* key, std::int64_t& value, std::int64_t low,
                            std::int64_t high, const char*) {
+    const std::int64_t before = value;
     const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
         value = value_of(config_scalar::Integer{low, high}, node, path);
     });
     if (!given) {
         check_standing(path_of(key), value, low, high);
     }
-    values_[path_of(key)] = config_words::number(value);
+    note(key, before != value, config_words::number(value));
 }
 
 void ConfigReader::real(const char* key, double& value, double low, double high, const char*) {
+    const double before = value;
     const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
         value = value_of(config_scalar::Real{low, high}, node, path);
     });
     if (!given) {
         check_standing(path_of(key), value, low, high);
     }
-    values_[path_of(key)] = config_words::number(value);
+    note(key, before != value, config_words::number(value));
 }
 
 void ConfigReader::boolean(const char* key, bool& value, const char*) {
+    const bool before = value;
     each_value(key, [&](const ConfigNode& node, const std::string& path) {
         value = value_of(config_scalar::Boolean{}, node, path);
     });
-    values_[path_of(key)] = value ? "true" : "false";
+    note(key, before != value, value ? "true" : "false");
 }
 
 void ConfigReader::text(const char* key, std::string& value, const char*) {
+    const std::string before = value;
     each_value(key, [&](const ConfigNode& node, const std::string& path) {
         value = value_of(config_scalar::Text{}, node, path);
     });
-    values_[path_of(key)] = quote(value);
+    note(key, before != value, quote(value));
 }
 
 void ConfigReader::choice(const char* key, int& value, const std::vector<const char*>& names,
                           const char*) {
+    const int before = value;
     const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
         value = value_of(config_scalar::Choice{names}, node, path);
     });
@@ -134,12 +139,38 @@ void ConfigReader::choice(const char* key, int& value, const std::vector<const c
         const std::int64_t last = names.size() - 1;
         check_standing(path_of(key), std::int64_t{value}, std::int64_t{0}, last);
     }
-    values_[path_of(key)] = names[value];
+    note(key, before != value, names[value]);
+}
+
+void ConfigReader::note(const char* key, bool changed, const std::string& value) {
+    const std::string path = path_of(key);
+    values_[path] = value;
+    if (changed) {
+        changed_.insert(path);
+    }
+}
+
+// A value, or one of a section.
+bool ConfigReader::is_changed(const std::string& path) const {
+    const auto next = changed_.lower_bound(path);
+    return next != changed_.end() && (*next == path || next->rfind(path + ".", 0) == 0);
 }
 
 void ConfigReader::require(bool holds, const ConfigRule& rule) {
     if (!holds && broken_rule_.empty()) {
         broken_rule_ = sentence_of(rule);
+    }
+}
+
+void ConfigReader::advise(bool in_proportion, const ConfigRule& rule) {
+    if (!in_proportion) {
+        warnings_.push_back(sentence_of(rule));
+    }
+}
+
+void ConfigReader::advise_if_set(bool of_use, const ConfigRule& rule) {
+    if (source_.override_of(path_of(rule.key)) != nullptr) {
+        advise(of_use, rule);
     }
 }
 
@@ -170,7 +201,8 @@ void ConfigReader::unused(const char* key, const char* decider, const char* reas
     const std::string& section = open_.back().path;
     const ConfigSource::Given given = source_.strongest(join_path(section, key));
     const ConfigSource::Given by = source_.strongest(join_path(section, decider));
-    if (given.node != nullptr && (by.node == nullptr || given.node->layer <= by.node->layer)) {
+    if (given.node != nullptr && is_changed(join_path(section, key)) &&
+        (by.node == nullptr || given.node->layer <= by.node->layer)) {
         warnings_.push_back(given.node->place + ": key " + quote(given.path) +
                             " has no effect, because " + reason + ".");
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ public:
     void choice(const char* key, int& value, const std::vector<const char*>& names,
                 const char* doc) override;
     void require(bool holds, const ConfigRule& rule) override;
+    void advise(bool in_proportion, const ConfigRule& rule) override;
+    void advise_if_set(bool of_use, const ConfigRule& rule) override;
     void unused(const char* key, const char* decider, const char* reason) override;
     void does_not_follow(const char* key, const char* decider) override;
 
@@ -43,6 +46,8 @@ private:
     };
 
     std::string declare(const char* key);
+    void note(const char* key, bool changed, const std::string& value);
+    bool is_changed(const std::string& path) const;
     std::string path_of(const char* key) const;
     std::string sentence_of(const ConfigRule& rule) const;
     /// Calls `parse(node)` for the value of the file, then for that of the override; both must be valid.
@@ -60,6 +65,7 @@ private:
     std::vector<Section> open_;
     std::map<std::string, std::vector<std::string>> known_; // keys by path of their section
     std::map<std::string, std::string> values_;             // as text, by path
+    std::set<std::string> changed_;                         // paths of values unlike the default
     std::string broken_rule_;                               // the sentence; empty while all hold
     std::vector<std::string> warnings_;
 };

@@ -28,6 +28,9 @@ void DegsConfig::Pipeline::describe(ConfigVisitor& visitor) {
     visitor.integer(
         "span_delta", span_delta, 0, 16,
         "px added at both ends unless they are exact; the paper gives no value, 0 is the minimum");
+    if (span_ends == SpanEnds::Exact) {
+        visitor.unused("span_delta", "span_ends", "span_ends is exact");
+    }
 }
 
 void DegsConfig::GaussianBuffer::describe(ConfigVisitor& visitor) {
@@ -161,6 +164,8 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
     visitor.does_not_follow("area", "array.pes_per_bank");
     require_sizes(visitor);
     require_packing(visitor);
+    advise_supply(visitor);
+    advise_depths(visitor);
 }
 
 void DegsConfig::require_sizes(ConfigVisitor& visitor) const {
@@ -212,6 +217,60 @@ void DegsConfig::require_packing(ConfigVisitor& visitor) const {
                                  " packets of every bank",
                              {"scheduler.banks", "array.pes_per_bank",
                               "scheduler.queue_segments_per_pe", "scheduler.segment_length"});
+}
+
+// Each stage can supply the next one, as far as its numbers decide that alone.
+void DegsConfig::advise_supply(ConfigVisitor& visitor) const {
+    const int segments = ceil_div(array.pes_per_bank, scheduler.segment_length);
+    const std::string fill = "should be at least " + std::to_string(segments) +
+                             ", or a bank cannot fill a packet of its array slice in a cycle";
+    visitor.advise(
+        scheduler.issue_width >= segments,
+        {"scheduler.issue_width", fill, "", {"array.pes_per_bank", "scheduler.segment_length"}});
+    visitor.advise(scheduler.segments_per_cycle >= segments,
+                   {"scheduler.segments_per_cycle",
+                    fill,
+                    "",
+                    {"array.pes_per_bank", "scheduler.segment_length"}});
+    const int pixels_per_unit = tile_size * span.rows_per_cycle; // in cycles_per_row cycles
+    const int units = ceil_div(pes() * span.cycles_per_row, pixels_per_unit);
+    visitor.advise(span.count >= units,
+                   {"span.count",
+                    "should be at least " + std::to_string(units) +
+                        ", or the PEs starve even if every row is as wide as the tile",
+                    "",
+                    {"span.rows_per_cycle", "span.cycles_per_row", "tile_size", "scheduler.banks",
+                     "array.pes_per_bank"}});
+    const int rows = ceil_div(span.count * span.rows_per_cycle, span.cycles_per_row);
+    const int rows_per_unit = ceil_div(rows, slicing.count);
+    visitor.advise(
+        slicing.rows_per_cycle >= rows_per_unit,
+        {"slicing.rows_per_cycle",
+         "should be at least " + std::to_string(rows_per_unit) + " to keep all Span Units busy",
+         "",
+         {"slicing.count", "span.count", "span.rows_per_cycle", "span.cycles_per_row"}});
+}
+
+// Queues cover the latencies that they hide, and nothing is larger than what may ever lie in it.
+void DegsConfig::advise_depths(ConfigVisitor& visitor) const {
+    const std::int64_t waiting = std::int64_t{queue_depth()} * scheduler.segment_length;
+    const bool as_many_as_fit = scheduler.queue_segments_per_pe == 0;
+    visitor.advise(waiting >= std::int64_t{scheduler.reuse_cycles} * array.pes_per_bank,
+                   {as_many_as_fit ? "packing.bytes" : "scheduler.queue_segments_per_pe",
+                    "should be so much that the waiting segments keep a slice busy for "
+                    "scheduler.reuse_cycles cycles",
+                    "",
+                    {"scheduler.reuse_cycles", "scheduler.segment_length", "array.pes_per_bank"}});
+    const std::int64_t used =
+        std::int64_t{scheduler.banks} *
+        (queue_depth() * scheduler.segment_bytes + packing.lead_packets * packet_bytes());
+    visitor.advise_if_set(
+        as_many_as_fit || packing.bytes <= used,
+        {"packing.bytes",
+         "has no effect above " + std::to_string(used) +
+             ", which hold all segments and packets that may wait",
+         "",
+         {"packing.lead_packets", "scheduler.queue_segments_per_pe", "scheduler.segment_bytes"}});
 }
 
 void DegsConfig::require_counts(ConfigVisitor& visitor) const {

@@ -113,6 +113,7 @@ struct DegsConfig : AcceleratorConfig {
         return std::make_unique<DegsConfig>(*this);
     }
     void describe(ConfigVisitor& visitor) override;
+    void scale_to(int pes) override;
     int tile_size_px() const override { return tile_size; }
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
@@ -207,6 +208,8 @@ private:
     int packets_per_segment() const;
     int chunk_bytes() const { return traffic.splat_bytes * fetching.chunk; }
     void require_counts(ConfigVisitor& visitor) const;
+    void advise_supply(ConfigVisitor& visitor) const;
+    void advise_depths(ConfigVisitor& visitor) const;
     void require_sizes(ConfigVisitor& visitor) const;
     void require_packing(ConfigVisitor& visitor) const;
 };

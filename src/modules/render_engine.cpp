@@ -33,6 +33,11 @@ std::string AcceleratorConfig::problem() const {
     return "";
 }
 
+void AcceleratorConfig::scale_to(int pes) {
+    throw InputError("--pes " + std::to_string(pes) + ": " + name +
+                     " belongs to no family that says what other sizes look like.");
+}
+
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
                           const AcceleratorConfig& config) {
     return make_render_job(frames, config.data_path(), config.tile_contexts(),

@@ -69,6 +69,10 @@ struct AcceleratorConfig {
     /// describe() that does not hold, as one sentence, or nothing if all do.
     std::string problem() const;
 
+    /// Becomes the design of its family with that many PEs, by the rule of docs/families.md. Expects a
+    /// configuration with default values. Throws InputError, which names the nearest sizes, if the
+    /// family has no such design.
+    virtual void scale_to(int pes);
     virtual int pes() const = 0;
     /// Side of the square of pixels whose list is one unit of work, px.
     virtual int tile_size_px() const = 0;

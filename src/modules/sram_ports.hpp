@@ -28,6 +28,9 @@ struct BankedSramPorts : SramPorts {
     void describe(ConfigVisitor& visitor, const char* what, const char* banks) {
         SramPorts::describe(visitor, what);
         visitor.integer("sram_banks", sram_banks, 1, 4096, banks);
+        if (!limited()) {
+            visitor.unused("sram_banks", "ports", "ports is 0, which is unlimited");
+        }
     }
 };
 

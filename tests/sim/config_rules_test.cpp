@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules between keys: each is broken once, and what its sentence proposes must mend it.
 #include <algorithm>
+#include <filesystem>
 #include <regex>
 #include <set>
 
@@ -151,7 +152,11 @@ public:
     void text(const char*, std::string&, const char*) override {}
     void choice(const char*, int&, const std::vector<const char*>&, const char*) override {}
     void require(bool, const ConfigRule& rule) override { keys.insert(path_.back() + rule.key); }
-    std::set<std::string> keys;
+    void advise(bool, const ConfigRule& rule) override { advised.insert(path_.back() + rule.key); }
+    void advise_if_set(bool, const ConfigRule& rule) override {
+        advised.insert(path_.back() + rule.key);
+    }
+    std::set<std::string> keys, advised;
 
 private:
     std::vector<std::string> path_{""};
@@ -171,6 +176,92 @@ TEST(ConfigRuleSentences, EveryRuleIsInTheListAbove) {
             EXPECT_TRUE(tested || key.rfind("pipeline.", 0) == 0) << design << " " << key;
         }
     }
+}
+
+/// What is advised against: a design that runs with a warning.
+struct Unbalanced {
+    std::string design;
+    std::vector<std::string> overrides;
+    std::string key; ///< of the warning
+};
+
+const std::vector<Unbalanced>& advice() {
+    static const std::vector<Unbalanced> all = {
+        {"degs-1024", {"scheduler.issue_width=1"}, "scheduler.issue_width"},
+        {"degs-1024", {"scheduler.segments_per_cycle=1"}, "scheduler.segments_per_cycle"},
+        {"degs-64", {"span.count=1"}, "span.count"},
+        {"degs-64", {"slicing.rows_per_cycle=3"}, "slicing.rows_per_cycle"},
+        {"degs-64",
+         {"scheduler.reuse_cycles=64", "scheduler.queue_segments_per_pe=3"},
+         "scheduler.queue_segments_per_pe"},
+        {"degs-64-tuned",
+         {"scheduler.reuse_cycles=64", "scheduler.queue_segments_per_pe=0", "packing.bytes=8000"},
+         "packing.bytes"},
+        {"degs-64", {"packing.bytes=65536"}, "packing.bytes"},
+        {"degs-64", {"pixel_buffer.bytes=20000"}, "pixel_buffer.bytes"},
+        {"gscore-64", {"pixel_buffer.bytes=9000"}, "pixel_buffer.bytes"},
+        {"gbu-64", {"pixel_buffer.bytes=40000"}, "pixel_buffer.bytes"},
+        {"gcc-64", {"image_buffer.bytes=140000"}, "image_buffer.bytes"},
+    };
+    return all;
+}
+
+std::vector<std::string> warnings_of(const std::string& design,
+                                     const std::vector<std::string>& overrides) {
+    return load_run_config(std::string(DEGS_CONFIGS) + "/" + design + ".yaml", overrides).warnings;
+}
+
+TEST(ConfigAdvice, NamesTheKey) {
+    for (const Unbalanced& unbalanced : advice()) {
+        const auto warnings = warnings_of(unbalanced.design, unbalanced.overrides);
+        ASSERT_EQ(warnings.size(), 1U) << unbalanced.design << " " << unbalanced.key;
+        EXPECT_NE(warnings.front().find(": key '" + unbalanced.key + "' is "), std::string::npos)
+            << warnings.front();
+        EXPECT_LE(warnings.front().size(), 400U) << warnings.front();
+    }
+}
+
+TEST(ConfigAdvice, HasNothingToSayOfShippedDesigns) {
+    for (const auto& entry : std::filesystem::directory_iterator(DEGS_CONFIGS)) {
+        if (entry.is_regular_file()) {
+            EXPECT_EQ(load_run_config(entry.path().string(), {}).warnings,
+                      std::vector<std::string>{});
+        }
+    }
+}
+
+TEST(ConfigAdvice, IsAllInTheListAbove) {
+    for (const char* design : {"degs-64", "gscore-64", "gbu-64", "gcc-64"}) {
+        RunConfig config = load_run_config(std::string(DEGS_CONFIGS) + "/" + design + ".yaml", {});
+        RuleKeys advised;
+        config.describe(advised);
+        for (const std::string& key : advised.advised) {
+            const auto& list = advice();
+            EXPECT_TRUE(std::any_of(list.begin(), list.end(), [&](const Unbalanced& unbalanced) {
+                return unbalanced.key == key;
+            })) << key;
+        }
+    }
+}
+
+// A key that another one makes idle, in every block that has one.
+TEST(ConfigAdvice, NamesIdleKeys) {
+    const std::pair<const char*, const char*> idle[] = {
+        {"degs-64", "slicing.feedback_cycles=7"},   {"degs-64", "gaussian_buffer.sram_banks=2"},
+        {"degs-64", "feature_buffer.sram_banks=2"}, {"degs-64", "pixel_buffer.sram_banks=2"},
+        {"degs-64-tuned", "pipeline.span_delta=2"},
+    };
+    for (const auto& [design, assignment] : idle) {
+        const auto warnings = warnings_of(design, {assignment});
+        ASSERT_EQ(warnings.size(), 1U) << assignment;
+        EXPECT_NE(warnings.front().find("has no effect, because"), std::string::npos);
+    }
+    EXPECT_EQ(warnings_of("gbu-64", {"monitor.cancel=false", "monitor.latency_cycles=9"}).size(),
+              1U);
+    EXPECT_EQ(warnings_of("gcc-64", {"colour.skip_ended=false", "colour.block=16",
+                                     "colour.feedback_cycles=9"})
+                  .size(),
+              2U);
 }
 
 } // namespace

@@ -22,6 +22,10 @@ void ColourStage::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("block", block, 1, 1024, "px; granularity of the mask [unverified]");
     visitor.integer("feedback_cycles", feedback_cycles, 1, 4096,
                     "cycles from the slot that ends a block to the mask [assumed]");
+    if (!skip_ended) {
+        visitor.unused("block", "skip_ended", "skip_ended is false");
+        visitor.unused("feedback_cycles", "skip_ended", "skip_ended is false");
+    }
     visitor.integer("chunk", chunk, 1, 1024, "splats per hand-over to Stage IV [assumed]");
 }
 

@@ -34,6 +34,7 @@ struct Config : AcceleratorConfig {
         return std::make_unique<Config>(*this);
     }
     void describe(ConfigVisitor& visitor) override;
+    void scale_to(int pes) override;
     int pes() const override { return array.pes(); }
     int tile_size_px() const override { return view_size; }
     TileMode tile_mode() const override { return pipeline.tiles; }

@@ -60,6 +60,12 @@ void PixelBuffer::Config::require_tiles(ConfigVisitor& visitor, const std::strin
     visitor.require(contexts(tile) <= most,
                     {key.c_str(), "must not hold more than " + std::to_string(most) + " tiles" + of,
                      std::to_string(tile_bytes(tile) * most), others});
+    const std::int64_t step = tiles * tile_bytes(tile), rest = bytes % step;
+    visitor.advise_if_set(rest == 0,
+                          {key.c_str(),
+                           "holds " + std::to_string(bytes / step * tiles) + " tiles" + of +
+                               ", so " + std::to_string(rest) + " bytes of it have no effect",
+                           std::to_string(bytes - rest), others});
 }
 
 std::int64_t PixelBuffer::Config::tile_bytes(TilePixels tile) const {

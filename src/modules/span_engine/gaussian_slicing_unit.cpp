@@ -40,6 +40,9 @@ void GaussianSlicingUnit::Config::describe(ConfigVisitor& visitor) {
                     "feedback reaches the Issue Banks only, so false");
     visitor.integer("feedback_cycles", feedback_cycles, 1, 4096,
                     "cycles from the array to the region mask of skip_dead_rows [assumed]");
+    if (!skip_dead_rows) {
+        visitor.unused("feedback_cycles", "skip_dead_rows", "skip_dead_rows is false");
+    }
 }
 
 GaussianSlicingUnit::GaussianSlicingUnit(const sc_core::sc_module_name& name, const Config& config,

@@ -11,6 +11,9 @@ void TileMonitor::Config::describe(ConfigVisitor& visitor) {
         "stop fetching a tile whose pixels have all ended; false parses lists to the end");
     visitor.integer("latency_cycles", latency_cycles, 1, 4096,
                     "cycles from the last slice's report to the fetchers [assumed]");
+    if (!cancel) {
+        visitor.unused("latency_cycles", "cancel", "cancel is false");
+    }
 }
 
 TileMonitor::TileMonitor(const sc_core::sc_module_name& name, const Config& config,
