@@ -23,6 +23,21 @@ void run_kernel(const RenderEngine& engine, const ClockDomain& clock, std::size_
     } while (sc_core::sc_pending_activity());
 }
 
+/// Tiles as they lie in the images, for those who no longer have the job.
+void collect_recording(AcceleratorResult& result, RenderJob& job, Timeline* timeline) {
+    job.recorder->close();
+    const std::vector<TileActivity>& activity = job.recorder->tiles();
+    for (std::size_t t = 0; t < job.tiles.size(); ++t) {
+        const JobTile& tile = job.tiles[t];
+        result.tile_records.push_back({tile.frame, tile.x, tile.y, tile.width, tile.height,
+                                       tile.count,
+                                       t < activity.size() ? activity[t] : TileActivity()});
+    }
+    if (timeline != nullptr) {
+        result.timeline = timeline->record(std::max(result.cycles, result.memory_window));
+    }
+}
+
 void require_equal(const std::string& law, std::uint64_t left, std::uint64_t right) {
     if (left != right) {
         throw std::logic_error("the model is broken, " + law + ": " + std::to_string(left) +
@@ -35,10 +50,17 @@ void require_equal(const std::string& law, std::uint64_t left, std::uint64_t rig
 AcceleratorResult run_accelerator(const AcceleratorConfig& config,
                                   const std::vector<const FrameWorkload*>& frames,
                                   Fidelity fidelity, const BuildOptions& options,
-                                  Progress& progress) {
+                                  const Recording& recording, Progress& progress) {
     const Stopwatch elaborate;
-    const Timebase time{ClockDomain(config.clock_ghz), fidelity};
+    std::optional<Timeline> timeline;
+    if (recording.timeline) {
+        timeline.emplace(*recording.timeline);
+    }
+    const Timebase time{ClockDomain(config.clock_ghz), fidelity, timeline ? &*timeline : nullptr};
     RenderJob job = make_render_job(frames, config);
+    if (timeline || recording.tiles) {
+        job.recorder = std::make_unique<SlotRecorder>(time.timeline);
+    }
     const std::unique_ptr<RenderEngine> engine = config.build("accelerator", time, job, options);
     AcceleratorResult result;
     result.elaborate_s = elaborate.seconds();
@@ -55,6 +77,9 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     result.tiles_listed = job.tiles.size();
     result.stopped = time.clock.ceil(sc_core::sc_time_stamp());
     engine->collect(result);
+    if (job.recorder != nullptr) {
+        collect_recording(result, job, timeline ? &*timeline : nullptr);
+    }
     result.images.assign(std::make_move_iterator(job.images.begin()),
                          std::make_move_iterator(job.images.end()));
     check_result(result);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "modules/render_engine.hpp"
@@ -8,13 +9,19 @@
 
 namespace degs::sim {
 
+/// What a run records besides its sums. Results do not depend on it.
+struct Recording {
+    std::optional<Timeline::Config> timeline;
+    bool tiles = false; ///< what the array did for each tile
+};
+
 /// Builds the accelerator, renders the frames one after the other and checks the invariants. May be
 /// called once per process, because SystemC elaborates once. All workloads must have the tile size
 /// and tile mode that the accelerator asks for. Throws std::logic_error if the model is broken.
 AcceleratorResult run_accelerator(const AcceleratorConfig& config,
                                   const std::vector<const FrameWorkload*>& frames,
                                   Fidelity fidelity, const BuildOptions& options,
-                                  Progress& progress);
+                                  const Recording& recording, Progress& progress);
 
 /// Throws std::logic_error unless all tiles are done (else the model is deadlocked), every
 /// invariant holds and the slots fill PEs x window.

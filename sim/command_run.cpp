@@ -11,6 +11,8 @@
 #include "sim/report.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/text/terminal.hpp"
+#include "sim/trace/trace_file.hpp"
+#include "sim/trace/trace_options.hpp"
 #include "sim/view_options.hpp"
 #include "sim/warnings.hpp"
 
@@ -27,6 +29,7 @@ struct RunOptions {
     bool no_reference = false;
     bool array_only = false;
     bool explain = false;
+    TraceRequest trace;
 };
 
 void run(const RunOptions& options) {
@@ -37,12 +40,21 @@ void run(const RunOptions& options) {
     std::vector<Camera> following =
         camera_path(view.scene.cloud, view.camera, options.path.frames, options.path.step_degrees);
     following.erase(following.begin());
-    const RunResult result = simulate(
-        {config, fidelity, {options.array_only}, !options.no_reference, std::move(following)},
-        std::move(view));
+    RunRequest request;
+    request.config = config;
+    request.fidelity = fidelity;
+    request.build.array_only = options.array_only;
+    request.reference = !options.no_reference;
+    request.following = std::move(following);
+    request.recording.timeline = timeline_of(options.trace);
+    const RunResult result = simulate(request, std::move(view));
     write_exr(result.accelerator.images.front(), out.path("image.exr"));
     write_png(result.accelerator.images.front(), out.path("image.png"));
     out.write_json("report.json", report(result));
+    if (request.recording.timeline) {
+        const AcceleratorResult& run = result.accelerator;
+        write_trace({run.name, run.clock_ghz, run.timeline, spans_of(run)}, options.trace.file);
+    }
     print_warnings(result.warnings);
     print(summary(result, out.path("image.exr")) + (options.explain ? explanation(result) : ""));
 }
@@ -74,6 +86,7 @@ void add_run_command(CLI::App& program) {
         "--array-only", options->array_only,
         "the rasterisation array alone: sorted lists are there at once, and memory is "
         "unlimited");
+    add_trace_options(*command, options->trace);
     command->add_flag("--explain", options->explain, "print what the model left out, and why");
     command->callback([options] { run(*options); });
 }

@@ -89,7 +89,7 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
     }
     Progress progress("simulation");
     result.accelerator = run_accelerator(request.config.accelerator(), frames, request.fidelity,
-                                         request.build, progress);
+                                         request.build, request.recording, progress);
     for (std::string& sentence : hazard_warnings(result.accelerator)) {
         result.warnings.push_back(std::move(sentence));
     }

@@ -21,6 +21,7 @@ struct RunRequest {
     BuildOptions build;
     bool reference = true;         ///< render the double-precision image and compare
     std::vector<Camera> following; ///< frames after the view's own, of the same size
+    Recording recording;
 };
 
 /// The facts of a scene that stay when its Gaussians have become a workload.

@@ -48,6 +48,11 @@ LockstepArray::LockstepArray(const sc_core::sc_module_name& name, const Config& 
       startable_(contexts) {
     SC_HAS_PROCESS(LockstepArray);
     SC_THREAD(run);
+    self_.show(*this, "", config.clusters);
+    busy_ = self_.track() == nullptr ? nullptr : &self_.track()->state("busy");
+    for (Cluster& cluster : clusters_) {
+        cluster.part = job.record_part(config.lanes / config.clusters);
+    }
 }
 
 void LockstepArray::end_of_elaboration() {
@@ -115,6 +120,7 @@ void LockstepArray::render_tile(TileNumber number) {
 }
 
 void LockstepArray::start_tile(TileNumber number) {
+    number_ = number;
     tile_ = &job_.tiles[number];
     context_ = context_in_turn(number, contexts_);
     inside_ = grid_.inside(tile_->width, tile_->height);
@@ -231,7 +237,14 @@ void LockstepArray::pass(int subtile, std::uint32_t splat, Cycle at) {
     stats_.window.include({at, end - 1});
     cluster.first = std::min(cluster.first, at);
     cluster.free = end;
+    const SlotAccount before = stats_.slots;
     const int ended = evaluate(subtile, splat);
+    if (cluster.part != nullptr) {
+        record_pass(cluster, at, before);
+    }
+    if (busy_ != nullptr) {
+        busy_->add(at, end, config_.clusters);
+    }
     if (ended != 0) {
         Subtile& state = subtiles_[subtile];
         state.live -= ended;
@@ -278,8 +291,28 @@ void LockstepArray::account_wait(Cluster& cluster, Cycle at) {
         const std::uint64_t width = config_.lanes / config_.clusters;
         stats_.slots.blocked += blocked * width;
         stats_.slots.starved += (wait - blocked) * width;
+        if (cluster.part != nullptr) {
+            record_wait(cluster, at, blocked);
+        }
     }
     cluster.blocked = blocked_;
+}
+
+void LockstepArray::record_pass(const Cluster& cluster, Cycle at, const SlotAccount& before) {
+    const SlotAccount& now = stats_.slots;
+    SlotPart& part = *cluster.part;
+    part.work(number_, at, cluster.free);
+    part.add(Slot::Useful, number_, at, cluster.free, now.useful - before.useful);
+    part.add(Slot::Boundary, number_, at, cluster.free, now.boundary - before.boundary);
+    part.add(Slot::Terminated, number_, at, cluster.free, now.terminated - before.terminated);
+}
+
+/// The context of a tile is asked for when its first splats are there, so last.
+void LockstepArray::record_wait(const Cluster& cluster, Cycle at, Cycle blocked) {
+    const std::uint64_t width = config_.lanes / config_.clusters;
+    const Cycle starved = at - cluster.free - blocked;
+    cluster.part->add(Slot::Starved, number_, cluster.free, at - blocked, starved * width);
+    cluster.part->add(Slot::Blocked, number_, at - blocked, at, blocked * width);
 }
 
 /// A cluster that joins late or is over early does nothing for the rest of the window.

@@ -73,9 +73,10 @@ public:
 private:
     /// Lanes that share one place in the list. One cluster: the whole array.
     struct Cluster {
-        Cycle first = kNever; ///< its first cycle of work
-        Cycle free = 0;       ///< the cycle after its last one
-        Cycle blocked = 0;    ///< blocked_ when it last worked
+        Cycle first = kNever;     ///< its first cycle of work
+        Cycle free = 0;           ///< the cycle after its last one
+        Cycle blocked = 0;        ///< blocked_ when it last worked
+        SlotPart* part = nullptr; ///< if slots are recorded
     };
     struct Subtile {
         int live = 0;             ///< pixels that take splats
@@ -96,6 +97,8 @@ private:
     void pass(int subtile, std::uint32_t splat, Cycle at);
     int evaluate(int subtile, std::uint32_t splat);
     void account_wait(Cluster& cluster, Cycle at);
+    void record_pass(const Cluster& cluster, Cycle at, const SlotAccount& before);
+    void record_wait(const Cluster& cluster, Cycle at, Cycle blocked);
     void close_window();
 
     /// Pixels of the tile in the image, relative to its corner; may be empty.
@@ -116,9 +119,11 @@ private:
     SubtileMask inside_ = 0;             // sub-tiles with a pixel in the image
     int live_subtiles_ = 0;
     const JobTile* tile_ = nullptr;
+    TileNumber number_ = 0;
     int context_ = 0;
-    TileNumber startable_ = 0; // tiles below this number have a context
-    Cycle blocked_ = 0;        // cycles spent waiting for contexts so far
+    TileNumber startable_ = 0;   // tiles below this number have a context
+    Cycle blocked_ = 0;          // cycles spent waiting for contexts so far
+    TimeSeries* busy_ = nullptr; // cycles of the clusters, in the timeline
     Stats stats_;
 };
 

@@ -43,6 +43,23 @@ TileEngine::TileEngine(const sc_core::sc_module_name& name, const Config& config
     }
     SC_HAS_PROCESS(TileEngine);
     SC_THREAD(run);
+    prepare_record();
+}
+
+void TileEngine::prepare_record() {
+    self_.show(*this, "", config_.row_pes);
+    TimeSeries* const busy = self_.track() == nullptr ? nullptr : &self_.track()->state("busy");
+    SlotPart* const part = job_.record_part(config_.row_pes);
+    if (busy != nullptr || part != nullptr) {
+        record_.emplace(part, busy, pes_.size());
+    }
+    if (part != nullptr) {
+        job_.recorder->at_close([this] {
+            if (!stats_.window.empty()) {
+                record_->close(number_, stats_.window.last + 1);
+            }
+        });
+    }
 }
 
 void TileEngine::end_of_elaboration() {
@@ -95,6 +112,9 @@ void TileEngine::take_context() {
         const Cycle ready = self_.local();
         context_free->get(self_);
         blocked_ += stats_.window.empty() ? 0 : (self_.local() - ready) * pes_.size();
+        if (record_ && !stats_.window.empty()) {
+            record_->block(ready, self_.local());
+        }
     }
 }
 
@@ -176,6 +196,10 @@ Cycle TileEngine::execute(const Entry& entry, Cycle load) {
     test.row = entry.row;
     test.context = context_;
     SlotAccount& slots = stats_.slots;
+    const Cycle taken = entry.length + (config_.end_probe ? 1 : 0);
+    if (record_) {
+        record_->begin_entry(number_, pe_of_row_[entry.row], load, load + taken);
+    }
     for (int done = 0; done < entry.length; done += kLaneBlock) {
         test.column = entry.column + done;
         test.x = tile_->x + test.column;
@@ -184,6 +208,9 @@ Cycle TileEngine::execute(const Entry& entry, Cycle load) {
         slots.useful += __builtin_popcount(outcome.useful);
         slots.boundary += __builtin_popcount(outcome.boundary);
         slots.terminated += __builtin_popcount(outcome.terminated);
+        if (record_) {
+            record_->pixels(number_, load + done, outcome);
+        }
         if (outcome.ended != 0) {
             const int ended = __builtin_popcount(outcome.ended);
             stats_.pixels_ended += ended;
@@ -196,7 +223,9 @@ Cycle TileEngine::execute(const Entry& entry, Cycle load) {
     stats_.entries++;
     stats_.pixels += entry.length;
     slots.boundary += config_.end_probe ? 1 : 0;
-    const Cycle taken = entry.length + (config_.end_probe ? 1 : 0);
+    if (record_ && config_.end_probe) {
+        record_->end_probe(number_, load + entry.length);
+    }
     stats_.window.include({load, load + taken - 1});
     return taken;
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <systemc>
 
+#include "baselines/engine_record.hpp"
 #include "config/config.hpp"
 #include "config/statistics.hpp"
 #include "modules/array/slot_account.hpp"
@@ -110,6 +112,7 @@ private:
     void report_tile(Cycle last_slot);
     void finish_tile();
     void account_idle();
+    void prepare_record();
 
     Config config_;
     RenderJob& job_;
@@ -128,7 +131,8 @@ private:
     Cycle last_end_ = 0;   // latest slot that ended a row
     Cycle ended_ = kNever; // from this date on generation knows that every pixel has ended
     bool reported_ = false;
-    std::uint64_t blocked_ = 0; // slots without a context since the last slot of work
+    std::uint64_t blocked_ = 0;          // slots without a context since the last slot of work
+    std::optional<EngineRecord> record_; // if slots or busy cycles are wanted with their dates
     Stats stats_;
 };
 

@@ -11,7 +11,7 @@
 #include "dram/activity.hpp"
 #include "dram/energy.hpp"
 #include "dram/transfer_account.hpp"
-#include "modules/array/slot_account.hpp"
+#include "modules/array/slot_recorder.hpp"
 #include "splat/images/image.hpp"
 #include "tlm/latency_histogram.hpp"
 
@@ -62,6 +62,14 @@ struct FrameDates {
     Cycle finished = 0;     ///< its last pixel was in memory
 };
 
+/// A tile that lists at least one splat, and what the array did for it.
+struct TileRecord {
+    std::uint32_t frame = 0;
+    int x = 0, y = 0, width = 0, height = 0; ///< px, of the image
+    std::uint64_t splats = 0;                ///< length of its list
+    TileActivity activity;
+};
+
 /// Counters are sums over all frames of the run.
 struct AcceleratorResult {
     std::string name;
@@ -91,9 +99,11 @@ struct AcceleratorResult {
     std::uint64_t background_tiles = 0, tiles_cancelled = 0;
     Cycle stopped = 0; ///< nothing was left to happen at this date
     std::vector<Conservation> conservation;
-    std::vector<std::string> left_out; ///< sentences for --explain
-    std::vector<Image> images;         ///< one per frame
-    double elaborate_s = 0, sim_s = 0; ///< host; sim_s is sc_start() alone
+    std::vector<std::string> left_out;    ///< sentences for --explain
+    std::vector<Image> images;            ///< one per frame
+    TimelineRecord timeline;              ///< if the run was asked for one
+    std::vector<TileRecord> tile_records; ///< likewise, in the order of the job
+    double elaborate_s = 0, sim_s = 0;    ///< host; sim_s is sc_start() alone
 
     /// The sections timing, stages, slots, dram and buffers of a report.
     void describe(StatsVisitor& visitor) const;

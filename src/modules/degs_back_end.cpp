@@ -92,6 +92,9 @@ void Degs::connect_slice(int bank) {
     const int tile_ends = std::max(4, config_.contexts());
     auto& packets = ring(packing_rings_, "packing_buffer",
                          config_.packing_depth() + latency + tile_ends, latency);
+    SlotPart* const part = job_.record_part(config_.array.pes_per_bank);
+    packing_[b]->record(part);
+    slices_[b]->record(part);
     packing_[b]->out.bind(packets);
     slices_[b]->in.bind(packets);
     auto& terminations = wire(termination_rings_, "terminations", writeback);

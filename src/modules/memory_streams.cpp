@@ -2,6 +2,9 @@
 #include "modules/memory_streams.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "config/ratio.hpp"
 
 namespace degs {
 
@@ -12,6 +15,33 @@ void MemoryStreams::build(const char* name, const MainMemoryConfig& config, cons
     }
     memory_ = options.memory == nullptr ? own_.get() : options.memory;
     memory_->connect(streams_);
+    if (time.timeline != nullptr) {
+        watched_.resize(streams_.size());
+        for (std::size_t i = 0; i < streams_.size(); ++i) {
+            watch(i, time);
+        }
+    }
+}
+
+// The bytes of an access are counted in its last cycles, as many as they take at the peak bandwidth.
+void MemoryStreams::watch(std::size_t initiator, const Timebase& time) {
+    const std::string name = streams_[initiator].kind.name;
+    TimeSeries& read = time.timeline->series("memory", name + " read");
+    TimeSeries& written = time.timeline->series("memory", name + " written");
+    const double cycles_per_ns = 1e-9 / time.clock.period().to_seconds();
+    const double peak = memory_->peak_gb_per_s();
+    streams_[initiator].port->watch([=, &read, &written](Cycle asked, Cycle complete) {
+        const MemoryTraffic now = memory_->traffic(initiator);
+        MemoryTraffic& before = watched_[initiator];
+        const std::uint64_t in = now.bytes_read - before.bytes_read;
+        const std::uint64_t out = now.bytes_written - before.bytes_written;
+        before = now;
+        const double ns = peak > 0 ? rate_of(in + out, peak) : 0;
+        const auto cycles = static_cast<Cycle>(std::ceil(ns * cycles_per_ns));
+        const Cycle first = complete - std::min(complete - asked, cycles);
+        read.add(first, complete, in);
+        written.add(first, complete, out);
+    });
 }
 
 MemoryTraffic MemoryStreams::total() const {

@@ -30,10 +30,12 @@ public:
 
 private:
     void collect_streams(AcceleratorResult& result) const;
+    void watch(std::size_t initiator, const Timebase& time);
 
     std::vector<MemoryStream> streams_;
     std::unique_ptr<MainMemory> own_; // if it is not that of a platform
     MainMemory* memory_ = nullptr;
+    std::vector<MemoryTraffic> watched_; // by initiator: what the timeline has so far
 };
 
 } // namespace degs

@@ -7,6 +7,7 @@
 
 #include <systemc>
 
+#include "modules/array/slot_recorder.hpp"
 #include "modules/messages.hpp"
 #include "modules/record_places.hpp"
 #include "modules/traffic.hpp"
@@ -68,11 +69,17 @@ struct RenderJob {
     std::vector<std::vector<std::uint64_t>> pair_prefix;
     /// Per frame: where its streams live, if not where MemoryMap puts them.
     std::vector<MemoryBases> bases;
+    /// Set if slots are recorded with their dates and tiles.
+    std::unique_ptr<SlotRecorder> recorder;
     /// Set while more frames may join; notified when one has.
     std::unique_ptr<sc_core::sc_event> joined;
 
     std::uint64_t pairs_before(std::uint32_t frame, std::uint32_t visible_rank) const {
         return pair_prefix[frame][visible_rank];
+    }
+    /// A part of the array that has `width` PEs; nullptr if slots are not recorded.
+    SlotPart* record_part(int width) const {
+        return recorder == nullptr ? nullptr : &recorder->add_part(width);
     }
     bool has_more_frames_than(int count) const {
         const std::size_t limit = count;

@@ -49,11 +49,29 @@ public:
         depth_ = std::max<std::size_t>(depth, 1);
         head_ = &front_->date;
         free_ = &tail_->date;
+        if (time.timeline != nullptr) {
+            time.timeline->join(*this);
+        }
     }
 
-    std::size_t depth() const { return depth_; }
     const Stats& stats() const { return stats_; }
     const char* fifo_name() const override { return sc_core::sc_object::name(); }
+    Use use() const override {
+        return {stats_.items, stats_.occupied_cycles, &stats_.full_cycles, &stats_.empty_cycles};
+    }
+    Cycle residence(std::uint64_t items, Cycle date) const override {
+        Cycle sum = 0;
+        const Cell* cell = front_; // cells before it keep the dates of what was read last
+        for (std::uint64_t i = items; i < stats_.items; ++i) {
+            cell = (cell == first_ ? end_ : cell) - 1;
+            sum += date - cell->written;
+        }
+        cell = front_;
+        for (std::size_t i = 0; i < filled_; ++i, cell = next(cell)) {
+            sum += date > cell->written ? date - cell->written : 0;
+        }
+        return sum;
+    }
 
     /// Waits for a free cell and moves the writer to the date from which it is free.
     void reserve(Process& writer) {
@@ -90,9 +108,7 @@ public:
     /// follows.
     const T& arrive(Process& reader) {
         wait_for_item(reader);
-        const Cycle ready = reader.local();
-        reader.advance_to(front_->date);
-        stats_.empty_cycles += reader.local() - ready;
+        reader.advance_to(front_->date, stats_.empty_cycles);
         return front_->value;
     }
     /// The oldest item without removing it. Only if not empty().
@@ -222,17 +238,15 @@ private:
             grow();
             return;
         }
-        const Cycle ready = writer.local();
         while (filled_ == depth_) {
             writer.block_on_room(*this);
         }
-        writer.advance_to(tail_->date);
-        stats_.full_cycles += writer.local() - ready;
+        writer.advance_to(tail_->date, stats_.full_cycles);
     }
     /// Twice the cells, or all of them. The new ring starts with the oldest item. Behind the last
     /// one come cells that are free from the start: the reads they would have to wait for all lie
-    /// before the latest write, else the ring would have grown then. Cells keep the date of their
-    /// last read, which count_fill() asks for. A reader may hold on to an item in the old cells.
+    /// before the latest write, else the ring would have grown then. Cells keep the dates of their
+    /// last item, which count_fill() and residence() ask for. A reader may hold on to an item in the old cells.
     __attribute__((noinline)) void grow() {
         std::vector<Cell> cells(capacity_ <= depth_ / 2 ? 2 * capacity_ : depth_);
         const std::size_t added = cells.size() - capacity_;
@@ -240,6 +254,7 @@ private:
         for (std::size_t i = 0; i < capacity_; ++i, from = next(from)) {
             Cell& behind = cells[added + i];
             behind.read = from->read;
+            behind.written = from->written;
             if (added + i >= filled_ && from->read != kNever) {
                 behind.date = from->read + release_latency_;
             }

@@ -40,6 +40,7 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
         scattered_.records = records;
         payload.set_extension(&scattered_);
     }
+    const Cycle asked = process.local();
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     const sc_core::sc_time date = clock_->at(process.local());
     sc_core::sc_time delay = date > now ? date - now : sc_core::SC_ZERO_TIME;
@@ -59,7 +60,11 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
     // A memory that waits for its answer has moved the kernel on; a process must not stay more than
     // a cycle behind.
     process.advance_to(std::max<Cycle>(clock_->floor(sc_core::sc_time_stamp()), 1) - 1);
-    return clock_->ceil(sc_core::sc_time_stamp() + delay);
+    const Cycle complete = clock_->ceil(sc_core::sc_time_stamp() + delay);
+    if (watcher_) {
+        watcher_(asked, complete);
+    }
+    return complete;
 }
 
 void MemoryPort::poke(std::uint64_t address, const std::vector<unsigned char>& data) {

@@ -55,6 +55,10 @@ public:
         std::function<void(std::uint64_t address, const unsigned char* data, std::uint64_t bytes)>;
     void observe_reads(Observer observer) { observer_ = std::move(observer); }
 
+    /// Is called after every access with the dates of its request and of its completion.
+    using Watcher = std::function<void(Cycle asked, Cycle complete)>;
+    void watch(Watcher watcher) { watcher_ = std::move(watcher); }
+
     /// Writes real bytes without taking time (debug transport). Throws std::runtime_error
     /// if the memory takes fewer.
     void poke(std::uint64_t address, const std::vector<unsigned char>& data);
@@ -69,6 +73,7 @@ private:
     TimingOnly timing_only_;
     Scattered scattered_;
     Observer observer_;
+    Watcher watcher_;
 };
 
 } // namespace degs

@@ -23,6 +23,21 @@ void Process::sync() {
     }
 }
 
+void Process::show(const sc_core::sc_object& block, const char* part, int units) {
+    if (track_ != nullptr) {
+        track_->name(block.name(), part, units);
+        track_->follow(TimelineState::Kind::Memory, memory_cycles_);
+    }
+}
+
+void Process::show(const sc_core::sc_object& block, const Cycle& busy, int units,
+                   const char* part) {
+    show(block, part, units);
+    if (track_ != nullptr) {
+        track_->follow(TimelineState::Kind::Busy, busy);
+    }
+}
+
 void Process::finish() {
     local_ = kNever;
     ring_alarms();
@@ -75,7 +90,11 @@ void Process::set_alarm(const Alarm& alarm) {
     alarms_.push_back(alarm);
 }
 
-void Process::pass_alarm() {
+void Process::pass_alarm(Cycle before, const Cycle* counter) {
+    if (local_ > step_end_) {
+        step_end_ = track_->pass(before, local_, counter);
+        alarm_ = no_alarm();
+    }
     if (!alarms_.empty()) {
         ring_alarms();
     }

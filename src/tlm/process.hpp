@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tlm/clock_domain.hpp"
+#include "tlm/timeline.hpp"
 
 namespace degs {
 
@@ -32,6 +33,7 @@ public:
 struct Timebase {
     ClockDomain clock{1.0};
     Fidelity fidelity = Fidelity::Exact;
+    Timeline* timeline = nullptr; ///< which processes and rings join; null: there is none
 };
 
 /// The local clock of one SC_THREAD, and how it sleeps and is woken.
@@ -41,7 +43,9 @@ struct Timebase {
 class Process {
 public:
     explicit Process(const Timebase& time)
-        : clock_(&time.clock), strict_(time.fidelity == Fidelity::Strict), alarm_(no_alarm()) {
+        : clock_(&time.clock), strict_(time.fidelity == Fidelity::Strict),
+          track_(time.timeline == nullptr ? nullptr : &time.timeline->join(*this)),
+          step_end_(track_ == nullptr ? kNever : 0), alarm_(no_alarm()) {
         wake_or_timeout_ |= wake_;
         wake_or_timeout_ |= timeout_;
     }
@@ -56,11 +60,32 @@ public:
     void advance(Cycle cycles = 1) { advance_to(local_ + cycles); }
     /// Moves the local date forward; earlier dates are ignored.
     void advance_to(Cycle date) {
+        const Cycle before = local_;
         local_ = std::max(local_, date);
         if (local_ > alarm_) {
-            pass_alarm();
+            pass_alarm(before, nullptr);
         }
     }
+    /// The same, and `counter` counts the cycles, for the timeline with their dates.
+    void advance_to(Cycle date, Cycle& counter) {
+        const Cycle before = local_;
+        local_ = std::max(local_, date);
+        if (local_ > alarm_) {
+            pass_alarm(before, &counter);
+        }
+        counter += local_ - before;
+    }
+    void work(Cycle cycles, Cycle& busy) { advance_to(local_ + cycles, busy); }
+    /// Waits for an answer of the memory.
+    void wait_for_memory(Cycle date) { advance_to(date, memory_cycles_); }
+    /// Shows this process in the timeline, if there is one, as `part` of `block` or as the whole
+    /// block; `busy` counts the cycles in which its `units` units worked.
+    void show(const sc_core::sc_object& block, const Cycle& busy, int units = 1,
+              const char* part = "");
+    /// The same for a process that does not work, but forwards, or has no count of it.
+    void show(const sc_core::sc_object& block, const char* part = "", int units = 1);
+    /// Its track; nullptr without a timeline.
+    ProcessTrack* track() const { return track_; }
     /// Sleeps until kernel time has reached the local date.
     void sync();
     /// No more items will ever come from this process.
@@ -115,17 +140,20 @@ private:
     Cycle quiet_until(FifoBase& input, Cycle date) const;
     /// Date beyond which advance_to() has more to do, without alarms: strict processes sleep to
     /// each date.
-    Cycle no_alarm() const { return strict_ ? 0 : kNever; }
+    Cycle no_alarm() const { return strict_ ? 0 : step_end_; }
     void sleep();
     /// Sleeps until woken, at the longest until kernel time `date`. May return without either.
     void doze_until(const sc_core::sc_time& date);
-    /// The work of advance_to() beyond alarm_.
-    void pass_alarm();
+    /// The work of advance_to() beyond alarm_; `counter` will count the time since `before`.
+    void pass_alarm(Cycle before, const Cycle* counter);
     void ring_alarms();
 
     const ClockDomain* clock_;
     bool strict_;
     Cycle local_ = 0;
+    ProcessTrack* track_;
+    Cycle step_end_;          // last date of the timeline's present step; kNever without one
+    Cycle memory_cycles_ = 0; // waited for the memory
     Pumped* body_ = nullptr;
     sc_core::sc_event wake_;
     sc_core::sc_event timeout_; // stays announced when the process is woken, see doze_until()
@@ -181,7 +209,22 @@ public:
     Cycle room_horizon(int depth) const {
         return reader_ == nullptr ? 0 : reader_->bound(depth) + release_latency_;
     }
+    std::size_t depth() const { return depth_; }
     virtual const char* fifo_name() const = 0;
+
+    // For a timeline.
+    /// Items read so far, the cycles that they were inside, and the cycles that the sides waited.
+    struct Use {
+        std::uint64_t items;
+        Cycle occupied_cycles;
+        const Cycle* full_cycles;
+        const Cycle* empty_cycles;
+    };
+    virtual Use use() const = 0;
+    /// Cycles up to `date` for which items were inside that were written before and are not among
+    /// the first `items`. Writer and reader must have passed the date, and none of these items may
+    /// have been read before it.
+    virtual Cycle residence(std::uint64_t items, Cycle date) const = 0;
 
 protected:
     friend class Process;

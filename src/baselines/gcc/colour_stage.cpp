@@ -39,6 +39,8 @@ ColourStage::ColourStage(const sc_core::sc_module_name& name, const Config& conf
     SC_HAS_PROCESS(ColourStage);
     SC_THREAD(fetch);
     SC_THREAD(shade);
+    fetcher_.show(*this, "SH");
+    shader_.show(*this, shade_cycles_);
 }
 
 void ColourStage::end_of_elaboration() {
@@ -131,7 +133,7 @@ void ColourStage::shade() {
         const Cycle sort = sort_cycles(survivors.count);
         stats_.colour_busy += colour;
         stats_.sort_busy += sort;
-        shader_.advance(std::max(colour, sort));
+        shader_.work(std::max(colour, sort), shade_cycles_);
         hand_over(survivors);
     }
     shader_.finish();

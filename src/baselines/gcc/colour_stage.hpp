@@ -81,6 +81,7 @@ private:
     BlockMask mask_;
     TileNumber masked_view_ = kNoTile; // whose blocks the mask shows
     TileNumber from_ = 0;              // earlier views are cancelled or over
+    Cycle shade_cycles_ = 0;           // in which colours or keys were worked on
     Stats stats_;
 };
 

@@ -37,6 +37,8 @@ Grouping::Grouping(const sc_core::sc_module_name& name, const Config& config,
     SC_HAS_PROCESS(Grouping);
     SC_THREAD(fetch);
     SC_THREAD(group);
+    fetcher_.show(*this, "means");
+    grouper_.show(*this, stats_.busy);
 }
 
 void Grouping::end_of_elaboration() {
@@ -79,7 +81,8 @@ void Grouping::group() {
         for (std::uint64_t c = 0; c < chunks; ++c) {
             group_chunk(f, fetched_.get(grouper_));
         }
-        grouper_.advance_to(last_write_); // lists are read back from memory: they must be there
+        grouper_.wait_for_memory(
+            last_write_); // lists are read back from memory: they must be there
         if (config_.lists == Lists::Regrouped && frame.tiles() > 1) {
             regroup(f);
         }
@@ -124,23 +127,22 @@ void Grouping::regroup(std::uint32_t f) {
                            count * traffic_.entry_bytes());
             grouper_.advance();
         }
-        grouper_.advance_to(ready[piece % ready.size()]);
+        grouper_.wait_for_memory(ready[piece % ready.size()]);
         std::uint64_t entries = 0;
         for (std::size_t s = piece * chunk; s < std::min(visible, (piece + 1) * chunk); ++s) {
             entries += frame.tiles_touched[s];
         }
         write(map.views, entries, 1);
     }
-    grouper_.advance_to(last_write_);
+    grouper_.wait_for_memory(last_write_);
 }
 
 void Grouping::write(std::uint64_t region, std::uint64_t entries, Cycle least_cycles) {
     const Cycle busy = std::max(least_cycles, ceil_div(entries, config_.entries_per_cycle));
-    grouper_.advance(busy);
-    stats_.busy += busy;
+    grouper_.work(busy, stats_.busy);
     stats_.entries_written += entries;
     Cycle& oldest = acknowledged_[writes_++ % acknowledged_.size()];
-    grouper_.advance_to(oldest);
+    grouper_.wait_for_memory(oldest);
     oldest = lists.write(grouper_, region + region_written_ * traffic_.entry_bytes(),
                          entries * traffic_.entry_bytes());
     region_written_ += entries;

@@ -45,6 +45,9 @@ ProjectionStage::ProjectionStage(const sc_core::sc_module_name& name, const Conf
     SC_THREAD(load);
     SC_THREAD(fetch);
     SC_THREAD(project);
+    loader_.show(*this, "lists");
+    fetcher_.show(*this, "shapes");
+    projector_.show(*this, stats_.busy);
 }
 
 void ProjectionStage::end_of_elaboration() {
@@ -129,8 +132,7 @@ void ProjectionStage::project() {
         const SplatChunk group = fetched_.get(projector_);
         views += group.last ? 1 : 0;
         const Cycle busy = ceil_div(group.count, units) * config_.cycles_per_gaussian;
-        projector_.advance(busy);
-        stats_.busy += busy;
+        projector_.work(busy, stats_.busy);
         stats_.shapes += group.count;
         out->put(projector_, group);
     }

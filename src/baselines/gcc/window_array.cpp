@@ -41,6 +41,8 @@ WindowArray::WindowArray(const sc_core::sc_module_name& name, const Config& conf
       live_windows_(grid_, 0), ended_head_(live_in_window_.size(), -1) {
     SC_HAS_PROCESS(WindowArray);
     SC_THREAD(run);
+    self_.show(*this, stats_.windows);
+    part_ = job.record_part(config.pes());
 }
 
 void WindowArray::end_of_elaboration() {
@@ -78,7 +80,7 @@ void WindowArray::run() {
 SplatChunk WindowArray::next_chunk(TileNumber number) {
     const Cycle asked = self_.local();
     const SplatChunk chunk = in[number % in.size()]->get(self_);
-    idle(Idle::Starved, self_.local() - asked);
+    idle(Idle::Starved, asked, self_.local());
     return chunk;
 }
 
@@ -87,7 +89,7 @@ void WindowArray::await_context(TileNumber number) {
     while (startable_ <= number) {
         startable_ = std::max(startable_, context_free->get(self_) + 1);
     }
-    idle(Idle::Blocked, self_.local() - asked);
+    idle(Idle::Blocked, asked, self_.local());
 }
 
 void WindowArray::start_view(TileNumber number) {
@@ -130,8 +132,14 @@ void WindowArray::render(std::uint32_t splat, const ProjectedSplat& projected) {
     const std::uint64_t windows = stats_.windows;
     const std::uint64_t valid = stats_.valid_pixels;
     footprint_.solve(*job_.path, splat, *view_);
+    const SlotAccount before = stats_.slots;
     evaluate(splat);
+    const std::uint64_t useful = stats_.slots.useful - before.useful;
+    const std::uint64_t terminated = stats_.slots.terminated - before.terminated;
     traverse(projected);
+    if (part_ != nullptr) {
+        record_splat(useful, terminated);
+    }
     stats_.slots.boundary +=
         (stats_.windows - windows) * config_.pes() - (stats_.valid_pixels - valid);
 }
@@ -222,6 +230,10 @@ void WindowArray::visit(const Traversal::Window& window) {
         const Cycle cycles = config_.skip_cycles;
         stats_.windows_ended++;
         pending_skips_ += cycles;
+        if (part_ != nullptr) {
+            part_->idle(Slot::Terminated, self_.local(), self_.local() + cycles,
+                        cycles * config_.pes());
+        }
         idle_pending_ = idle_pending_ || cycles != 0;
         self_.advance(cycles);
         return;
@@ -230,6 +242,10 @@ void WindowArray::visit(const Traversal::Window& window) {
         settle_idle();
     }
     stats_.window.include(self_.local());
+    if (part_ != nullptr) {
+        part_->work(number_, self_.local(), self_.local() + 1);
+        visits_.push_back(self_.local());
+    }
     stats_.windows++;
     stats_.windows_empty += ~footprint_.valid(window.row) >> window.column & 1U;
     if (ended_head_[index] >= 0) {
@@ -267,14 +283,33 @@ void WindowArray::report_block(int block) {
 
 void WindowArray::wait_until(Cycle date) {
     if (date > self_.local()) {
-        idle(Idle::Conflict, date - self_.local());
+        idle(Idle::Conflict, self_.local(), date);
         self_.advance_to(date);
     }
 }
 
-void WindowArray::idle(Idle cause, Cycle cycles) {
-    pending_idle_.idle(cause, cycles * config_.pes());
+void WindowArray::idle(Idle cause, Cycle from, Cycle to) {
+    const std::uint64_t slots = (to - from) * config_.pes();
+    pending_idle_.idle(cause, slots);
+    if (part_ != nullptr) {
+        part_->idle(slot_of(cause), from, to, slots);
+    }
     idle_pending_ = true;
+}
+
+// The pixels of a splat are known for all of its windows together, and are dealt out evenly.
+void WindowArray::record_splat(std::uint64_t useful, std::uint64_t terminated) {
+    for (std::size_t left = visits_.size(); left != 0; --left) {
+        const Cycle date = visits_[visits_.size() - left];
+        const std::uint64_t here = (useful + terminated) / left;
+        const std::uint64_t useful_here = useful / left;
+        part_->add(Slot::Useful, number_, date, useful_here);
+        part_->add(Slot::Terminated, number_, date, here - useful_here);
+        part_->add(Slot::Boundary, number_, date, config_.pes() - here);
+        useful -= useful_here;
+        terminated -= here - useful_here;
+    }
+    visits_.clear();
 }
 
 // Idle time lies inside the window of activity only if a slot follows it, and one has gone before.
@@ -283,6 +318,12 @@ void WindowArray::settle_idle() {
     if (!stats_.window.empty()) {
         stats_.slots += pending_idle_;
         stats_.skip_cycles += pending_skips_;
+        if (part_ != nullptr) {
+            part_->settle(number_);
+        }
+    }
+    if (part_ != nullptr) {
+        part_->drop_pending();
     }
     pending_idle_ = {};
     pending_skips_ = 0;

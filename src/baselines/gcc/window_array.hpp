@@ -103,8 +103,9 @@ private:
     void end_pixels(std::size_t window);
     void report_block(int block);
     void wait_until(Cycle date);
-    void idle(Idle cause, Cycle cycles);
+    void idle(Idle cause, Cycle from, Cycle to);
     void settle_idle();
+    void record_splat(std::uint64_t useful, std::uint64_t terminated);
     std::size_t window_at(int row, int column) const { return row * grid_ + column; }
 
     Config config_;
@@ -129,6 +130,8 @@ private:
     SlotAccount pending_idle_; // counts once another slot follows
     Cycle pending_skips_ = 0;
     bool idle_pending_ = false;
+    SlotPart* part_ = nullptr;  // if slots are recorded
+    std::vector<Cycle> visits_; // of the splat, likewise
     Stats stats_;
 };
 

@@ -31,6 +31,7 @@ ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config
     if (self_.strict()) {
         SC_THREAD(run);
     }
+    self_.show(*this, stats_.packets);
 }
 
 void ArraySlice::end_of_elaboration() {
@@ -52,6 +53,7 @@ void ArraySlice::end_of_elaboration() {
 }
 
 // Inlined: a call more per packet is 1 % of a run.
+template <bool Recorded>
 inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket& packet) {
     const Cycle now = self_.local();
     if (now != packet.slot) {
@@ -74,6 +76,9 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
             stats_.slots.useful += count(outcome_.useful);
             stats_.slots.boundary += count(outcome_.boundary);
             stats_.slots.terminated += count(outcome_.terminated);
+        }
+        if (Recorded) {
+            record(run, now);
         }
         if ((outcome_.ended & run.part) != 0) {
             pixels_ended(context, run, outcome_.ended & run.part);
@@ -107,12 +112,25 @@ void ArraySlice::run() {
     }
 }
 
-void ArraySlice::pump() {
+void ArraySlice::record(const TaskRun& run, Cycle date) {
+    part_->work(run.tile, date, date + 1);
+    const auto add = [&](Slot slot, std::uint32_t mask) {
+        if ((mask & run.part) != 0) {
+            part_->add(slot, run.tile, date, __builtin_popcount(mask & run.part));
+        }
+    };
+    add(Slot::Useful, outcome_.useful);
+    add(Slot::Boundary, outcome_.boundary);
+    add(Slot::Terminated, outcome_.terminated);
+}
+
+template <bool Recorded>
+void ArraySlice::pump_packets() {
     while (!packets_->empty()) {
         const TaskPacket& packet = packets_->arrive(self_);
         const bool executed = packet.tasks != 0;
         if (executed) {
-            execute(packet);
+            execute<Recorded>(packet);
         }
         const bool ends = packet.ends_tile;
         const TileNumber tile = packet.ended_tile;
@@ -128,6 +146,14 @@ void ArraySlice::pump() {
             end_reports();
             self_.finish();
         }
+    }
+}
+
+void ArraySlice::pump() {
+    if (part_ == nullptr) {
+        pump_packets<false>();
+    } else {
+        pump_packets<true>();
     }
 }
 

@@ -7,7 +7,7 @@
 
 #include "config/statistics.hpp"
 #include "modules/array/early_blender.hpp"
-#include "modules/array/slot_account.hpp"
+#include "modules/array/slot_recorder.hpp"
 #include "modules/array/task_blender.hpp"
 #include "modules/render_job.hpp"
 #include "modules/scheduler/issue_bank.hpp"
@@ -59,6 +59,8 @@ public:
                RenderJob& job, int index, int slices, int segment_length);
 
     const Stats& stats() const { return stats_; }
+    /// Records executed tasks in `part`, which may be null; before the simulation starts.
+    void record(SlotPart* part) { part_ = part; }
 
 private:
     struct Recent {
@@ -88,7 +90,12 @@ private:
         return *current_;
     }
     [[gnu::noinline]] void start_tile(Context& context, TileNumber number);
+    template <bool Recorded>
     void execute(const TaskPacket& packet);
+    template <bool Recorded>
+    void pump_packets();
+    /// The tasks of `run` that are in this packet, from the outcome of its segment.
+    void record(const TaskRun& run, Cycle date);
     // What is rare stays out of the loop over packets, which then keeps more in registers.
     [[noreturn, gnu::noinline]] void refuse(const TaskPacket& packet) const;
     [[gnu::noinline]] BlendOutcome blend_otherwise(const Context& context, const TaskRun& run,
@@ -115,6 +122,7 @@ private:
     TaskBlender blender_;
     std::optional<EarlyBlender> early_; // without scoreboard
     std::size_t tiles_done_ = 0;
+    SlotPart* part_ = nullptr;
     Stats stats_;
 };
 

@@ -83,6 +83,10 @@ PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& conf
       self_(time), in_flight_(config.writes_in_flight, 0) {
     SC_HAS_PROCESS(PixelBuffer);
     SC_THREAD(run);
+    self_.show(*this, stats_.readout_busy);
+    if (self_.track() != nullptr) {
+        self_.track()->follow(TimelineState::Kind::Memory, stats_.write_wait);
+    }
 }
 
 void PixelBuffer::clear(int context) {
@@ -131,15 +135,16 @@ int PixelBuffer::context_of(TileNumber number) const {
 }
 
 void PixelBuffer::finish_tile(TileNumber number) {
-    const Cycle ready = self_.local();
     Cycle& oldest = in_flight_[stats_.tiles % in_flight_.size()];
-    self_.advance_to(oldest);
-    stats_.write_wait += self_.local() - ready;
+    self_.advance_to(oldest, stats_.write_wait);
     const Cycle start = self_.local();
     oldest = write_rows(number);
     written_ = std::max(written_, oldest);
     read_out_ = self_.local();
     stats_.readout_busy += read_out_ - start;
+    if (job_.recorder != nullptr) {
+        job_.recorder->read_out(number, read_out_);
+    }
     clear(context_of(number));
     const std::uint32_t frame = job_.tiles[number].frame;
     if (frame >= frames_written_.size()) {

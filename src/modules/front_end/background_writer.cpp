@@ -15,6 +15,7 @@ BackgroundWriter::BackgroundWriter(const sc_core::sc_module_name& name,
       self_(time) {
     SC_HAS_PROCESS(BackgroundWriter);
     SC_THREAD(run);
+    self_.show(*this);
 }
 
 void BackgroundWriter::end_of_elaboration() {

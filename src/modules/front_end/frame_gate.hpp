@@ -26,6 +26,7 @@ public:
           reports_(reports) {
         SC_HAS_PROCESS(FrameGate);
         SC_THREAD(run);
+        self_.show(*this);
     }
 
 private:

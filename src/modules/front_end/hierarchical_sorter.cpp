@@ -44,6 +44,8 @@ HierarchicalSorter::HierarchicalSorter(const sc_core::sc_module_name& name, cons
     SC_HAS_PROCESS(HierarchicalSorter);
     SC_THREAD(coarse);
     SC_THREAD(fine);
+    partitioner_.show(*this, stats_.coarse_busy, 1, "coarse");
+    sorter_.show(*this, stats_.fine_busy, 1, "fine");
 }
 
 void HierarchicalSorter::end_of_elaboration() {
@@ -67,14 +69,13 @@ void HierarchicalSorter::coarse() {
         // The loader has read the list for the first level.
         for (std::uint64_t i = 0; i < outside; ++i) {
             if (i != 0) {
-                partitioner_.advance_to(lists.read(partitioner_, address, tile.count * entry));
+                partitioner_.wait_for_memory(lists.read(partitioner_, address, tile.count * entry));
             }
-            partitioner_.advance(level);
-            partitioner_.advance_to(lists.write(partitioner_, address, tile.count * entry));
+            partitioner_.work(level, stats_.coarse_busy);
+            partitioner_.wait_for_memory(lists.write(partitioner_, address, tile.count * entry));
         }
         const std::uint64_t all = levels(tile.count, config_.chunk);
-        partitioner_.advance((all - std::min(all, outside)) * level);
-        stats_.coarse_busy += std::max(all, outside) * level;
+        partitioner_.work((all - std::min(all, outside)) * level, stats_.coarse_busy);
         stats_.memory_levels += outside;
         stats_.keys += tile.count;
         partitioned_.put(partitioner_, number);
@@ -101,12 +102,11 @@ void HierarchicalSorter::sort_chunks(TileNumber number) {
         } else {
             if (through_memory(tile)) {
                 const MemoryMap map = job_.map(tile.frame, traffic_);
-                sorter_.advance_to(
+                sorter_.wait_for_memory(
                     chunks.read(sorter_, map.lists + (tile.first + done) * entry, count * entry));
             }
             const Cycle busy = count * config_.fine_cycles_per_key;
-            sorter_.advance(busy);
-            stats_.fine_busy += busy;
+            sorter_.work(busy, stats_.fine_busy);
             stats_.keys_sorted += count;
             done += count;
         }

@@ -19,6 +19,7 @@ public:
         : sc_core::sc_module(name), in("in"), out("out"), job_(job), self_(time) {
         SC_HAS_PROCESS(ListCollector);
         SC_THREAD(run);
+        self_.show(*this);
     }
 
 private:

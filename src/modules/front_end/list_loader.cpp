@@ -10,6 +10,7 @@ ListLoader::ListLoader(const sc_core::sc_module_name& name, const TrafficConfig&
       job_(job), first_(first), stride_(stride), self_(time) {
     SC_HAS_PROCESS(ListLoader);
     SC_THREAD(run);
+    self_.show(*this);
 }
 
 void ListLoader::end_of_elaboration() {

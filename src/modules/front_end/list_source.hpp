@@ -20,6 +20,7 @@ public:
           self_(time) {
         SC_HAS_PROCESS(ListSource);
         SC_THREAD(run);
+        self_.show(*this);
     }
 
 private:

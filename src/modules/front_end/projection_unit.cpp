@@ -31,6 +31,9 @@ ProjectionUnit::ProjectionUnit(const sc_core::sc_module_name& name, const Config
     SC_THREAD(fetch);
     SC_THREAD(project);
     SC_THREAD(shade);
+    fetcher_.show(*this, "geometry");
+    projector_.show(*this, stats_.project_busy);
+    shader_.show(*this, stats_.shade_busy, 1, "colour");
 }
 
 void ProjectionUnit::end_of_elaboration() {
@@ -80,8 +83,7 @@ void ProjectionUnit::project() {
             result.tile_pairs = job_.pairs_before(f, result.first_visible + result.visible) -
                                 job_.pairs_before(f, result.first_visible);
             const Cycle busy = in.count * config_.cycles_per_gaussian;
-            projector_.advance(busy);
-            stats_.project_busy += busy;
+            projector_.work(busy, stats_.project_busy);
             stats_.gaussians += in.count;
             projected_.reserve(projector_);
             projected_.put_at(projector_, result, read_sh(f, in, result));
@@ -111,8 +113,7 @@ void ProjectionUnit::shade() {
              first += chunk * config_.count) {
             const ProjectedChunk in = projected_.get(shader_);
             const Cycle busy = in.visible * cycles;
-            shader_.advance(busy);
-            stats_.shade_busy += busy;
+            shader_.work(busy, stats_.shade_busy);
             stats_.visible += in.visible;
             out->put(shader_, in);
         }

@@ -25,6 +25,7 @@ SortingUnit::SortingUnit(const sc_core::sc_module_name& name, const Config& conf
     loader.out.bind(loaded_);
     SC_HAS_PROCESS(SortingUnit);
     SC_THREAD(sort);
+    sorter_.show(*this, stats_.sort_busy);
 }
 
 void SortingUnit::end_of_elaboration() {
@@ -50,16 +51,14 @@ void SortingUnit::sort() {
         const std::uint64_t runs = (tile.count + sort_capacity_ - 1) / sort_capacity_;
         const Cycle busy =
             (tile.count * passes(std::min(tile.count, sort_capacity_)) + rate - 1) / rate;
-        sorter_.advance(busy);
-        stats_.sort_busy += busy;
+        sorter_.work(busy, stats_.sort_busy);
         // Runs that do not fit the buffer together go out and come back once per extra merge pass.
         for (std::uint64_t pass = 0; runs > 1 && pass < passes(runs); ++pass) {
             const std::uint64_t bytes = tile.count * entry;
-            sorter_.advance_to(lists.write(sorter_, map.lists + tile.first * entry, bytes));
-            sorter_.advance_to(lists.read(sorter_, map.lists + tile.first * entry, bytes));
+            sorter_.wait_for_memory(lists.write(sorter_, map.lists + tile.first * entry, bytes));
+            sorter_.wait_for_memory(lists.read(sorter_, map.lists + tile.first * entry, bytes));
             const Cycle merge = (tile.count + rate - 1) / rate;
-            sorter_.advance(merge);
-            stats_.sort_busy += merge;
+            sorter_.work(merge, stats_.sort_busy);
             stats_.memory_passes++;
         }
         stats_.keys += tile.count;

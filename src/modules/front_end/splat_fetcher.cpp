@@ -22,6 +22,7 @@ SplatFetcher::SplatFetcher(const sc_core::sc_module_name& name, const Config& co
       granted_(granted), cache_(cache), self_(time), answered_(config.chunks_in_flight, 0) {
     SC_HAS_PROCESS(SplatFetcher);
     SC_THREAD(run);
+    self_.show(*this, stats_.busy);
 }
 
 void SplatFetcher::end_of_elaboration() {
@@ -64,8 +65,7 @@ bool SplatFetcher::cancelled(TileNumber number) {
         cancelled_before_ = std::max(cancelled_before_, cancel->take(self_) + 1);
     }
     if (!instant_) {
-        self_.advance();
-        stats_.busy++;
+        self_.work(1, stats_.busy);
     }
     return number < cancelled_before_;
 }
@@ -86,7 +86,7 @@ Cycle SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
         return self_.local();
     }
     Cycle& oldest = answered_[requests_++ % answered_.size()];
-    self_.advance_to(oldest);
+    self_.wait_for_memory(oldest);
     oldest = records.read(self_, job_.splat_records(tile.frame, traffic_, splats, count));
     return oldest;
 }
@@ -110,8 +110,11 @@ void SplatFetcher::emit(const SplatChunk& chunk, Cycle ready) {
         port->put_at(self_, chunk, ready);
     }
     const Cycle written = write_cycles(chunk);
-    self_.advance(written);
-    stats_.busy += instant_ ? 0 : written;
+    if (instant_) {
+        self_.advance(written);
+    } else {
+        self_.work(written, stats_.busy);
+    }
 }
 
 // Writing a chunk takes a cycle, or nothing where records are there at once, or what ports need.

@@ -21,6 +21,7 @@ TileBinner::TileBinner(const sc_core::sc_module_name& name, const Config& config
       self_(time), acknowledged_(config.writes_in_flight, 0) {
     SC_HAS_PROCESS(TileBinner);
     SC_THREAD(run);
+    self_.show(*this, stats_.busy);
 }
 
 void TileBinner::end_of_elaboration() {
@@ -39,7 +40,7 @@ void TileBinner::run() {
         for (std::uint64_t c = 0; c < chunks; ++c) {
             bin(in[c % in.size()]->get(self_), map);
         }
-        self_.advance_to(last_write_); // lists are read back from memory: they must be there
+        self_.wait_for_memory(last_write_); // lists are read back from memory: they must be there
         stats_.frame_binned = self_.local();
         frames_binned_.push_back(self_.local());
         for (auto& port : out) {
@@ -52,10 +53,9 @@ void TileBinner::run() {
 void TileBinner::bin(const ProjectedChunk& chunk, const MemoryMap& map) {
     const Cycle rate = config_.pairs_per_cycle;
     const Cycle busy = std::max<Cycle>(1, (chunk.tile_pairs + rate - 1) / rate);
-    self_.advance(busy);
-    stats_.busy += busy;
+    self_.work(busy, stats_.busy);
     Cycle& oldest = acknowledged_[writes_++ % acknowledged_.size()];
-    self_.advance_to(oldest);
+    self_.wait_for_memory(oldest);
     const std::uint64_t record = traffic_.splat_bytes;
     const std::uint64_t entry = traffic_.list_entry_bytes;
     const std::uint64_t run = map.splats + chunk.first_visible * record;

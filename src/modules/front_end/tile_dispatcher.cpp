@@ -9,6 +9,7 @@ TileDispatcher::TileDispatcher(const sc_core::sc_module_name& name, const Timeba
       job_(job), self_(time) {
     SC_HAS_PROCESS(TileDispatcher);
     SC_THREAD(run);
+    self_.show(*this, stats_.tiles);
 }
 
 void TileDispatcher::end_of_elaboration() {
@@ -32,8 +33,7 @@ void TileDispatcher::run() {
         const std::size_t engine = next_engine();
         request[engine]->take(self_);
         out[engine]->put(self_, list);
-        self_.advance();
-        stats_.tiles++;
+        self_.work(1, stats_.tiles);
     }
     for (auto& port : out) {
         port->put(self_, {kNoTile, 0});

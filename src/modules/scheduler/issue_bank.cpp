@@ -50,6 +50,7 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
     }
     SC_HAS_PROCESS(IssueBank);
     SC_THREAD(run);
+    self_.show(*this, stats_.busy);
 }
 
 void IssueBank::end_of_elaboration() {

@@ -100,8 +100,33 @@ void PackingUnit::send_due(Process& bank, Idle cause) {
 void PackingUnit::close_cycles(Process& bank, Cycle until, Idle cause) {
     if (leaves_slots(until)) {
         const Cycle first_idle = next_execution(bank.local());
+        if (part_ != nullptr) {
+            record_cycles(bank, first_idle, until + latency_, cause);
+        }
         since_last_.idle(cause, (until + latency_ - first_idle) * width_);
     }
+}
+
+void PackingUnit::record_packet(const TaskPacket& packet, Idle cause) {
+    part_->settle(packet.runs.front().tile);
+    if (packet.tasks != config_.width) {
+        part_->add(slot_of(cause), packet.runs[packet.run_count - 1].tile, packet.slot,
+                   config_.width - packet.tasks);
+    }
+}
+
+// Slots [from, to) of the array. For the bank they are the cycles in which it could have filled them.
+void PackingUnit::record_cycles(Process& bank, Cycle from, Cycle to, Idle cause) {
+    part_->idle(slot_of(cause), from, to, (to - from) * width_);
+    if (bank.track() == nullptr) {
+        return;
+    }
+    TimeSeries*& state = bank_states_[static_cast<std::size_t>(cause)];
+    if (state == nullptr) {
+        state = &bank.track()->state(std::string("no task: ") +
+                                     kSlotClasses[static_cast<std::size_t>(slot_of(cause))].name);
+    }
+    state->add(from - latency_, to - latency_, to - from);
 }
 
 } // namespace degs

@@ -8,7 +8,7 @@
 
 #include "config/config.hpp"
 #include "config/statistics.hpp"
-#include "modules/array/slot_account.hpp"
+#include "modules/array/slot_recorder.hpp"
 #include "modules/messages.hpp"
 #include "modules/scheduler/packet_ports.hpp"
 #include "splat/pixel_mask.hpp"
@@ -48,6 +48,8 @@ public:
     FifoPort<TaskPacket> out;
 
     PackingUnit(const sc_core::sc_module_name& name, const Config& config);
+    /// Records empty slots in `part`, which may be null; before the simulation starts.
+    void record(SlotPart* part) { part_ = part; }
 
     /// Execution date of the next task if it is packed at `now`.
     Cycle next_execution(Cycle now) const { return std::max(now + latency_, next_slot_); }
@@ -105,6 +107,8 @@ private:
     inline void put(const TaskRun& run, std::uint32_t mask, std::uint32_t part);
     inline void open_packet(Process& bank);
     inline void send(Process& bank, Idle cause);
+    [[gnu::noinline]] void record_packet(const TaskPacket& packet, Idle cause);
+    [[gnu::noinline]] void record_cycles(Process& bank, Cycle from, Cycle to, Idle cause);
 
     Config config_;
     Cycle latency_;
@@ -120,6 +124,8 @@ private:
     std::optional<PacketPorts> ports_, trial_; // of the open packet, and of one that is tried
     SlotAccount idle_;
     SlotAccount since_last_; // idle after the last packet; counts once another one comes
+    SlotPart* part_ = nullptr;
+    std::array<TimeSeries*, 4> bank_states_{}; // of the bank's track, by Idle
     Stats stats_;
 };
 
@@ -145,6 +151,9 @@ inline __attribute__((always_inline)) void PackingUnit::send(Process& bank, Idle
     packet.slot = next_slot_++;
     packet.tasks = tasks_;
     packet.ends_tile = ends_tile_;
+    if (part_ != nullptr) {
+        record_packet(packet, cause);
+    }
     stats_.packets++;
     stats_.tasks += tasks_;
     idle_.idle(cause, config_.width - tasks_);

@@ -62,6 +62,7 @@ GaussianSlicingUnit::GaussianSlicingUnit(const sc_core::sc_module_name& name, co
     slices_.reserve(std::size_t{1} * config.units_per_module() * config.splats_per_cycle);
     SC_HAS_PROCESS(GaussianSlicingUnit);
     SC_THREAD(run);
+    self_.show(*this, stats_.busy, config_.units_per_module());
 }
 
 void GaussianSlicingUnit::end_of_elaboration() {

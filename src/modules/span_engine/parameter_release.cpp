@@ -9,6 +9,7 @@ ParameterRelease::ParameterRelease(const sc_core::sc_module_name& name, const Ti
       released("released", fetchers), self_(time) {
     SC_HAS_PROCESS(ParameterRelease);
     SC_THREAD(run);
+    self_.show(*this);
 }
 
 void ParameterRelease::end_of_elaboration() {

@@ -18,6 +18,7 @@ SpanPool::SpanPool(const sc_core::sc_module_name& name, const Config& config, co
       streams_(share.streams), free_from_(share.units, 0) {
     SC_HAS_PROCESS(SpanPool);
     SC_THREAD(run);
+    self_.show(*this, stats_.busy, share.units);
 }
 
 void SpanPool::end_of_elaboration() {

@@ -13,6 +13,7 @@ SpanUnit::SpanUnit(const sc_core::sc_module_name& name, const Config& config, co
     if (self_.strict()) {
         SC_THREAD(run);
     }
+    self_.show(*this, stats_.busy);
 }
 
 void SpanUnit::end_of_elaboration() {
@@ -61,14 +62,13 @@ void SpanUnit::take() {
     next_port_ = port_of_row_[row];
     DatedFifo<SpanItem>& ring = *rings_[next_port_];
     holding_ = ring.full();
-    stats_.busy += config_.cycles_per_row;
     if (!solve(tile_number, splat, row, holding_ ? held_ : ring.staged())) {
         holding_ = false;
-        self_.advance(config_.cycles_per_row);
+        self_.work(config_.cycles_per_row, stats_.busy);
     } else if (!holding_) {
         ring.reserve(self_);
         ring.put_staged(self_);
-        self_.advance(config_.cycles_per_row);
+        self_.work(config_.cycles_per_row, stats_.busy);
     }
 }
 
@@ -84,7 +84,7 @@ bool SpanUnit::deliver() {
         ring.put(self_, held_);
         holding_ = !held_.span && ++next_port_ < rings_.size();
         if (held_.span) {
-            self_.advance(config_.cycles_per_row);
+            self_.work(config_.cycles_per_row, stats_.busy);
         } else if (!holding_ && job_.over(++tiles_done_)) {
             self_.finish();
         }

@@ -23,6 +23,7 @@ TileMonitor::TileMonitor(const sc_core::sc_module_name& name, const Config& conf
       granted_(granted), self_(time) {
     SC_HAS_PROCESS(TileMonitor);
     SC_THREAD(run);
+    self_.show(*this);
 }
 
 void TileMonitor::end_of_elaboration() {

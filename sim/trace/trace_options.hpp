@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// --trace and --trace-step, for commands that simulate an accelerator.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include "tlm/timeline.hpp"
+
+namespace degs::sim {
+
+struct TraceRequest {
+    std::string file;       ///< empty: no trace
+    std::uint64_t step = 0; ///< cycles; 0: as short as a trace of moderate size allows
+};
+
+void add_trace_options(CLI::App& command, TraceRequest& request);
+/// Empty without --trace. Throws InputError if the file cannot be written, before a long run.
+std::optional<Timeline::Config> timeline_of(const TraceRequest& request);
+
+} // namespace degs::sim
