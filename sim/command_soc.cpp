@@ -10,6 +10,7 @@
 #include "sim/output_folder.hpp"
 #include "sim/soc/soc_study.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/trace/trace_options.hpp"
 #include "sim/view_options.hpp"
 
 namespace degs::sim {
@@ -26,6 +27,7 @@ struct SocOptions {
     int reads_per_write = 2;
     double refresh_hz = 60;
     std::string out = "out";
+    TraceRequest trace;
 };
 
 /// Without a word about loads: none, then eighths of the peak up to three quarters.
@@ -54,11 +56,17 @@ void run(const SocOptions& options) {
     request.refresh_hz = options.refresh_hz;
     const View view = load_view(options.view);
     const OutputFolder out(options.out, {"soc.json", "soc.svg"});
+    request.timeline = timeline_of(options.trace);
     const SocResult result = run_soc(request, view);
     out.write_json("soc.json", soc_json(request, view, result));
     out.write_text("soc.svg", soc_svg(request.config.accelerator().name +
                                           ": frame latency under competing traffic",
                                       result.points));
+    if (request.timeline) {
+        const AcceleratorConfig& config = request.config.accelerator();
+        write_trace({config.name, config.clock_ghz, result.timeline, result.frames},
+                    options.trace.file);
+    }
     print(soc_words(request, view, result));
 }
 
@@ -102,6 +110,7 @@ void add_soc_command(CLI::App& program) {
         ->type_name("FILE");
     add_traffic_options(*command, *options);
     add_out_option(*command, options->out, "folder for soc.json and soc.svg");
+    add_trace_options(*command, options->trace);
     add_overrides_option(*command, options->overrides);
     command->callback([options] { run(*options); });
 }

@@ -17,10 +17,16 @@ std::size_t initiators(const SocRequest& request) {
     return kFirstCore + request.cores;
 }
 
+Accelerator::Options with_timeline(Timeline* timeline) {
+    Accelerator::Options options;
+    options.timeline = timeline;
+    return options;
+}
+
 } // namespace
 
 SocPlatform::SocPlatform(const sc_core::sc_module_name& name, const SocRequest& request,
-                         const Camera& camera)
+                         const Camera& camera, Timeline* timeline)
     : sc_core::sc_module(name),
       capacity_(capacity_of(request.memory)), time_{ClockDomain(
                                                         request.config.accelerator().clock_ghz),
@@ -28,7 +34,8 @@ SocPlatform::SocPlatform(const sc_core::sc_module_name& name, const SocRequest& 
       memory_("memory", request.memory, time_, initiators(request)),
       bus_("bus", initiators(request),
            {{kRegisters, kRegisterWindow, false}, {kMemory, capacity_, true}}),
-      accelerator_("accelerator", request.config.accelerator()), irq_("irq") {
+      accelerator_("accelerator", request.config.accelerator(), with_timeline(timeline)),
+      irq_("irq") {
     bus_.out[bus_.socket_of(0)].bind(accelerator_.registers);
     for (std::size_t i = 0; i < initiators(request); ++i) {
         bus_.out[bus_.socket_of(1, i)].bind(memory_.in[i]);

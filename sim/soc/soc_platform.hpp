@@ -25,11 +25,12 @@ namespace degs::sim {
 class SocPlatform : public sc_core::sc_module {
 public:
     SocPlatform(const sc_core::sc_module_name& name, const SocRequest& request,
-                const Camera& camera);
+                const Camera& camera, Timeline* timeline = nullptr);
 
     SocHost& host() { return *host_; }
     /// The display, which shows nothing until show() is called.
     Display& display() { return *display_; }
+    void complete_timeline() { accelerator_.complete_timeline(); }
     void set_load(double gb_per_s);
     std::uint64_t cpu_bytes() const;
 

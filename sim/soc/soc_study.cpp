@@ -8,6 +8,7 @@
 #include "sim/soc/soc_platform.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
+#include "sim/text/words.hpp"
 #include "splat/images/image_metrics.hpp"
 #include "splat/reference_renderer.hpp"
 
@@ -80,7 +81,11 @@ private:
         const std::uint64_t shown = platform_.display().stats().bytes;
         SocPoint point;
         point.offered_gb_per_s = load;
+        const sc_core::sc_time begin = sc_core::sc_time_stamp();
         point.frame = host.render();
+        const ClockDomain clock(request_.config.accelerator().clock_ghz);
+        result.frames.push_back({"frame, cores ask for " + three_digits(load) + " GB/s",
+                                 clock.floor(begin), clock.ceil(sc_core::sc_time_stamp())});
         const double ns = point.frame.latency_ns;
         const auto rate = [ns](std::uint64_t bytes) { return rate_of(bytes, ns); };
         point.cpu_gb_per_s = rate(platform_.cpu_bytes() - cpu);
@@ -103,7 +108,11 @@ private:
 
 SocResult run_soc(const SocRequest& request, const View& view) {
     const Stopwatch wall;
-    SocPlatform platform("soc", request, view.camera);
+    std::optional<Timeline> timeline;
+    if (request.timeline) {
+        timeline.emplace(*request.timeline);
+    }
+    SocPlatform platform("soc", request, view.camera, timeline ? &*timeline : nullptr);
     Study study(request, platform, as_floats(view.scene.cloud), view.camera);
     platform.host().program = [&study](SocHost& host) { study(host); };
     {
@@ -114,6 +123,10 @@ SocResult run_soc(const SocRequest& request, const View& view) {
         }
     }
     study.judge();
+    if (timeline) {
+        platform.complete_timeline();
+        study.result.timeline = timeline->record(study.result.frames.back().to);
+    }
     study.result.wall_s = wall.seconds();
     return study.result;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "sim/soc/cpu_traffic.hpp"
 #include "sim/soc/display.hpp"
 #include "sim/soc/soc_host.hpp"
+#include "sim/trace/trace_file.hpp"
 #include "sim/view.hpp"
 
 namespace degs::sim {
@@ -24,7 +26,8 @@ struct SocRequest {
     int cores = 4;
     CpuTraffic::Pattern pattern = CpuTraffic::Pattern::Stream;
     int reads_per_write = 2;
-    double refresh_hz = 60; ///< of the display; 0: none
+    double refresh_hz = 60;                   ///< of the display; 0: none
+    std::optional<Timeline::Config> timeline; ///< of the accelerator
 };
 
 struct SocPoint {
@@ -40,6 +43,8 @@ struct SocResult {
     double psnr_db = 0; ///< frame buffer against the double-precision image, clamped to 0..1
     Display::Stats display;
     double wall_s = 0;
+    TimelineRecord timeline;       ///< if asked for
+    std::vector<TraceSpan> frames; ///< cycles of the accelerator, likewise
 };
 
 /// Host, accelerator, display controller and cores on an AddressBus with an Lpddr5 memory: renders

@@ -49,6 +49,7 @@ LockstepArray::LockstepArray(const sc_core::sc_module_name& name, const Config& 
     SC_HAS_PROCESS(LockstepArray);
     SC_THREAD(run);
     self_.show(*this, "", config.clusters);
+    recorded_ = job.recorder != nullptr;
     busy_ = self_.track() == nullptr ? nullptr : &self_.track()->state("busy");
     for (Cluster& cluster : clusters_) {
         cluster.part = job.record_part(config.lanes / config.clusters);
@@ -237,14 +238,8 @@ void LockstepArray::pass(int subtile, std::uint32_t splat, Cycle at) {
     stats_.window.include({at, end - 1});
     cluster.first = std::min(cluster.first, at);
     cluster.free = end;
-    const SlotAccount before = stats_.slots;
-    const int ended = evaluate(subtile, splat);
-    if (cluster.part != nullptr) {
-        record_pass(cluster, at, before);
-    }
-    if (busy_ != nullptr) {
-        busy_->add(at, end, config_.clusters);
-    }
+    const int ended =
+        recorded_ ? record_pass(cluster, at, subtile, splat) : evaluate(subtile, splat);
     if (ended != 0) {
         Subtile& state = subtiles_[subtile];
         state.live -= ended;
@@ -291,20 +286,26 @@ void LockstepArray::account_wait(Cluster& cluster, Cycle at) {
         const std::uint64_t width = config_.lanes / config_.clusters;
         stats_.slots.blocked += blocked * width;
         stats_.slots.starved += (wait - blocked) * width;
-        if (cluster.part != nullptr) {
+        if (recorded_) {
             record_wait(cluster, at, blocked);
         }
     }
     cluster.blocked = blocked_;
 }
 
-void LockstepArray::record_pass(const Cluster& cluster, Cycle at, const SlotAccount& before) {
+int LockstepArray::record_pass(const Cluster& cluster, Cycle at, int subtile, std::uint32_t splat) {
+    if (busy_ != nullptr) {
+        busy_->add(at, cluster.free, config_.clusters);
+    }
+    const SlotAccount before = stats_.slots;
+    const int ended = evaluate(subtile, splat);
     const SlotAccount& now = stats_.slots;
     SlotPart& part = *cluster.part;
     part.work(number_, at, cluster.free);
     part.add(Slot::Useful, number_, at, cluster.free, now.useful - before.useful);
     part.add(Slot::Boundary, number_, at, cluster.free, now.boundary - before.boundary);
     part.add(Slot::Terminated, number_, at, cluster.free, now.terminated - before.terminated);
+    return ended;
 }
 
 /// The context of a tile is asked for when its first splats are there, so last.

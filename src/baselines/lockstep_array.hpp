@@ -97,7 +97,7 @@ private:
     void pass(int subtile, std::uint32_t splat, Cycle at);
     int evaluate(int subtile, std::uint32_t splat);
     void account_wait(Cluster& cluster, Cycle at);
-    void record_pass(const Cluster& cluster, Cycle at, const SlotAccount& before);
+    int record_pass(const Cluster& cluster, Cycle at, int subtile, std::uint32_t splat);
     void record_wait(const Cluster& cluster, Cycle at, Cycle blocked);
     void close_window();
 
@@ -123,6 +123,7 @@ private:
     int context_ = 0;
     TileNumber startable_ = 0;   // tiles below this number have a context
     Cycle blocked_ = 0;          // cycles spent waiting for contexts so far
+    bool recorded_ = false;      // slots, with their dates
     TimeSeries* busy_ = nullptr; // cycles of the clusters, in the timeline
     Stats stats_;
 };

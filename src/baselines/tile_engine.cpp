@@ -164,6 +164,50 @@ void TileEngine::generate(std::uint32_t splat) {
     self_.advance_to(pushed + 1);
 }
 
+// The slots that the entry takes from `load` on.
+template <bool Recorded>
+Cycle TileEngine::execute(const Entry& entry, Cycle load) {
+    Row& row = rows_[entry.row];
+    PixelTest test;
+    test.splat = entry.splat;
+    test.y = tile_->y + entry.row;
+    test.row = entry.row;
+    test.context = context_;
+    SlotAccount& slots = stats_.slots;
+    const Cycle taken = entry.length + (config_.end_probe ? 1 : 0);
+    if (Recorded) {
+        record_->begin_entry(number_, pe_of_row_[entry.row], load, load + taken);
+    }
+    for (int done = 0; done < entry.length; done += kLaneBlock) {
+        test.column = entry.column + done;
+        test.x = tile_->x + test.column;
+        test.mask = first_bits(entry.length - done);
+        const BlendOutcome outcome = job_.path->test(test);
+        slots.useful += __builtin_popcount(outcome.useful);
+        slots.boundary += __builtin_popcount(outcome.boundary);
+        slots.terminated += __builtin_popcount(outcome.terminated);
+        if (Recorded) {
+            record_->pixels(number_, load + done, outcome);
+        }
+        if (outcome.ended != 0) {
+            const int ended = __builtin_popcount(outcome.ended);
+            stats_.pixels_ended += ended;
+            row.live -= ended;
+            if (row.live == 0) {
+                row_ended(row, load + done + 31 - __builtin_clz(outcome.ended));
+            }
+        }
+    }
+    stats_.entries++;
+    stats_.pixels += entry.length;
+    slots.boundary += config_.end_probe ? 1 : 0;
+    if (Recorded && config_.end_probe) {
+        record_->end_probe(number_, load + entry.length);
+    }
+    stats_.window.include({load, load + taken - 1});
+    return taken;
+}
+
 // The date at which generation is done with the entry: once the cell it takes has been loaded from,
 // or the row is known to have ended.
 Cycle TileEngine::push(const Entry& entry, Cycle now) {
@@ -182,52 +226,9 @@ Cycle TileEngine::push(const Entry& entry, Cycle now) {
     if (row.live == 0) {
         stats_.entries_dropped++;
     } else {
-        pe.free = cell + execute(entry, cell);
+        pe.free = cell + (record_ ? execute<true>(entry, cell) : execute<false>(entry, cell));
     }
     return pushed;
-}
-
-// The slots that the entry takes from `load` on.
-Cycle TileEngine::execute(const Entry& entry, Cycle load) {
-    Row& row = rows_[entry.row];
-    PixelTest test;
-    test.splat = entry.splat;
-    test.y = tile_->y + entry.row;
-    test.row = entry.row;
-    test.context = context_;
-    SlotAccount& slots = stats_.slots;
-    const Cycle taken = entry.length + (config_.end_probe ? 1 : 0);
-    if (record_) {
-        record_->begin_entry(number_, pe_of_row_[entry.row], load, load + taken);
-    }
-    for (int done = 0; done < entry.length; done += kLaneBlock) {
-        test.column = entry.column + done;
-        test.x = tile_->x + test.column;
-        test.mask = first_bits(entry.length - done);
-        const BlendOutcome outcome = job_.path->test(test);
-        slots.useful += __builtin_popcount(outcome.useful);
-        slots.boundary += __builtin_popcount(outcome.boundary);
-        slots.terminated += __builtin_popcount(outcome.terminated);
-        if (record_) {
-            record_->pixels(number_, load + done, outcome);
-        }
-        if (outcome.ended != 0) {
-            const int ended = __builtin_popcount(outcome.ended);
-            stats_.pixels_ended += ended;
-            row.live -= ended;
-            if (row.live == 0) {
-                row_ended(row, load + done + 31 - __builtin_clz(outcome.ended));
-            }
-        }
-    }
-    stats_.entries++;
-    stats_.pixels += entry.length;
-    slots.boundary += config_.end_probe ? 1 : 0;
-    if (record_ && config_.end_probe) {
-        record_->end_probe(number_, load + entry.length);
-    }
-    stats_.window.include({load, load + taken - 1});
-    return taken;
 }
 
 void TileEngine::row_ended(Row& row, Cycle slot) {

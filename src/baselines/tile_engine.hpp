@@ -107,6 +107,7 @@ private:
     bool abandoned() const { return self_.local() >= ended_; }
     void generate(std::uint32_t splat);
     Cycle push(const Entry& entry, Cycle now);
+    template <bool Recorded>
     Cycle execute(const Entry& entry, Cycle load);
     void row_ended(Row& row, Cycle slot);
     void report_tile(Cycle last_slot);

@@ -49,7 +49,8 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
                          const Options& options)
     : sc_core::sc_module(name), registers("registers"), mem("mem"), irq("irq"),
       config_(checked(config)),
-      options_(options), time_{ClockDomain(config_->clock_ghz), options.fidelity}, self_(time_),
+      options_(options), time_{ClockDomain(config_->clock_ghz), options.fidelity, options.timeline},
+      self_(time_),
       finished_("finished", time_, kFinishedDepth, config_->frame_end.gate_latency_cycles),
       gateway_("gateway", options.memory) {
     registers.register_b_transport(this, &Accelerator::transport);
@@ -63,6 +64,9 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
     job_.record_order = config_->record_order();
     job_.path = make_data_path(config_->data_path(), job_.tile_size, config_->tile_contexts());
     job_.joined = std::make_unique<sc_core::sc_event>();
+    if (options.timeline != nullptr) {
+        job_.recorder = std::make_unique<SlotRecorder>(options.timeline);
+    }
     BuildOptions build;
     build.finished = &finished_;
     build.memory = &gateway_;
@@ -75,6 +79,12 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
 
 void Accelerator::end_of_elaboration() {
     finished_.connect_reader(self_);
+}
+
+void Accelerator::complete_timeline() {
+    if (job_.recorder != nullptr) {
+        job_.recorder->close();
+    }
 }
 
 void Accelerator::drive_irq() {

@@ -33,6 +33,7 @@ public:
         AcceleratorRequest::Limits limits;
         Fidelity fidelity = Fidelity::Exact;
         MemoryGateway::Options memory;
+        Timeline* timeline = nullptr; ///< which the accelerator joins; must outlive it
     };
 
     /// Words of 4 B, little-endian, LT and debug. An access takes a cycle.
@@ -51,6 +52,8 @@ public:
     /// For test benches: state that the registers do not expose.
     const RenderEngine& engine() const { return *engine_; }
     const MemoryGateway& gateway() const { return gateway_; }
+    /// When nothing is left to happen, before the timeline is read.
+    void complete_timeline();
 
 private:
     using Payload = tlm::tlm_generic_payload;

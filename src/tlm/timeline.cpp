@@ -275,8 +275,13 @@ std::string Timeline::peer(const Process* process, const FifoBase& ring) const {
     return ring.fifo_name();
 }
 
-TimelineRing Timeline::record_of(Ring& ring, std::size_t steps) const {
-    const Cycle total = ring.fifo->use().occupied_cycles;
+// A side that has finished passes no more ends of steps.
+TimelineRing Timeline::record_of(Ring& ring, std::size_t steps) {
+    const FifoBase::Use use = ring.fifo->use();
+    const Cycle total = use.occupied_cycles;
+    ring.read.resize(std::max(ring.read.size(), steps), {use.items, total});
+    ring.written = std::max(ring.written, steps);
+    settle(ring);
     // What nobody reads any more is not counted.
     for (Cycle& cycles : ring.at_end) {
         cycles = std::min(cycles, total);

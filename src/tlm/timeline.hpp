@@ -158,7 +158,7 @@ private:
     void settle(Ring& ring);
     void name_tracks();
     std::string peer(const Process* process, const FifoBase& ring) const;
-    TimelineRing record_of(Ring& ring, std::size_t steps) const;
+    TimelineRing record_of(Ring& ring, std::size_t steps);
 
     Cycle step_;
     std::size_t most_steps_;

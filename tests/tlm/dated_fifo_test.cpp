@@ -87,14 +87,14 @@ Dates recurrence(const Pipeline& p) {
 /// The same as processes and rings.
 class DatedPipeline {
 public:
-    DatedPipeline(const std::string& name, const Pipeline& p, Fidelity fidelity) : p_(p) {
-        const Timebase time{ClockDomain(1.0), fidelity};
+    DatedPipeline(const std::string& name, const Pipeline& p, Fidelity fidelity)
+        : time_{ClockDomain(1.0), fidelity}, p_(p) {
         for (std::size_t k = 0; k + 1 < kStages; ++k) {
             rings_.push_back(std::make_unique<DatedFifo<int>>(
-                (name + "_ring").c_str(), time, p.depth[k], p.forward[k], p.release[k]));
+                (name + "_ring").c_str(), time_, p.depth[k], p.forward[k], p.release[k]));
         }
         for (std::size_t k = 0; k < kStages; ++k) {
-            processes_.push_back(std::make_unique<Process>(time));
+            processes_.push_back(std::make_unique<Process>(time_));
             scripts_.push_back(
                 std::make_unique<Script>((name + "_stage").c_str(), [this, k] { run(k); }));
         }
@@ -132,6 +132,7 @@ private:
         return value;
     }
 
+    Timebase time_; // processes keep a pointer to its clock
     Pipeline p_;
     Dates dates_;
     bool ordered_ = true;

@@ -38,7 +38,8 @@ void ArraySlice::end_of_elaboration() {
     packets_ = &in.ring();
     packets_->connect_reader(self_);
     if (!self_.strict()) {
-        self_.pump_with(*this, *packets_);
+        Pumped& recorded = recorded_;
+        self_.pump_with(part_ == nullptr ? *this : recorded, *packets_);
     }
     terminated->connect_writer(self_);
     for (auto& listener : region_ended) {
@@ -105,13 +106,6 @@ BlendOutcome ArraySlice::blend_early(const Context& context, const TaskRun& run,
     return outcome;
 }
 
-void ArraySlice::run() {
-    while (!job_.over(tiles_done_)) {
-        packets_->wait_for_item(self_);
-        pump();
-    }
-}
-
 void ArraySlice::record(const TaskRun& run, Cycle date) {
     part_->work(run.tile, date, date + 1);
     const auto add = [&](Slot slot, std::uint32_t mask) {
@@ -125,7 +119,7 @@ void ArraySlice::record(const TaskRun& run, Cycle date) {
 }
 
 template <bool Recorded>
-void ArraySlice::pump_packets() {
+inline __attribute__((always_inline)) void ArraySlice::pump_packets() {
     while (!packets_->empty()) {
         const TaskPacket& packet = packets_->arrive(self_);
         const bool executed = packet.tasks != 0;
@@ -149,12 +143,19 @@ void ArraySlice::pump_packets() {
     }
 }
 
-void ArraySlice::pump() {
-    if (part_ == nullptr) {
-        pump_packets<false>();
-    } else {
-        pump_packets<true>();
+void ArraySlice::run() {
+    while (!job_.over(tiles_done_)) {
+        packets_->wait_for_item(self_);
+        if (part_ == nullptr) {
+            pump();
+        } else {
+            recorded_.pump();
+        }
     }
+}
+
+void ArraySlice::pump() {
+    pump_packets<false>();
 }
 
 void ArraySlice::start_tile(Context& context, TileNumber number) {

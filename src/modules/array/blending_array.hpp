@@ -63,6 +63,15 @@ public:
     void record(SlotPart* part) { part_ = part; }
 
 private:
+    /// Runs the slice in place of itself if its tasks are recorded, so that pump() need not ask.
+    class RecordedPump : public Pumped {
+    public:
+        explicit RecordedPump(ArraySlice& slice) : slice_(slice) {}
+        void pump() override { slice_.pump_packets<true>(); }
+
+    private:
+        ArraySlice& slice_;
+    };
     struct Recent {
         Cycle date = 0;
         std::uint32_t mask = 0;
@@ -123,6 +132,7 @@ private:
     std::optional<EarlyBlender> early_; // without scoreboard
     std::size_t tiles_done_ = 0;
     SlotPart* part_ = nullptr;
+    RecordedPump recorded_{*this};
     Stats stats_;
 };
 
