@@ -66,7 +66,12 @@ void add_info(CLI::App& scene) {
         ->type_name("SCENE")
         ->required();
     add_camera_file_option(*command, view.camera_file);
-    options->camera = command->add_option("--camera", view.camera, "view to measure, from 0");
+    options->camera = command
+                          ->add_option_function<std::string>(
+                              "--camera,--cameras",
+                              [&view](const std::string& text) { view.camera = one_camera(text); },
+                              "view to measure, from 0")
+                          ->type_name("POSITION");
     CLI::Option* width =
         command->add_option("--width", view.width, "image width of the view in pixels")
             ->needs(options->camera);
@@ -94,9 +99,9 @@ void add_generate(CLI::App& scene) {
     command
         ->add_option("--gaussians", options->gaussians,
                      "number of Gaussians; default: the profile's")
-        ->type_name("UINT");
+        ->type_name("INT");
     command->add_option("--seed", options->seed, "seed of the random numbers")
-        ->type_name("UINT")
+        ->type_name("INT")
         ->capture_default_str();
     command->add_option("--out", options->out, "file to write (.ply)")
         ->type_name("FILE")

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 
 #include "config/error.hpp"
@@ -51,6 +52,27 @@ std::string in_small_letters(std::string text) {
 }
 
 } // namespace
+
+std::optional<int> camera_position(const std::string& text) {
+    int value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    const bool good = error == std::errc() && rest == end && value >= 0;
+    return good ? std::optional<int>(value) : std::nullopt;
+}
+
+int one_camera(const std::string& text) {
+    if (text == "all" || text.find(',') != std::string::npos) {
+        throw InputError("--camera is '" + text +
+                         "', but this command renders one view; 'degs compare' takes several.");
+    }
+    if (const std::optional<int> position = camera_position(text)) {
+        return *position;
+    }
+    throw InputError("--camera is '" + text +
+                     "', but must be a position in the scene's list of cameras, from 0; a file of "
+                     "cameras is named by --camera-file.");
+}
 
 std::vector<std::string> resolution_names() {
     std::vector<std::string> names;

@@ -20,6 +20,11 @@ struct ViewRequest {
     std::string resolution; ///< a name of resolution_names(), empty: width and height decide
 };
 
+/// The position in a list of cameras that `text` says, or nothing if it says none.
+std::optional<int> camera_position(const std::string& text);
+/// The same for the option of a command that renders one view. Throws InputError.
+int one_camera(const std::string& text);
+
 struct View {
     Scene scene;
     Camera camera;

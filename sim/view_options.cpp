@@ -22,9 +22,10 @@ CLI::Option* add_config_option(CLI::App& command, std::string& config) {
     return command.add_option("config", config, "configuration file (YAML)")->type_name("FILE");
 }
 
-CLI::Option* add_camera_file_option(CLI::App& command, std::string& file, const char* names) {
+CLI::Option* add_camera_file_option(CLI::App& command, std::string& file) {
     return command
-        .add_option(names, file, "cameras.json to use instead of the one beside the scene")
+        .add_option("--camera-file", file,
+                    "cameras.json to use instead of the one beside the scene")
         ->type_name("FILE");
 }
 
@@ -39,7 +40,12 @@ void add_view_options(CLI::App& command, ViewRequest& request) {
         ->type_name("SCENE")
         ->required();
     add_camera_file_option(command, request.camera_file);
-    command.add_option("--camera", request.camera, "position in the list of cameras, from 0");
+    command
+        .add_option_function<std::string>(
+            "--camera,--cameras",
+            [&request](const std::string& text) { request.camera = one_camera(text); },
+            "position in the scene's list of cameras, from 0")
+        ->type_name("POSITION");
     CLI::Option* width =
         command.add_option("--width", request.width, "image width in pixels; the view is scaled");
     CLI::Option* height =

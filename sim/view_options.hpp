@@ -20,9 +20,8 @@ CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution);
 /// Adds the configuration file, an argument.
 CLI::Option* add_config_option(CLI::App& command, std::string& config);
 
-/// Adds --camera-file; --cameras is its older name, which `degs compare` uses for positions.
-CLI::Option* add_camera_file_option(CLI::App& command, std::string& file,
-                                    const char* names = "--camera-file,--cameras");
+/// Adds --camera-file.
+CLI::Option* add_camera_file_option(CLI::App& command, std::string& file);
 
 /// Adds --out, the folder for results.
 CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning);

@@ -170,7 +170,12 @@ void add_scene_options(CLI::App& command, AccuracyOptions& options) {
         ->take_all()
         ->expected(1);
     add_camera_file_option(command, options.camera_file);
-    command.add_option("--camera", options.camera, "position in the list of cameras, from 0");
+    command
+        .add_option_function<std::string>(
+            "--camera,--cameras",
+            [&options](const std::string& text) { options.camera = one_camera(text); },
+            "position in the list of cameras, from 0")
+        ->type_name("POSITION");
     command
         .add_option("--resolution", options.resolutions,
                     "720p, 1080p, 2k, 4k or 8k: images 720, 1080, 1440, 2160 or 4320 pixels high; "

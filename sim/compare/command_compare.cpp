@@ -79,7 +79,7 @@ void add_what_options(CLI::App& command, CompareOptions& options) {
                     "positions in the scene's list of cameras, from 0: 0,2 or all")
         ->type_name("LIST")
         ->capture_default_str();
-    add_camera_file_option(command, options.camera_file, "--camera-file");
+    add_camera_file_option(command, options.camera_file);
     CLI::Option* resolution =
         command
             .add_option("--resolution", options.resolutions,

@@ -2,7 +2,6 @@
 #include "sim/compare/compare_request.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 
 #include "config/error.hpp"
@@ -87,18 +86,6 @@ std::vector<std::string> split(const std::string& text) {
     return parts;
 }
 
-int position(const std::string& text, const std::string& whole) {
-    int value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || rest != end || value < 0) {
-        throw InputError("--camera is '" + whole +
-                         "', but must be 'all' or positions in the scene's list of cameras, from 0 "
-                         "and separated by commas; a file of cameras is named by --camera-file.");
-    }
-    return value;
-}
-
 } // namespace
 
 void check_scenes(const std::vector<std::string>& scenes) {
@@ -155,7 +142,14 @@ std::optional<std::vector<int>> parse_cameras(const std::string& text) {
     }
     std::vector<int> cameras;
     for (const std::string& part : split(text)) {
-        cameras.push_back(position(part, text));
+        const std::optional<int> position = camera_position(part);
+        if (!position) {
+            throw InputError("--camera is '" + text +
+                             "', but must be 'all' or positions in the scene's list of cameras, "
+                             "from 0 and separated by commas; a file of cameras is named by "
+                             "--camera-file.");
+        }
+        cameras.push_back(*position);
         if (std::count(cameras.begin(), cameras.end(), cameras.back()) > 1) {
             throw InputError("Camera " + part + " is given twice.");
         }

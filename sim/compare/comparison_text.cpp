@@ -3,6 +3,7 @@
 #include "config/visible_text.hpp"
 #include "sim/compare/comparison_output.hpp"
 #include "sim/text/text_table.hpp"
+#include "sim/text/text_width.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -112,7 +113,7 @@ std::string heading(const ComparedView& view) {
     if (view.fragments) {
         words += " · " + scaled(*view.fragments) + " fragments";
     }
-    return visible(words) + "\n";
+    return folded(visible(words), text_width(), 2) + "\n";
 }
 
 std::string legend(const Comparison& comparison) {
@@ -122,8 +123,8 @@ std::string legend(const Comparison& comparison) {
         words += "; path: throughput over " + std::to_string(comparison.frames) + " frames of " +
                  config_words::number(comparison.path_step_degrees) + "° each, " + first + " = 1";
     }
-    return words +
-           (comparison.array_only ? "; arrays alone, without front ends and memory\n" : "\n");
+    words += comparison.array_only ? "; arrays alone, without front ends and memory" : "";
+    return folded(words, text_width(), 2) + "\n";
 }
 
 } // namespace

@@ -7,11 +7,12 @@
 
 #include "config/visible_text.hpp"
 #include "sim/failure.hpp"
+#include "sim/text/text_width.hpp"
 
 namespace degs::sim {
 
 void print(const std::string& text) {
-    const std::string shown = visible_lines(text);
+    const std::string shown = visible_lines(shows_utf8() ? text : in_ascii(text));
     errno = 0;
     if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size() ||
         std::fflush(stdout) != 0) {

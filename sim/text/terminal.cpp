@@ -8,6 +8,7 @@
 #include "config/config_words.hpp"
 #include "config/ratio.hpp"
 #include "config/visible_text.hpp"
+#include "sim/text/text_width.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -142,7 +143,9 @@ std::string layout(const Block& block) {
     }
     std::string lines;
     for (const auto& [name, text] : block) {
-        lines.append(name).append(width + 2 - name.size(), ' ').append(visible(text)).append("\n");
+        std::string line = name;
+        line.append(width + 2 - name.size(), ' ').append(visible(text));
+        lines += folded(line, text_width(), width + 2) + "\n";
     }
     return lines;
 }

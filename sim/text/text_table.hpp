@@ -7,7 +7,8 @@
 namespace degs::sim {
 
 /// A table for terminals. The first column is flushed left, the others right; a column in which
-/// every cell below the heading is empty is left out, other empty cells show "-".
+/// every cell below the heading is empty is left out, other empty cells show "-". A table wider than
+/// text_width() goes on below, column by column, and repeats its first one.
 class TextTable {
 public:
     explicit TextTable(std::vector<std::string> headings) : lines_{std::move(headings)} {}
@@ -16,6 +17,8 @@ public:
     std::string text() const;
 
 private:
+    std::string text_of(const std::vector<std::size_t>& columns,
+                        const std::vector<std::size_t>& widths) const;
     std::vector<std::vector<std::string>> lines_;
 };
 

@@ -26,8 +26,9 @@ std::vector<std::string> Trial::overrides() const {
 
 std::string Trial::arguments() const {
     std::string line = "run configs/" + config + " --scene " + scene +
-                       " --cameras tests/random/cameras.json --camera " + std::to_string(camera) +
-                       " --width " + std::to_string(width) + " --height " + std::to_string(height);
+                       " --camera-file tests/random/cameras.json --camera " +
+                       std::to_string(camera) + " --width " + std::to_string(width) + " --height " +
+                       std::to_string(height);
     if (frames > 1) {
         char step[32];
         std::snprintf(step, sizeof step, "%g", step_degrees);

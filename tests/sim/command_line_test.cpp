@@ -212,7 +212,7 @@ TEST(ManualPage, IsCleanAndComplete) {
                              (folder / "text") + "'";
     EXPECT_EQ(std::system(draw.c_str()), 0);
     const std::string text = read_file(folder / "text");
-    for (const char* words : {"--camera-file, --cameras FILE", "degs scene generate", "--refresh",
+    for (const char* words : {"--camera, --cameras POSITION", "degs scene generate", "--refresh",
                               "exact|strict", "EXIT STATUS", "1 to 256"}) {
         EXPECT_NE(text.find(words), std::string::npos) << words << text;
     }

@@ -163,11 +163,16 @@ TEST(CompareCameras, ComeFromTheFileThatIsNamed) {
         EXPECT_EQ(written["views"][0]["height"], 48);
         EXPECT_EQ(written["views"][0]["img_name"], "camera 0");
     }
-    // The same names for the same things in degs run, which keeps its older one, too.
-    for (const char* option : {"--camera-file", "--cameras"}) {
-        expect_success(degs({"run", config("degs-64"), "--scene", kSmallScene, option, views,
-                             "--width", "32", "--out", folder / "r"}));
+    // The same names for the same things in degs run.
+    const auto run = [&folder, &views](const char* option, const std::string& value) {
+        return degs({"run", config("degs-64"), "--scene", kSmallScene, "--camera-file", views,
+                     option, value, "--width", "32", "--out", folder / "r"});
+    };
+    for (const char* option : {"--camera", "--cameras"}) {
+        expect_success(run(option, "0"));
         EXPECT_EQ(report_in(folder / "r")["camera"]["img_name"], "camera 0");
+        expect_mistake(run(option, "0,1"), "'degs compare' takes several");
+        expect_mistake(run(option, views), "--camera-file");
     }
     const Outcome file_as_positions =
         degs(small_comparison(folder / "c", {"--scene", kSmallScene, "--cameras", views}));

@@ -62,7 +62,8 @@ TEST(HostileNames, ReachNoTerminalInMessages) {
              {"run", folder / "c.yaml", "--scene", "synthetic:" + std::string(kEvil)},
              {"run", folder / "c.yaml", "--scene", "synthetic:single", "--out",
               "/proc/" + std::string(kEvil)},
-             {"run", folder / "c.yaml", "--scene", "synthetic:single", "--cameras", folder / kEvil},
+             {"run", folder / "c.yaml", "--scene", "synthetic:single", "--camera-file",
+              folder / kEvil},
              {kEvil},
              {"run", kEvil, "--scene"}}) {
         const Outcome outcome = degs(command);

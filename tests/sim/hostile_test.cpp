@@ -151,11 +151,11 @@ TEST(HostileView, BadResolutions) {
 TEST(HostileView, BadCameras) {
     const Folder folder;
     expect_mistake(run_scene(kSingleScene, folder, {"--camera", "99"}), "Camera 99");
-    expect_mistake(run_scene(kSingleScene, folder, {"--camera", "-1"}), "Camera -1");
-    expect_mistake(run_scene(kSingleScene, folder, {"--cameras", folder / "absent.json"}),
+    expect_mistake(run_scene(kSingleScene, folder, {"--camera", "-1"}), "--camera is '-1'");
+    expect_mistake(run_scene(kSingleScene, folder, {"--camera-file", folder / "absent.json"}),
                    "absent.json");
     std::ofstream(folder / "broken.json") << R"([{"width": 4)";
-    expect_mistake(run_scene(kSingleScene, folder, {"--cameras", folder / "broken.json"}),
+    expect_mistake(run_scene(kSingleScene, folder, {"--camera-file", folder / "broken.json"}),
                    "broken.json");
 }
 
