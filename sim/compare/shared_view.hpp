@@ -12,9 +12,6 @@ namespace degs::sim {
 
 /// One view while it is compared: what its runs have in common, made once.
 struct SharedView {
-    std::size_t number = 0; ///< of the view
-    std::string words;      ///< for people
-    std::string folder;     ///< of its reports, below the output folder
     int camera = 0;
     SceneFacts scene;
     const GaussianCloud* cloud = nullptr;
