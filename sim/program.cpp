@@ -60,6 +60,7 @@ void add_commands(CLI::App& program) {
     program.set_version_flag("--version", "degs " DEGS_VERSION);
     add_run_command(program);
     add_compare_command(program);
+    add_sweep_command(program);
     add_render_command(program);
     add_scene_command(program);
     add_memory_command(program);

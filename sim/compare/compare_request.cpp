@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "config/error.hpp"
+#include "sim/sweep/study_file.hpp"
 
 namespace degs::sim {
 namespace {
@@ -13,12 +14,6 @@ namespace fs = std::filesystem;
 
 struct Named {
     std::string name, file;
-};
-
-/// A configuration before overrides.
-struct Draft {
-    std::string name;
-    ConfigNode tree;
 };
 
 /// A '=' may belong to the name of an existing file.
@@ -31,27 +26,17 @@ Named named(const std::string& word) {
     return {word.substr(0, at), word.substr(at + 1)};
 }
 
-/// A file with the list `points` is a study: each of them is a configuration of its own.
-void add_drafts(std::vector<Draft>& drafts, const std::string& word) {
+/// Each design of a study is a configuration of its own.
+void add_drafts(std::vector<StudyDesign>& drafts, const std::string& word) {
     const Named file = named(word);
     const ConfigNode tree = ConfigSource::from_file(file.file).tree();
-    const ConfigNode* points = tree.find("points");
-    if (points == nullptr) {
+    if (!is_study(tree)) {
         drafts.push_back({file.name, tree});
         return;
     }
-    for (const ConfigNode& key : tree.children) {
-        if (key.key != "points" && key.key != "study") {
-            throw InputError(key.place + ": unknown key '" + key.key +
-                             "'; a study has the keys 'study' and 'points'.");
-        }
-    }
-    for (const ConfigNode& point : points->children) {
-        const ConfigNode* name = point.find("name");
-        if (name == nullptr) {
-            throw InputError(point.place + ": a point of a study needs a key 'name'.");
-        }
-        drafts.push_back({name->text, point});
+    check_designs_only(tree);
+    for (StudyDesign& design : read_designs(tree)) {
+        drafts.push_back(std::move(design));
     }
 }
 
@@ -101,7 +86,7 @@ void check_scenes(const std::vector<std::string>& scenes) {
 
 std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
                                       const std::vector<std::string>& overrides) {
-    std::vector<Draft> drafts;
+    std::vector<StudyDesign> drafts;
     for (const std::string& word : words) {
         if (named(word).name.empty()) {
             throw InputError("The configuration '" + word +
@@ -111,9 +96,9 @@ std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
     }
     const auto count = [&drafts](const std::string& name) {
         return std::count_if(drafts.begin(), drafts.end(),
-                             [&name](const Draft& draft) { return draft.name == name; });
+                             [&name](const StudyDesign& draft) { return draft.name == name; });
     };
-    for (const Draft& draft : drafts) {
+    for (const StudyDesign& draft : drafts) {
         if (count(draft.name) > 1) {
             throw InputError("Two configurations are called '" + draft.name +
                              "'; NAME=FILE keeps them apart.");
@@ -129,7 +114,7 @@ std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
     }
     std::vector<NamedConfig> configs;
     configs.reserve(drafts.size());
-    for (const Draft& draft : drafts) {
+    for (const StudyDesign& draft : drafts) {
         configs.push_back({draft.name, load_run_config(ConfigSource::from_tree(
                                            draft.tree, overrides_of(draft.name, overrides)))});
     }

@@ -29,8 +29,12 @@ CompareSession::CompareSession(const CompareRequest& request, const OutputFolder
                  progress_.plan(cameras * request_.sizes.size() * runs_.per_view());
              },
              [this](const ViewRun& run, ChildOutcome&& outcome) { end(run, std::move(outcome)); },
-             [this](const ViewRun& place, const Failure& failure, std::size_t lost) {
-                 fail("", place.words, failure);
+             [this](std::size_t scene, const Failure& failure, std::size_t lost) {
+                 fail("", request_.scenes[scene], failure);
+                 progress_.drop(lost);
+             },
+             [this](const ViewRun& view, const Failure& failure, std::size_t lost) {
+                 fail("", view.words, failure);
                  progress_.drop(lost);
              },
              [this](const std::vector<std::string>& running) { progress_.show(running); }}) {}

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace degs::sim {
@@ -33,14 +34,14 @@ bool same_view(const ComparedView& a, const ComparedView& b) {
 
 /// Position in the list, to which the view is added if it is new.
 std::size_t find_view(std::vector<ComparedView>& views, const ComparedView& view) {
-    const auto found = std::find_if(views.begin(), views.end(), [&view](const ComparedView& known) {
-        return same_view(known, view);
-    });
-    const std::size_t position = found - views.begin();
-    if (found == views.end()) {
-        views.push_back(view);
+    const auto found = // the last first, because the runs of a view follow one another
+        std::find_if(views.rbegin(), views.rend(),
+                     [&view](const ComparedView& known) { return same_view(known, view); });
+    if (found != views.rend()) {
+        return views.rend() - found - 1;
     }
-    return position;
+    views.push_back(view);
+    return views.size() - 1;
 }
 
 void read_config(const RunSummary& run, ComparedConfig& config) {
@@ -65,27 +66,30 @@ void add_ratios(const Measures& first, Measures& measures) {
     }
 }
 
-/// Compares the rows of every view with its row of the first configuration.
-void add_ratios(std::vector<ComparisonRow>& rows) {
+/// Compares the rows of every view with its row of the baseline.
+void add_ratios(std::vector<ComparisonRow>& rows, std::size_t baseline) {
+    std::map<std::size_t, Measures> bases; // by view
+    for (const ComparisonRow& row : rows) {
+        if (row.config == baseline) {
+            bases.emplace(row.view, row.measures);
+        }
+    }
     for (ComparisonRow& row : rows) {
-        const auto first =
-            std::find_if(rows.begin(), rows.end(), [&row](const ComparisonRow& other) {
-                return other.config == 0 && other.view == row.view;
-            });
-        if (first != rows.end()) {
-            add_ratios(Measures(first->measures), row.measures);
+        const auto base = bases.find(row.view);
+        if (base != bases.end()) {
+            add_ratios(base->second, row.measures);
         }
     }
 }
 
-/// Over the rows of a configuration; empty unless each of the `views` has a positive number.
-std::optional<double> geometric_mean(const std::vector<ComparisonRow>& rows, std::size_t config,
+/// Over the rows of one configuration; empty unless each of the `views` has a positive number.
+std::optional<double> geometric_mean(const std::vector<const ComparisonRow*>& rows,
                                      std::size_t views, Measure measure) {
     double sum = 0;
     std::size_t count = 0;
-    for (const ComparisonRow& row : rows) {
-        const std::optional<double>& value = row.measures[measure];
-        if (row.config == config && value && *value > 0) {
+    for (const ComparisonRow* row : rows) {
+        const std::optional<double>& value = row->measures[measure];
+        if (value && *value > 0) {
             sum += std::log(*value);
             ++count;
         }
@@ -94,6 +98,10 @@ std::optional<double> geometric_mean(const std::vector<ComparisonRow>& rows, std
 }
 
 std::vector<ComparisonRow> means_of(const Comparison& comparison) {
+    std::vector<std::vector<const ComparisonRow*>> rows(comparison.configs.size());
+    for (const ComparisonRow& row : comparison.rows) {
+        rows[row.config].push_back(&row);
+    }
     std::vector<ComparisonRow> means;
     for (std::size_t c = 0; c < comparison.configs.size(); ++c) {
         ComparisonRow mean;
@@ -101,7 +109,7 @@ std::vector<ComparisonRow> means_of(const Comparison& comparison) {
         mean.view = comparison.views.size(); // none of them
         for_each_measure([&](Measure m) {
             if (has_mean(m)) {
-                mean.measures[m] = geometric_mean(comparison.rows, c, comparison.views.size(), m);
+                mean.measures[m] = geometric_mean(rows[c], comparison.views.size(), m);
             }
         });
         means.push_back(mean);
@@ -111,25 +119,33 @@ std::vector<ComparisonRow> means_of(const Comparison& comparison) {
 
 } // namespace
 
-Comparison compare(const std::vector<std::string>& configs, const std::vector<ComparedRun>& runs) {
+Comparison compare(const std::vector<std::string>& configs, const std::vector<ComparedRun>& runs,
+                   std::size_t baseline) {
     Comparison comparison;
+    comparison.baseline = baseline;
+    std::map<std::string, std::size_t> places;
     for (const std::string& name : configs) {
+        places.emplace(name, comparison.configs.size());
         ComparedConfig config;
         config.name = name;
         comparison.configs.push_back(config);
     }
     for (const ComparedRun& run : runs) {
         ComparisonRow row;
-        row.config = std::find(configs.begin(), configs.end(), run.config) - configs.begin();
-        if (row.config == configs.size()) {
+        const auto place = places.find(run.config);
+        if (place == places.end()) {
             throw std::logic_error("a run of '" + run.config + "' is none of the comparison");
         }
+        row.config = place->second;
         row.view = find_view(comparison.views, run.frame.view);
         row.measures = measures_of(run);
+        row.limited_by = run.frame.limited_by;
+        row.stages = run.frame.stages;
+        row.report = run.report;
         read_config(run.frame, comparison.configs[row.config]);
         comparison.rows.push_back(row);
     }
-    add_ratios(comparison.rows);
+    add_ratios(comparison.rows, baseline);
     if (comparison.views.size() > 1) {
         comparison.means = means_of(comparison);
     }

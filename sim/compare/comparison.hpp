@@ -16,6 +16,7 @@ struct ComparedRun {
     std::string config;             ///< what the user calls it
     RunSummary frame;               ///< one frame alone
     std::optional<RunSummary> path; ///< the camera path, if there is one
+    std::string report = {};        ///< file of the frame's report, relative to the results
 };
 
 struct FailedRun {
@@ -34,12 +35,16 @@ struct ComparedConfig {
 struct ComparisonRow {
     std::size_t view = 0, config = 0; ///< into Comparison
     Measures measures;
+    std::string limited_by;                             ///< of the frame, as what follows
+    std::vector<std::pair<std::string, double>> stages; ///< with their busy shares
+    std::string report;
 };
 
 struct Comparison {
-    std::vector<ComparedConfig> configs; ///< the first is what the others are compared with
-    std::vector<ComparedView> views;     ///< in the order of their first run
-    std::vector<ComparisonRow> rows;     ///< in the order of the runs
+    std::vector<ComparedConfig> configs;
+    std::size_t baseline = 0;        ///< the configuration with which the others are compared
+    std::vector<ComparedView> views; ///< in the order of their first run
+    std::vector<ComparisonRow> rows; ///< in the order of the runs
     std::vector<FailedRun> failed;
     std::vector<ComparisonRow> means; ///< per configuration, if there are several views
     int frames = 1;                   ///< of the camera path; 1: there is none
@@ -48,9 +53,10 @@ struct Comparison {
 };
 
 /// `configs` in the order in which they are shown; the runs of each view follow one another. A
-/// ratio is empty where the first configuration has no number, a geometric mean where the
-/// configuration lacks a view. Throws std::logic_error for a run of none of the configurations.
-Comparison compare(const std::vector<std::string>& configs, const std::vector<ComparedRun>& runs);
+/// ratio is empty where the baseline has no number, a geometric mean where the configuration lacks
+/// a view. Throws std::logic_error for a run of none of the configurations.
+Comparison compare(const std::vector<std::string>& configs, const std::vector<ComparedRun>& runs,
+                   std::size_t baseline = 0);
 
 /// "flowers · camera 2 · 1920×1080"
 std::string view_words(const ComparedView& view);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // compare.json and compare.csv, both from the table of measures.
-#include <algorithm>
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 
 #include "sim/compare/comparison_output.hpp"
+#include "sim/compare/result_words.hpp"
 #include "sim/report.hpp"
 
 namespace degs::sim {
@@ -13,48 +11,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
-template <class Value>
-ordered_json value_or_null(const std::optional<Value>& value) {
-    return value ? ordered_json(*value) : ordered_json();
-}
-
-/// JSON has no infinity. Counts are written as such.
-ordered_json number_json(const std::optional<double>& value) {
-    if (value && std::isinf(*value)) {
-        return "inf";
-    }
-    if (value && *value == std::floor(*value) && std::abs(*value) < 9e15) {
-        return static_cast<std::int64_t>(*value);
-    }
-    return value_or_null(value);
-}
-
-/// Below a run of compare.json.
-ordered_json::json_pointer place_of(Measure measure) {
-    std::string place = "/" + name_of(measure);
-    std::replace(place.begin(), place.end(), '.', '/');
-    return ordered_json::json_pointer(place);
-}
-
 ordered_json row_json(const Comparison& comparison, const ComparisonRow& row) {
     ordered_json json = {{"config", comparison.configs[row.config].name}};
     if (row.view < comparison.views.size()) {
         json["view"] = row.view;
     }
-    for_each_measure([&](Measure m) { json[place_of(m)] = number_json(row.measures[m]); });
+    for_each_measure([&](Measure m) { put_measure(json, m, row.measures[m]); });
     return json;
-}
-
-ordered_json view_json(const ComparedView& view) {
-    return {{"scene", view.scene},
-            {"source", view.source},
-            {"camera", view.camera},
-            {"img_name", view.camera_name},
-            {"width", view.width},
-            {"height", view.height},
-            {"gaussians", view.gaussians},
-            {"visible", view.visible},
-            {"fragments", value_or_null(view.fragments)}};
 }
 
 ordered_json config_json(const ComparedConfig& config) {
@@ -64,23 +27,6 @@ ordered_json config_json(const ComparedConfig& config) {
             {"pes", value_or_null(config.pes)},
             {"tile_size", value_or_null(config.tile_size)},
             {"area_mm2", value_or_null(config.area_mm2)}};
-}
-
-/// Quoted if it must be, with quotes doubled (RFC 4180).
-std::string csv_cell(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) {
-        return text;
-    }
-    std::string cell = "\"";
-    for (char c : text) {
-        cell += c == '"' ? std::string("\"\"") : std::string(1, c);
-    }
-    return cell + "\"";
-}
-
-std::string csv_number(const std::optional<double>& value) {
-    const ordered_json json = number_json(value);
-    return json.is_null() ? "" : json.is_string() ? json.get<std::string>() : json.dump();
 }
 
 } // namespace

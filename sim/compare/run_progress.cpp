@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/compare/run_progress.hpp"
 
+#include "config/ratio.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -20,7 +21,16 @@ void RunProgress::show(const std::vector<std::string>& running) {
 
 std::string RunProgress::words() const {
     return std::to_string(ended_) + (unknown_scenes_ == 0 ? " of " : " of at least ") +
-           std::to_string(planned_) + (planned_ == 1 ? " run" : " runs");
+           std::to_string(planned_) + " " + what_ + (planned_ == 1 ? "" : "s");
+}
+
+/// ", about 17 s to go" if what has ended says how long the rest will take.
+std::string RunProgress::left() const {
+    const std::size_t done = ended_ - before_;
+    if (done == 0 || unknown_scenes_ != 0 || ended_ >= planned_) {
+        return "";
+    }
+    return ", about " + time_words(clock_.seconds() * ratio_of(planned_ - ended_, done)) + " to go";
 }
 
 } // namespace degs::sim

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/stopwatch.hpp"
@@ -13,6 +14,11 @@ namespace degs::sim {
 
 class RunProgress {
 public:
+    /// `what` is counted: "run" or "point".
+    explicit RunProgress(std::string what = "run") : what_(std::move(what)) {}
+    /// Counts as ended what earlier sessions have done.
+    void resume(std::size_t ended) { ended_ = before_ = ended; }
+
     /// Adds runs that are going to be made.
     void plan(std::size_t runs) { planned_ += runs; }
     /// Takes back runs that are not possible.
@@ -28,7 +34,11 @@ public:
     std::string words() const;
 
 private:
+    std::string left() const;
+
+    std::string what_;
     std::size_t planned_ = 0;
+    std::size_t before_ = 0; ///< ended in earlier sessions
     std::size_t ended_ = 0;
     std::size_t unknown_scenes_ = 0;
     Stopwatch clock_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sim/compare/measures.hpp"
@@ -26,15 +27,17 @@ struct RunSummary {
     int pes = 0, tile_size = 0;
     ComparedView view;
     Measures measures;
-    std::vector<std::string> warnings; ///< sentences; see warnings.hpp
-    std::string report;                ///< report.json of the run; empty if nobody wants it
+    std::string limited_by;                             ///< the busiest stage, or memory
+    std::vector<std::pair<std::string, double>> stages; ///< with the share of the run they worked
+    std::vector<std::string> warnings;                  ///< sentences; see warnings.hpp
+    std::string report; ///< report.json of the run; empty if nobody wants it
 };
 
 /// Without the report. `camera` is the view's position in the scene's list.
 RunSummary summary_of(const RunResult& result, int camera);
 
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 2;
+constexpr int kSummaryVersion = 3;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

@@ -71,14 +71,13 @@ bool ViewRuns::run_scene(std::size_t scene, const std::optional<std::vector<int>
     }
     ViewRun place;
     place.scene = scene;
-    place.words = request_.scenes[scene];
     Scene loaded;
     double load_s = 0;
     try {
         loaded = load(request_.scenes[scene], load_s);
     } catch (...) {
-        hooks_.failed(place, failure_of(std::current_exception()),
-                      cameras ? cameras->size() * request_.sizes.size() * per_view() : 0);
+        hooks_.scene_failed(scene, failure_of(std::current_exception()),
+                            cameras ? cameras->size() * request_.sizes.size() * per_view() : 0);
         return true;
     }
     std::vector<int> all = cameras.value_or(std::vector<int>{});
@@ -143,8 +142,8 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
         }
     } catch (...) {
         const std::size_t runs = configs.size() * (request_.path.frames > 1 ? 2 : 1);
-        hooks_.failed(place, failure_of(std::current_exception()),
-                      runs - (started_.size() - before));
+        hooks_.view_failed(place, failure_of(std::current_exception()),
+                           runs - (started_.size() - before));
     }
 }
 

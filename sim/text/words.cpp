@@ -55,6 +55,17 @@ std::string scaled_bytes(std::uint64_t bytes) {
     return scaled(bytes) + (bytes < 1000 ? " B" : "B");
 }
 
+std::string time_words(double seconds) {
+    const auto whole = static_cast<std::int64_t>(std::llround(seconds));
+    if (whole < 60) {
+        return std::to_string(whole) + " s";
+    }
+    if (whole < 3600) {
+        return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+    }
+    return std::to_string(whole / 3600) + " h " + std::to_string(whole % 3600 / 60) + " min";
+}
+
 std::string percent(double share, int decimals) {
     return fixed(share * 100, decimals);
 }

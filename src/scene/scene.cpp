@@ -129,6 +129,19 @@ Scene load_scene(const std::string& spec, const std::string& cameras_path) {
     return scene;
 }
 
+std::size_t camera_count(const std::string& spec, const std::string& cameras_path) {
+    const bool synthetic = spec.rfind(kSynthetic, 0) == 0;
+    std::string cameras = cameras_path;
+    if (cameras.empty() && synthetic) {
+        return load_scene(spec).cameras.size();
+    }
+    if (!synthetic) {
+        const InputFile exists(spec);
+        cameras = cameras.empty() ? find_cameras(spec) : cameras;
+    }
+    return cameras.empty() ? 1 : std::max<std::size_t>(read_cameras(cameras).size(), 1);
+}
+
 std::vector<std::string> scene_extensions() {
     std::vector<std::string> extensions;
     extensions.reserve(kReaders.size());

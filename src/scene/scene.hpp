@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct Scene {
 /// beside the model). Throws InputError for every mistake in the input, also for a scene
 /// without a drawable Gaussian.
 Scene load_scene(const std::string& spec, const std::string& cameras_path = "");
+
+/// Number of cameras that `load_scene` would find, without reading the Gaussians of a file. Throws
+/// InputError if the scene or its cameras cannot be read.
+std::size_t camera_count(const std::string& spec, const std::string& cameras_path = "");
 
 /// File name extensions that `load_scene` reads, e.g. ".ply".
 std::vector<std::string> scene_extensions();

@@ -110,7 +110,7 @@ TEST(HostileRunSummary, WhatIsNotWholeIsRefusedByName) {
     EXPECT_THAT(refusal(message + "colour 9999999999\nred\n"), HasSubstr("'colour' is cut off"));
     EXPECT_THAT(refusal(message + "colour"), HasSubstr("cut off"));
     EXPECT_THAT(refusal("degs-run-summary 0\n" + message.substr(message.find('\n') + 1)),
-                HasSubstr("version " + std::to_string(kSummaryVersion)));
+                HasSubstr("degs-run-summary " + std::to_string(kSummaryVersion)));
     for (std::size_t size = 0; size < message.size(); ++size) {
         EXPECT_NE(refusal(message.substr(0, size)), "") << size;
     }

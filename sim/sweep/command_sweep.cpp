@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs sweep: every point of a study.
+#include <charconv>
+#include <memory>
+
+#include "config/config_words.hpp"
+#include "config/error.hpp"
+#include "config/visible_text.hpp"
+#include "sim/commands.hpp"
+#include "sim/stopwatch.hpp"
+#include "sim/sweep/sweep_results.hpp"
+#include "sim/sweep/sweep_session.hpp"
+#include "sim/text/standard_output.hpp"
+#include "sim/text/words.hpp"
+#include "sim/view_options.hpp"
+#include "sim/warnings.hpp"
+
+namespace degs::sim {
+namespace {
+
+constexpr double kSecondsBetweenResults = 10; ///< so that writing them takes no time worth naming
+
+struct SweepOptions {
+    std::string study;
+    // These replace what the study says.
+    std::vector<std::string> scenes;
+    std::string cameras, camera_file, resolutions;
+    std::optional<int> width;
+    PathRequest path;
+    bool has_frames = false, has_step = false;
+    bool array_only = false, no_reference = false;
+
+    int jobs = 1;
+    std::optional<std::string> shard;
+    bool collect = false, list = false;
+    std::string out = "out";
+};
+
+Study study_of(const SweepOptions& options) {
+    Study study = read_study(options.study);
+    if (!options.scenes.empty()) {
+        study.scenes = options.scenes;
+    }
+    if (!options.cameras.empty()) {
+        study.cameras = options.cameras;
+    }
+    if (!options.camera_file.empty()) {
+        study.camera_file = options.camera_file;
+    }
+    if (!options.resolutions.empty() || options.width) {
+        study.resolutions = options.resolutions;
+        study.width = options.width;
+    }
+    if (options.has_frames) {
+        study.path.frames = options.path.frames;
+    }
+    if (options.has_step) {
+        study.path.step_degrees = options.path.step_degrees;
+    }
+    study.array_only = study.array_only || options.array_only;
+    study.reference = study.reference && !options.no_reference;
+    return study;
+}
+
+/// "2/5"; all points if nothing is given.
+PointRange range_of(const std::optional<std::string>& given, std::size_t points) {
+    if (!given) {
+        return {0, points};
+    }
+    const std::string& shard = *given;
+    std::size_t k = 0;
+    std::size_t n = 0;
+    const char* const end = shard.data() + shard.size();
+    const auto [slash, bad_k] = std::from_chars(shard.data(), end, k);
+    const bool split = bad_k == std::errc() && slash != end && *slash == '/';
+    const auto [rest, bad_n] = std::from_chars(split ? slash + 1 : end, end, n);
+    if (!split || bad_n != std::errc() || rest != end || k < 1 || k > n || n > kMostPoints) {
+        throw InputError("--shard is " + config_words::quote(shard) +
+                         ", but must be K/N: the K-th of N parts, from 1/N to N/N.");
+    }
+    return shard_of(points, k, n);
+}
+
+std::string plan_text(const StudyPlan& plan) {
+    std::string text;
+    for (std::size_t p = 0; p < plan.points.size(); ++p) {
+        const StudyPoint& point = plan.points[p];
+        text += std::to_string(p + 1) + "  " + visible(plan.variants[point.variant].name) + ", " +
+                visible(plan.request.scenes[point.scene]) + ", camera " +
+                std::to_string(point.camera) + "\n";
+    }
+    for (const SkippedVariant& skipped : plan.skipped) {
+        text += "cannot be built: " + visible(skipped.variant.name) + ": " + visible(skipped.why) +
+                "\n";
+    }
+    return text;
+}
+
+/// Results of all points, whoever ran them. Throws FailureError if some are missing or failed.
+void collect(const StudyPlan& plan, const PointStore& store) {
+    const SweepResults results = read_results(plan, store);
+    write_results(plan, results, store.folder());
+    if (results.missing == 0) {
+        store.sweep_up();
+    }
+    print(results_text(plan, results) +
+          "all numbers and plots: " + visible(store.folder().path("")) + "\n");
+    print_warnings(results.warnings);
+    if (results.missing != 0) {
+        throw FailureError({kUserError, grouped(results.missing) +
+                                            " points are missing; 'degs sweep' without --collect "
+                                            "runs them."});
+    }
+    if (!results.failed.empty()) {
+        throw FailureError(results.failed.front().failure);
+    }
+}
+
+void run(const SweepOptions& options) {
+    StudyPlan plan = plan_study(study_of(options));
+    plan.request.jobs = options.jobs;
+    if (options.list) {
+        print(plan_text(plan));
+        return;
+    }
+    const PointRange range = range_of(options.shard, plan.points.size());
+    const PointStore store(options.out, plan);
+    if (options.collect) {
+        collect(plan, store);
+        return;
+    }
+    const bool whole = !options.shard;
+    Stopwatch since_results;
+    const auto write = [&] {
+        if (whole && since_results.seconds() > kSecondsBetweenResults) {
+            write_results(plan, read_results(plan, store), store.folder());
+            since_results = Stopwatch();
+        }
+    };
+    SweepSession session(plan, store, range, write);
+    const bool complete = session.run();
+    if (whole) {
+        const SweepResults results = read_results(plan, store);
+        write_results(plan, results, store.folder());
+        if (complete) {
+            store.sweep_up();
+            print(results_text(plan, results) +
+                  "all numbers and plots: " + visible(store.folder().path("")) + "\n");
+            print_warnings(results.warnings);
+        }
+    }
+    if (const std::optional<Failure> failure = session.failure()) {
+        throw FailureError(*failure);
+    }
+}
+
+void add_study_options(CLI::App& command, SweepOptions& options) {
+    command.add_option("study", options.study, "study (YAML): designs, axes and views")
+        ->type_name("FILE")
+        ->required();
+    command
+        .add_option("--scene", options.scenes,
+                    "scenes in place of the study's: a file (.ply), or "
+                    "synthetic:NAME[,gaussians=N][,seed=N]; may be repeated")
+        ->type_name("SCENE")
+        ->take_all()
+        ->expected(1);
+    command
+        .add_option("--camera", options.cameras,
+                    "cameras in place of the study's: positions in the scene's list, from 0: 0,2 "
+                    "or all")
+        ->type_name("LIST");
+    add_camera_file_option(command, options.camera_file, "--camera-file");
+    CLI::Option* resolution =
+        command
+            .add_option("--resolution", options.resolutions,
+                        "in place of the study's: 720p, 1080p, 2k, 4k, 8k, or several separated "
+                        "by commas")
+            ->type_name("NAMES");
+    command.add_option("--width", options.width, "image width in pixels; the views are scaled")
+        ->excludes(resolution)
+        ->check(CLI::PositiveNumber);
+    add_path_options(command, options.path);
+    command.add_flag("--array-only", options.array_only,
+                     "the rasterisation arrays alone: sorted lists are there at once, and memory "
+                     "is unlimited");
+    command.add_flag("--no-reference", options.no_reference,
+                     "do not render the double-precision images to compare with");
+}
+
+} // namespace
+
+void add_sweep_command(CLI::App& program) {
+    auto options = std::make_shared<SweepOptions>();
+    CLI::App* command =
+        program.add_subcommand("sweep", "run every point of a study, or go on with it");
+    add_study_options(*command, *options);
+    command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    add_out_option(*command, options->out, "folder for points, results and reports");
+    CLI::Option* shard =
+        command
+            ->add_option("--shard", options->shard,
+                         "run the K-th of N parts of the points only; --collect makes the results")
+            ->type_name("K/N");
+    CLI::Option* collect = command->add_flag(
+        "--collect", options->collect, "run nothing; make the results of the points in the folder");
+    collect->excludes(shard);
+    command->add_flag("--list", options->list, "run nothing; list the points")
+        ->excludes(shard)
+        ->excludes(collect);
+    command->callback([options, command] {
+        options->has_frames = command->count("--frames") != 0;
+        options->has_step = command->count("--path-step") != 0;
+        run(*options);
+    });
+}
+
+} // namespace degs::sim

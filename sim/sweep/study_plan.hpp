@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The points of a study, before any of them runs.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sim/compare/compare_request.hpp"
+#include "sim/sweep/study_file.hpp"
+
+namespace degs::sim {
+
+/// A design with a value for every varied key.
+struct StudyVariant {
+    std::string name; ///< unique: the design and the keys that differ from its file
+    std::string design;
+    std::vector<std::string> values; ///< in the order of StudyPlan::keys
+};
+
+/// A variant that cannot be built.
+struct SkippedVariant {
+    StudyVariant variant;
+    std::string why; ///< a sentence
+};
+
+/// A variant on a view.
+struct StudyPoint {
+    std::size_t variant = 0, scene = 0, size = 0; ///< positions in the plan and its request
+    int camera = 0;                               ///< position in the scene's list
+};
+
+struct StudyPlan {
+    std::string name;
+    std::vector<std::string> keys; ///< that the axes vary
+    std::vector<StudyVariant> variants;
+    std::size_t baseline = 0; ///< a variant
+    std::vector<SkippedVariant> skipped;
+    CompareRequest request; ///< one configuration for each variant; the points say on which views
+    std::vector<StudyPoint> points; ///< views in the outer, variants in the inner loop
+    std::string digest; ///< of all points and of the program's version, 16 hexadecimal digits
+};
+
+/// Most points of a study.
+constexpr std::size_t kMostPoints = 100000;
+
+/// Expands the designs and axes, checks every variant, and lists the cameras of each scene. The
+/// baseline is the design that the study names with the values of its own file; it is added in
+/// front if the axes do not have it. Throws InputError if a key, unit, name, scene or camera does
+/// not exist, and if no variant can be built.
+StudyPlan plan_study(const Study& study);
+
+} // namespace degs::sim

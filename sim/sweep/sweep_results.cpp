@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sweep/sweep_results.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "config/visible_text.hpp"
+#include "sim/compare/result_words.hpp"
+#include "sim/report.hpp"
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kCsv = "results.csv";
+constexpr const char* kJson = "results.json";
+constexpr const char* kHost = "host.csv";
+constexpr std::size_t kMostShown = 10; ///< reasons on a terminal; the files have all
+
+/// Measures of the machine that simulates would differ from run to run.
+bool is_reproducible(Measure measure) {
+    return name_of(measure).rfind("host.", 0) != 0;
+}
+
+/// Names of all stages, in the order in which runs first have them.
+std::vector<std::string> stage_names(const Comparison& comparison) {
+    std::vector<std::string> names;
+    for (const ComparisonRow& row : comparison.rows) {
+        for (const auto& [name, busy] : row.stages) {
+            if (std::find(names.begin(), names.end(), name) == names.end()) {
+                names.push_back(name);
+            }
+        }
+    }
+    return names;
+}
+
+std::string csv_head(const StudyPlan& plan, const std::vector<std::string>& stages) {
+    std::string text = "point,design";
+    for (const std::string& key : plan.keys) {
+        text += "," + csv_cell(key);
+    }
+    text += ",accelerator,pes,tile_size,scene,camera,width,height";
+    for_each_measure([&](Measure m) { text += is_reproducible(m) ? "," + name_of(m) : ""; });
+    text += ",limited_by";
+    for (const std::string& stage : stages) {
+        text += "," + csv_cell("stages." + stage + ".busy");
+    }
+    return text + "\n";
+}
+
+std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::size_t r,
+                    const std::vector<std::string>& stages) {
+    const ComparisonRow& row = results.comparison.rows[r];
+    const ComparedConfig& config = results.comparison.configs[row.config];
+    const ComparedView& view = results.comparison.views[row.view];
+    const StudyVariant& variant = plan.variants[row.config];
+    std::string text = std::to_string(results.points[r] + 1) + "," + csv_cell(variant.design);
+    for (const std::string& value : variant.values) {
+        text += "," + csv_cell(value);
+    }
+    text += "," + csv_cell(config.accelerator) + "," + std::to_string(config.pes.value_or(0)) +
+            "," + std::to_string(config.tile_size.value_or(0)) + "," + csv_cell(view.scene) + "," +
+            std::to_string(view.camera) + "," + std::to_string(view.width) + "," +
+            std::to_string(view.height);
+    for_each_measure(
+        [&](Measure m) { text += is_reproducible(m) ? "," + csv_number(row.measures[m]) : ""; });
+    text += "," + csv_cell(row.limited_by);
+    for (const std::string& stage : stages) {
+        const auto use = std::find_if(row.stages.begin(), row.stages.end(),
+                                      [&stage](const auto& each) { return each.first == stage; });
+        text += "," + (use == row.stages.end() ? "" : csv_number(use->second));
+    }
+    return text + "\n";
+}
+
+std::string results_csv(const StudyPlan& plan, const SweepResults& results) {
+    const std::vector<std::string> stages = stage_names(results.comparison);
+    std::string text = csv_head(plan, stages);
+    for (std::size_t r = 0; r < results.comparison.rows.size(); ++r) {
+        text += csv_row(plan, results, r, stages);
+    }
+    return text;
+}
+
+std::string host_csv(const SweepResults& results) {
+    std::string text = "point";
+    for_each_measure([&](Measure m) { text += is_reproducible(m) ? "" : "," + name_of(m); });
+    text += "\n";
+    for (std::size_t r = 0; r < results.comparison.rows.size(); ++r) {
+        text += std::to_string(results.points[r] + 1);
+        for_each_measure([&](Measure m) {
+            const auto& value = results.comparison.rows[r].measures[m];
+            text += is_reproducible(m) ? "" : "," + csv_number(value);
+        });
+        text += "\n";
+    }
+    return text;
+}
+
+ordered_json variant_json(const StudyPlan& plan, const StudyVariant& variant) {
+    ordered_json json = {{"name", variant.name}, {"design", variant.design}};
+    json["keys"] = ordered_json::object();
+    for (std::size_t k = 0; k < plan.keys.size(); ++k) {
+        json["keys"][plan.keys[k]] = variant.values[k];
+    }
+    return json;
+}
+
+ordered_json run_json(const SweepResults& results, std::size_t r) {
+    const ComparisonRow& row = results.comparison.rows[r];
+    ordered_json json = {
+        {"point", results.points[r] + 1}, {"variant", row.config}, {"view", row.view}};
+    for_each_measure([&](Measure m) {
+        if (is_reproducible(m)) {
+            put_measure(json, m, row.measures[m]);
+        }
+    });
+    json["limited_by"] = row.limited_by;
+    json["stages"] = ordered_json::object();
+    for (const auto& [name, busy] : row.stages) {
+        json["stages"][name] = number_json(busy);
+    }
+    json["report"] = row.report;
+    return json;
+}
+
+void put_lists(const StudyPlan& plan, const SweepResults& results, ordered_json& json) {
+    for (const char* list : {"variants", "views", "runs", "skipped", "failed"}) {
+        json[list] = ordered_json::array();
+    }
+    for (std::size_t v = 0; v < plan.variants.size(); ++v) {
+        const ComparedConfig& config = results.comparison.configs[v];
+        ordered_json variant = variant_json(plan, plan.variants[v]);
+        variant["accelerator"] = plan.request.configs[v].config.kind();
+        variant["pes"] = value_or_null(config.pes);
+        variant["tile_size"] = value_or_null(config.tile_size);
+        json["variants"].push_back(std::move(variant));
+    }
+    for (const ComparedView& view : results.comparison.views) {
+        json["views"].push_back(view_json(view));
+    }
+    for (std::size_t r = 0; r < results.comparison.rows.size(); ++r) {
+        json["runs"].push_back(run_json(results, r));
+    }
+    for (const SkippedVariant& skipped : plan.skipped) {
+        json["skipped"].push_back(variant_json(plan, skipped.variant));
+        json["skipped"].back()["why"] = skipped.why;
+    }
+    for (const FailedPoint& failed : results.failed) {
+        json["failed"].push_back({{"point", failed.point + 1},
+                                  {"variant", plan.points[failed.point].variant},
+                                  {"why", failed.failure.sentence}});
+    }
+}
+
+ordered_json results_json(const StudyPlan& plan, const SweepResults& results) {
+    ordered_json json;
+    json["schema"] = {{"name", "degs-sweep"}, {"version", kSweepVersion}};
+    json["tool"] = tool_json();
+    json["study"] = plan.name;
+    json["digest"] = plan.digest;
+    json["frames"] = plan.request.path.frames;
+    json["path_step_degrees"] = plan.request.path.frames > 1
+                                    ? ordered_json(plan.request.path.step_degrees)
+                                    : ordered_json();
+    json["array_only"] = plan.request.array_only;
+    json["keys"] = plan.keys;
+    json["baseline"] = plan.baseline;
+    json["points"] = plan.points.size();
+    json["missing"] = results.missing;
+    put_lists(plan, results, json);
+    return json;
+}
+
+/// Sentences of one kind, as many as a terminal should show.
+class Reasons {
+public:
+    explicit Reasons(std::string& text) : text_(text) {}
+    void add(const std::string& line) {
+        if (++count_ <= kMostShown) {
+            text_ += visible(line) + "\n";
+        }
+    }
+    ~Reasons() {
+        if (count_ > kMostShown) {
+            text_ += "... and " + std::to_string(count_ - kMostShown) + " more\n";
+        }
+    }
+    Reasons(const Reasons&) = delete;
+    Reasons& operator=(const Reasons&) = delete;
+
+private:
+    std::string& text_;
+    std::size_t count_ = 0;
+};
+
+} // namespace
+
+std::vector<std::string> sweep_files() {
+    return {kCsv, kJson, kHost};
+}
+
+SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
+    SweepResults results;
+    std::vector<ComparedRun> runs;
+    std::set<std::string> known;
+    for (std::size_t p = 0; p < plan.points.size(); ++p) {
+        std::optional<StoredPoint> found = store.read(p);
+        if (found) {
+            for (const std::string& sentence : found->frame.warnings) {
+                if (known.insert(sentence).second) {
+                    results.warnings.push_back(sentence);
+                }
+            }
+            results.points.push_back(p);
+            runs.push_back({plan.variants[plan.points[p].variant].name, std::move(found->frame),
+                            std::move(found->path), PointStore::report_of(p)});
+        } else if (const std::optional<Failure> failure = store.failure(p)) {
+            results.failed.push_back({p, *failure});
+        } else {
+            ++results.missing;
+        }
+    }
+    std::vector<std::string> names;
+    for (const StudyVariant& variant : plan.variants) {
+        names.push_back(variant.name);
+    }
+    results.comparison = compare(names, runs, plan.baseline);
+    results.comparison.frames = plan.request.path.frames;
+    results.comparison.path_step_degrees = plan.request.path.step_degrees;
+    results.comparison.array_only = plan.request.array_only;
+    return results;
+}
+
+void write_results(const StudyPlan& plan, const SweepResults& results, const OutputFolder& folder) {
+    folder.write_text(kCsv, results_csv(plan, results));
+    folder.write_text(kHost, host_csv(results));
+    folder.write_json(kJson, results_json(plan, results));
+}
+
+std::string results_text(const StudyPlan& plan, const SweepResults& results) {
+    std::string text = visible(plan.name) + ": " + grouped(results.points.size()) + " of " +
+                       grouped(plan.points.size()) + " points";
+    if (!plan.skipped.empty()) {
+        text += " · " + grouped(plan.skipped.size()) + " cannot be built";
+    }
+    if (!results.failed.empty()) {
+        text += " · " + grouped(results.failed.size()) + " failed";
+    }
+    if (results.missing != 0) {
+        text += " · " + grouped(results.missing) + " missing";
+    }
+    text += "\n";
+    {
+        Reasons reasons(text);
+        for (const SkippedVariant& skipped : plan.skipped) {
+            reasons.add("cannot be built: " + skipped.why);
+        }
+    }
+    Reasons reasons(text);
+    for (const FailedPoint& failed : results.failed) {
+        reasons.add("failed: point " + std::to_string(failed.point + 1) + ": " +
+                    failed.failure.sentence);
+    }
+    return text;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Results of a study for people, programs and spreadsheets.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sim/compare/comparison.hpp"
+#include "sim/failure.hpp"
+#include "sim/sweep/point_store.hpp"
+#include "sim/sweep/study_plan.hpp"
+
+namespace degs::sim {
+
+/// Raised whenever a key of results.json changes its meaning, name or unit.
+constexpr int kSweepVersion = 1;
+
+/// Names of the files that a sweep writes beside its points.
+std::vector<std::string> sweep_files();
+
+struct FailedPoint {
+    std::size_t point = 0;
+    Failure failure;
+};
+
+/// What is known of the points of a study, whoever ran them.
+struct SweepResults {
+    Comparison comparison;           ///< a configuration for each variant, in the plan's order
+    std::vector<std::size_t> points; ///< by row of the comparison
+    std::vector<FailedPoint> failed;
+    std::size_t missing = 0;           ///< points that are neither finished nor failed
+    std::vector<std::string> warnings; ///< sentences, each once
+};
+
+SweepResults read_results(const StudyPlan& plan, const PointStore& store);
+
+/// results.json, results.csv, index.html and host.csv. All but the last depend only on the study.
+void write_results(const StudyPlan& plan, const SweepResults& results, const OutputFolder& folder);
+
+/// Says how many points there are, and which ones could not be built or failed.
+std::string results_text(const StudyPlan& plan, const SweepResults& results);
+
+} // namespace degs::sim

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sweep/sweep_session.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "sim/process/interruption.hpp"
+
+namespace degs::sim {
+
+PointRange shard_of(std::size_t points, std::size_t k, std::size_t n) {
+    return {points * (k - 1) / n, points * k / n};
+}
+
+SweepSession::SweepSession(const StudyPlan& plan, const PointStore& store, PointRange range,
+                           std::function<void()> finished)
+    : plan_(plan), store_(store), finished_(std::move(finished)), runs_(plan.request, hooks()) {
+    progress_.plan(range.end - range.begin);
+    std::size_t done = 0;
+    for (std::size_t p = range.begin; p < range.end; ++p) {
+        const StudyPoint& point = plan.points[p];
+        if (store.read(p)) {
+            ++done;
+        } else {
+            pending_[{point.scene, point.camera, point.size, point.variant}].point = p;
+        }
+    }
+    progress_.resume(done);
+}
+
+SweepSession::Place SweepSession::place_of(const ViewRun& run) {
+    return {run.scene, run.camera, run.size, run.config};
+}
+
+ViewRunsHooks SweepSession::hooks() {
+    ViewRunsHooks hooks;
+    hooks.wanted = [this](const ViewRun& run) { return pending_.count(place_of(run)) != 0; };
+    hooks.ended = [this](const ViewRun& run, ChildOutcome&& outcome) {
+        end(run, std::move(outcome));
+    };
+    hooks.scene_failed = [this](std::size_t scene, const Failure& failure, std::size_t) {
+        fail_where(failure, [scene](const Place& place) { return std::get<0>(place) == scene; });
+    };
+    hooks.view_failed = [this](const ViewRun& view, const Failure& failure, std::size_t) {
+        fail_where(failure, [&view](const Place& place) {
+            ViewRun other = view;
+            other.config = std::get<3>(place);
+            return place_of(other) == place;
+        });
+    };
+    hooks.tick = [this](const std::vector<std::string>& running) { progress_.show(running); };
+    return hooks;
+}
+
+bool SweepSession::run() {
+    set_interruption_sentence(interruption().sentence);
+    for (const auto& [scene, cameras] : cameras_by_scene()) {
+        interrupted_ = interrupted_ || !runs_.run_scene(scene, cameras);
+    }
+    interrupted_ = !runs_.finish();
+    return !interrupted_;
+}
+
+/// In the order of the points.
+std::map<std::size_t, std::vector<int>> SweepSession::cameras_by_scene() const {
+    std::map<std::size_t, std::vector<int>> cameras;
+    for (const StudyPoint& point : plan_.points) {
+        std::vector<int>& list = cameras[point.scene];
+        const Place place{point.scene, point.camera, point.size, point.variant};
+        if (pending_.count(place) != 0 &&
+            std::find(list.begin(), list.end(), point.camera) == list.end()) {
+            list.push_back(point.camera);
+        }
+    }
+    for (auto scene = cameras.begin(); scene != cameras.end();) {
+        scene = scene->second.empty() ? cameras.erase(scene) : std::next(scene);
+    }
+    return cameras;
+}
+
+void SweepSession::end(const ViewRun& run, ChildOutcome&& outcome) {
+    const bool good = !outcome.failure;
+    bool over = true;
+    try {
+        over = take(run, std::move(outcome));
+    } catch (...) {
+        fail(place_of(run), failure_of(std::current_exception()));
+    }
+    if (over) {
+        progress_.ended(run.name, run.clock.seconds(), good);
+        set_interruption_sentence(interruption().sentence);
+        if (finished_) {
+            finished_();
+        }
+    }
+}
+
+bool SweepSession::take(const ViewRun& run, ChildOutcome&& outcome) {
+    const auto entry = pending_.find(place_of(run));
+    if (entry == pending_.end()) {
+        return false; // the point's other run has failed
+    }
+    if (outcome.failure) {
+        fail(entry->first, *outcome.failure);
+        return true;
+    }
+    Pending& pending = entry->second;
+    RunSummary summary = summary_from(outcome.output);
+    if (run.path) {
+        pending.found.path = std::move(summary);
+    } else {
+        pending.found.frame = std::move(summary);
+        pending.frame_found = true;
+    }
+    if (!pending.frame_found || (plan_.request.path.frames > 1 && !pending.found.path)) {
+        return false;
+    }
+    store_.keep(pending.point, pending.found);
+    failures_.erase(pending.point);
+    pending_.erase(entry);
+    return true;
+}
+
+void SweepSession::fail(const Place& place, const Failure& failure) {
+    const auto entry = pending_.find(place);
+    if (entry == pending_.end()) {
+        return;
+    }
+    const std::size_t point = entry->second.point;
+    pending_.erase(entry);
+    failures_[point] = failure;
+    try {
+        store_.keep_failure(point, failure);
+    } catch (...) { // the disk is full, say; the sentence above is the one to report
+        failures_[point] = failure;
+    }
+}
+
+void SweepSession::fail_where(const Failure& failure,
+                              const std::function<bool(const Place&)>& concerned) {
+    std::vector<Place> places;
+    for (const auto& [place, pending] : pending_) {
+        if (concerned(place)) {
+            places.push_back(place);
+        }
+    }
+    for (const Place& place : places) {
+        const std::string& name = plan_.variants[std::get<3>(place)].name;
+        fail(place, failure);
+        progress_.ended(name, 0, false);
+    }
+}
+
+Failure SweepSession::interruption() const {
+    return {kInterrupted, "Interrupted after " + progress_.words() +
+                              "; the same command goes on with the others in '" +
+                              store_.folder().path("") + "'."};
+}
+
+std::optional<Failure> SweepSession::failure() const {
+    if (interrupted_) {
+        return interruption();
+    }
+    if (failures_.empty()) {
+        return {};
+    }
+    Failure worst = failures_.begin()->second;
+    for (const auto& [point, failure] : failures_) {
+        worst = failure.code == kInternalError && worst.code != kInternalError ? failure : worst;
+    }
+    if (failures_.size() > 1) {
+        worst.sentence = std::to_string(failures_.size()) +
+                         " points failed, one of them with: " + worst.sentence;
+    }
+    return worst;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs points of a study.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "sim/compare/run_progress.hpp"
+#include "sim/compare/view_runs.hpp"
+#include "sim/sweep/point_store.hpp"
+
+namespace degs::sim {
+
+/// Points from `begin` up to, but without, `end`.
+struct PointRange {
+    std::size_t begin = 0, end = 0;
+};
+
+/// The k-th of n parts of about the same size, k from 1. Neighbouring points share frames, so a
+/// part is a stretch.
+PointRange shard_of(std::size_t points, std::size_t k, std::size_t n);
+
+/// Runs those points of a stretch that are not finished, each in a process of its own, and keeps
+/// every one as soon as it is finished.
+class SweepSession {
+public:
+    /// `finished` is called after each point.
+    SweepSession(const StudyPlan& plan, const PointStore& store, PointRange range,
+                 std::function<void()> finished = {});
+
+    /// False after Ctrl-C. A point that fails costs the others nothing.
+    bool run();
+    /// The worst failure, or the interruption.
+    std::optional<Failure> failure() const;
+
+private:
+    /// Scene, camera, size and variant.
+    using Place = std::tuple<std::size_t, int, std::size_t, std::size_t>;
+    struct Pending {
+        std::size_t point = 0;
+        StoredPoint found;
+        bool frame_found = false;
+    };
+
+    ViewRunsHooks hooks();
+    static Place place_of(const ViewRun& run);
+    void end(const ViewRun& run, ChildOutcome&& outcome);
+    /// True when the point is finished.
+    bool take(const ViewRun& run, ChildOutcome&& outcome);
+    void fail(const Place& place, const Failure& failure);
+    void fail_where(const Failure& failure, const std::function<bool(const Place&)>& concerned);
+    std::map<std::size_t, std::vector<int>> cameras_by_scene() const;
+    Failure interruption() const;
+
+    const StudyPlan& plan_;
+    const PointStore& store_;
+    std::function<void()> finished_;
+    std::map<Place, Pending> pending_;
+    std::map<std::size_t, Failure> failures_; ///< by point
+    RunProgress progress_{"point"};
+    bool interrupted_ = false;
+    ViewRuns runs_; ///< the last, because it calls back
+};
+
+} // namespace degs::sim
