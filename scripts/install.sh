@@ -9,7 +9,7 @@ packages=(
     libsystemc-dev libglm-dev libopenexr-dev libpng-dev zlib1g-dev
     libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
 )
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev clang-format clang-tidy ccache mandoc mkdocs-material
+test_packages=(chromium libgtest-dev libgmock-dev libbenchmark-dev clang-format clang-tidy ccache mandoc mkdocs-material
     python3 zsh)
 [[ ${1:-} != --tests ]] || packages+=("${test_packages[@]}")
 

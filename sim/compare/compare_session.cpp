@@ -12,13 +12,14 @@
 namespace degs::sim {
 namespace {
 
+constexpr const char* kIndex = "index.html";
 constexpr const char* kSlots = "slots.svg";
 constexpr const char* kUtilization = "utilization.svg";
 
 } // namespace
 
 std::vector<std::string> comparison_files() {
-    return {"compare.json", "compare.csv", kSlots, kUtilization};
+    return {"compare.json", "compare.csv", kIndex, kSlots, kUtilization};
 }
 
 CompareSession::CompareSession(const CompareRequest& request, const OutputFolder& out)
@@ -78,9 +79,9 @@ void CompareSession::take(const ViewRun& started, ChildOutcome&& outcome) {
     }
     RunSummary summary = summary_from(outcome.output);
     const OutputFolder folder(out_.path("reports/" + started.folder), {});
-    folder.write_text(std::to_string(started.config + 1) + "-" + file_name(name) +
-                          (started.path ? "-path.json" : ".json"),
-                      summary.report);
+    const std::string file = std::to_string(started.config + 1) + "-" + file_name(name) +
+                             (started.path ? "-path.json" : ".json");
+    folder.write_text(file, summary.report);
     summary.report.clear();
     for (const std::string& sentence : summary.warnings) {
         std::string warning = name;
@@ -91,6 +92,9 @@ void CompareSession::take(const ViewRun& started, ChildOutcome&& outcome) {
     }
     Found& found = found_[{started.view, started.config}];
     (started.path ? found.path : found.frame) = std::move(summary);
+    if (!started.path) {
+        found.report = "reports/" + started.folder + "/" + file;
+    }
 }
 
 void CompareSession::fail(const std::string& config, const std::string& view,
@@ -107,7 +111,7 @@ Comparison CompareSession::comparison() const {
     std::vector<ComparedRun> runs;
     for (const auto& [place, found] : found_) {
         if (found.frame) { // a path alone has no latency to compare
-            runs.push_back({names[place.second], *found.frame, found.path});
+            runs.push_back({names[place.second], *found.frame, found.path, found.report});
         }
     }
     Comparison result = compare(names, runs);
@@ -122,6 +126,7 @@ void CompareSession::write() const {
     const Comparison now = comparison();
     out_.write_json("compare.json", comparison_json(now));
     out_.write_text("compare.csv", comparison_csv(now));
+    out_.write_text(kIndex, comparison_page(request_.configs, now));
     for (const auto& [file, picture] : {std::pair(kSlots, slots_picture(now)),
                                         std::pair(kUtilization, utilization_picture(now))}) {
         std::error_code ignored;

@@ -38,6 +38,7 @@ private:
     /// One configuration on one view: what its runs have found so far.
     struct Found {
         std::optional<RunSummary> frame, path;
+        std::string report; ///< of the frame
     };
 
     void end(const ViewRun& run, ChildOutcome&& outcome);

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "sim/compare/compare_request.hpp"
 #include "sim/compare/comparison.hpp"
 
 namespace degs::sim {
@@ -19,6 +21,9 @@ std::string comparison_text(const Comparison& comparison);
 nlohmann::ordered_json comparison_json(const Comparison& comparison);
 /// compare.csv: a row per run, numbers in full; a cell without a number is empty.
 std::string comparison_csv(const Comparison& comparison);
+
+/// index.html; its keys are those in which the configurations differ.
+std::string comparison_page(const std::vector<NamedConfig>& configs, const Comparison& comparison);
 
 /// slots.svg; empty if no run has blended anything.
 std::string slots_picture(const Comparison& comparison);

@@ -47,9 +47,9 @@ double psnr(const std::vector<unsigned char>& rgba, const GaussianCloud& cloud,
 }
 
 /// A frame for each load, one after the other in one simulation.
-class Study {
+class StudyRuns {
 public:
-    Study(const SocRequest& request, SocPlatform& platform, GaussianCloud cloud, Camera camera)
+    StudyRuns(const SocRequest& request, SocPlatform& platform, GaussianCloud cloud, Camera camera)
         : request_(request), platform_(platform), cloud_(std::move(cloud)),
           camera_(std::move(camera)) {}
 
@@ -113,7 +113,7 @@ SocResult run_soc(const SocRequest& request, const View& view) {
         timeline.emplace(*request.timeline);
     }
     SocPlatform platform("soc", request, view.camera, timeline ? &*timeline : nullptr);
-    Study study(request, platform, as_floats(view.scene.cloud), view.camera);
+    StudyRuns study(request, platform, as_floats(view.scene.cloud), view.camera);
     platform.host().program = [&study](SocHost& host) { study(host); };
     {
         Progress progress("platform");

@@ -8,6 +8,7 @@
 
 #include "config/visible_text.hpp"
 #include "sim/compare/result_words.hpp"
+#include "sim/page/page.hpp"
 #include "sim/report.hpp"
 #include "sim/text/words.hpp"
 
@@ -18,6 +19,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* kCsv = "results.csv";
 constexpr const char* kJson = "results.json";
+constexpr const char* kPage = "index.html";
 constexpr const char* kHost = "host.csv";
 constexpr std::size_t kMostShown = 10; ///< reasons on a terminal; the files have all
 
@@ -177,6 +179,28 @@ ordered_json results_json(const StudyPlan& plan, const SweepResults& results) {
     return json;
 }
 
+std::string page_of(const StudyPlan& plan, const SweepResults& results) {
+    PageFacts facts;
+    facts.title = plan.name;
+    facts.swept = true;
+    facts.keys = plan.keys;
+    for (const StudyVariant& variant : plan.variants) {
+        facts.variants.push_back({variant.design, {variant.values.begin(), variant.values.end()}});
+    }
+    for (std::size_t point : results.points) {
+        facts.points.push_back(point + 1);
+    }
+    for (const SkippedVariant& skipped : plan.skipped) {
+        facts.skipped.emplace_back(skipped.variant.name, skipped.why);
+    }
+    for (const FailedPoint& failed : results.failed) {
+        facts.failed.emplace_back("point " + std::to_string(failed.point + 1),
+                                  failed.failure.sentence);
+    }
+    facts.missing = results.missing;
+    return study_page(facts, results.comparison);
+}
+
 /// Sentences of one kind, as many as a terminal should show.
 class Reasons {
 public:
@@ -202,7 +226,7 @@ private:
 } // namespace
 
 std::vector<std::string> sweep_files() {
-    return {kCsv, kJson, kHost};
+    return {kCsv, kJson, kHost, kPage};
 }
 
 SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
@@ -241,6 +265,7 @@ void write_results(const StudyPlan& plan, const SweepResults& results, const Out
     folder.write_text(kCsv, results_csv(plan, results));
     folder.write_text(kHost, host_csv(results));
     folder.write_json(kJson, results_json(plan, results));
+    folder.write_text(kPage, page_of(plan, results));
 }
 
 std::string results_text(const StudyPlan& plan, const SweepResults& results) {

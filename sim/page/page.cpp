@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/page/page.hpp"
+
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "config/statistics_document.hpp"
+#include "sim/compare/result_words.hpp"
+#include "sim/page/page_assets.hpp"
+#include "sim/plot/plot_svg.hpp"
+#include "sim/report.hpp"
+
+namespace degs::sim {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Bytes that are not UTF-8 become U+FFFD, and nothing in it ends the element that holds it.
+std::string embedded(const ordered_json& json) {
+    std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+    for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+        text.replace(at, 1, "\\u003c");
+    }
+    return text;
+}
+
+std::string escaped(const std::string& text) {
+    std::string html;
+    for (const char c : text) {
+        html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+    }
+    return html;
+}
+
+bool is_of_host(const std::string& measure) {
+    return measure.rfind("host.", 0) == 0;
+}
+
+ordered_json measures_json() {
+    const std::vector<Statistic> report =
+        document_statistics([](StatsVisitor& visitor) { describe(RunResult(), visitor); });
+    ordered_json list = ordered_json::array();
+    for (const Statistic& measure : measure_statistics(report)) {
+        if (!is_of_host(measure.path)) {
+            list.push_back(
+                {{"name", measure.path}, {"unit", measure.unit}, {"sentence", measure.sentence}});
+        }
+    }
+    return list;
+}
+
+ordered_json run_of(const PageFacts& facts, const Comparison& comparison, std::size_t r) {
+    const ComparisonRow& row = comparison.rows[r];
+    ordered_json run = {{"point", facts.points[r]}, {"variant", row.config}, {"view", row.view}};
+    run["measures"] = ordered_json::array();
+    for_each_measure([&](Measure m) {
+        if (!is_of_host(name_of(m))) {
+            run["measures"].push_back(number_json(row.measures[m]));
+        }
+    });
+    run["limited_by"] = row.limited_by;
+    run["stages"] = ordered_json::object();
+    for (const auto& [name, busy] : row.stages) {
+        run["stages"][name] = busy;
+    }
+    run["report"] = row.report;
+    return run;
+}
+
+ordered_json variant_of(const PageFacts& facts, const Comparison& comparison, std::size_t v) {
+    ordered_json values = ordered_json::array();
+    for (const std::optional<std::string>& value : facts.variants[v].values) {
+        values.push_back(value_or_null(value));
+    }
+    return {{"name", comparison.configs[v].name},
+            {"design", facts.variants[v].design},
+            {"values", std::move(values)},
+            {"pes", value_or_null(comparison.configs[v].pes)}};
+}
+
+ordered_json sentences(const std::vector<std::pair<std::string, std::string>>& list) {
+    ordered_json json = ordered_json::array();
+    for (const auto& [name, why] : list) {
+        json.push_back({{"name", name}, {"why", why}});
+    }
+    return json;
+}
+
+ordered_json data_of(const PageFacts& facts, const Comparison& comparison) {
+    ordered_json json = {{"version", tool_json()["version"]},
+                         {"baseline", comparison.baseline},
+                         {"swept", facts.swept},
+                         {"array_only", comparison.array_only},
+                         {"missing", facts.missing},
+                         {"keys", facts.keys},
+                         {"measures", measures_json()},
+                         {"skipped", sentences(facts.skipped)},
+                         {"failed", sentences(facts.failed)}};
+    for (const char* list : {"slots", "variants", "views", "runs"}) {
+        json[list] = ordered_json::array();
+    }
+    for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
+        json["slots"].push_back({{"name", kSlotClasses[c].name}, {"colour", kSlotColours[c]}});
+    }
+    for (std::size_t v = 0; v < comparison.configs.size(); ++v) {
+        json["variants"].push_back(variant_of(facts, comparison, v));
+    }
+    for (const ComparedView& view : comparison.views) {
+        json["views"].push_back({{"words", view_words(view)}});
+    }
+    for (std::size_t r = 0; r < comparison.rows.size(); ++r) {
+        json["runs"].push_back(run_of(facts, comparison, r));
+    }
+    return json;
+}
+
+/// Replaces each @name@ that has a part; parts may contain anything.
+std::string filled(const std::string& page, const std::map<std::string, std::string>& parts) {
+    std::string text;
+    for (std::size_t at = 0; at < page.size();) {
+        const std::size_t begin = page.find('@', at);
+        const std::size_t end = begin == std::string::npos ? begin : page.find('@', begin + 1);
+        if (end == std::string::npos) {
+            return text + page.substr(at);
+        }
+        text += page.substr(at, begin - at);
+        const auto part = parts.find(page.substr(begin + 1, end - begin - 1));
+        text += part == parts.end() ? page.substr(begin, end - begin + 1) : part->second;
+        at = end + 1;
+    }
+    return text;
+}
+
+} // namespace
+
+std::string study_page(const PageFacts& facts, const Comparison& comparison) {
+    using namespace page_assets;
+    return filled(kPage, {{"title", escaped(facts.title)},
+                          {"css", kStyle},
+                          {"data", embedded(data_of(facts, comparison))},
+                          {"d3", kD3},
+                          {"plot", kPlot},
+                          {"js", kScript}});
+}
+
+} // namespace degs::sim

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// A page with the plots and the table of many runs, which needs no network.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/compare/comparison.hpp"
+
+namespace degs::sim {
+
+/// What a page says about a comparison beyond the comparison.
+struct PageFacts {
+    std::string title;
+    bool swept = false; ///< the keys are axes, else those in which the configurations differ
+    std::vector<std::string> keys; ///< one column each
+    struct Variant {
+        std::string design;
+        std::vector<std::optional<std::string>> values; ///< in the order of `keys`
+    };
+    std::vector<Variant> variants;   ///< in the order of the configurations
+    std::vector<std::size_t> points; ///< numbers from 1, by row
+    std::vector<std::pair<std::string, std::string>> skipped; ///< what, and why
+    std::vector<std::pair<std::string, std::string>> failed;
+    std::size_t missing = 0;
+};
+
+/// index.html: measures of the host are left out, so that it depends only on what was simulated.
+std::string study_page(const PageFacts& facts, const Comparison& comparison);
+
+} // namespace degs::sim

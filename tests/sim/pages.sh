@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# pages.sh PROGRAM CONFIGS: opens the pages of a sweep and of a comparison in headless Chromium, 390 and 1400 px wide,
+# dark and light, uses them, and fails for any message on the console. Exits with 77 if there is no Chromium.
+set -euo pipefail
+program=$1 configs=$2
+command -v chromium >/dev/null || { echo "skipped: chromium is not installed (scripts/install.sh --tests)"; exit 77; }
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+cat >"$folder/study.yaml" <<YAML
+study: <buffers> & "more"
+designs:
+  - include: $configs/degs-64.yaml
+    name: degs-64
+axes:
+  gaussian_buffer.bytes: x1/2..x2 x2
+  pixel_buffer.bytes: [4KB, 16KB]
+  scheduler.termination: [segment, pixel]
+scenes: [synthetic:single, "synthetic:object,gaussians=300"]
+width: 64
+YAML
+"$program" sweep "$folder/study.yaml" --out "$folder/sweep" >/dev/null 2>&1
+"$program" compare "$configs/degs-16.yaml" "$configs/gscore-16.yaml" --scene synthetic:object,gaussians=300 \
+    --width 64 --out "$folder/compare" >/dev/null 2>&1
+
+# The page in a frame of a given width, used like a reader would; the last line of the document says what was seen.
+cat >"$folder/use.html" <<'HTML'
+<!doctype html><title>use</title><body style="margin:0"><iframe id="page" style="height:900px;border:0"></iframe>
+<pre id="seen"></pre><script>
+const wish = new URLSearchParams(location.search);
+const frame = document.getElementById("page");
+frame.style.width = wish.get("width") + "px";
+const wait = () => new Promise((done) => setTimeout(done, 300));
+frame.onload = async () => {
+  const doc = frame.contentDocument;
+  const at = (id) => doc.getElementById(id);
+  const rows = () => at("table").tBodies[0].rows.length;
+  const put = (id, value, kind) => { at(id).value = value; at(id).dispatchEvent(new Event(kind)); };
+  await wait();
+  const seen = { rows: rows(), plots: doc.querySelectorAll("svg").length };
+  for (const select of ["x", "y", "colour", "view"]) {
+    for (const option of at(select).options) { put(select, option.value, "change"); }
+  }
+  await wait();
+  seen.all = [...at("view").options].some((o) => o.value === "all") ? (put("view", "all", "change"), rows()) : rows();
+  at("all-columns").click();
+  doc.querySelectorAll("th button").forEach((button) => { button.click(); });
+  doc.querySelector("th button").click();
+  put("filter", "point<=2", "input");
+  seen.filtered = rows();
+  put("filter", "nonsense<1", "input");
+  seen.note = at("filter-note").textContent;
+  put("filter", "", "input");
+  await wait();
+  seen.wider = doc.documentElement.scrollWidth - frame.clientWidth;
+  seen.links = doc.querySelectorAll("td a[href^='reports/']").length;
+  document.getElementById("seen").textContent = JSON.stringify(seen);
+};
+frame.src = wish.get("page");
+</script></body>
+HTML
+
+failed=0
+try() { # PAGE ROWS ALL
+    local page=$1 width scheme log dom seen
+    for width in 390 1400; do
+        for scheme in 0 1; do # dark, light
+            log=$folder/log dom=$folder/dom
+            chromium --headless --no-sandbox --disable-gpu --allow-file-access-from-files --user-data-dir="$folder/user" \
+                --blink-settings=preferredColorScheme=$scheme --enable-logging=stderr --v=0 --window-size=1500,1000 \
+                --virtual-time-budget=20000 --dump-dom "file://$folder/use.html?page=$page/index.html&width=$width" \
+                >"$dom" 2>"$log"
+            seen=$(grep -o '<pre id="seen">.*</pre>' "$dom" | sed 's/<[^>]*>//g; s/&[a-z]*;//g' || true)
+            echo "$page, $width px, scheme $scheme: $seen"
+            if grep CONSOLE "$log"; then failed=1; fi
+            [[ $seen == *"\"rows\":$2,"* && $seen == *"\"all\":$3,"* && $seen == *'"filtered":2,'* &&
+                $seen == *'no column for nonsense'* && $seen =~ \"wider\":(-[0-9]+|0), && $seen == *"\"links\":$3}"* &&
+                ! $seen =~ \"plots\":[01], ]] || { echo "this page is not as it should be"; failed=1; }
+        done
+    done
+}
+try sweep 6 12
+try compare 2 2
+! grep -oE '(src|href)="https?:[^"]*"|@import|url\(["'\'']?http' "$folder"/*/index.html || { echo "a page needs a network"; failed=1; }
+exit "$failed"
