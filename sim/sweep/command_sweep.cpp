@@ -170,7 +170,7 @@ void add_study_options(CLI::App& command, SweepOptions& options) {
                     "cameras in place of the study's: positions in the scene's list, from 0: 0,2 "
                     "or all")
         ->type_name("LIST");
-    add_camera_file_option(command, options.camera_file, "--camera-file");
+    add_camera_file_option(command, options.camera_file);
     CLI::Option* resolution =
         command
             .add_option("--resolution", options.resolutions,
