@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs sweep: every point of a study.
 #include <charconv>
+#include <filesystem>
 #include <memory>
 
 #include "config/config_words.hpp"
 #include "config/error.hpp"
 #include "config/visible_text.hpp"
 #include "sim/commands.hpp"
+#include "sim/compare/view_runs.hpp"
 #include "sim/stopwatch.hpp"
+#include "sim/sweep/slurm.hpp"
 #include "sim/sweep/sweep_results.hpp"
 #include "sim/sweep/sweep_session.hpp"
 #include "sim/text/standard_output.hpp"
@@ -19,6 +22,8 @@ namespace degs::sim {
 namespace {
 
 constexpr double kSecondsBetweenResults = 10; ///< so that writing them takes no time worth naming
+
+constexpr int kSlurmTasks = 64; ///< most tasks of an array, unless others are asked for
 
 struct SweepOptions {
     std::string study;
@@ -33,6 +38,9 @@ struct SweepOptions {
     int jobs = 1;
     std::optional<std::string> shard;
     bool collect = false, list = false;
+    bool slurm = false;
+    int tasks = kSlurmTasks;
+    std::vector<std::string> sbatch;
     std::string out = "out";
 };
 
@@ -81,6 +89,78 @@ PointRange range_of(const std::optional<std::string>& given, std::size_t points)
     return shard_of(points, k, n);
 }
 
+/// The command that runs the same study, without what says where and how.
+std::vector<std::string> command_of(const SweepOptions& options) {
+    std::error_code none;
+    const std::string program = std::filesystem::read_symlink("/proc/self/exe", none).string();
+    std::vector<std::string> words{none ? "degs" : program, "sweep", options.study};
+    const auto add = [&words](const char* option, const std::string& value) {
+        words.insert(words.end(), {option, value});
+    };
+    for (const std::string& scene : options.scenes) {
+        add("--scene", scene);
+    }
+    for (const auto& [option, value] :
+         {std::pair("--camera", options.cameras), std::pair("--camera-file", options.camera_file),
+          std::pair("--resolution", options.resolutions)}) {
+        if (!value.empty()) {
+            add(option, value);
+        }
+    }
+    if (options.width) {
+        add("--width", std::to_string(*options.width));
+    }
+    if (options.has_frames) {
+        add("--frames", std::to_string(options.path.frames));
+    }
+    if (options.has_step) {
+        add("--path-step", config_words::number(options.path.step_degrees));
+    }
+    for (const auto& [option, given] : {std::pair("--array-only", options.array_only),
+                                        std::pair("--no-reference", options.no_reference)}) {
+        if (given) {
+            words.emplace_back(option);
+        }
+    }
+    return words;
+}
+
+/// Writes the script of an array over the parts that have points to run, and submits it.
+void submit(const SweepOptions& options, const StudyPlan& plan) {
+    SlurmArray array;
+    array.name = file_name("degs-" + plan.name);
+    array.command = command_of(options);
+    array.command.insert(array.command.end(),
+                         {"--out", options.out, "--jobs", std::to_string(options.jobs)});
+    array.options = options.sbatch;
+    array.processors = options.jobs;
+    array.parts = std::min<std::size_t>(options.tasks, plan.points.size());
+    slurm_script(array); // a mistake in the options is found before anything is written
+    const PointStore store(options.out, plan);
+    for (std::size_t k = 1; k <= array.parts; ++k) {
+        const PointRange range = shard_of(plan.points.size(), k, array.parts);
+        std::size_t p = range.begin;
+        while (p < range.end && store.read(p)) {
+            ++p;
+        }
+        if (p < range.end) {
+            array.tasks.push_back(k);
+        }
+    }
+    const std::string out = visible(store.folder().path(""));
+    if (array.tasks.empty()) {
+        print("All points are finished; --collect makes the results in " + out + "\n");
+        return;
+    }
+    const OutputFolder logs(store.folder().path("slurm"), {});
+    array.logs = store.folder().path("slurm");
+    store.folder().write_text("slurm.sh", slurm_script(array));
+    const std::string job = submit_script(store.folder().path("slurm.sh"));
+    print("job " + visible(job) + ": " + grouped(array.tasks.size()) + " tasks for " +
+          grouped(plan.points.size()) + " points; when they have ended, --collect makes the " +
+          "results in " + out + "\n");
+}
+
 std::string plan_text(const StudyPlan& plan) {
     std::string text;
     for (std::size_t p = 0; p < plan.points.size(); ++p) {
@@ -121,6 +201,10 @@ void run(const SweepOptions& options) {
     plan.request.jobs = options.jobs;
     if (options.list) {
         print(plan_text(plan));
+        return;
+    }
+    if (options.slurm) {
+        submit(options, plan);
         return;
     }
     const PointRange range = range_of(options.shard, plan.points.size());
@@ -210,6 +294,22 @@ void add_sweep_command(CLI::App& program) {
     command->add_flag("--list", options->list, "run nothing; list the points")
         ->excludes(shard)
         ->excludes(collect);
+    CLI::Option* slurm = command->add_flag(
+        "--slurm", options->slurm,
+        "run nothing here; submit the points as a job array of Slurm, then use --collect");
+    slurm->excludes(shard)->excludes(collect);
+    command->add_option("--tasks", options->tasks, "most tasks of the job array")
+        ->check(CLI::Range(1, 10000))
+        ->needs(slurm)
+        ->capture_default_str();
+    command
+        ->add_option("--sbatch", options->sbatch,
+                     "options of sbatch for the script, such as '--partition=short --time=60'; may "
+                     "be repeated")
+        ->type_name("TEXT")
+        ->take_all()
+        ->expected(1)
+        ->needs(slurm);
     command->callback([options, command] {
         options->has_frames = command->count("--frames") != 0;
         options->has_step = command->count("--path-step") != 0;
