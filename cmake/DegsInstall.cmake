@@ -7,7 +7,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/degs)
 
 set_target_properties(degs_glm PROPERTIES EXPORT_NAME glm_headers)
-foreach(room config splat scene tlm dram modules baselines platform)
+foreach(room config cost splat scene tlm dram modules baselines platform)
     set_target_properties(degs_${room} PROPERTIES EXPORT_NAME ${room})
     install(TARGETS degs_${room} EXPORT degsTargets COMPONENT degs)
     if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/src/${room})

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "config/ratio.hpp"
+#include "modules/accelerator_energy.hpp"
 #include "sim/stopwatch.hpp"
 
 namespace degs::sim {
@@ -36,6 +37,14 @@ void collect_recording(AcceleratorResult& result, RenderJob& job, Timeline* time
     if (timeline != nullptr) {
         result.timeline = timeline->record(std::max(result.cycles, result.memory_window));
     }
+}
+
+std::uint64_t pixels_of(const std::vector<const FrameWorkload*>& frames) {
+    std::uint64_t pixels = 0;
+    for (const FrameWorkload* frame : frames) {
+        pixels += std::uint64_t{1} * frame->camera.width * frame->camera.height;
+    }
+    return pixels;
 }
 
 void require_equal(const std::string& law, std::uint64_t left, std::uint64_t right) {
@@ -72,11 +81,11 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     result.name = config.name;
     result.pes = config.pes();
     result.clock_ghz = config.clock_ghz;
-    result.area_mm2 = config.area.total();
     result.array_only = options.array_only;
     result.tiles_listed = job.tiles.size();
     result.stopped = time.clock.ceil(sc_core::sc_time_stamp());
     engine->collect(result);
+    result.energy = energy_of(config, result, pixels_of(frames));
     if (job.recorder != nullptr) {
         collect_recording(result, job, timeline ? &*timeline : nullptr);
     }

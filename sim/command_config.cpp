@@ -9,6 +9,7 @@
 #include "config/error.hpp"
 #include "sim/commands.hpp"
 #include "sim/config_difference.hpp"
+#include "sim/cost/cost_output.hpp"
 #include "sim/run_config.hpp"
 #include "sim/statistics_list.hpp"
 #include "sim/text/standard_output.hpp"
@@ -24,6 +25,7 @@ struct ConfigOptions {
     std::string format = "text";
     std::optional<int> pes;             ///< of the design of a family that is wanted
     std::vector<std::string> different; ///< two configurations to be compared
+    bool cost = false;
     bool stats = false;
     std::string of = "run"; ///< the command whose statistics are listed
     std::string section;    ///< of the statistics
@@ -111,6 +113,18 @@ std::string statistics(const RunConfig& config, const ConfigOptions& options) {
                                         : statistics_text(list);
 }
 
+std::string costs(const RunConfig& config, const ConfigOptions& options) {
+    if (options.format == "yaml") {
+        throw InputError(
+            "--cost has the formats text, markdown and json; 'yaml' is for configurations.");
+    }
+    const AcceleratorConfig& accelerator = config.accelerator();
+    const cost::BillOfMaterials bill = accelerator.bill();
+    return options.format == "json"       ? cost_json(accelerator.name, bill)
+           : options.format == "markdown" ? cost_markdown(bill)
+                                          : cost_text(bill);
+}
+
 void run(const ConfigOptions& options) {
     if (!options.different.empty()) {
         print(difference_of(options));
@@ -118,6 +132,13 @@ void run(const ConfigOptions& options) {
     }
     const RunConfig config = config_of(options);
     print_warnings(config.warnings);
+    if (options.format == "json" && !options.cost) {
+        throw InputError("The format json is for --cost; --format yaml prints a configuration.");
+    }
+    if (options.cost) {
+        print(costs(config, options));
+        return;
+    }
     if (options.stats) {
         print(statistics(config, options));
     } else if (options.format == "markdown") {
@@ -135,7 +156,8 @@ void add_config_command(CLI::App& program) {
     auto options = std::make_shared<ConfigOptions>();
     CLI::App* command = program.add_subcommand(
         "config", "explain every configuration key with its default, or with a file's value; with "
-                  "--stats, every statistic that a run reports");
+                  "--cost, area and power of the design; with --stats, every statistic that a run "
+                  "reports");
     CLI::Option* file =
         command
             ->add_option("config", options->config,
@@ -166,13 +188,17 @@ void add_config_command(CLI::App& program) {
     CLI::Option* format =
         command
             ->add_option("--format", options->format,
-                         "text, markdown, or yaml: a complete file that can be run")
-            ->check(CLI::IsMember({"text", "markdown", "yaml"}))
+                         "text, markdown, yaml: a complete file that can be run, or json for "
+                         "--cost")
+            ->check(CLI::IsMember({"text", "markdown", "yaml", "json"}))
             ->capture_default_str();
+    CLI::Option* cost = command->add_flag(
+        "--cost", options->cost, "area and power of every block of the design, without a run");
     CLI::Option* stats =
         command->add_flag("--stats", options->stats,
                           "the statistics that a run on this accelerator reports, with units and "
                           "meanings");
+    stats->excludes(cost);
     command->add_option("--of", options->of, "the command whose statistics are listed")
         ->check(CLI::IsMember({"run", "compare", "memory"}))
         ->capture_default_str()
@@ -182,11 +208,11 @@ void add_config_command(CLI::App& program) {
                      "a part of the statistics: stages, stages.span or timing.cycles")
         ->type_name("PATH")
         ->needs(stats);
-    diff->excludes(stats);
+    diff->excludes(stats)->excludes(cost);
     pes->excludes(stats);
     command->callback([options, file, pes, format] {
         options->has_config = file->count() != 0; // "" is a name, too
-        if (pes->count() != 0 && format->count() == 0) {
+        if (pes->count() != 0 && format->count() == 0 && !options->cost) {
             options->format = "yaml";
         }
         run(*options);

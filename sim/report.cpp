@@ -13,14 +13,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kAvailable = "Whether there are such numbers.";
-constexpr const char* kWhy = "Why not.";
-
-void describe_unavailable(StatsVisitor& v, const char* why) {
-    v.truth("available", false, kAvailable);
-    v.text("why", why, kWhy);
-}
-
 void describe_culled(const CullCounts& culled, StatsVisitor& v) {
     v.begin_section("culled", "The other Gaussians, by reason.");
     v.count("near", culled.near, "Gaussians", "At or before the near plane.");
@@ -51,20 +43,6 @@ void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, S
             "Pixel updates of the reference renderer; null with --no-reference.");
     v.count("terminated_pixels", of_reference(&ReferenceCounts::terminated), "pixels",
             "Pixels of the reference that stopped before the end of their list; null likewise.");
-    v.end_section();
-}
-
-void describe_area(const AreaConfig& area, StatsVisitor& v) {
-    const bool known = area.total() > 0;
-    v.begin_section("area", "Silicon area at 28 nm, as the configuration states it.");
-    if (v.wants(!known)) {
-        describe_unavailable(v, "the configuration says nothing of area");
-    }
-    if (v.wants(known)) {
-        v.real("mm2", area.total(), "mm2", "The sum of the next two.");
-        v.real("fixed_mm2", area.fixed_mm2, "mm2", "Blocks that do not follow the number of PEs.");
-        v.real("array_mm2", area.array_mm2, "mm2", "Blocks that do.");
-    }
     v.end_section();
 }
 
@@ -110,10 +88,8 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
 
 /// The sections of a report between `conservation` and `warnings`.
 void describe_outcome(const RunResult& result, StatsVisitor& v) {
-    v.begin_section("energy", "Energy of the accelerator.");
-    describe_unavailable(v, "this version has no energy model");
-    v.end_section();
-    describe_area(result.config.accelerator().area, v);
+    v.section("energy", result.accelerator.energy, "Energy of the accelerator and its memory.");
+    v.section("area", result.config.accelerator().bill(), "What the design costs.");
     describe_image(result.error, v);
 }
 

@@ -56,10 +56,13 @@ void add_ratios(const Measures& first, Measures& measures) {
         quotient(first[Measure::LatencyMs], measures[Measure::LatencyMs]);
     measures[Measure::ThroughputRatio] =
         quotient(measures[Measure::ThroughputFps], first[Measure::ThroughputFps]);
+    measures[Measure::EnergyRatio] =
+        quotient(first[Measure::NjPerFrame], measures[Measure::NjPerFrame]);
     const auto area = quotient(first[Measure::AreaMm2], measures[Measure::AreaMm2]);
     for (const auto& [ratio, per_area] :
          {std::pair(Measure::LatencyRatio, Measure::LatencyRatioPerArea),
-          std::pair(Measure::ThroughputRatio, Measure::ThroughputRatioPerArea)}) {
+          std::pair(Measure::ThroughputRatio, Measure::ThroughputRatioPerArea),
+          std::pair(Measure::EnergyRatio, Measure::EnergyRatioPerArea)}) {
         if (measures[ratio] && area) {
             measures[per_area] = *measures[ratio] * *area;
         }

@@ -35,6 +35,11 @@ std::string megabytes(const Measures& m) {
     return read && written ? three_digits((*read + *written) * 1e-6) : "";
 }
 
+std::string millijoules(const Measures& m) {
+    const auto& nj = m[Measure::NjPerFrame];
+    return nj ? three_digits(*nj * 1e-6) : "";
+}
+
 /// Shares of the slots, then of the whole frame.
 std::vector<std::string> slot_cells(const Measures& m) {
     std::vector<std::string> cells;
@@ -46,9 +51,10 @@ std::vector<std::string> slot_cells(const Measures& m) {
 }
 
 std::vector<std::string> ratio_cells(const Measures& m) {
-    return {fixed_ratio(m[Measure::LatencyRatio]), fixed_ratio(m[Measure::LatencyRatioPerArea]),
-            fixed_ratio(m[Measure::ThroughputRatio]),
-            fixed_ratio(m[Measure::ThroughputRatioPerArea])};
+    return {
+        fixed_ratio(m[Measure::LatencyRatio]),    fixed_ratio(m[Measure::LatencyRatioPerArea]),
+        fixed_ratio(m[Measure::ThroughputRatio]), fixed_ratio(m[Measure::ThroughputRatioPerArea]),
+        fixed_ratio(m[Measure::EnergyRatio]),     fixed_ratio(m[Measure::EnergyRatioPerArea])};
 }
 
 std::vector<std::string> joined(std::vector<std::string> head,
@@ -59,11 +65,13 @@ std::vector<std::string> joined(std::vector<std::string> head,
     return head;
 }
 
-const std::vector<std::string> kRatioHeadings{"speed ×", "per mm²", "path ×", "per mm²"};
+const std::vector<std::string> kRatioHeadings{"speed ×", "per mm²",  "path ×",
+                                              "per mm²", "energy ×", "per mm²"};
 
 std::string time_table(const Comparison& comparison, std::size_t view) {
-    TextTable table(joined({"", "PEs", "tile", "cycles", "ms", "fps", "path fps", "DRAM MB", "mm²"},
-                           kRatioHeadings, {"PSNR dB"}));
+    TextTable table(
+        joined({"", "PEs", "tile", "cycles", "ms", "fps", "path fps", "DRAM MB", "mm²", "mJ", "W"},
+               kRatioHeadings, {"PSNR dB"}));
     for (const ComparisonRow& row : comparison.rows) {
         const ComparedConfig& config = comparison.configs[row.config];
         const Measures& m = row.measures;
@@ -72,7 +80,8 @@ std::string time_table(const Comparison& comparison, std::size_t view) {
                               m[Measure::Cycles] ? scaled(*m[Measure::Cycles]) : "",
                               digits(m[Measure::LatencyMs]), digits(m[Measure::Fps]),
                               digits(m[Measure::ThroughputFps]), megabytes(m),
-                              fixed_ratio(m[Measure::AreaMm2])},
+                              fixed_ratio(m[Measure::AreaMm2]), millijoules(m),
+                              digits(m[Measure::AveragePowerW])},
                              ratio_cells(m), {decibels(m[Measure::PsnrDb])}));
         }
     }
@@ -95,12 +104,13 @@ std::string slots_table(const Comparison& comparison, std::size_t view) {
 }
 
 std::string means_table(const Comparison& comparison) {
-    TextTable table(
-        joined({"", "ms", "fps", "path fps"}, kRatioHeadings, {"useful %", "of the frame %"}));
+    TextTable table(joined({"", "ms", "fps", "path fps", "mJ", "W"}, kRatioHeadings,
+                           {"useful %", "of the frame %"}));
     for (const ComparisonRow& row : comparison.means) {
         const Measures& m = row.measures;
         table.add(joined({comparison.configs[row.config].name, digits(m[Measure::LatencyMs]),
-                          digits(m[Measure::Fps]), digits(m[Measure::ThroughputFps])},
+                          digits(m[Measure::Fps]), digits(m[Measure::ThroughputFps]),
+                          millijoules(m), digits(m[Measure::AveragePowerW])},
                          ratio_cells(m),
                          {share(m[Measure::Utilization]), share(m[Measure::FrameUtilization])}));
     }
@@ -123,6 +133,7 @@ std::string legend(const Comparison& comparison) {
         words += "; path: throughput over " + std::to_string(comparison.frames) + " frames of " +
                  config_words::number(comparison.path_step_degrees) + "° each, " + first + " = 1";
     }
+    words += "; energy: frames per joule, " + first + " = 1";
     words += comparison.array_only ? "; arrays alone, without front ends and memory" : "";
     return folded(words, text_width(), 2) + "\n";
 }

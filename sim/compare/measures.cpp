@@ -38,11 +38,17 @@ constexpr std::array<MeasureRule, kMeasures> kRules{{
     {"dram.bytes_read", "dram.bytes_read", false},
     {"dram.bytes_written", "dram.bytes_written", false},
     {"dram.utilization", "dram.utilization", false},
-    {"area_mm2", nullptr, false, "mm2", "Area that the configuration states."},
+    {"area_mm2", "area.mm2", false},
+    {"energy.nj_per_frame", "energy.nj_per_frame", true},
+    {"energy.nj_per_pixel", "energy.nj_per_pixel", true},
+    {"energy.average_power_w", "energy.average_power_w", true},
     {"ratio.latency", nullptr, true, "", "Latency of the first configuration / latency."},
     {"ratio.throughput", nullptr, true, "", "Throughput / that of the first configuration."},
     {"ratio.latency_per_mm2", nullptr, true, "", "ratio.latency x area of the first / area."},
     {"ratio.throughput_per_mm2", nullptr, true, "", "ratio.throughput x area of the first / area."},
+    {"ratio.energy", nullptr, true, "",
+     "Frames per joule / that of the first configuration, each frame alone."},
+    {"ratio.energy_per_mm2", nullptr, true, "", "ratio.energy x area of the first / area."},
     {"image.psnr_db", "image.psnr_db", false},
     {"image.ssim", "image.ssim", false},
     {"image.max_abs_error", "image.max_abs_error", false},
@@ -134,9 +140,6 @@ Measures measures_of(const RunResult& result) {
         for (Measure m : {Measure::DramRead, Measure::DramWritten, Measure::DramUtilization}) {
             measures[m].reset();
         }
-    }
-    if (const double area = result.config.accelerator().area.total(); area > 0) {
-        measures[Measure::AreaMm2] = area;
     }
     return measures;
 }

@@ -33,10 +33,15 @@ enum class Measure {
     DramWritten, ///< bytes
     DramUtilization,
     AreaMm2,
+    NjPerFrame,
+    NjPerPixel,
+    AveragePowerW,
     LatencyRatio,           ///< latency of the first / latency
     ThroughputRatio,        ///< throughput / throughput of the first
     LatencyRatioPerArea,    ///< the same with latency x area
     ThroughputRatioPerArea, ///< the same with throughput / area
+    EnergyRatio,            ///< energy per frame of the first / energy per frame
+    EnergyRatioPerArea,     ///< the same with energy x area
     PsnrDb,
     Ssim,
     MaxAbsError,

@@ -41,12 +41,10 @@ std::string scene_line(const RunResult& result) {
 
 std::string design_line(const RunResult& result) {
     const AcceleratorResult& run = result.accelerator;
-    std::int64_t bytes = 0;
-    for (const BufferUse& buffer : run.buffers) {
-        bytes += buffer.bytes;
-    }
+    const cost::BillOfMaterials bill = result.config.accelerator().bill();
     return run.name + kDot + std::to_string(run.pes) + " PEs" + kDot +
-           three_digits(ratio_of(bytes, 1024)) + " KB of SRAM";
+           three_digits(ratio_of(bill.sram_bytes(), 1024)) + " KB of SRAM" + kDot +
+           three_digits(bill.area_mm2()) + " mm²";
 }
 
 std::string frame_line(const RunResult& result) {
@@ -102,6 +100,29 @@ std::string memory_line(const AcceleratorResult& run) {
            percent(run.memory_utilization, 0) + " % of " +
            config_words::number(run.memory_gb_per_s) + " GB/s" +
            (run.row_hit_rate ? kDot + ("row hits " + percent(*run.row_hit_rate, 0) + " %") : "");
+}
+
+/// Per frame, with the blocks that take the most.
+std::string energy_line(const AcceleratorResult& run) {
+    const cost::RunEnergy& energy = run.energy;
+    constexpr double kMjPerNj = 1e-6;
+    constexpr std::size_t kMostShares = 3;
+    std::vector<std::pair<double, std::string>> shares;
+    for (const cost::BlockEnergy& block : energy.blocks()) {
+        shares.emplace_back(block.dynamic_nj + block.leakage_nj, block.name);
+    }
+    shares.emplace_back(energy.dram_nj().value_or(0), "memory");
+    std::stable_sort(shares.begin(), shares.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::string line = three_digits(energy.nj_per_frame().value_or(0) * kMjPerNj) +
+                       " mJ per frame" + kDot + three_digits(energy.nj_per_pixel().value_or(0)) +
+                       " nJ per pixel" + kDot + three_digits(energy.average_power_w().value_or(0)) +
+                       " W";
+    for (std::size_t i = 0; energy.total_nj() > 0 && i < kMostShares; ++i) {
+        line +=
+            kDot + shares[i].second + " " + percent(shares[i].first / energy.total_nj(), 0) + " %";
+    }
+    return line;
 }
 
 std::string image_line(const RunResult& result, const std::string& image_path) {
@@ -171,6 +192,7 @@ std::string summary(const RunResult& result, const std::string& image_path) {
                    {"slots", slots_line(run)},
                    {"stages", stages_line(run)},
                    {"memory", memory_line(run)},
+                   {"energy", energy_line(run)},
                    {"image", image_line(result, image_path)},
                    {"host", host_line(result)}});
 }

@@ -64,6 +64,7 @@ private:
     void collect_slots(AcceleratorResult& result) const;
     void collect_stages(AcceleratorResult& result) const;
     void collect_buffers(AcceleratorResult& result) const;
+    void collect_activity(AcceleratorResult& result) const;
     void collect_laws(AcceleratorResult& result) const;
 
     GbuConfig config_;

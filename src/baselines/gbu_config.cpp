@@ -5,7 +5,6 @@ namespace degs {
 
 GbuConfig::GbuConfig() {
     name = "gbu-64";
-    area = {1.13, 3.31}; // DeGS paper, Table I: unshaded and shaded rows
     projection.latency_cycles = 128;
     traffic.geometry_bytes = 44;
     traffic.sh_value_bytes = 4;
@@ -54,8 +53,7 @@ void GbuConfig::describe(ConfigVisitor& visitor) {
     visitor.section("pixel_buffer", pixel_buffer, "tiles in flight");
     visitor.section("monitor", monitor, "cancellation of finished tiles");
     visitor.section("memory", memory, "off-chip memory");
-    visitor.does_not_follow("area", "engines.count");
-    visitor.does_not_follow("area", "engines.row_pes");
+    describe_cost(visitor);
     require_sizes(visitor);
 }
 

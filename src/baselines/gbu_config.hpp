@@ -59,6 +59,7 @@ struct GbuConfig : AcceleratorConfig {
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return engines.count * contexts(); }
     TrafficConfig records() const override { return traffic; }
+    cost::BillOfMaterials bill() const override;
     RecordOrder record_order() const override { return memory.layout; }
     void read_floats() override {
         traffic.geometry_bytes = kFloatGeometryBytes;
@@ -84,10 +85,8 @@ struct GbuConfig : AcceleratorConfig {
         return std::int64_t{engines.count} * list_buffer.chunks * fetching.chunk *
                traffic.splat_bytes;
     }
-    std::int64_t sram_bytes() const {
-        return std::int64_t{list_buffer.bytes} + splat_buffer_bytes() + reuse_cache.bytes +
-               queue_bytes() + pixel_buffer.bytes;
-    }
+    /// Bytes of the state of a pixel, which need not be whole ones.
+    double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
 
 private:
     PixelBuffer::TilePixels tile_pixels() const { return {tile_size, pipeline.pixel_bits()}; }

@@ -98,6 +98,7 @@ void Gbu::collect(AcceleratorResult& result) const {
     collect_slots(result);
     collect_stages(result);
     collect_buffers(result);
+    collect_activity(result);
     streams_.collect(result);
     collect_laws(result);
     using E = TileEngine::Stats;

@@ -23,6 +23,7 @@ TileArrayEngine::Parts parts_of(const GscoreConfig& config) {
     parts.contexts = config.tile_contexts();
     parts.splat_chunks = config.splat_chunks();
     parts.buffer_bytes = config.buffer.bytes - config.pixel_buffer.bytes;
+    parts.pixel_bytes = config.pixel_bytes();
     parts.writeback_cycles = config.array.pipeline_cycles;
     return parts;
 }
@@ -48,6 +49,7 @@ void Gscore::collect_array(AcceleratorResult& result) const {
     result.window = array.window;
     add_stage(result, {"blending", "Clusters of the Lockstep Array."}, config_.array.clusters,
               array.passes * config_.array.clusters, counters_of(array));
+    add_activity(result, "blending", result.slots.executed());
     collect_laws(result);
     result.left_out.push_back(
         grouped(array.splats_skipped) +

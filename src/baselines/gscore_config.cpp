@@ -17,7 +17,6 @@ void GscoreConfig::Buffer::describe(ConfigVisitor& visitor) {
 
 GscoreConfig::GscoreConfig() {
     name = "gscore-64";
-    area = {0.89, 3.06}; // paper, Table I: P&S, and blending with SRAM
     projection.latency_cycles = 128;
     traffic.geometry_bytes = 44;
     traffic.sh_value_bytes = 4;
@@ -38,7 +37,7 @@ void GscoreConfig::describe(ConfigVisitor& visitor) {
     visitor.section("pixel_buffer", pixel_buffer, "tiles in flight, part of buffer.bytes");
     visitor.section("monitor", monitor, "cancellation of finished tiles");
     visitor.section("memory", memory, "off-chip memory");
-    visitor.does_not_follow("area", "array.lanes");
+    describe_cost(visitor);
     require_sizes(visitor);
 }
 
@@ -54,6 +53,27 @@ void GscoreConfig::scale_to(int pes) {
     constexpr int kTiles = 2;
     pixel_buffer.bytes = kTiles * pixel_buffer.state_bytes * array.tile_size() * array.tile_size();
     pixel_buffer.readout_pixels = pes;
+}
+
+// The reference traffic of the buffer: a splat per cycle for the array, and keys in both steps.
+cost::BillOfMaterials GscoreConfig::bill() const {
+    const cost::Technology::Gscore& rows = cost.gscore;
+    constexpr int kReadAndWritten = 2;
+    constexpr int kSortingSteps = 2;
+    cost::BillOfMaterials bill(cost, clock_ghz);
+    bill.add_units({"projection", "Culling and conversion units.", true}, rows.preprocessing,
+                   projection.count, 1 - rows.sorting_share);
+    bill.add_units({"sorting", "Hierarchical sorting units.", true}, rows.preprocessing,
+                   sorting.count, rows.sorting_share);
+    bill.add_units({"blending", "Lanes of the volume rendering cores."}, rows.blending, pes(), 1,
+                   cost.pe_factors(pipeline.precision()));
+    bill.add_sram({"gaussian_buffer", "Sorted splats and lists being sorted."}, rows.sram,
+                  shared_bytes(),
+                  kReadAndWritten * (traffic.splat_bytes +
+                                     kSortingSteps * sorting.count * traffic.list_entry_bytes));
+    bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."}, rows.sram,
+                  pixel_buffer.bytes, kReadAndWritten * pes() * pixel_bytes());
+    return bill;
 }
 
 void GscoreConfig::require_sizes(ConfigVisitor& visitor) const {

@@ -52,6 +52,7 @@ struct GscoreConfig : AcceleratorConfig {
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return pixel_buffer.contexts(tile_pixels()); }
     TrafficConfig records() const override { return traffic; }
+    cost::BillOfMaterials bill() const override;
     RecordOrder record_order() const override { return memory.layout; }
     void read_floats() override {
         traffic.geometry_bytes = kFloatGeometryBytes;
@@ -60,6 +61,8 @@ struct GscoreConfig : AcceleratorConfig {
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
 
+    /// Bytes of the state of a pixel, which need not be whole ones.
+    double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
     /// Splat chunks that a fetcher's share of the buffer holds.
     int splat_chunks() const { return splat_share().bytes_of(shared_bytes()) / chunk_bytes(); }
     /// Keys that a sorter's share of the buffer holds.

@@ -80,9 +80,6 @@ public:
     virtual void unused(const char* key, const char* decider, const char* reason) {
         (void)key, (void)decider, (void)reason;
     }
-    /// Says that `key`, a value or a section, was stated for one value of `decider` and does not
-    /// follow it. A reader warns if the source writes the decider over the key.
-    virtual void does_not_follow(const char* key, const char* decider) { (void)key, (void)decider; }
 
     void integer(const char* key, int& value, int low, int high, const char* doc) {
         std::int64_t wide = value;

@@ -208,17 +208,6 @@ void ConfigReader::unused(const char* key, const char* decider, const char* reas
     }
 }
 
-void ConfigReader::does_not_follow(const char* key, const char* decider) {
-    const std::string& section = open_.back().path;
-    const ConfigSource::Given given = source_.strongest(join_path(section, key));
-    const ConfigSource::Given by = source_.strongest(join_path(section, decider));
-    if (by.node != nullptr && (given.node == nullptr || by.node->layer < given.node->layer)) {
-        warnings_.push_back(by.node->place + ": " + quote(join_path(section, key)) +
-                            " does not follow key " + quote(by.path) + " and is still that of " +
-                            (given.node == nullptr ? "the default" : given.node->place) + ".");
-    }
-}
-
 void ConfigReader::finish() const {
     reject_unknown(source_.root_, "");
     for (const auto& override : source_.overrides_) {

@@ -32,7 +32,6 @@ public:
     void advise(bool in_proportion, const ConfigRule& rule) override;
     void advise_if_set(bool of_use, const ConfigRule& rule) override;
     void unused(const char* key, const char* decider, const char* reason) override;
-    void does_not_follow(const char* key, const char* decider) override;
 
     /// Rejects keys that nobody asked for, then the first rule that does not hold.
     void finish() const;

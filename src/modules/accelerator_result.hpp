@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/statistics.hpp"
+#include "cost/run_energy.hpp"
 #include "dram/activity.hpp"
 #include "dram/energy.hpp"
 #include "dram/transfer_account.hpp"
@@ -75,7 +76,6 @@ struct AcceleratorResult {
     std::string name;
     int pes = 0;
     double clock_ghz = 1;
-    double area_mm2 = 0; ///< 0: the configuration does not say
     bool array_only = false;
     Cycle cycles = 0; ///< start to the last pixel of the last frame in memory
     std::vector<FrameDates> frames;
@@ -85,6 +85,8 @@ struct AcceleratorResult {
     std::vector<StageUse> stages;
     std::vector<BufferUse> buffers;
     std::vector<StreamUse> streams;
+    std::vector<cost::Activity> activity; ///< of the blocks in the bill of materials
+    cost::RunEnergy energy;
     double memory_utilization = 0; ///< share of memory_window in which the data bus was busy
     double memory_gb_per_s = 0;    ///< peak; 0: unlimited
     /// Cycles over which memory is counted: the run, or up to its last answer if that is later.

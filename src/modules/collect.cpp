@@ -19,6 +19,19 @@ void collect_written(AcceleratorResult& result, const std::vector<Cycle>& writte
 
 } // namespace
 
+void add_activity(AcceleratorResult& result, const char* block, double operations) {
+    result.activity.push_back({block, operations});
+}
+
+void add_pixel_activity(AcceleratorResult& result, const RenderJob& job, double pixel_bytes) {
+    std::uint64_t pixels = 0;
+    for (const JobTile& tile : job.tiles) {
+        pixels += std::uint64_t{1} * tile.width * tile.height;
+    }
+    const std::uint64_t accesses = result.slots.executed() + result.slots.useful + pixels;
+    add_activity(result, "pixel_buffer", rate_of(accesses, 1) * pixel_bytes);
+}
+
 void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
                     const BackgroundWriter& background) {
     collect_written(result, background.frames_written());
@@ -86,8 +99,6 @@ void explain_tiles(AcceleratorResult& result, std::uint64_t records_cancelled) {
                   " tiles were cancelled before the end of their list because all their pixels had "
                   "ended: " +
                   grouped(records_cancelled) + " splat records were not fetched.");
-    out.emplace_back(
-        "The energy of the accelerator is not reported: its blocks have no energy model.");
 }
 
 } // namespace degs

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "config/ratio.hpp"
 #include "modules/accelerator_result.hpp"
 #include "modules/array/pixel_buffer.hpp"
 #include "modules/front_end/background_writer.hpp"
@@ -63,6 +64,15 @@ void add_buffer(AcceleratorResult& result, const Title& title, std::int64_t byte
 
 /// The Splat Fetchers of any accelerator.
 inline constexpr Title kFetching{"fetching", "Splat Fetchers, busy when they ask for records."};
+
+/// What a block of the bill of materials has done: cycles of work of its units, or bytes moved.
+void add_activity(AcceleratorResult& result, const char* block, double operations);
+inline void add_activity(AcceleratorResult& result, const char* block, std::uint64_t operations) {
+    add_activity(result, block, rate_of(operations, 1));
+}
+/// The same for "pixel_buffer": a task reads the state of its pixel and writes it if it blends, and
+/// every pixel of the tiles is read out once. The slots of `result` must be known.
+void add_pixel_activity(AcceleratorResult& result, const RenderJob& job, double pixel_bytes);
 
 using PixelBuffers = std::vector<std::unique_ptr<PixelBuffer>>;
 

@@ -83,6 +83,7 @@ private:
     void collect_slots(AcceleratorResult& result) const;
     void collect_stages(AcceleratorResult& result) const;
     void collect_buffers(AcceleratorResult& result) const;
+    void collect_activity(AcceleratorResult& result) const;
     void collect_laws(AcceleratorResult& result) const;
     void explain(AcceleratorResult& result) const;
     void explain_ports(AcceleratorResult& result) const;

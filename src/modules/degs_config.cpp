@@ -159,9 +159,8 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
     visitor.section("pixel_buffer", pixel_buffer, "tiles in flight");
     visitor.section("monitor", monitor, "cancellation of finished tiles");
     visitor.section("memory", memory, "off-chip memory");
+    describe_cost(visitor);
     require_counts(visitor);
-    visitor.does_not_follow("area", "scheduler.banks");
-    visitor.does_not_follow("area", "array.pes_per_bank");
     require_sizes(visitor);
     require_packing(visitor);
     advise_supply(visitor);

@@ -105,10 +105,7 @@ struct DegsConfig : AcceleratorConfig {
     TileMonitor::Config monitor;
     MainMemoryConfig memory;
 
-    DegsConfig() {
-        name = "degs-64";
-        area = {1.28, 1.44}; // paper, Table I: unshaded and shaded rows
-    }
+    DegsConfig() { name = "degs-64"; }
     std::unique_ptr<AcceleratorConfig> clone() const override {
         return std::make_unique<DegsConfig>(*this);
     }
@@ -119,6 +116,7 @@ struct DegsConfig : AcceleratorConfig {
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return contexts(); }
     TrafficConfig records() const override { return traffic; }
+    cost::BillOfMaterials bill() const override;
     RecordOrder record_order() const override { return memory.layout; }
     void read_floats() override {
         traffic.geometry_bytes = kFloatGeometryBytes;
@@ -130,10 +128,8 @@ struct DegsConfig : AcceleratorConfig {
     // Derived sizes.
     int pes() const override { return scheduler.banks * array.pes_per_bank; }
     int contexts() const { return pixel_buffer.contexts(tile_pixels()); }
-    std::int64_t sram_bytes() const {
-        return std::int64_t{gaussian_buffer.bytes} + span_buffer.bytes + packing.bytes +
-               feature_buffer.bytes + pixel_buffer.bytes;
-    }
+    /// Bytes of the state of a pixel, which need not be whole ones.
+    double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
     /// Tile streams, and the tiles of each that the Pixel Buffer holds.
     int streams() const { return slicing.interleave; }
     int contexts_per_stream() const { return contexts() / streams(); }

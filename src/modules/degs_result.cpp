@@ -132,6 +132,7 @@ void Degs::collect(AcceleratorResult& result) const {
     collect_slots(result);
     collect_stages(result);
     collect_buffers(result);
+    collect_activity(result);
     streams_.collect(result);
     collect_laws(result);
     explain(result);

@@ -28,6 +28,18 @@ int PipelineConfig::pixel_bits() const {
     return degs::pixel_bits(formats.applied_to(set_of(numbers)));
 }
 
+cost::Precision PipelineConfig::precision() const {
+    switch (numbers) {
+    case Arithmetic::Fp32:
+        return cost::Precision::Single;
+    case Arithmetic::Fp64:
+    case Arithmetic::Ideal:
+        return cost::Precision::Double;
+    default:
+        return cost::Precision::Half;
+    }
+}
+
 DataPathOptions PipelineConfig::options(SpanEnds ends, int delta) const {
     const DataPathOptions named = named_numbers(name_of(numbers), formats.assignments());
     return {numbers, ends, delta, stop_rule, named.set, named.projection};

@@ -3,6 +3,7 @@
 
 #include "config/config.hpp"
 #include "config/config_changes.hpp"
+#include "cost/technology.hpp"
 #include "splat/data_path.hpp"
 #include "splat/frame_workload.hpp"
 
@@ -17,6 +18,8 @@ struct PipelineConfig {
     void describe(ConfigVisitor& visitor);
     /// Bits of a pixel's transmittance and colour in the formats of `numbers` and `formats`.
     int pixel_bits() const;
+    /// Width of `numbers`; single parts in other formats do not count.
+    cost::Precision precision() const;
     /// Exact span ends: the pixels inside the ellipse.
     DataPathOptions data_path() const { return options(SpanEnds::Exact, 0); }
 

@@ -6,6 +6,7 @@
 
 #include <systemc>
 
+#include "cost/bill_of_materials.hpp"
 #include "modules/accelerator_result.hpp"
 #include "modules/front_end/frame_end_config.hpp"
 #include "modules/pipeline_config.hpp"
@@ -41,22 +42,14 @@ struct BuildOptions {
     MainMemory* memory = nullptr;
 };
 
-/// Silicon area, for comparisons at equal area.
-struct AreaConfig {
-    double fixed_mm2 = 0; ///< blocks that do not follow the number of PEs
-    double array_mm2 = 0; ///< blocks that do, at this number of PEs
-    double total() const { return fixed_mm2 + array_mm2; }
-    void describe(ConfigVisitor& visitor);
-};
-
 /// The configuration of any accelerator. A new accelerator derives one of these and joins
 /// accelerator_kinds(); docs/adding-an-accelerator.md is a worked example.
 struct AcceleratorConfig {
     std::string name;
     double clock_ghz = 1.0;
-    AreaConfig area;
     int frames_in_flight = 2; ///< frames between the first Gaussian read and the last pixel written
     FrameEndConfig frame_end;
+    cost::Technology cost; ///< constants of area, power and energy
 
     AcceleratorConfig() = default;
     AcceleratorConfig(const AcceleratorConfig&) = default;
@@ -82,6 +75,8 @@ struct AcceleratorConfig {
     virtual int tile_contexts() const = 0;
     /// Record layouts of the streams that all accelerators have.
     virtual TrafficConfig records() const = 0;
+    /// The blocks of the design and what they cost. A run reports the activity of each of them.
+    virtual cost::BillOfMaterials bill() const = 0;
     /// How splat records lie in memory.
     virtual RecordOrder record_order() const { return RecordOrder::Index; }
     /// Switches to the scene as a platform's memory holds it: values of 4 B, see docs/accelerator.md.
@@ -93,6 +88,8 @@ struct AcceleratorConfig {
 
 protected:
     void describe_common(ConfigVisitor& visitor);
+    /// The keys of the cost model, last because they are many.
+    void describe_cost(ConfigVisitor& visitor);
 };
 
 /// The job of rendering `frames` with the data path that `config` asks for.

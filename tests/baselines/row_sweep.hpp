@@ -109,6 +109,7 @@ private:
         counters.count("splats", array_.splats, "splats", "Splats swept over.");
         add_stage(result, {"blending", "Rows of splats, one after the other."}, 1,
                   array_.window.cycles(), std::move(counters));
+        add_activity(result, "blending", result.slots.executed());
         result.conservation.push_back({"records = splats", records_fetched(), array_.splats});
     }
     RowSweepArray array_;
@@ -127,6 +128,7 @@ struct RowSweepConfig : AcceleratorConfig {
         visitor.integer("tile_size", tile_size, 4, 32, "px, and lanes");
         visitor.section("pixel_buffer", parts.pixel_buffer, "tiles in flight");
         visitor.section("memory", parts.memory, "off-chip memory");
+        describe_cost(visitor);
         parts.pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), 1, {"tile_size"});
     }
     int pes() const override { return tile_size; }
@@ -142,6 +144,21 @@ struct RowSweepConfig : AcceleratorConfig {
         parts.front.traffic.geometry_bytes = kFloatGeometryBytes;
         parts.front.traffic.sh_value_bytes = kFloatBytes;
     }
+    /// Units and memories as in the rows of DeGS.
+    cost::BillOfMaterials bill() const override {
+        const cost::Technology::Degs& rows = cost.degs;
+        cost::BillOfMaterials bill(cost, clock_ghz);
+        bill.add_units({"projection", "Projection Units.", true}, rows.projection,
+                       parts.front.projection.count);
+        bill.add_units({"sorting", "Sorting Units.", true}, rows.sorting,
+                       parts.front.sorting.count);
+        bill.add_units({"blending", "Lanes."}, rows.blending, pes());
+        bill.add_sram({"gaussian_buffer", "Splats and lists."}, rows.gaussian_buffer,
+                      rows.gaussian_buffer.bytes, 2 * records().splat_bytes);
+        bill.add_sram({"pixel_buffer", "Tiles in flight."}, rows.pixel_buffer,
+                      parts.pixel_buffer.bytes, 2 * pes() * parts.pixel_bytes);
+        return bill;
+    }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override {
         TileArrayEngine::Parts sized = parts;
@@ -150,6 +167,7 @@ struct RowSweepConfig : AcceleratorConfig {
         sized.frame_end = frame_end;
         sized.contexts = tile_contexts();
         sized.splat_chunks = 8;
+        sized.buffer_bytes = cost.degs.gaussian_buffer.bytes;
         return std::make_unique<RowSweep>(module, sized, time, job, options);
     }
 };

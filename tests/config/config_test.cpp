@@ -307,33 +307,6 @@ TEST(UnusedKeys, AreNamedWithTheirPlaceAndTheReason) {
             "--set banks.count=2: key 'banks.count' has no effect, because banked is false."});
 }
 
-/// A cost that somebody measured for one number of units.
-struct Costed {
-    int units = 4;
-    double cost = 1.5;
-    void describe(ConfigVisitor& v) {
-        v.integer("units", units, 1, 64, "units");
-        v.real("cost", cost, 0, 100, "of these units");
-        v.does_not_follow("cost", "units");
-    }
-};
-
-Sentences cost_warnings(const std::string& yaml, const std::vector<std::string>& overrides) {
-    Costed config;
-    return ConfigSource::from_text("file.yaml", yaml, overrides).load(config);
-}
-
-TEST(StatedKeys, AreNamedWhenWhatTheyWereStatedForChanges) {
-    EXPECT_EQ(cost_warnings("units: 8\ncost: 3\n", {}), Sentences{});
-    EXPECT_EQ(cost_warnings("units: 8\ncost: 3\n", {"units=16", "cost=6"}), Sentences{});
-    EXPECT_EQ(cost_warnings("units: 8\ncost: 3\n", {"units=16"}),
-              Sentences{"--set units=16: 'cost' does not follow key 'units' and is still that of "
-                        "file.yaml:2."});
-    EXPECT_EQ(cost_warnings("units: 8\n", {}),
-              Sentences{"file.yaml:1: 'cost' does not follow key 'units' and is still that of the "
-                        "default."});
-}
-
 TEST(UnusedKeys, AreNoMistakeIfAStrongerChoiceCameOverThem) {
     EXPECT_EQ(warnings_of("width: 4\n", {"banked=true"}), Sentences{});
     EXPECT_EQ(warnings_of("banked: true\n", {}), Sentences{});

@@ -32,7 +32,7 @@ forbid() {
 # may_include ROOM ALLOWED...: of our rooms, files of src/ROOM may include only itself and ALLOWED.
 may_include() {
     local room=$1 other forbidden=()
-    for other in config splat scene tlm dram modules baselines platform sim tests; do
+    for other in config cost splat scene tlm dram modules baselines platform sim tests; do
         [[ " $* " == *" $other "* ]] || forbidden+=("$other")
     done
     local pattern files
@@ -45,18 +45,19 @@ may_include() {
 
 check_arrows() {
     may_include config
+    may_include cost config
     may_include splat config
     may_include scene splat config
     may_include tlm config
     may_include dram tlm config
-    may_include modules splat dram tlm config
-    may_include baselines modules splat dram tlm config
-    may_include platform modules splat dram tlm config
+    may_include modules cost splat dram tlm config
+    may_include baselines modules cost splat dram tlm config
+    may_include platform modules cost splat dram tlm config
 }
 
 check_systemc() {
-    mapfile -t files < <(sources src/config src/splat src/scene)
-    forbid "no SystemC in configuration, mathematics and loaders" \
+    mapfile -t files < <(sources src/config src/cost src/splat src/scene)
+    forbid "no SystemC in configuration, costs, mathematics and loaders" \
         '#[[:space:]]*include[[:space:]]*[<"](systemc|tlm|sysc|tlm_utils)([./>"]|$)|\b(sc_core|tlm)::' "${files[@]}"
 }
 

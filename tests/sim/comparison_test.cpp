@@ -39,6 +39,9 @@ RunSummary run(double ms, double useful, int pes = 64) {
     m[Measure::DramRead] = 3000000;
     m[Measure::DramWritten] = 1000000;
     m[Measure::DramUtilization] = 0.25;
+    m[Measure::NjPerFrame] = 4e6 / ms;
+    m[Measure::NjPerPixel] = 4;
+    m[Measure::AveragePowerW] = 2;
     m[Measure::PsnrDb] = 60.5;
     m[Measure::Ssim] = 0.99;
     m[Measure::MaxAbsError] = 0.01;
@@ -77,6 +80,8 @@ TEST(Compare, RatiosAreAgainstTheFirst) {
     EXPECT_DOUBLE_EQ(value(c, 1, Measure::ThroughputRatio), 0.25);
     EXPECT_DOUBLE_EQ(value(c, 1, Measure::LatencyRatioPerArea), 0.2);
     EXPECT_DOUBLE_EQ(value(c, 1, Measure::ThroughputRatioPerArea), 0.125);
+    EXPECT_DOUBLE_EQ(value(c, 1, Measure::EnergyRatio), 2.5);
+    EXPECT_DOUBLE_EQ(value(c, 1, Measure::EnergyRatioPerArea), 1.25);
     EXPECT_EQ(value(c, 1, Measure::Cycles), 5e6);
     EXPECT_EQ(value(c, 1, Measure::Useful), 0.2);
     EXPECT_EQ(value(c, 1, Measure::Boundary), 0.8);

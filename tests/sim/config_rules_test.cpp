@@ -62,6 +62,8 @@ const std::vector<Broken>& broken_rules() {
         {"degs-64", {"span.rows_per_cycle=2", "span.cycles_per_row=3"}, "span.rows_per_cycle"},
         {"degs-64", {"packing.bytes=4096"}, "packing.bytes"},
         {"degs-64", {"scheduler.banks=64"}, "packing.bytes"},
+        {"degs-64", {"cost.leakage_mw_per_mm2=30"}, "cost.degs.span_buffer.power_w"},
+        {"gcc-64", {"cost.gcc.blending.power_w=0"}, "cost.gcc.blending.power_w"},
         {"gscore-64", {"array.lanes=100"}, "array.lanes"},
         {"gscore-64", {"array.clusters=3"}, "array.clusters"},
         {"gscore-64", {"pixel_buffer.bytes=15"}, "pixel_buffer.bytes"},

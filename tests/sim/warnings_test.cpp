@@ -87,36 +87,6 @@ TEST(SmallRunWarnings, KeysWithoutEffectAreNamed) {
     EXPECT_EQ(silent.err, ""); // the file's bandwidth is that of its own model
 }
 
-TEST(SmallRunWarnings, AnAreaOfAnotherNumberOfPesIsNamed) {
-    const Folder folder;
-    std::ofstream(folder / "degs-128.yaml")
-        << "include: " << config("degs-64") << "\nname: degs-128\nslicing: { count: 4 }\n"
-        << "span: { count: 16 }\nscheduler: { banks: 16 }\npacking: { bytes: 65536 }\n";
-    const std::string scene = "synthetic:object,gaussians=50";
-    const auto run = [&](const std::string& file, const std::string& own_area) {
-        std::vector<std::string> command{"run",         file, "--scene",        scene,
-                                         "--width",     "32", "--no-reference", "--out",
-                                         folder / "out"};
-        if (!own_area.empty()) {
-            command.insert(command.end(), {"--set", own_area});
-        }
-        const Outcome outcome = degs(command);
-        EXPECT_EQ(outcome.code, 0) << outcome.err;
-        return outcome.err;
-    };
-    const std::string design = folder / "degs-128.yaml";
-    EXPECT_EQ(run(design, "")
-                  .rfind("degs: warning: " + design +
-                             ":5: 'area' does not follow key 'scheduler.banks' and is "
-                             "still that of " +
-                             config("degs-64"),
-                         0),
-              0U);
-    EXPECT_EQ(report_in(folder / "out").at("warnings").size(), 1U);
-    EXPECT_EQ(run(design, "area.array_mm2=2.88"), "");
-    EXPECT_EQ(run(config("degs-64"), ""), "");
-}
-
 TEST(HostileMemory, SixteenBanksEndAt3200) {
     expect_mistake(degs({"config", config("degs-16"), "--set", "memory.model=lpddr5", "--set",
                          "memory.lpddr5.timing.bank_mode=16b"}),

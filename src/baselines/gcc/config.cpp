@@ -10,7 +10,6 @@ namespace degs::gcc {
 
 Config::Config() {
     name = "gcc-64";
-    area = {0.72, 1.97}; // DeGS, Table I: P&S; blending and SRAM
     image_buffer.bytes = 128 * 1024;
     image_buffer.state_bytes = 8;
 }
@@ -35,7 +34,7 @@ void Config::describe(ConfigVisitor& visitor) {
     visitor.section("image_buffer", image_buffer, "pixels of the views in flight");
     visitor.section("monitor", monitor, "cancellation of finished views");
     visitor.section("memory", memory, "off-chip memory");
-    visitor.does_not_follow("area", "array.window");
+    describe_cost(visitor);
     require_sizes(visitor);
 }
 

@@ -41,6 +41,7 @@ struct Config : AcceleratorConfig {
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return image_buffer.contexts(view_pixels()); }
     TrafficConfig records() const override { return traffic.common(); }
+    cost::BillOfMaterials bill() const override;
     void read_floats() override {
         traffic.mean_bytes = 3 * kFloatBytes;
         traffic.bound_bytes = kFloatBytes;
@@ -51,6 +52,8 @@ struct Config : AcceleratorConfig {
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
 
+    /// Bytes of the state of a pixel, which need not be whole ones.
+    double pixel_bytes() const { return image_buffer.pixel_bytes(view_pixels()); }
     /// Gaussians that wait before Stage II: list entries only.
     int listed_gaussians() const { return projection.groups_ahead * projection.group; }
     /// Hand-overs that wait before Stage IV: as many groups as elsewhere.

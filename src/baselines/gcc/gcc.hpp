@@ -51,6 +51,7 @@ private:
     void build_memory();
     void bind_cancel(FifoPort<TileNumber>& listener);
     void collect_stages(AcceleratorResult& result) const;
+    void collect_activity(AcceleratorResult& result) const;
     void collect_laws(AcceleratorResult& result) const;
     void explain(AcceleratorResult& result) const;
 

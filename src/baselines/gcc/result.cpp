@@ -23,6 +23,7 @@ void Engine::collect(AcceleratorResult& result) const {
     add_buffer(result, {"group_buffer", "Groups of splats in front of the array."},
                config_.group_buffer_bytes, config_.chunks_ahead(), use_of(splat_rings_));
     add_pixel_buffer(result, config_.image_buffer.bytes, config_.tile_contexts(), image_buffers_);
+    collect_activity(result);
     streams_.collect(result);
     collect_laws(result);
     explain(result);

@@ -52,6 +52,7 @@ bool FeatureBuffer::enter(std::uint64_t splat, Cycle now, std::size_t stream) {
         return false;
     }
     own.waiting = false;
+    stats_.entries++;
     current_ = first_free_->entry;
     first_free_ = next(first_free_);
     free_count_--;

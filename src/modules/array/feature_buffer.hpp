@@ -27,9 +27,12 @@ public:
         BankedSramPorts ports; ///< an entry takes a write port of its SRAM bank for that time
     };
     struct Stats {
+        std::uint64_t entries = 0;
         std::uint64_t waits = 0;
         std::uint64_t fill_waits = 0;
         void describe(StatsVisitor& v) const {
+            v.count("entries", entries, "splats",
+                    "Entries written, one for each splat and bank that it reaches.");
             v.count("waits", waits, "splats", "Splats that found no free entry and waited.");
             v.count("fill_waits", fill_waits, "cycles",
                     "Spans that waited until the parameters of their splat had been written.");

@@ -69,8 +69,7 @@ void PixelBuffer::Config::require_tiles(ConfigVisitor& visitor, const std::strin
 }
 
 std::int64_t PixelBuffer::Config::tile_bytes(TilePixels tile) const {
-    const std::int64_t bits = state_bytes == 0 ? tile.bits : 8 * state_bytes;
-    return ceil_div(bits * tile.side * tile.side, std::int64_t{8});
+    return ceil_div(std::int64_t{bits(tile)} * tile.side * tile.side, std::int64_t{8});
 }
 
 PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& config,

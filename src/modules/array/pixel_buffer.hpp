@@ -49,6 +49,11 @@ public:
         }
         /// Bytes of the pixel state of one tile, whole ones.
         std::int64_t tile_bytes(TilePixels tile) const;
+        /// Bytes of the state of one pixel, which need not be whole ones.
+        double pixel_bytes(TilePixels tile) const { return bits(tile) / 8.0; }
+
+    private:
+        int bits(TilePixels tile) const { return state_bytes == 0 ? tile.bits : 8 * state_bytes; }
     };
     struct Stats {
         Cycle readout_busy = 0;

@@ -27,6 +27,8 @@ struct SlotAccount {
     std::uint64_t total() const {
         return useful + boundary + terminated + conflict + ports + starved + blocked + drain;
     }
+    /// PE-cycles with a task.
+    std::uint64_t executed() const { return useful + boundary + terminated; }
     SlotAccount& operator+=(const SlotAccount& o) {
         useful += o.useful;
         boundary += o.boundary;

@@ -82,6 +82,10 @@ void TileArrayEngine::collect(AcceleratorResult& result) const {
     result.conservation.push_back({"list entries = records fetched + cancelled", list_entries(),
                                    records_fetched() + sum_of(fetchers_, &F::records_cancelled)});
     collect_array(result);
+    add_activity(result, "gaussian_buffer",
+                 rate_of(2 * records_fetched(), 1) * parts_.front.traffic.splat_bytes +
+                     rate_of(front_end_->keys_moved(), 1) * parts_.front.traffic.list_entry_bytes);
+    add_pixel_activity(result, job_, parts_.pixel_bytes);
 }
 
 } // namespace degs

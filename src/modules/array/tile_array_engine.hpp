@@ -35,6 +35,7 @@ public:
         int contexts = 1;         ///< tiles whose pixels are on chip
         int splat_chunks = 1;     ///< that each fetcher's share of the buffer holds
         int buffer_bytes = 0;     ///< of that buffer, for reports
+        double pixel_bytes = 16;  ///< of the state of a pixel
         int writeback_cycles = 1; ///< last update of a tile to its pixels written back
     };
 
@@ -59,7 +60,7 @@ protected:
         array.tile_state.bind(*report_rings_[1]);
     }
 
-    /// Fills slots, window, and the stages and invariants of the array.
+    /// Fills slots, window, and the stages, activity and invariants of the array.
     virtual void collect_array(AcceleratorResult& result) const = 0;
 
     const TileFrontEnd& front_end() const { return *front_end_; }

@@ -106,21 +106,30 @@ void TileFrontEnd::collect(AcceleratorResult& result) const {
         result.frames[f].preprocessed = binner_->frames_binned()[f];
     }
     using P = ProjectionUnit::Stats;
+    const Cycle projecting =
+        std::max(sum_of(projection_, &P::project_busy), sum_of(projection_, &P::shade_busy));
     add_stage(
         result,
         {"projection", "Projection Units; projecting and shading overlap, the busier counts."},
-        projection_.size(),
-        std::max(sum_of(projection_, &P::project_busy), sum_of(projection_, &P::shade_busy)),
-        Counters().add(projection_));
+        projection_.size(), projecting, Counters().add(projection_));
     add_stage(result, {"sorting", "Sorting Units; waiting for memory is not busy."},
               sorting_.size(), sum_of(sorting_, &SortingUnit::Stats::sort_busy),
               Counters().add(sorting_));
     using H = HierarchicalSorter::Stats;
-    add_stage(
-        result, {"sorting", "Hierarchical Sorters; the two steps overlap, the busier counts."},
-        hierarchical_.size(),
-        std::max(sum_of(hierarchical_, &H::coarse_busy), sum_of(hierarchical_, &H::fine_busy)),
-        Counters().add(hierarchical_));
+    const Cycle hierarchical =
+        std::max(sum_of(hierarchical_, &H::coarse_busy), sum_of(hierarchical_, &H::fine_busy));
+    add_stage(result,
+              {"sorting", "Hierarchical Sorters; the two steps overlap, the busier counts."},
+              hierarchical_.size(), hierarchical, Counters().add(hierarchical_));
+    add_activity(result, "projection", projecting);
+    add_activity(result, "sorting",
+                 sum_of(sorting_, &SortingUnit::Stats::sort_busy) + hierarchical);
+}
+
+std::uint64_t TileFrontEnd::keys_moved() const {
+    using H = HierarchicalSorter::Stats;
+    return 2 * (sum_of(sorting_, &SortingUnit::Stats::keys) + sum_of(hierarchical_, &H::keys) +
+                sum_of(hierarchical_, &H::keys_sorted));
 }
 
 } // namespace degs

@@ -56,8 +56,10 @@ public:
     /// Connects the memory ports, also those of the fetchers behind it.
     void connect_memory(MemoryStreams& streams,
                         const std::vector<std::unique_ptr<SplatFetcher>>& fetchers);
-    /// Adds the stages and the dates at which lists were complete.
+    /// Adds the stages, their activity and the dates at which lists were complete.
     void collect(AcceleratorResult& result) const;
+    /// List entries read from and written to the lists on the chip: each once per step of sorting.
+    std::uint64_t keys_moved() const;
 
     const std::vector<std::unique_ptr<ProjectionUnit>>& projection() const { return projection_; }
     /// Null if instant.

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bill of materials of GCC, and the activity of each block of it; docs/cost.md explains both.
+#include "baselines/gcc/gcc.hpp"
+
+namespace degs::gcc {
+namespace {
+
+/// Rings that a Gaussian passes before it has a colour, and those that it passes with one.
+constexpr int kRingsOfShapes = 2, kRingsOfColours = 2;
+constexpr int kReadAndWritten = 2;
+
+} // namespace
+
+cost::BillOfMaterials Config::bill() const {
+    const cost::Technology::Gcc& rows = cost.gcc;
+    const int records = kRingsOfShapes * projection.units + kRingsOfColours * colour.units;
+    cost::BillOfMaterials bill(cost, clock_ghz);
+    bill.add_units({"grouping", "Lanes of Stage I, a mean per cycle each.", true},
+                   rows.preprocessing, grouping.means_per_cycle);
+    bill.add_units({"projection", "Projection units of Stage II.", true}, rows.preprocessing,
+                   projection.units);
+    bill.add_units({"colour", "SH units of Stage III, with its sorter.", true}, rows.preprocessing,
+                   colour.units);
+    bill.add_units({"blending", "PEs of the window."}, rows.blending, pes(), 1,
+                   cost.pe_factors(pipeline.precision()));
+    bill.add_sram(
+        {"group_buffer", "Groups of Gaussians between the stages."}, rows.sram, group_buffer_bytes,
+        kReadAndWritten * (records * splat_bytes + projection.units * traffic.list_entry_bytes));
+    bill.add_sram({"pixel_buffer", "State of the pixels of the views in flight."}, rows.sram,
+                  image_buffer.bytes, kReadAndWritten * pes() * pixel_bytes());
+    return bill;
+}
+
+void Engine::collect_activity(AcceleratorResult& result) const {
+    std::uint64_t entries = 0;
+    std::uint64_t records = 0; // through one ring each
+    if (grouping_) {
+        const ProjectionStage::Stats& p = projection_->stats();
+        const ColourStage::Stats& c = colour_->stats();
+        add_activity(result, "grouping", grouping_->stats().gaussians);
+        add_activity(result, "projection", p.shapes * config_.projection.cycles_per_gaussian);
+        add_activity(result, "colour", c.coloured * config_.colour.cycles_per_colour);
+        entries = p.entries;
+        records = kRingsOfShapes * p.shapes + kRingsOfColours * c.coloured;
+    } else {
+        records = fetcher_->stats().records;
+    }
+    add_activity(result, "blending", result.slots.executed());
+    add_activity(result, "group_buffer",
+                 kReadAndWritten * (rate_of(entries, 1) * config_.traffic.list_entry_bytes +
+                                    rate_of(records, 1) * config_.splat_bytes));
+    add_pixel_activity(result, job_, config_.pixel_bytes());
+}
+
+} // namespace degs::gcc

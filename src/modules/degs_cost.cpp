@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bill of materials of DeGS, and the activity of each block of it; docs/cost.md explains both.
+#include "modules/degs.hpp"
+
+namespace degs {
+
+cost::BillOfMaterials DegsConfig::bill() const {
+    const cost::Technology::Degs& rows = cost.degs;
+    const double width = array.pes_per_bank * rows.packing_scheduler.units;
+    const double share = rows.scheduler_width_share;
+    const auto shape = [](const BankedSramPorts& ports) {
+        return cost::SramShape{ports.ports, ports.sram_banks};
+    };
+    constexpr int kReadAndWritten = 2;
+
+    cost::BillOfMaterials bill(cost, clock_ghz);
+    bill.add_units({"projection", "Projection Units.", true}, rows.projection, projection.count);
+    bill.add_units({"sorting", "Sorting Units.", true}, rows.sorting, sorting.count);
+    bill.add_units({"slicing", "Gaussian Slicing Units."}, rows.span_engine, slicing.count);
+    bill.add_units({"span", "Span Units; one for each row that a unit takes per cycle."},
+                   rows.span_engine, span.count * span.rows_per_cycle);
+    bill.add_units({"packing", "Issue Banks with their Packing Units."}, rows.packing_scheduler,
+                   scheduler.banks, 1 - share + share * width / rows.blending.units);
+    bill.add_units({"blending", "PEs of the Blending Array."}, rows.blending, pes(), 1,
+                   cost.pe_factors(pipeline.precision()));
+    bill.add_sram({"gaussian_buffer", "Sorted splats and lists being sorted."},
+                  rows.gaussian_buffer, gaussian_buffer.bytes,
+                  kReadAndWritten * (slicing.count * traffic.splat_bytes +
+                                     sorting.count * traffic.list_entry_bytes),
+                  shape(gaussian_buffer.ports));
+    bill.add_sram({"feature_buffer", "Parameters of the splats in the banks."}, rows.feature_buffer,
+                  feature_buffer.bytes,
+                  kReadAndWritten * scheduler.banks * feature_buffer.entry_bytes,
+                  shape(feature_buffer.fill.ports));
+    bill.add_sram({"span_buffer", "Rows of splats on their way to the Span Units."},
+                  rows.span_buffer, span_buffer.bytes,
+                  kReadAndWritten * span.count * span.rows_per_cycle * span_buffer.row_bytes,
+                  {span_buffer.ports.ports});
+    bill.add_sram({"packing_buffer", "Waiting segments, and packets."}, rows.packing_buffer,
+                  packing.bytes,
+                  kReadAndWritten * scheduler.banks * (packet_bytes() + scheduler.segment_bytes),
+                  {packing.ports.ports});
+    bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."},
+                  rows.pixel_buffer, pixel_buffer.bytes, kReadAndWritten * pes() * pixel_bytes(),
+                  shape(pixel_buffer.ports));
+    return bill;
+}
+
+void Degs::collect_activity(AcceleratorResult& result) const {
+    const DegsConfig& c = config_;
+    using G = GaussianSlicingUnit::Stats;
+    using S = SpanStage::Stats;
+    using B = IssueBank::Stats;
+    const auto bytes = [](std::uint64_t records, int record_bytes) {
+        return rate_of(records, 1) * record_bytes;
+    };
+    const std::uint64_t rows = sum_of(spans_, &S::rows);
+    const std::uint64_t issued = sum_of(banks_, &B::segments_issued);
+    const std::uint64_t segments = 2 * issued + sum_of(banks_, &B::segments_dropped);
+    const std::uint64_t packets = 2 * sum_of(packing_, &PackingUnit::Stats::packets);
+    std::uint64_t features = issued;
+    for (const auto& bank : banks_) {
+        features += bank->features().stats().entries;
+    }
+    const std::uint64_t splats =
+        sum_of(fetchers_, &SplatFetcher::Stats::records) + sum_of(slicing_, &G::splats);
+    add_activity(result, "slicing", sum_of(slicing_, &G::busy));
+    add_activity(result, "span", rows * c.span.cycles_per_row);
+    add_activity(result, "packing", sum_of(banks_, &B::busy));
+    add_activity(result, "blending", result.slots.executed());
+    add_activity(result, "gaussian_buffer",
+                 bytes(splats, c.traffic.splat_bytes) +
+                     bytes(front_end_->keys_moved(), c.traffic.list_entry_bytes));
+    add_activity(result, "feature_buffer", bytes(features, c.feature_buffer.entry_bytes));
+    add_activity(result, "span_buffer",
+                 bytes(sum_of(slicing_, &G::rows) + rows, c.span_buffer.row_bytes));
+    add_activity(result, "packing_buffer",
+                 bytes(segments, c.scheduler.segment_bytes) + bytes(packets, c.packet_bytes()));
+    add_pixel_activity(result, job_, c.pixel_bytes());
+}
+
+} // namespace degs
