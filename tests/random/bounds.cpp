@@ -117,6 +117,25 @@ void check_memory(const Finished& run, Complaints& complaints) {
     }
 }
 
+// No unit works in more cycles than there are.
+void check_energy(const Finished& run, Complaints& complaints) {
+    const AcceleratorResult& r = run.result;
+    const cost::BillOfMaterials bill = run.config.bill();
+    const auto cycles = static_cast<double>(std::max(r.stopped, r.cycles));
+    for (const cost::Activity& activity : r.activity) {
+        const cost::Block& block = bill.block(activity.block);
+        complaints.at_most("least activity of " + block.name, 0.0, activity.operations);
+        if (block.kind == cost::Block::Kind::Units) {
+            complaints.at_most("activity of " + block.name, activity.operations,
+                               block.size * cycles * kRounding);
+        }
+    }
+    for (const cost::BlockEnergy& block : r.energy.blocks()) {
+        complaints.at_most("energy of " + block.name, block.dynamic_nj + block.leakage_nj,
+                           r.energy.total_nj() * kRounding);
+    }
+}
+
 void check_tiles(const Finished& run, Complaints& complaints) {
     std::uint64_t tiles = 0;
     for (const FrameWorkload* frame : run.frames) {
@@ -138,6 +157,7 @@ std::vector<std::string> broken_bounds(const Finished& run) {
     check_dates(run, complaints);
     check_units(run, complaints);
     check_memory(run, complaints);
+    check_energy(run, complaints);
     check_tiles(run, complaints);
     return complaints.list;
 }
