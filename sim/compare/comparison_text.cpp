@@ -35,11 +35,6 @@ std::string megabytes(const Measures& m) {
     return read && written ? three_digits((*read + *written) * 1e-6) : "";
 }
 
-std::string millijoules(const Measures& m) {
-    const auto& nj = m[Measure::NjPerFrame];
-    return nj ? three_digits(*nj * 1e-6) : "";
-}
-
 /// Shares of the slots, then of the whole frame.
 std::vector<std::string> slot_cells(const Measures& m) {
     std::vector<std::string> cells;
@@ -51,10 +46,9 @@ std::vector<std::string> slot_cells(const Measures& m) {
 }
 
 std::vector<std::string> ratio_cells(const Measures& m) {
-    return {
-        fixed_ratio(m[Measure::LatencyRatio]),    fixed_ratio(m[Measure::LatencyRatioPerArea]),
-        fixed_ratio(m[Measure::ThroughputRatio]), fixed_ratio(m[Measure::ThroughputRatioPerArea]),
-        fixed_ratio(m[Measure::EnergyRatio]),     fixed_ratio(m[Measure::EnergyRatioPerArea])};
+    return {fixed_ratio(m[Measure::LatencyRatio]), fixed_ratio(m[Measure::LatencyRatioPerArea]),
+            fixed_ratio(m[Measure::ThroughputRatio]),
+            fixed_ratio(m[Measure::ThroughputRatioPerArea])};
 }
 
 std::vector<std::string> joined(std::vector<std::string> head,
@@ -65,13 +59,11 @@ std::vector<std::string> joined(std::vector<std::string> head,
     return head;
 }
 
-const std::vector<std::string> kRatioHeadings{"speed ×", "per mm²",  "path ×",
-                                              "per mm²", "energy ×", "per mm²"};
+const std::vector<std::string> kRatioHeadings{"speed ×", "per mm²", "path ×", "per mm²"};
 
 std::string time_table(const Comparison& comparison, std::size_t view) {
-    TextTable table(
-        joined({"", "PEs", "tile", "cycles", "ms", "fps", "path fps", "DRAM MB", "mm²", "mJ", "W"},
-               kRatioHeadings, {"PSNR dB"}));
+    TextTable table(joined({"", "PEs", "tile", "cycles", "ms", "fps", "path fps", "DRAM MB", "mm²"},
+                           kRatioHeadings, {"PSNR dB"}));
     for (const ComparisonRow& row : comparison.rows) {
         const ComparedConfig& config = comparison.configs[row.config];
         const Measures& m = row.measures;
@@ -80,9 +72,26 @@ std::string time_table(const Comparison& comparison, std::size_t view) {
                               m[Measure::Cycles] ? scaled(*m[Measure::Cycles]) : "",
                               digits(m[Measure::LatencyMs]), digits(m[Measure::Fps]),
                               digits(m[Measure::ThroughputFps]), megabytes(m),
-                              fixed_ratio(m[Measure::AreaMm2]), millijoules(m),
-                              digits(m[Measure::AveragePowerW])},
+                              fixed_ratio(m[Measure::AreaMm2])},
                              ratio_cells(m), {decibels(m[Measure::PsnrDb])}));
+        }
+    }
+    return table.text();
+}
+
+/// Of the rows of a view, or of the means.
+std::string energy_table(const Comparison& comparison, const std::vector<ComparisonRow>& rows,
+                         std::size_t view) {
+    TextTable table({"energy of a frame", "mJ", "nJ per pixel", "W", "energy ×", "per mm²"});
+    constexpr double kMjPerNj = 1e-6;
+    for (const ComparisonRow& row : rows) {
+        const Measures& m = row.measures;
+        const std::optional<double>& nj = m[Measure::NjPerFrame];
+        if (row.view == view) {
+            table.add({comparison.configs[row.config].name, nj ? digits(*nj * kMjPerNj) : "",
+                       digits(m[Measure::NjPerPixel]), digits(m[Measure::AveragePowerW]),
+                       fixed_ratio(m[Measure::EnergyRatio]),
+                       fixed_ratio(m[Measure::EnergyRatioPerArea])});
         }
     }
     return table.text();
@@ -104,13 +113,12 @@ std::string slots_table(const Comparison& comparison, std::size_t view) {
 }
 
 std::string means_table(const Comparison& comparison) {
-    TextTable table(joined({"", "ms", "fps", "path fps", "mJ", "W"}, kRatioHeadings,
-                           {"useful %", "of the frame %"}));
+    TextTable table(
+        joined({"", "ms", "fps", "path fps"}, kRatioHeadings, {"useful %", "of the frame %"}));
     for (const ComparisonRow& row : comparison.means) {
         const Measures& m = row.measures;
         table.add(joined({comparison.configs[row.config].name, digits(m[Measure::LatencyMs]),
-                          digits(m[Measure::Fps]), digits(m[Measure::ThroughputFps]),
-                          millijoules(m), digits(m[Measure::AveragePowerW])},
+                          digits(m[Measure::Fps]), digits(m[Measure::ThroughputFps])},
                          ratio_cells(m),
                          {share(m[Measure::Utilization]), share(m[Measure::FrameUtilization])}));
     }
@@ -144,11 +152,13 @@ std::string comparison_text(const Comparison& comparison) {
     std::string text;
     for (std::size_t v = 0; v < comparison.views.size(); ++v) {
         text += heading(comparison.views[v]) + time_table(comparison, v) + "\n" +
-                slots_table(comparison, v) + "\n";
+                energy_table(comparison, comparison.rows, v) + "\n" + slots_table(comparison, v) +
+                "\n";
     }
     if (!comparison.means.empty()) {
         text += "geometric means over " + std::to_string(comparison.views.size()) + " views\n" +
-                means_table(comparison) + "\n";
+                means_table(comparison) + "\n" +
+                energy_table(comparison, comparison.means, comparison.views.size()) + "\n";
     }
     if (comparison.rows.empty()) {
         return "";

@@ -134,9 +134,9 @@ double BillOfMaterials::leakage_w() const {
 
 void BillOfMaterials::describe(StatsVisitor& visitor) const {
     visitor.text("node", technology_.node, "Technology that the numbers are for.");
-    visitor.real("mm2", area_mm2(), "mm2", "All blocks.");
-    visitor.real("units_mm2", area_mm2() - sram_mm2(), "mm2", "The units of them.");
-    visitor.real("sram_mm2", sram_mm2(), "mm2", "The buffers of them.");
+    visitor.real("mm2", area_mm2(), "mm2", "Area of all blocks.");
+    visitor.real("units_mm2", area_mm2() - sram_mm2(), "mm2", "Area of the units.");
+    visitor.real("sram_mm2", sram_mm2(), "mm2", "Area of the buffers.");
     visitor.count("sram_bytes", static_cast<std::uint64_t>(sram_bytes()), "bytes",
                   "Capacity of the buffers.");
     visitor.real("power_w", power_w(), "W", "Power at the activity that the table assumes.");
