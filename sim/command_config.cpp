@@ -137,9 +137,7 @@ void run(const ConfigOptions& options) {
     }
     if (options.cost) {
         print(costs(config, options));
-        return;
-    }
-    if (options.stats) {
+    } else if (options.stats) {
         print(statistics(config, options));
     } else if (options.format == "markdown") {
         print(markdown_table(document(config)));
