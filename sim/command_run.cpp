@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs run: one frame, or a camera path, on one accelerator.
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "sim/report.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/text/terminal.hpp"
+#include "sim/trace/tile_maps.hpp"
 #include "sim/trace/trace_file.hpp"
 #include "sim/trace/trace_options.hpp"
 #include "sim/view_options.hpp"
@@ -30,6 +32,7 @@ struct RunOptions {
     bool array_only = false;
     bool explain = false;
     TraceRequest trace;
+    std::string maps; ///< folder; empty: none
 };
 
 void run(const RunOptions& options) {
@@ -47,6 +50,11 @@ void run(const RunOptions& options) {
     request.reference = !options.no_reference;
     request.following = std::move(following);
     request.recording.timeline = timeline_of(options.trace);
+    std::optional<OutputFolder> maps;
+    if (!options.maps.empty()) {
+        maps.emplace(options.maps, tile_map_files());
+        request.recording.tiles = true;
+    }
     const RunResult result = simulate(request, std::move(view));
     write_exr(result.accelerator.images.front(), out.path("image.exr"));
     write_png(result.accelerator.images.front(), out.path("image.png"));
@@ -54,6 +62,9 @@ void run(const RunOptions& options) {
     if (request.recording.timeline) {
         const AcceleratorResult& run = result.accelerator;
         write_trace({run.name, run.clock_ghz, run.timeline, spans_of(run)}, options.trace.file);
+    }
+    if (maps) {
+        write_tile_maps(result, *maps);
     }
     print_warnings(result.warnings);
     print(summary(result, out.path("image.exr")) + (options.explain ? explanation(result) : ""));
@@ -87,6 +98,11 @@ void add_run_command(CLI::App& program) {
         "the rasterisation array alone: sorted lists are there at once, and memory is "
         "unlimited");
     add_trace_options(*command, options->trace);
+    command
+        ->add_option("--maps", options->maps,
+                     "folder for maps of the tiles: list length, fragments, cycles, and PE-cycles "
+                     "by slot class, as pictures, over the image, and as layers of tiles.exr")
+        ->type_name("FOLDER");
     command->add_flag("--explain", options->explain, "print what the model left out, and why");
     command->callback([options] { run(*options); });
 }

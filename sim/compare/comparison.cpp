@@ -142,6 +142,8 @@ Comparison compare(const std::vector<std::string>& configs, const std::vector<Co
         row.config = place->second;
         row.view = find_view(comparison.views, run.frame.view);
         row.measures = measures_of(run);
+        row.first_task_ms = run.frame.first_task_ms;
+        row.last_task_ms = run.frame.last_task_ms;
         row.limited_by = run.frame.limited_by;
         row.stages = run.frame.stages;
         row.report = run.report;

@@ -35,7 +35,8 @@ struct ComparedConfig {
 struct ComparisonRow {
     std::size_t view = 0, config = 0; ///< into Comparison
     Measures measures;
-    std::string limited_by;                             ///< of the frame, as what follows
+    std::optional<double> first_task_ms, last_task_ms; ///< of the frame, as what follows
+    std::string limited_by;
     std::vector<std::pair<std::string, double>> stages; ///< with their busy shares
     std::string report;
 };

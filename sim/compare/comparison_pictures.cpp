@@ -17,6 +17,11 @@ SlotBar bar_of(const Comparison& comparison, const ComparisonRow& row) {
     if (row.measures[Measure::Fps]) {
         bar.note += " · " + three_digits(*row.measures[Measure::Fps]) + " fps";
     }
+    bar.note += row.limited_by.empty() ? "" : " · limit: " + row.limited_by;
+    bar.end_ms = row.measures[Measure::LatencyMs].value_or(0);
+    bar.first_ms = row.first_task_ms.value_or(0);
+    bar.last_ms = row.last_task_ms.value_or(bar.end_ms);
+    bar.end_ms = std::max(bar.end_ms, bar.last_ms);
     for (std::size_t c = 0; c < bar.shares.size(); ++c) {
         bar.shares[c] = row.measures[slot_measure(c)].value_or(0);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/compare/run_summary.hpp"
 
+#include "config/ratio.hpp"
 #include "sim/compare/message_fields.hpp"
 
 namespace degs::sim {
@@ -26,6 +27,8 @@ void each_field(Fields& fields, Summary& summary) {
     fields("view.visible", summary.view.visible);
     fields("view.fragments", summary.view.fragments);
     for_each_measure([&](Measure m) { fields("measure." + name_of(m), summary.measures[m]); });
+    fields("first_task_ms", summary.first_task_ms);
+    fields("last_task_ms", summary.last_task_ms);
     fields("limited_by", summary.limited_by);
     fields("stages", summary.stages);
     fields("warnings", summary.warnings);
@@ -52,8 +55,13 @@ RunSummary summary_of(const RunResult& result, int camera) {
         summary.view.fragments = result.workload.reference->fragments;
     }
     summary.measures = measures_of(result);
-    summary.limited_by = limiting_stage(result.accelerator);
-    for (const StageUse& stage : result.accelerator.stages) {
+    const AcceleratorResult& run = result.accelerator;
+    if (!run.window.empty()) {
+        summary.first_task_ms = rate_of(run.window.first, run.clock_ghz) * 1e-6;
+        summary.last_task_ms = rate_of(run.window.last + 1, run.clock_ghz) * 1e-6;
+    }
+    summary.limited_by = limiting_stage(run);
+    for (const StageUse& stage : run.stages) {
         summary.stages.emplace_back(stage.name, stage.busy);
     }
     summary.warnings = result.warnings;

@@ -27,6 +27,8 @@ struct RunSummary {
     int pes = 0, tile_size = 0;
     ComparedView view;
     Measures measures;
+    std::optional<double> first_task_ms;                ///< from the start of the run
+    std::optional<double> last_task_ms;                 ///< its end, likewise
     std::string limited_by;                             ///< the busiest stage, or memory
     std::vector<std::pair<std::string, double>> stages; ///< with the share of the run they worked
     std::vector<std::string> warnings;                  ///< sentences; see warnings.hpp
@@ -37,7 +39,7 @@ struct RunSummary {
 RunSummary summary_of(const RunResult& result, int camera);
 
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 3;
+constexpr int kSummaryVersion = 4;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

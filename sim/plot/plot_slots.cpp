@@ -11,6 +11,9 @@ namespace {
 constexpr double kBar = 24;
 constexpr double kRow = 30;
 constexpr double kHeading = 34;
+constexpr double kAxis = 30;               // below the bars of a group
+constexpr const char* kBefore = "#d9d9d9"; // the array has not begun, or has finished
+constexpr const char* kAfter = "#bdbdbd";
 
 /// Columns of the picture, chosen by the longest words.
 struct Columns {
@@ -29,7 +32,7 @@ Columns columns_of(const std::vector<SlotGroup>& groups) {
     }
     Columns columns;
     columns.label_width = std::min(label, 230.0);
-    columns.note_width = std::min(note, 170.0);
+    columns.note_width = std::min(note, 240.0);
     columns.left = kPlotMargin + columns.label_width + 10;
     columns.right = kPlotWidth - kPlotMargin - columns.note_width - (note > 0 ? 10 : 12);
     return columns;
@@ -55,50 +58,73 @@ void draw_share(Svg& svg, double x, double y, double width, double share, const 
     }
 }
 
-void draw_bar(Svg& svg, const Columns& columns, double y, const SlotBar& bar) {
+/// A piece of a bar, with a hair of white that keeps neighbours apart without colour.
+void draw_piece(Svg& svg, double x, double y, double width, const char* colour) {
+    if (width > 0) {
+        svg.rectangle(x, y, std::max(width - 0.75, width / 2), kBar, colour);
+    }
+}
+
+/// `scale`: px per ms.
+void draw_bar(Svg& svg, const Columns& columns, double y, double scale, const SlotBar& bar) {
     const double base = y + kBar / 2 + 4.5;
     svg.text(columns.left - 10, base, fitting(bar.label, kLabelText, columns.label_width),
              {kLabelText, kInk, "end", false});
-    double x = columns.left;
+    draw_piece(svg, columns.left, y, bar.first_ms * scale, kBefore);
+    double x = columns.left + bar.first_ms * scale;
     for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
-        const double width = bar.shares[c] * (columns.right - columns.left);
+        const double width = bar.shares[c] * (bar.last_ms - bar.first_ms) * scale;
         if (width > 0) {
-            // A hair of white keeps neighbours apart without colour.
-            svg.rectangle(x, y, std::max(width - 0.75, width / 2), kBar, kSlotColours[c]);
+            draw_piece(svg, x, y, width, kSlotColours[c]);
             draw_share(svg, x, base, width, bar.shares[c], kSlotColours[c]);
         }
         x += width;
     }
+    draw_piece(svg, x, y, (bar.end_ms - bar.last_ms) * scale, kAfter);
     svg.text(columns.right + 10, base, fitting(bar.note, kSmallText, columns.note_width),
              {kSmallText, kGrey, "start", false});
 }
 
 /// Returns the y below it.
 double draw_slot_legend(Svg& svg, double y) {
-    double x = kPlotMargin;
+    std::vector<std::pair<std::string, const char*>> entries;
     for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
-        const char* name = kSlotClasses[c].name;
+        entries.emplace_back(kSlotClasses[c].name, kSlotColours[c]);
+    }
+    entries.emplace_back("before the first task", kBefore);
+    entries.emplace_back("after the last", kAfter);
+    double x = kPlotMargin;
+    for (const auto& [name, colour] : entries) {
         const double width = 18 + text_width(name, kSmallText) + 16;
         if (x + width > kPlotWidth - kPlotMargin + 16) {
             x = kPlotMargin;
             y += 20;
         }
-        svg.rectangle(x, y - 11, 13, 13, kSlotColours[c]);
+        svg.rectangle(x, y - 11, 13, 13, colour);
         svg.text(x + 18, y, name, {kSmallText, kInk, "start", false});
         x += width;
     }
     return y + 14;
 }
 
-void draw_axis(Svg& svg, const Columns& columns, double top, double bottom) {
-    for (int tick = 0; tick <= 100; tick += 20) {
-        const double x = columns.left + tick / 100.0 * (columns.right - columns.left);
+/// Ticks in ms below the bars.
+void draw_axis(Svg& svg, const Columns& columns, double top, double bottom, double scale) {
+    const double longest = (columns.right - columns.left) / scale;
+    const double tick = tick_of(longest);
+    for (int i = 0; i * tick <= longest * 1.0001; ++i) {
+        const double x = columns.left + i * tick * scale;
         svg.line(x, top, x, bottom, kGrid, 1);
-        svg.text(x, bottom + 17, std::to_string(tick), {kSmallText, kGrey, "middle", false});
+        svg.text(x, bottom + 17, as_typed(i * tick) + (i == 0 ? " ms" : ""),
+                 {kSmallText, kGrey, "middle", false});
     }
-    svg.text((columns.left + columns.right) / 2, bottom + 36,
-             "% of the PE-cycles from the first task to the last",
-             {kSmallText, kGrey, "middle", false});
+}
+
+double longest_of(const SlotGroup& group) {
+    double longest = 0;
+    for (const SlotBar& bar : group.bars) {
+        longest = std::max(longest, bar.end_ms);
+    }
+    return longest > 0 ? longest : 1;
 }
 
 } // namespace
@@ -107,26 +133,25 @@ std::string slots_svg(const std::string& title, const std::vector<SlotGroup>& gr
     const Columns columns = columns_of(groups);
     Svg svg;
     svg.text(kPlotMargin, 30, title, {16, kInk, "start", true});
-    const double top = draw_slot_legend(svg, 56);
-    double bottom = top;
+    double y = draw_slot_legend(svg, 56);
     for (const SlotGroup& group : groups) {
-        bottom += kHeading + kRow * static_cast<double>(group.bars.size());
-    }
-    draw_axis(svg, columns, top + kHeading - 6, bottom);
-    double y = top;
-    for (const SlotGroup& group : groups) {
-        // On the grid, so that the heading needs a white ground.
-        svg.rectangle(kPlotMargin, y + 6, kPlotWidth - 2 * kPlotMargin, kHeading - 10, "#ffffff");
         svg.text(kPlotMargin, y + 22,
                  fitting(group.heading, kLabelText, kPlotWidth - 2 * kPlotMargin),
                  {kLabelText, kInk, "start", true});
         y += kHeading;
+        const double scale = (columns.right - columns.left) / longest_of(group);
+        const double bottom = y + kRow * static_cast<double>(group.bars.size());
+        draw_axis(svg, columns, y - 6, bottom, scale);
         for (const SlotBar& bar : group.bars) {
-            draw_bar(svg, columns, y, bar);
+            draw_bar(svg, columns, y, scale, bar);
             y += kRow;
         }
+        y += kAxis;
     }
-    return svg.document(kPlotWidth, bottom + 50, title);
+    svg.text((columns.left + columns.right) / 2, y + 8,
+             "time of the frame; numbers: % of the PE-cycles from the first task to the last",
+             {kSmallText, kGrey, "middle", false});
+    return svg.document(kPlotWidth, y + 24, title);
 }
 
 } // namespace degs::sim

@@ -21,6 +21,8 @@ struct SlotBar {
     std::string note;  ///< right of it
     /// By class, sum 1.
     std::array<double, kSlotClasses.size()> shares;
+    /// From the start of the run: first task, end of the last one, end of the frame.
+    double first_ms = 0, last_ms = 1, end_ms = 1;
 };
 
 struct SlotGroup {
@@ -28,7 +30,8 @@ struct SlotGroup {
     std::vector<SlotBar> bars;
 };
 
-/// Horizontal bars of 100 % of the PE-cycles, one group below the other.
+/// Horizontal bars as long as a frame takes, one group below the other, each with its own axis of
+/// time. The classes share out the part between the first task and the last.
 std::string slots_svg(const std::string& title, const std::vector<SlotGroup>& groups);
 
 struct UtilizationLine {

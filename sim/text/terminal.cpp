@@ -8,6 +8,7 @@
 #include "config/config_words.hpp"
 #include "config/ratio.hpp"
 #include "config/visible_text.hpp"
+#include "sim/text/losses.hpp"
 #include "sim/text/text_width.hpp"
 #include "sim/text/words.hpp"
 
@@ -190,6 +191,7 @@ std::string summary(const RunResult& result, const std::string& image_path) {
                    {"design", design_line(result)},
                    {"frame", frame_line(result)},
                    {"slots", slots_line(run)},
+                   {"losses", losses_line(result)},
                    {"stages", stages_line(run)},
                    {"memory", memory_line(run)},
                    {"energy", energy_line(run)},

@@ -32,10 +32,10 @@ constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28; // 5 GiB in memory
 /// Far above what any codec of the format reaches; a header that claims more is lying.
 constexpr std::int64_t kMaxPixelsPerByte = 4096;
 
-void check_not_empty(const Image& image, const std::string& path) {
-    if (image.width < 1 || image.height < 1) {
-        fail_file(path, "an image of " + std::to_string(image.width) + " x " +
-                            std::to_string(image.height) + " pixels cannot be written.");
+void check_not_empty(int width, int height, const std::string& path) {
+    if (width < 1 || height < 1) {
+        fail_file(path, "an image of " + std::to_string(width) + " x " + std::to_string(height) +
+                            " pixels cannot be written.");
     }
 }
 
@@ -74,6 +74,23 @@ void write_pixels(const Image& image, Imf::OStream& stream) {
     Imf::OutputFile file(stream, exr_header(image));
     file.setFrameBuffer(frame_buffer(const_cast<Image&>(image))); // only read from
     file.writePixels(image.height);
+}
+
+template <class Write>
+void write_whole_exr(const std::string& path, const Write& write) {
+    write_atomically(path, [&](const std::string& temporary) {
+        try {
+            std::ofstream stream(temporary, std::ios::binary);
+            Imf::StdOFStream named(stream, temporary.c_str());
+            write(named);
+            stream.close(); // the library does not look at what its buffer holds at the end
+            if (!stream) {
+                throw std::runtime_error("the disk may be full");
+            }
+        } catch (const std::exception& error) {
+            fail_file(path, std::string("the image could not be written (") + error.what() + ").");
+        }
+    });
 }
 
 void check_header(const Imf::Header& header, const std::string& path, std::uint64_t file_bytes) {
@@ -122,19 +139,24 @@ png_byte to_byte(float value) {
 } // namespace
 
 void write_exr(const Image& image, const std::string& path) {
-    check_not_empty(image, path);
-    write_atomically(path, [&](const std::string& temporary) {
-        try {
-            std::ofstream stream(temporary, std::ios::binary);
-            Imf::StdOFStream named(stream, temporary.c_str());
-            write_pixels(image, named);
-            stream.close(); // the library does not look at what its buffer holds at the end
-            if (!stream) {
-                throw std::runtime_error("the disk may be full");
-            }
-        } catch (const std::exception& error) {
-            fail_file(path, std::string("the image could not be written (") + error.what() + ").");
-        }
+    check_not_empty(image.width, image.height, path);
+    write_whole_exr(path, [&](Imf::OStream& stream) { write_pixels(image, stream); });
+}
+
+void write_exr(const std::vector<ExrLayer>& layers, int width, int height,
+               const std::string& path) {
+    check_not_empty(width, height, path);
+    Imf::Header header(width, height);
+    Imf::FrameBuffer buffer;
+    for (const ExrLayer& layer : layers) {
+        header.channels().insert(layer.name, Imf::Channel(Imf::FLOAT));
+        buffer.insert(layer.name, slice(Imf::FLOAT, const_cast<float*>(layer.values), 1, width,
+                                        0.0)); // only read from
+    }
+    write_whole_exr(path, [&](Imf::OStream& stream) {
+        Imf::OutputFile file(stream, header);
+        file.setFrameBuffer(buffer);
+        file.writePixels(height);
     });
 }
 
@@ -151,7 +173,7 @@ Image read_exr(const std::string& path) {
 }
 
 void write_png(const Image& image, const std::string& path) {
-    check_not_empty(image, path);
+    check_not_empty(image.width, image.height, path);
     std::vector<png_byte> bytes(image.rgb.size());
     std::transform(image.rgb.begin(), image.rgb.end(), bytes.begin(), to_byte);
     png_image png{};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "splat/images/image.hpp"
 
@@ -15,6 +16,14 @@ constexpr int kMostImageSide = 1000000;
 /// need not be finite. Like write_png(), it writes the file whole or not at all, and throws
 /// InputError if the place cannot be written.
 void write_exr(const Image& image, const std::string& path);
+
+/// A channel of its own, row by row; values need not be finite.
+struct ExrLayer {
+    std::string name;
+    const float* values;
+};
+/// Writes float channels of these names, for what is not a picture; likewise whole or not at all.
+void write_exr(const std::vector<ExrLayer>& layers, int width, int height, const std::string& path);
 
 /// Reads R, G, B and, where present, `transmittance` and `fragments` (else 1 and 0). Throws InputError if
 /// this is not an EXR image of at most 2^28 pixels with these channels.

@@ -85,23 +85,35 @@ TEST(Svg, LongWordsAreCutAtACharacter) {
     EXPECT_EQ(characters("1920×1080"), 9U);
 }
 
-TEST(SlotsPlot, BarsAreSharesOfOneWidth) {
+// The second design of the first view takes twice as long as the first, and begins late.
+TEST(SlotsPlot, BarsAreAsLongAsTheirFrames) {
+    const SlotBar quick{"a", "", kShares, 0, 1, 1};
+    const SlotBar slow{"b", "64 PEs", kShares, 0.5, 1.5, 2};
+    const SlotBar alone{"a", "", {1, 0, 0, 0, 0, 0, 0, 0}, 0, 10, 10};
     const std::string svg =
-        slots_svg("Title", {{"first view", {{"a", "", kShares}, {"b", "64 PEs", kShares}}},
-                            {"second view", {{"a", "", {1, 0, 0, 0, 0, 0, 0, 0}}}}});
+        slots_svg("Title", {{"first view", {quick, slow}}, {"second view", {alone}}});
     expect_well_formed(svg);
-    for (const char* words : {"Title", "first view", "second view", "64 PEs", ">100<", ">50.0<"}) {
+    for (const char* words : {"Title", "first view", "second view", "64 PEs", ">0 ms<", ">1.5<",
+                              ">50.0<", ">before the first task<", ">after the last<"}) {
         EXPECT_THAT(svg, HasSubstr(words));
     }
-    const std::vector<double> useful =
-        values(svg, "rect", "width", "height=\"24\" fill=\"#009e73\"");
-    const std::vector<double> boundary =
-        values(svg, "rect", "width", "height=\"24\" fill=\"#e69f00\"");
+    const auto bars = [&](const char* name, const std::string& colour) {
+        return values(svg, "rect", name, "height=\"24\" fill=\"" + colour + "\"");
+    };
+    const std::vector<double> useful = bars("width", "#009e73");
+    const std::vector<double> boundary = bars("width", "#e69f00");
     ASSERT_EQ(useful.size(), 3U);
     ASSERT_EQ(boundary.size(), 2U);
     const double hair = 0.75; // of white between neighbours
-    EXPECT_NEAR(useful[0] + hair, (useful[2] + hair) / 2, 0.01);
-    EXPECT_NEAR(boundary[0] + hair, (useful[2] + hair) / 5, 0.01);
+    const double all = useful[2] + hair;
+    EXPECT_NEAR(useful[0] + hair, all / 4, 0.01); // half of half the time
+    EXPECT_NEAR(useful[1] + hair, all / 4, 0.01);
+    EXPECT_NEAR(boundary[0] + hair, all / 10, 0.01);
+    EXPECT_NEAR(bars("width", "#d9d9d9").at(0) + hair, all / 4, 0.01);
+    EXPECT_NEAR(bars("width", "#bdbdbd").at(0) + hair, all / 4, 0.01);
+    const double left = bars("x", "#009e73").at(0);
+    EXPECT_NEAR(bars("x", "#009e73").at(1), left + all / 4, 0.01);
+    EXPECT_NEAR(bars("x", "#bdbdbd").at(0), left + all * 3 / 4, 0.01);
     // A class without slots has no rectangle; the legend has one of each class in their order.
     EXPECT_TRUE(values(svg, "rect", "width", "height=\"24\" fill=\"#0072b2\"").empty());
     std::size_t before = 0;
@@ -118,7 +130,7 @@ TEST(SlotsPlot, BarsAreSharesOfOneWidth) {
 
 TEST(SlotsPlot, StaysInsideThePage) {
     const std::string longest(200, 'w');
-    const std::string svg = slots_svg("T", {{longest, {{longest, longest, kShares}}}});
+    const std::string svg = slots_svg("T", {{longest, {{longest, longest, kShares, 0, 1, 1}}}});
     expect_well_formed(svg);
     const std::vector<double> x = values(svg, "rect", "x");
     const std::vector<double> width = values(svg, "rect", "width");

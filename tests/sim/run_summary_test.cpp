@@ -66,6 +66,9 @@ TEST(RunSummary, EveryFieldComesBack) {
     EXPECT_EQ(back.view.camera, 7);
     EXPECT_EQ(back.view.width, 640);
     EXPECT_EQ(back.view.fragments, 192U);
+    EXPECT_NEAR(back.first_task_ms.value_or(0), 10e-6, 1e-12);
+    EXPECT_NEAR(back.last_task_ms.value_or(0), 14e-6, 1e-12);
+    EXPECT_EQ(back.limited_by, "memory");
     EXPECT_EQ(back.report, sent.report);
     EXPECT_EQ(back.warnings, sent.warnings);
     for_each_measure(

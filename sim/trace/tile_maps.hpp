@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the array did for each tile of the first frame, as pictures and as layers of an image.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/output_folder.hpp"
+#include "sim/simulation.hpp"
+
+namespace degs::sim {
+
+/// One measure of every tile, row by row; NaN where a tile lists no splat.
+struct TileMap {
+    std::string name;  ///< of files and layers
+    std::string title; ///< with the unit
+    std::vector<float> values;
+};
+
+struct TileMaps {
+    int tiles_x = 0, tiles_y = 0;
+    int tile_size = 0; ///< px
+    std::vector<TileMap> maps;
+};
+
+TileMaps tile_maps_of(const RunResult& result);
+/// The map with its title and a legend.
+std::string map_svg(const TileMaps& maps, const TileMap& map, const std::string& subtitle);
+/// The map over the image that it is of.
+Image map_over(const TileMaps& maps, const TileMap& map, const Image& image);
+
+/// Names of the files that write_tile_maps() writes.
+std::vector<std::string> tile_map_files();
+/// tiles.exr with every map as a layer, and for each map a picture and an overlay.
+void write_tile_maps(const RunResult& result, const OutputFolder& out);
+
+} // namespace degs::sim

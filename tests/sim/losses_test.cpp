@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reasons that `degs run` names, where they are known by construction, and the keys that move them.
+#include <algorithm>
+
+#include "sim/text/losses.hpp"
+#include "tests/sim/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+/// The line of a run's summary that begins with `name`.
+std::string line_of(const std::string& text, const std::string& name) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.rfind(name + " ", 0) == 0) {
+            return line.substr(name.size() + 2);
+        }
+    }
+    ADD_FAILURE() << "no line '" << name << "' in\n" << text;
+    return "";
+}
+
+std::string losses_of_run(const std::string& design, const std::string& scene,
+                          const std::vector<std::string>& sets,
+                          const std::vector<std::string>& more = {}) {
+    const Folder folder;
+    std::vector<std::string> arguments{"run",   config(design), "--scene",       scene,
+                                       "--out", folder / "out", "--no-reference"};
+    for (const std::string& set : sets) {
+        arguments.insert(arguments.end(), {"--set", set});
+    }
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = degs(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return line_of(outcome.out, "losses");
+}
+
+/// The share of a reason in the line, %; 0 if it is not among the three.
+double share_of(const std::string& line, const std::string& reason) {
+    const std::size_t at = line.find(reason + " ");
+    return at == std::string::npos ? 0 : std::stod(line.substr(at + reason.size()));
+}
+
+void expect_first(const std::string& line, const std::string& reason, const std::string& key) {
+    EXPECT_EQ(line.rfind(reason + " ", 0), 0U) << line;
+    const std::string first = line.substr(0, line.find(" · "));
+    EXPECT_NE(first.find(key), std::string::npos) << line;
+}
+
+const std::string kObject = "synthetic:object,gaussians=2000";
+const std::vector<std::string> kSmall{"--width", "240"};
+
+TEST(Losses, OneSpanUnitStarvesTheArray) {
+    const std::string line =
+        losses_of_run("degs-64", kObject, {"span.count=1", "slicing.count=1"}, kSmall);
+    expect_first(line, "starved, for span", "raise span.count");
+    const std::string better = losses_of_run("degs-64", kObject, {"span.count=4"}, kSmall);
+    EXPECT_LT(share_of(better, "starved, for span"), 0.7 * share_of(line, "starved, for span"));
+}
+
+TEST(Losses, SlowMemoryIsNamedForEveryAccelerator) {
+    for (const char* design : {"degs-64", "gscore-64", "gbu-64", "gcc-64"}) {
+        SCOPED_TRACE(design);
+        const std::string line =
+            losses_of_run(design, kObject, {"memory.bandwidth_gb_per_s=1"}, kSmall);
+        const std::string first = line.substr(0, line.find(" · "));
+        EXPECT_NE(first.find("for memory"), std::string::npos) << line;
+        EXPECT_NE(first.find("raise memory.bandwidth_gb_per_s"), std::string::npos) << line;
+    }
+}
+
+TEST(Losses, KeysOfAnotherMemoryModelAreNotNamed) {
+    const std::string line = losses_of_run(
+        "degs-64", kObject, {"memory.model=lpddr5", "memory.lpddr5.channels=1"}, kSmall);
+    EXPECT_NE(line.find("raise memory.lpddr5.channels"), std::string::npos) << line;
+    EXPECT_EQ(line.find("bandwidth_gb_per_s"), std::string::npos) << line;
+    const std::string alone =
+        losses_of_run("degs-64", kObject, {}, {"--width", "240", "--array-only"});
+    EXPECT_EQ(alone.find("memory"), std::string::npos) << alone;
+}
+
+// The waiting segments share it with the packets: with few of them there is nothing to choose from.
+TEST(Losses, ATinyPackingBufferLeavesNoChoice) {
+    const std::string filled = "scheduler.queue_segments_per_pe=0";
+    const std::string line =
+        losses_of_run("degs-64", kObject, {filled, "packing.bytes=3840"}, kSmall);
+    expect_first(line, "conflict", "raise packing.bytes");
+    EXPECT_NE(line.find("starved"), std::string::npos) << line;
+    EXPECT_EQ(line.find("raise scheduler.queue_segments_per_pe"), std::string::npos) << line;
+    const std::string better =
+        losses_of_run("degs-64", kObject, {filled, "packing.bytes=32768"}, kSmall);
+    EXPECT_LT(share_of(better, "conflict"), share_of(line, "conflict") / 2) << better;
+    // Where the keys limit the segments and packets, bytes move nothing.
+    const std::string plain = losses_of_run("degs-64", kObject, {}, kSmall);
+    EXPECT_EQ(plain.find("packing.bytes"), std::string::npos) << plain;
+}
+
+// One in the rows of each bank, or the other banks would have nothing to do.
+TEST(Losses, HotPixelsConflict) {
+    const Folder folder;
+    std::vector<Splat> splats(16000);
+    for (std::size_t i = 0; i < splats.size(); ++i) {
+        splats[i].mean = {0, static_cast<float>(i % 8) * 4 / 60, 0};
+        splats[i].scale = {-7, -7, -7};
+        splats[i].opacity = -4; // nearly transparent, so that all of them are blended
+    }
+    write_ply(folder / "hot.ply", splats);
+    write_camera(folder / "cameras.json", {0, 0, -4});
+    const std::string line = losses_of_run("degs-64", folder / "hot.ply", {});
+    expect_first(line, "conflict", "lower scheduler.reuse_cycles");
+    const std::string better = losses_of_run(
+        "degs-64", folder / "hot.ply", {"scheduler.reuse_cycles=2", "array.writeback_cycles=2"});
+    EXPECT_LT(share_of(better, "conflict"), share_of(line, "conflict"));
+}
+
+TEST(Losses, KeysAtTheirBestAreNotNamed) {
+    const std::vector<std::string> sets{"scheduler.termination=pixel", "pipeline.span_ends=exact"};
+    const std::string line = losses_of_run("degs-64", kObject, sets, kSmall);
+    EXPECT_EQ(line.find("scheduler.termination"), std::string::npos) << line;
+    EXPECT_EQ(line.find("span_ends"), std::string::npos) << line;
+    const std::string gbu = losses_of_run("gbu-64", kObject, {"engines.end_probe=false"}, kSmall);
+    EXPECT_EQ(gbu.find("end_probe"), std::string::npos) << gbu;
+}
+
+// Useful cycles and losses fill PEs x cycles.
+TEST(Losses, AddUp) {
+    sim::RunResult result;
+    AcceleratorResult& run = result.accelerator;
+    run.pes = 4;
+    run.cycles = 100;
+    run.window.include(10);
+    run.window.include(89);
+    run.slots.useful = 200;
+    run.slots.conflict = 70;
+    run.slots.starved = 30;
+    run.slots.drain = 20;
+    const std::vector<sim::Loss> losses = sim::losses_of(result);
+    double sum = 0.5;
+    for (const sim::Loss& loss : losses) {
+        sum += loss.share;
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_EQ(losses.front().reason, "conflict");
+    EXPECT_NEAR(losses.front().share, 70.0 / 400, 1e-12);
+    EXPECT_EQ(sim::losses_line(sim::RunResult()), "none");
+}
+
+} // namespace
+} // namespace degs::sim_test
