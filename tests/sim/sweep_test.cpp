@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs sweep as a user calls it: results, going on after a kill, shards.
+#include <algorithm>
 #include <csignal>
 #include <map>
 #include <random>
@@ -206,6 +207,78 @@ TEST(SweepRuns, SurviveBeingKilled) {
     for (const auto& entry : fs::recursive_directory_iterator(folder / "o")) {
         EXPECT_EQ(entry.path().string().find(".partial-"), std::string::npos) << entry.path();
     }
+}
+
+/// The cells of a CSV file without quoted ones, by row and column.
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv) {
+    std::istringstream lines(csv);
+    std::vector<std::string> head;
+    std::vector<std::map<std::string, std::string>> rows;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream cells(line + ",");
+        std::vector<std::string> row;
+        for (std::string cell; std::getline(cells, cell, ',');) {
+            row.push_back(cell);
+        }
+        if (head.empty()) {
+            head = row;
+            continue;
+        }
+        EXPECT_EQ(row.size(), head.size());
+        rows.emplace_back();
+        for (std::size_t c = 0; c < std::min(row.size(), head.size()); ++c) {
+            rows.back()[head[c]] = row[c];
+        }
+    }
+    return rows;
+}
+
+// The buffers of Table I from a quarter to four times their size on two scenes: the table, the
+// plots and the area come from the shipped study and one command.
+TEST(SweepCommand, AnArchitectsAfternoon) {
+    const Folder folder;
+    const Outcome outcome = sweep(config("studies/buffers"), folder / "o",
+                                  {"--scene", "synthetic:object,gaussians=3000", "--scene",
+                                   "synthetic:outdoor,gaussians=3000", "--width", "160"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("buffers: 40 of 40 points · 1 cannot be built\ncannot be built: "),
+              std::string::npos)
+        << outcome.out;
+    const auto rows = rows_of(read_file(folder / "o/results.csv"));
+    const std::map<std::string, double> table{{"gaussian_buffer.bytes", 73728},
+                                              {"span_buffer.bytes", 2048},
+                                              {"packing.bytes", 32768},
+                                              {"feature_buffer.bytes", 8192},
+                                              {"pixel_buffer.bytes", 16384}};
+    for (const char* scene : {"object", "outdoor"}) {
+        for (const auto& [key, bytes] : table) {
+            for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+                const auto of_point = [&, &key = key, &bytes = bytes](const auto& row) {
+                    const bool others = std::all_of(table.begin(), table.end(), [&](const auto& o) {
+                        return o.first == key || std::stod(row.at(o.first)) == o.second;
+                    });
+                    return others && row.at("scene") == scene &&
+                           std::stod(row.at(key)) == factor * bytes;
+                };
+                const auto row = std::find_if(rows.begin(), rows.end(), of_point);
+                if (key == "pixel_buffer.bytes" && factor == 0.25) { // holds no tile
+                    EXPECT_EQ(row, rows.end());
+                    continue;
+                }
+                ASSERT_NE(row, rows.end()) << scene << " " << key << " x" << factor;
+                EXPECT_GT(std::stod(row->at("area_mm2")), 1);
+                EXPECT_GT(std::stod(row->at("latency_ms")), 0);
+                EXPECT_GT(std::stod(row->at("ratio.latency_per_mm2")), 0.1);
+                EXPECT_FALSE(row->at("limited_by").empty());
+            }
+        }
+    }
+    const std::string page = read_file(folder / "o/index.html");
+    for (const char* part : {"\"gaussian_buffer.bytes\"", "\"area_mm2\"", "id=\"plot\"",
+                             "\"report\":\"reports/000040.json\""}) {
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+    }
+    EXPECT_TRUE(fs::exists(folder / "o/reports/000040.json"));
 }
 
 TEST(SweepCommand, OptionsReplaceTheStudysViews) {

@@ -237,7 +237,7 @@
   // The table.
   const few = new Set(["cycles", "latency_ms", "fps", "throughput_fps", "slots.utilization", "dram.bytes_read",
     "dram.bytes_written", "dram.utilization", "area_mm2", "ratio.latency", "ratio.latency_per_mm2", "image.psnr_db",
-    "energy_nj", "energy.total_nj", "energy.frame_nj"]);
+    "energy.nj_per_frame", "ratio.energy"]);
   let order = { column: point, down: false };
   const tableColumns = () => columns.filter((c) => (c.kind !== "measure" && (data.swept || c.kind !== "key")) || at("all-columns").checked || few.has(c.name))
     .filter((c) => c !== view || data.views.length > 1);
