@@ -14,8 +14,8 @@ void RunProgress::ended(const std::string& name, double seconds, bool good) {
 
 void RunProgress::show(const std::vector<std::string>& running) {
     const std::size_t more = running.size() - 1;
-    line_.show(words() + " done · " + std::to_string(static_cast<long>(clock_.seconds())) +
-               " s" + left() + " · running " + running.front() +
+    line_.show(words() + " done · " + std::to_string(static_cast<long>(clock_.seconds())) + " s" +
+               left() + " · running " + running.front() +
                (more == 0 ? "" : " and " + std::to_string(more) + " more"));
 }
 
