@@ -154,8 +154,7 @@ void add_config_command(CLI::App& program) {
     auto options = std::make_shared<ConfigOptions>();
     CLI::App* command = program.add_subcommand(
         "config", "explain every configuration key with its default, or with a file's value; with "
-                  "--cost, area and power of the design; with --stats, every statistic that a run "
-                  "reports");
+                  "--cost, what a design takes; with --stats, what a run reports");
     CLI::Option* file =
         command
             ->add_option("config", options->config,
