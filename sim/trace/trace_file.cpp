@@ -54,21 +54,21 @@ public:
 
     void name_group(Group group, const std::string& name) {
         begin("process_name", 'M', group, 0);
-        text_ += ",\"args\":{\"name\":" + quoted(name) + "}}";
+        text_ += R"(,"args":{"name":)" + quoted(name) + "}}";
         begin("process_sort_index", 'M', group, 0);
-        text_ += ",\"args\":{\"sort_index\":" + std::to_string(group) + "}}";
+        text_ += R"(,"args":{"sort_index":)" + std::to_string(group) + "}}";
     }
     void name_track(Group group, std::size_t track, const std::string& name) {
         begin("thread_name", 'M', group, track);
-        text_ += ",\"args\":{\"name\":" + quoted(name) + "}}";
+        text_ += R"(,"args":{"name":)" + quoted(name) + "}}";
         begin("thread_sort_index", 'M', group, track);
-        text_ += ",\"args\":{\"sort_index\":" + std::to_string(track) + "}}";
+        text_ += R"(,"args":{"sort_index":)" + std::to_string(track) + "}}";
     }
     void span(const std::string& name, Group group, std::size_t track, Cycle from, Cycle to,
               const std::string& arguments = "") {
         begin(name, 'X', group, track);
-        text_ += ",\"ts\":" + time(from) + ",\"dur\":" + time(to - from);
-        text_ += arguments.empty() ? "}" : ",\"args\":{" + arguments + "}}";
+        text_ += R"(,"ts":)" + time(from) + R"(,"dur":)" + time(to - from);
+        text_ += arguments.empty() ? "}" : R"(,"args":{)" + arguments + "}}";
     }
     /// `sums` by step, shown as `factor` times their mean over the cycles of a step.
     void counter(const std::string& name, Group group, const std::vector<std::uint64_t>& sums,
@@ -81,9 +81,8 @@ public:
             const std::uint64_t sum = i < sums.size() ? sums[i] : 0;
             if (sum != shown || i == sums.size()) {
                 begin(name, 'C', group, 0);
-                text_ += ",\"ts\":" + time(i * timeline_.step) +
-                         ",\"args\":{\"value\":" + shortest(ratio_of(sum, 1) / step_ * factor) +
-                         "}}";
+                text_ += R"(,"ts":)" + time(i * timeline_.step) + R"(,"args":{"value":)" +
+                         shortest(ratio_of(sum, 1) / step_ * factor) + "}}";
                 shown = sum;
             }
         }
@@ -93,8 +92,8 @@ public:
 private:
     void begin(const std::string& name, char phase, Group group, std::size_t track) {
         text_ += text_.empty() ? "\n" : ",\n";
-        text_ += "{\"name\":" + quoted(name) + ",\"ph\":\"" + phase +
-                 "\",\"pid\":" + std::to_string(group) + ",\"tid\":" + std::to_string(track);
+        text_ += R"({"name":)" + quoted(name) + R"(,"ph":")" + phase + R"(","pid":)" +
+                 std::to_string(group) + R"(,"tid":)" + std::to_string(track);
     }
     std::string time(Cycle date) const { return shortest(ratio_of(date, 1) / cycles_per_us_); }
 
@@ -269,11 +268,10 @@ std::string trace_text(const Trace& trace) {
     add_counters(events, trace);
     add_stages(events, trace.timeline);
     add_rings(events, trace.timeline);
-    return "{\"displayTimeUnit\":\"ns\",\"otherData\":{\"design\":" + quoted(trace.design) +
-           ",\"clock_ghz\":" + shortest(trace.clock_ghz) +
-           ",\"step_cycles\":" + std::to_string(trace.timeline.step) +
-           ",\"cycles\":" + std::to_string(trace.timeline.end) + "},\"traceEvents\":[" +
-           events.take() + "\n]}\n";
+    return R"({"displayTimeUnit":"ns","otherData":{"design":)" + quoted(trace.design) +
+           R"(,"clock_ghz":)" + shortest(trace.clock_ghz) + R"(,"step_cycles":)" +
+           std::to_string(trace.timeline.step) + R"(,"cycles":)" +
+           std::to_string(trace.timeline.end) + R"(},"traceEvents":[)" + events.take() + "\n]}\n";
 }
 
 void write_trace(const Trace& trace, const std::string& path) {

@@ -260,7 +260,7 @@ void Timeline::name_tracks() {
         std::string block = last_part(track.block_);
         const std::size_t dot = track.block_.rfind('.');
         if (count[block + track.part_] > 1 && dot != std::string::npos) {
-            block = last_part(track.block_.substr(0, dot)) + " " + block;
+            block.insert(0, last_part(track.block_.substr(0, dot)).append(" "));
         }
         track.name_ = block + (track.part_.empty() ? "" : " " + track.part_);
     }
