@@ -47,6 +47,18 @@ struct UtilizationPanel {
 /// Utilization over the number of PEs, which doubles from tick to tick; two panels side by side.
 std::string utilization_svg(const std::string& title, const std::vector<UtilizationPanel>& panels);
 
+/// A design in two goals, both > 0 and better if smaller.
+struct FrontPoint {
+    double x = 0, y = 0;
+    bool on_front = false; ///< no other is better in both
+    bool baseline = false;
+};
+
+/// Designs in two goals on logarithmic axes with the front of those that nobody beats; in the order
+/// of x.
+std::string front_svg(const std::string& title, const std::string& x_label,
+                      const std::string& y_label, const std::vector<FrontPoint>& points);
+
 /// A point of a load-latency curve; shares of the peak.
 struct LoadPoint {
     double offered = 0, carried = 0;

@@ -11,6 +11,7 @@
 #include "sim/compare/view_runs.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/sweep/slurm.hpp"
+#include "sim/sweep/study_options.hpp"
 #include "sim/sweep/sweep_results.hpp"
 #include "sim/sweep/sweep_session.hpp"
 #include "sim/text/standard_output.hpp"
@@ -26,15 +27,7 @@ constexpr double kSecondsBetweenResults = 10; ///< so that writing them takes no
 constexpr int kSlurmTasks = 64; ///< most tasks of an array, unless others are asked for
 
 struct SweepOptions {
-    std::string study;
-    // These replace what the study says.
-    std::vector<std::string> scenes;
-    std::string cameras, camera_file, resolutions;
-    std::optional<int> width;
-    PathRequest path;
-    bool has_frames = false, has_step = false;
-    bool array_only = false, no_reference = false;
-
+    StudyOptions study;
     int jobs = 1;
     std::optional<std::string> shard;
     bool collect = false, list = false;
@@ -43,32 +36,6 @@ struct SweepOptions {
     std::vector<std::string> sbatch;
     std::string out = "out";
 };
-
-Study study_of(const SweepOptions& options) {
-    Study study = read_study(options.study);
-    if (!options.scenes.empty()) {
-        study.scenes = options.scenes;
-    }
-    if (!options.cameras.empty()) {
-        study.cameras = options.cameras;
-    }
-    if (!options.camera_file.empty()) {
-        study.camera_file = options.camera_file;
-    }
-    if (!options.resolutions.empty() || options.width) {
-        study.resolutions = options.resolutions;
-        study.width = options.width;
-    }
-    if (options.has_frames) {
-        study.path.frames = options.path.frames;
-    }
-    if (options.has_step) {
-        study.path.step_degrees = options.path.step_degrees;
-    }
-    study.array_only = study.array_only || options.array_only;
-    study.reference = study.reference && !options.no_reference;
-    return study;
-}
 
 /// "2/5"; all points if nothing is given.
 PointRange range_of(const std::optional<std::string>& given, std::size_t points) {
@@ -89,39 +56,13 @@ PointRange range_of(const std::optional<std::string>& given, std::size_t points)
     return shard_of(points, k, n);
 }
 
-/// The command that runs the same study, without what says where and how.
+/// This program with the same study.
 std::vector<std::string> command_of(const SweepOptions& options) {
     std::error_code none;
     const std::string program = std::filesystem::read_symlink("/proc/self/exe", none).string();
-    std::vector<std::string> words{none ? "degs" : program, "sweep", options.study};
-    const auto add = [&words](const char* option, const std::string& value) {
-        words.insert(words.end(), {option, value});
-    };
-    for (const std::string& scene : options.scenes) {
-        add("--scene", scene);
-    }
-    for (const auto& [option, value] :
-         {std::pair("--camera", options.cameras), std::pair("--camera-file", options.camera_file),
-          std::pair("--resolution", options.resolutions)}) {
-        if (!value.empty()) {
-            add(option, value);
-        }
-    }
-    if (options.width) {
-        add("--width", std::to_string(*options.width));
-    }
-    if (options.has_frames) {
-        add("--frames", std::to_string(options.path.frames));
-    }
-    if (options.has_step) {
-        add("--path-step", config_words::number(options.path.step_degrees));
-    }
-    for (const auto& [option, given] : {std::pair("--array-only", options.array_only),
-                                        std::pair("--no-reference", options.no_reference)}) {
-        if (given) {
-            words.emplace_back(option);
-        }
-    }
+    std::vector<std::string> words{none ? "degs" : program, "sweep"};
+    const std::vector<std::string> study = words_of(options.study);
+    words.insert(words.end(), study.begin(), study.end());
     return words;
 }
 
@@ -197,7 +138,7 @@ void collect(const StudyPlan& plan, const PointStore& store) {
 }
 
 void run(const SweepOptions& options) {
-    StudyPlan plan = plan_study(study_of(options));
+    StudyPlan plan = plan_study(study_of(options.study));
     plan.request.jobs = options.jobs;
     if (options.list) {
         print(plan_text(plan));
@@ -238,47 +179,13 @@ void run(const SweepOptions& options) {
     }
 }
 
-void add_study_options(CLI::App& command, SweepOptions& options) {
-    command.add_option("study", options.study, "study (YAML): designs, axes and views")
-        ->type_name("FILE")
-        ->required();
-    command
-        .add_option("--scene", options.scenes,
-                    "scenes in place of the study's: a file (.ply), or "
-                    "synthetic:NAME[,gaussians=N][,seed=N]; may be repeated")
-        ->type_name("SCENE")
-        ->take_all()
-        ->expected(1);
-    command
-        .add_option("--camera", options.cameras,
-                    "cameras in place of the study's: positions in the scene's list, from 0: 0,2 "
-                    "or all")
-        ->type_name("LIST");
-    add_camera_file_option(command, options.camera_file);
-    CLI::Option* resolution =
-        command
-            .add_option("--resolution", options.resolutions,
-                        "in place of the study's: 720p, 1080p, 2k, 4k, 8k, or several separated "
-                        "by commas")
-            ->type_name("NAMES");
-    command.add_option("--width", options.width, "image width in pixels; the views are scaled")
-        ->excludes(resolution)
-        ->check(CLI::PositiveNumber);
-    add_path_options(command, options.path);
-    command.add_flag("--array-only", options.array_only,
-                     "the rasterisation arrays alone: sorted lists are there at once, and memory "
-                     "is unlimited");
-    command.add_flag("--no-reference", options.no_reference,
-                     "do not render the double-precision images to compare with");
-}
-
 } // namespace
 
 void add_sweep_command(CLI::App& program) {
     auto options = std::make_shared<SweepOptions>();
     CLI::App* command =
         program.add_subcommand("sweep", "run every point of a study, or go on with it");
-    add_study_options(*command, *options);
+    add_study_options(*command, options->study);
     command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
@@ -310,11 +217,7 @@ void add_sweep_command(CLI::App& program) {
         ->take_all()
         ->expected(1)
         ->needs(slurm);
-    command->callback([options, command] {
-        options->has_frames = command->count("--frames") != 0;
-        options->has_step = command->count("--path-step") != 0;
-        run(*options);
-    });
+    command->callback([options] { run(*options); });
 }
 
 } // namespace degs::sim

@@ -20,10 +20,10 @@ using Kind = ConfigNode::Kind;
 
 constexpr int kMostFramesOfStudy = 10000; ///< as --frames
 const std::vector<std::string> kDesignKeys{"study", "points", "designs"};
-const std::vector<std::string> kStudyKeys{"study",     "points",      "designs",  "axes",
-                                          "combine",   "baseline",    "scenes",   "cameras",
-                                          "width",     "camera_file", "frames",   "resolutions",
-                                          "path_step", "array_only",  "reference"};
+const std::vector<std::string> kStudyKeys{"study",     "points",      "designs",   "axes",
+                                          "combine",   "baseline",    "scenes",    "cameras",
+                                          "width",     "camera_file", "frames",    "resolutions",
+                                          "path_step", "array_only",  "reference", "quick"};
 
 bool is_among(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -104,8 +104,10 @@ void read_views(const ConfigNode& tree, const fs::path& folder, Study& study) {
                              ": 'width' and 'resolutions' exclude each other; give one.");
         }
     }
-    take(tree, "camera_file", config_scalar::Text{}, study.camera_file);
-    study.camera_file = beside(folder, study.camera_file);
+    if (tree.find("camera_file") != nullptr) {
+        take(tree, "camera_file", config_scalar::Text{}, study.camera_file);
+        study.camera_file = beside(folder, study.camera_file);
+    }
     std::int64_t number = 0;
     if (tree.find("width") != nullptr) {
         take(tree, "width", config_scalar::Integer{1, kMostImageSide}, number);
@@ -118,6 +120,33 @@ void read_views(const ConfigNode& tree, const fs::path& folder, Study& study) {
          study.path.step_degrees);
     take(tree, "array_only", config_scalar::Boolean{}, study.array_only);
     take(tree, "reference", config_scalar::Boolean{}, study.reference);
+}
+
+/// The views of the section 'quick', which replace those of the study. False if there is none.
+bool read_quick(const ConfigNode& tree, const fs::path& folder, Study& study) {
+    const ConfigNode* const quick = tree.find("quick");
+    if (quick == nullptr) {
+        return false;
+    }
+    if (quick->kind != Kind::kSection) {
+        throw InputError(quick->place + ": key 'quick' must be a section of views.");
+    }
+    const std::vector<std::string> allowed{"scenes", "cameras", "resolutions", "width", "frames"};
+    for (const ConfigNode& key : quick->children) {
+        if (std::find(allowed.begin(), allowed.end(), key.key) == allowed.end()) {
+            throw InputError(key.place + ": unknown key " + quote(key.key) +
+                             " in 'quick'; allowed are " + config_words::list(allowed) + ".");
+        }
+    }
+    if (quick->find("scenes") != nullptr) {
+        study.scenes.clear();
+    }
+    if (quick->find("resolutions") != nullptr || quick->find("width") != nullptr) {
+        study.resolutions.clear();
+        study.width.reset();
+    }
+    read_views(*quick, folder, study);
+    return true;
 }
 
 std::vector<Axis> read_axes(const ConfigNode& tree) {
@@ -182,11 +211,14 @@ void check_designs_only(const ConfigNode& tree) {
     }
 }
 
-Study read_study(const std::string& file) {
+Study read_study(const std::string& file, bool quick) {
     const ConfigNode tree = ConfigSource::from_file(file).tree();
     Study study;
     study.name = fs::path(file).stem().string();
     if (!is_study(tree)) {
+        if (quick) {
+            throw InputError(file + ": --quick needs a study with a section 'quick'.");
+        }
         study.designs = {{study.name, tree}};
         return study;
     }
@@ -199,8 +231,14 @@ Study read_study(const std::string& file) {
     take(tree, "combine", config_scalar::Choice{combinations}, combine);
     study.one_at_a_time = combine == 1;
     take(tree, "baseline", config_scalar::Text{}, study.baseline);
-    read_views(tree, fs::path(file).parent_path(), study);
-    return study;
+    const fs::path folder = fs::path(file).parent_path();
+    read_views(tree, folder, study);
+    Study few = study;
+    const bool has_few = read_quick(tree, folder, few);
+    if (quick && !has_few) {
+        throw InputError(file + ": --quick needs a section 'quick' in the study.");
+    }
+    return quick ? few : study;
 }
 
 } // namespace degs::sim

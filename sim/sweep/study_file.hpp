@@ -44,6 +44,7 @@ void check_designs_only(const ConfigNode& tree);
 
 /// Reads a study; a configuration is a study of one design. Paths in it are relative to the file.
 /// Throws InputError for what can be seen without loading designs and scenes.
-Study read_study(const std::string& file);
+/// With `quick`, the views are those of its section 'quick'.
+Study read_study(const std::string& file, bool quick = false);
 
 } // namespace degs::sim

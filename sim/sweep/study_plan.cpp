@@ -349,4 +349,40 @@ StudyPlan plan_study(const Study& study) {
     return plan;
 }
 
+StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variants, int divisor) {
+    StudyPlan part = plan;
+    part.variants.clear();
+    part.request.configs.clear();
+    part.skipped.clear();
+    part.points.clear();
+    for (const std::size_t variant : variants) {
+        if (variant == plan.baseline) {
+            part.baseline = part.variants.size();
+        }
+        part.variants.push_back(plan.variants[variant]);
+        part.request.configs.push_back(plan.request.configs[variant]);
+    }
+    for (ImageSize& size : part.request.sizes) {
+        if (divisor != 1 && !size.width && !size.height) {
+            throw InputError("The study needs 'width' or 'resolutions', because a search begins "
+                             "with smaller images.");
+        }
+        for (std::optional<int>* side : {&size.width, &size.height}) {
+            if (*side) {
+                *side = std::max(1, **side / divisor);
+            }
+        }
+    }
+    const std::size_t all = plan.variants.size();
+    for (std::size_t p = 0; p < plan.points.size(); p += all) { // the views
+        for (std::size_t v = 0; v < part.variants.size(); ++v) {
+            StudyPoint point = plan.points[p];
+            point.variant = v;
+            part.points.push_back(point);
+        }
+    }
+    part.digest = digest_of(part);
+    return part;
+}
+
 } // namespace degs::sim

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs explore: the designs of a study that nobody beats.
+#include <memory>
+
+#include "config/config_words.hpp"
+#include "config/error.hpp"
+#include "config/visible_text.hpp"
+#include "sim/commands.hpp"
+#include "sim/sweep/search_output.hpp"
+#include "sim/sweep/study_options.hpp"
+#include "sim/text/standard_output.hpp"
+#include "sim/view_options.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct ExploreOptions {
+    StudyOptions study;
+    SearchOptions search;
+    std::vector<std::string> goals{name_of(SearchOptions{}.goals[0]),
+                                   name_of(SearchOptions{}.goals[1])};
+    int jobs = 1;
+    std::string out = "out";
+};
+
+Measure measure_named(const std::string& name) {
+    std::optional<Measure> found;
+    std::vector<std::string> names;
+    for_each_measure([&](Measure measure) {
+        names.push_back(name_of(measure));
+        if (name_of(measure) == name) {
+            found = measure;
+        }
+    });
+    if (!found) {
+        const std::string meant = config_words::nearest(name, names);
+        throw InputError(
+            "--goals names " + config_words::quote(name) + ", which is no measure" +
+            (meant.empty() ? "" : "; did you mean " + config_words::quote(meant) + "?") +
+            " 'degs config --stats --of compare' lists them.");
+    }
+    return *found;
+}
+
+void run(ExploreOptions& options) {
+    for (std::size_t g = 0; g < options.goals.size(); ++g) {
+        options.search.goals.at(g) = measure_named(options.goals[g]);
+    }
+    StudyPlan plan = plan_study(study_of(options.study));
+    plan.request.jobs = options.jobs;
+    std::optional<Failure> failure;
+    const Search found = search(plan, options.search, options.out, failure);
+    if (found.complete) {
+        const OutputFolder folder(options.out, {"front.csv", "front.svg", "explore.json"});
+        write_search(plan, found, options.search, folder);
+        print(search_text(plan, found, options.search) +
+              "\nall numbers, plots and the page: " + visible(folder.path("")) + "\n");
+    }
+    if (failure) {
+        throw FailureError(*failure);
+    }
+}
+
+} // namespace
+
+void add_explore_command(CLI::App& program) {
+    auto options = std::make_shared<ExploreOptions>();
+    CLI::App* command = program.add_subcommand(
+        "explore", "search a study for the designs that none beats in two goals, by default area "
+                   "and latency");
+    add_study_options(*command, options->study);
+    command
+        ->add_option("--goals", options->goals,
+                     "two measures that shall be small, as in the columns of results.csv")
+        ->type_name("NAME,NAME")
+        ->delimiter(',')
+        ->expected(2)
+        ->capture_default_str();
+    command
+        ->add_option("--rungs", options->search.rungs,
+                     "sizes of images: the first rung has 1/2^(N-1) of their sides, the last the "
+                     "study's own")
+        ->check(CLI::Range(1, 6))
+        ->capture_default_str();
+    command
+        ->add_option("--share", options->search.share,
+                     "one of so many designs goes on to the next rung")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    command->add_option("--least", options->search.least, "designs that go on at least")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    add_out_option(*command, options->out, "folder for the front, the rungs and their reports");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace degs::sim

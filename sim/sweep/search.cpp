@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sweep/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "config/error.hpp"
+#include "sim/sweep/sweep_session.hpp"
+
+namespace degs::sim {
+namespace {
+
+/// The goals of the plan's variants, by their numbers in the rung; empty for those that failed.
+std::vector<std::optional<Goals>> goals_of(const StudyPlan& part, const SweepResults& results,
+                                           const SearchOptions& options) {
+    std::vector<std::size_t> views(part.variants.size(), 0);
+    std::vector<Goals> logs(part.variants.size(), Goals{});
+    for (const ComparisonRow& row : results.comparison.rows) {
+        ++views[row.config];
+        for (std::size_t g = 0; g < options.goals.size(); ++g) {
+            const std::optional<double>& value = row.measures[options.goals.at(g)];
+            if (!value || !(*value > 0)) {
+                throw InputError("'" + part.variants[row.config].name + "' has no " +
+                                 name_of(options.goals.at(g)) + ", so it cannot be a goal.");
+            }
+            logs[row.config].at(g) += std::log(*value);
+        }
+    }
+    const std::size_t wanted = part.points.size() / part.variants.size();
+    std::vector<std::optional<Goals>> goals(part.variants.size());
+    for (std::size_t v = 0; v < goals.size(); ++v) {
+        if (views[v] == wanted) {
+            const auto count = static_cast<double>(wanted);
+            goals[v] = Goals{std::exp(logs[v][0] / count), std::exp(logs[v][1] / count)};
+        }
+    }
+    return goals;
+}
+
+/// Runs `variants` of the plan on smaller images. Empty after Ctrl-C.
+std::optional<Rung> run_rung(const StudyPlan& plan, const std::vector<std::size_t>& variants,
+                             int divisor, const SearchOptions& options, const std::string& folder,
+                             std::optional<Failure>& failure) {
+    StudyPlan part = part_of(plan, variants, divisor);
+    part.request.reference = plan.request.reference && divisor == 1;
+    const PointStore store(folder, part);
+    SweepSession session(part, store, {0, part.points.size()});
+    const bool complete = session.run();
+    failure = session.failure();
+    const SweepResults results = read_results(part, store);
+    write_results(part, results, store.folder());
+    if (!complete) {
+        return {};
+    }
+    Rung rung;
+    rung.divisor = divisor;
+    rung.failed = results.comparison.failed;
+    const auto goals = goals_of(part, results, options);
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        if (goals[v]) {
+            rung.candidates.push_back({variants[v], *goals[v]});
+        }
+    }
+    return rung;
+}
+
+/// Those that go on, and the baseline, with which results are compared.
+std::vector<std::size_t> survivors(const Rung& rung, const StudyPlan& plan,
+                                   const SearchOptions& options) {
+    std::vector<Goals> goals;
+    for (const Candidate& candidate : rung.candidates) {
+        goals.push_back(candidate.goals);
+    }
+    const std::size_t count = std::max(options.least, goals.size() / options.share);
+    std::vector<std::size_t> variants{plan.baseline};
+    for (const std::size_t position : best_of(goals, count)) {
+        variants.push_back(rung.candidates[position].variant);
+    }
+    std::sort(variants.begin(), variants.end());
+    variants.erase(std::unique(variants.begin(), variants.end()), variants.end());
+    return variants;
+}
+
+} // namespace
+
+Search search(const StudyPlan& plan, const SearchOptions& options, const std::string& out,
+              std::optional<Failure>& failure) {
+    Search found;
+    std::vector<std::size_t> variants(plan.variants.size());
+    std::iota(variants.begin(), variants.end(), 0);
+    for (int r = 0; r < options.rungs; ++r) {
+        const int divisor = 1 << (options.rungs - 1 - r);
+        std::optional<Failure> rung_failure;
+        std::optional<Rung> rung =
+            run_rung(plan, variants, divisor, options,
+                     divisor == 1 ? out : out + "/rung-" + std::to_string(r + 1), rung_failure);
+        failure = rung_failure ? rung_failure : failure;
+        if (!rung) {
+            found.complete = false;
+            return found;
+        }
+        variants = survivors(*rung, plan, options);
+        found.rungs.push_back(std::move(*rung));
+    }
+    return found;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The results of a search for people and programs.
+#pragma once
+
+#include <string>
+
+#include "sim/output_folder.hpp"
+#include "sim/sweep/search.hpp"
+
+namespace degs::sim {
+
+/// Raised whenever a key of explore.json changes its meaning, name or unit.
+constexpr int kExploreVersion = 1;
+
+/// front.csv, front.svg and explore.json: the designs of the last rung, and how each came there.
+void write_search(const StudyPlan& plan, const Search& search, const SearchOptions& options,
+                  const OutputFolder& folder);
+
+/// The front as a table, and how well the small images ranked the designs.
+std::string search_text(const StudyPlan& plan, const Search& search, const SearchOptions& options);
+
+} // namespace degs::sim

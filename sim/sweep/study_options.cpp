@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sweep/study_options.hpp"
+
+#include <utility>
+
+#include "config/config_words.hpp"
+#include "sim/view_options.hpp"
+
+namespace degs::sim {
+
+void add_study_options(CLI::App& command, StudyOptions& options) {
+    command.add_option("study", options.file, "study (YAML): designs, axes and views")
+        ->type_name("FILE")
+        ->required();
+    command
+        .add_option("--scene", options.scenes,
+                    "scenes in place of the study's: a file (.ply), or "
+                    "synthetic:NAME[,gaussians=N][,seed=N]; may be repeated")
+        ->type_name("SCENE")
+        ->take_all()
+        ->expected(1);
+    command
+        .add_option("--camera", options.cameras,
+                    "cameras in place of the study's: positions in the scene's list, from 0: 0,2 "
+                    "or all")
+        ->type_name("LIST");
+    add_camera_file_option(command, options.camera_file);
+    CLI::Option* resolution =
+        command
+            .add_option("--resolution", options.resolutions,
+                        "in place of the study's: 720p, 1080p, 2k, 4k, 8k, or several separated "
+                        "by commas")
+            ->type_name("NAMES");
+    command.add_option("--width", options.width, "image width in pixels; the views are scaled")
+        ->excludes(resolution)
+        ->check(CLI::PositiveNumber);
+    add_path_options(command, options.path);
+    command.add_flag("--quick", options.quick,
+                     "the few views that the study's section 'quick' names");
+    command.add_flag("--array-only", options.array_only,
+                     "the rasterisation arrays alone: sorted lists are there at once, and memory "
+                     "is unlimited");
+    command.add_flag("--no-reference", options.no_reference,
+                     "do not render the double-precision images to compare with");
+    // What a flag of CLI11 cannot say: whether an option with a default was given.
+    command.get_option("--frames")->each([&options](const std::string&) {
+        options.has_frames = true;
+    });
+    command.get_option("--path-step")->each([&options](const std::string&) {
+        options.has_step = true;
+    });
+}
+
+Study study_of(const StudyOptions& options) {
+    Study study = read_study(options.file, options.quick);
+    if (!options.scenes.empty()) {
+        study.scenes = options.scenes;
+    }
+    if (!options.cameras.empty()) {
+        study.cameras = options.cameras;
+    }
+    if (!options.camera_file.empty()) {
+        study.camera_file = options.camera_file;
+    }
+    if (!options.resolutions.empty() || options.width) {
+        study.resolutions = options.resolutions;
+        study.width = options.width;
+    }
+    if (options.has_frames) {
+        study.path.frames = options.path.frames;
+    }
+    if (options.has_step) {
+        study.path.step_degrees = options.path.step_degrees;
+    }
+    study.array_only = study.array_only || options.array_only;
+    study.reference = study.reference && !options.no_reference;
+    return study;
+}
+
+std::vector<std::string> words_of(const StudyOptions& options) {
+    std::vector<std::string> words{options.file};
+    const auto add = [&words](const char* option, const std::string& value) {
+        words.insert(words.end(), {option, value});
+    };
+    for (const std::string& scene : options.scenes) {
+        add("--scene", scene);
+    }
+    for (const auto& [option, value] :
+         {std::pair("--camera", options.cameras), std::pair("--camera-file", options.camera_file),
+          std::pair("--resolution", options.resolutions)}) {
+        if (!value.empty()) {
+            add(option, value);
+        }
+    }
+    if (options.width) {
+        add("--width", std::to_string(*options.width));
+    }
+    if (options.has_frames) {
+        add("--frames", std::to_string(options.path.frames));
+    }
+    if (options.has_step) {
+        add("--path-step", config_words::number(options.path.step_degrees));
+    }
+    for (const auto& [option, given] :
+         {std::pair("--quick", options.quick), std::pair("--array-only", options.array_only),
+          std::pair("--no-reference", options.no_reference)}) {
+        if (given) {
+            words.emplace_back(option);
+        }
+    }
+    return words;
+}
+
+} // namespace degs::sim

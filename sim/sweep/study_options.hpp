@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of commands that take a study. Not in study_file.hpp, because CLI11 costs seconds in
+// every source that sees it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+#include "sim/sweep/study_file.hpp"
+
+namespace degs::sim {
+
+/// A study's file, and what replaces the views that it states.
+struct StudyOptions {
+    std::string file;
+    std::vector<std::string> scenes;
+    std::string cameras, camera_file, resolutions;
+    std::optional<int> width;
+    PathRequest path;
+    bool has_frames = false, has_step = false;
+    bool quick = false, array_only = false, no_reference = false;
+};
+
+void add_study_options(CLI::App& command, StudyOptions& options);
+
+/// The options as words of a command line, the file first.
+std::vector<std::string> words_of(const StudyOptions& options);
+
+/// Reads the study. Throws InputError.
+Study study_of(const StudyOptions& options);
+
+} // namespace degs::sim

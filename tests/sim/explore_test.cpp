@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs explore: fronts by hand, and a search against all points of a small study.
+#include "sim/sweep/search.hpp"
+#include "tests/sim/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using namespace degs::sim;
+using Positions = std::vector<std::size_t>;
+
+TEST(ParetoFront, HasWhomNobodyBeats) {
+    //                              0       1       2       3       4       5
+    const std::vector<Goals> goals{{1, 9}, {2, 5}, {3, 5}, {4, 1}, {2, 5}, {1, 10}};
+    EXPECT_EQ(pareto_front(goals), (Positions{0, 1, 3}));
+    EXPECT_EQ(pareto_front({}), Positions{});
+    EXPECT_EQ(pareto_front({{7, 7}}), Positions{0});
+}
+
+TEST(ParetoFront, GoesOnWithTheFrontOfTheRest) {
+    const std::vector<Goals> goals{{1, 9}, {2, 5}, {3, 5.5}, {4, 1}, {2.5, 5.2}, {1, 10}};
+    EXPECT_EQ(best_of(goals, 3), (Positions{0, 1, 3}));
+    EXPECT_EQ(best_of(goals, 5), (Positions{0, 1, 3, 4, 5}));
+    EXPECT_EQ(best_of(goals, 99).size(), goals.size());
+}
+
+// Of 1, 2, 2.1, 8 the two in the middle are neighbours; the ends stay.
+TEST(ParetoFront, LosesItsClosestNeighboursFirst) {
+    const std::vector<Goals> goals{{1, 8}, {2, 4}, {2.1, 3.9}, {8, 1}};
+    const Positions three = best_of(goals, 3);
+    EXPECT_EQ(three.front(), 0U);
+    EXPECT_EQ(three.back(), 3U);
+    EXPECT_EQ(best_of(goals, 2), (Positions{0, 3}));
+}
+
+TEST(RankCorrelation, IsSpearmans) {
+    EXPECT_DOUBLE_EQ(*rank_correlation({1, 2, 30}, {5, 6, 7}), 1.0);
+    EXPECT_DOUBLE_EQ(*rank_correlation({1, 2, 3}, {3, 2, 1}), -1.0);
+    // Ranks 1 2 3 4 against 2 1 4 3: 1 - 6 * 4 / (4 * 15) = 0.6.
+    EXPECT_NEAR(*rank_correlation({1, 2, 3, 4}, {20, 10, 40, 30}), 0.6, 1e-12);
+    EXPECT_FALSE(rank_correlation({1, 2}, {1, 2}));
+    EXPECT_FALSE(rank_correlation({1, 1, 1}, {1, 2, 3}));
+}
+
+/// A study of 24 designs on two views.
+std::string space(const Folder& folder, const std::string& size = "width: 128\n") {
+    const std::string file = folder / "space.yaml";
+    std::ofstream(file) << "study: space\ndesigns:\n  - include: " << config("degs-64")
+                        << "\n    name: degs-64\naxes:\n  span.count: [2, 4, 8, 16]\n"
+                           "  array.pes_per_bank: [4, 8, 16]\n  packing.bytes: [x1, x2]\n"
+                           "scenes: synthetic:object,gaussians=300\ncameras: [0, 2]\n"
+                        << size;
+    return file;
+}
+
+std::vector<std::string> csv_rows(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+/// Rows of front.csv that are on the front.
+std::vector<std::string> front_in(const std::string& folder) {
+    std::vector<std::string> front;
+    for (const std::string& line : csv_rows(read_file(folder + "/front.csv"))) {
+        if (line.size() > 4 && line.substr(line.size() - 4, 3) == ",1,") {
+            front.push_back(line);
+        }
+    }
+    return front;
+}
+
+Outcome explore(const std::string& file, const std::string& out,
+                const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"explore", file, "--out", out, "--jobs", "2"};
+    words.insert(words.end(), more.begin(), more.end());
+    return degs(words);
+}
+
+// With one rung every design runs at full size, so its front is that of all designs.
+TEST(Explore, FindsTheFrontOfAllDesigns) {
+    const Folder folder;
+    const std::string file = space(folder);
+    EXPECT_EQ(explore(file, folder / "all", {"--rungs", "1"}).code, 0);
+    const Outcome searched = explore(file, folder / "halved");
+    EXPECT_EQ(searched.code, 0) << searched.err;
+    EXPECT_EQ(front_in(folder / "halved"), front_in(folder / "all"));
+    EXPECT_FALSE(front_in(folder / "all").empty());
+    const auto explored = nlohmann::json::parse(read_file(folder / "halved/explore.json"));
+    ASSERT_EQ(explored["rungs"].size(), 3U);
+    EXPECT_EQ(explored["rungs"][0]["designs"].size(), 24U);
+    EXPECT_LE(explored["rungs"][2]["designs"].size(), 9U); // eight and the baseline
+    EXPECT_EQ(explored["rungs"][0]["divisor"], 4);
+    for (const char* file_name : {"index.html", "results.csv", "front.svg", "rung-1/results.csv"}) {
+        EXPECT_TRUE(fs::exists(folder / ("halved/" + std::string(file_name)))) << file_name;
+    }
+}
+
+TEST(Explore, GoesOnInItsFolder) {
+    const Folder folder;
+    const std::string file = space(folder);
+    EXPECT_EQ(explore(file, folder / "out").code, 0);
+    const std::string before = read_file(folder / "out/explore.json");
+    fs::remove(folder / "out/points/000001.point");
+    const Outcome again = explore(file, folder / "out");
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(read_file(folder / "out/explore.json"), before);
+}
+
+TEST(Explore, RefusesWhatItCannotSearch) {
+    const Folder folder;
+    expect_mistake(explore(space(folder, ""), folder / "a"), "needs 'width' or 'resolutions'");
+    expect_mistake(explore(space(folder), folder / "b", {"--goals", "area_mm2,latency"}),
+                   "latency");
+    expect_mistake(explore(space(folder), folder / "c", {"--goals", "image.psnr_db,latency_ms"}),
+                   "has no image.psnr_db, so it cannot be a goal");
+}
+
+} // namespace
+} // namespace degs::sim_test
