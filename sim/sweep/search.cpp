@@ -39,12 +39,18 @@ std::vector<std::optional<Goals>> goals_of(const StudyPlan& part, const SweepRes
     return goals;
 }
 
+/// Whether a goal compares images with the reference.
+bool judges_images(const SearchOptions& options) {
+    return std::any_of(options.goals.begin(), options.goals.end(),
+                       [](Measure goal) { return name_of(goal).rfind("image.", 0) == 0; });
+}
+
 /// Runs `variants` of the plan on smaller images. Empty after Ctrl-C.
 std::optional<Rung> run_rung(const StudyPlan& plan, const std::vector<std::size_t>& variants,
                              int divisor, const SearchOptions& options, const std::string& folder,
                              std::optional<Failure>& failure) {
     StudyPlan part = part_of(plan, variants, divisor);
-    part.request.reference = plan.request.reference && divisor == 1;
+    part.request.reference = plan.request.reference && (divisor == 1 || judges_images(options));
     const PointStore store(folder, part);
     SweepSession session(part, store, {0, part.points.size()});
     const bool complete = session.run();
