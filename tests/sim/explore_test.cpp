@@ -62,12 +62,17 @@ std::vector<std::string> csv_rows(const std::string& text) {
     return lines;
 }
 
-/// Rows of front.csv that are on the front.
-std::vector<std::string> front_in(const std::string& folder) {
-    std::vector<std::string> front;
+/// The designs of front.csv that are on the front.
+std::vector<Goals> front_in(const std::string& folder) {
+    std::vector<Goals> front;
     for (const std::string& line : csv_rows(read_file(folder + "/front.csv"))) {
-        if (line.size() > 4 && line.substr(line.size() - 4, 3) == ",1,") {
-            front.push_back(line);
+        std::istringstream cells(line);
+        std::vector<std::string> row;
+        for (std::string cell; std::getline(cells, cell, ',');) {
+            row.push_back(cell);
+        }
+        if (row.size() == 8 && row[6] == "1") { // design, three keys, two goals, on_front, baseline
+            front.push_back({std::stod(row[4]), std::stod(row[5])});
         }
     }
     return front;
@@ -87,8 +92,16 @@ TEST(Explore, FindsTheFrontOfAllDesigns) {
     EXPECT_EQ(explore(file, folder / "all", {"--rungs", "1"}).code, 0);
     const Outcome searched = explore(file, folder / "halved");
     EXPECT_EQ(searched.code, 0) << searched.err;
-    EXPECT_EQ(front_in(folder / "halved"), front_in(folder / "all"));
-    EXPECT_FALSE(front_in(folder / "all").empty());
+    const std::vector<Goals> found = front_in(folder / "halved");
+    const std::vector<Goals> all = front_in(folder / "all");
+    EXPECT_GE(all.size(), 4U);
+    for (const Goals& best : all) { // small images may lose one of two that are nearly the same
+        EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                                [&best](const Goals& other) {
+                                    return other[0] <= 1.01 * best[0] && other[1] <= 1.01 * best[1];
+                                }))
+            << best[0] << " mm2, " << best[1] << " ms";
+    }
     const auto explored = nlohmann::json::parse(read_file(folder / "halved/explore.json"));
     ASSERT_EQ(explored["rungs"].size(), 3U);
     EXPECT_EQ(explored["rungs"][0]["designs"].size(), 24U);
