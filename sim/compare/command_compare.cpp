@@ -48,9 +48,13 @@ CompareRequest request_of(const CompareOptions& options) {
 void run(const CompareOptions& options) {
     const CompareRequest request = request_of(options);
     const OutputFolder out(options.out, comparison_files());
-    CompareSession session(request, out);
+    std::size_t shown = 0; // views
+    CompareSession session(request, out, [&shown](const Comparison& now, std::size_t views) {
+        print(views_text(now, shown, views));
+        shown = views;
+    });
     const Comparison comparison = session.run();
-    print(comparison_text(comparison));
+    print(views_text(comparison, shown, comparison.views.size()) + closing_text(comparison));
     if (!comparison.rows.empty()) {
         print("all numbers and pictures: " + visible(out.path("")) + "\n");
     }

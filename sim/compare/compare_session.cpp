@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -22,8 +23,9 @@ std::vector<std::string> comparison_files() {
     return {"compare.json", "compare.csv", kIndex, kSlots, kUtilization};
 }
 
-CompareSession::CompareSession(const CompareRequest& request, const OutputFolder& out)
-    : request_(request), out_(out),
+CompareSession::CompareSession(const CompareRequest& request, const OutputFolder& out,
+                               ViewsEnded views_ended)
+    : request_(request), out_(out), views_ended_(std::move(views_ended)),
       runs_(request,
             {{},
              [this](std::size_t cameras) {
@@ -69,6 +71,28 @@ void CompareSession::end(const ViewRun& run, ChildOutcome&& outcome) {
     }
     progress_.ended(run.name, run.clock.seconds(), good);
     set_interruption_sentence(interruption().sentence);
+    ended_.resize(std::max(ended_.size(), run.view + 1), 0);
+    ++ended_[run.view];
+    tell_views();
+}
+
+// A view is a row of the comparison only if one of its runs has succeeded.
+void CompareSession::tell_views() {
+    const std::size_t before = told_;
+    while (told_ < ended_.size() && ended_[told_] == runs_.per_view()) {
+        ++told_;
+    }
+    if (told_ == before || !views_ended_) {
+        return;
+    }
+    std::set<std::size_t> rows;
+    for (const auto& [place, found] : found_) {
+        if (found.frame && place.first < told_) {
+            rows.insert(place.first);
+        }
+    }
+    progress_.clear();
+    views_ended_(comparison(), rows.size());
 }
 
 void CompareSession::take(const ViewRun& started, ChildOutcome&& outcome) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,7 +23,11 @@ std::vector<std::string> comparison_files();
 /// Runs all configurations on all views. Results are written to the folder after every run.
 class CompareSession {
 public:
-    CompareSession(const CompareRequest& request, const OutputFolder& out);
+    /// Told that all runs of the first `views` views of the comparison have ended.
+    using ViewsEnded = std::function<void(const Comparison& comparison, std::size_t views)>;
+
+    CompareSession(const CompareRequest& request, const OutputFolder& out,
+                   ViewsEnded views_ended = {});
     CompareSession(const CompareSession&) = delete;
     CompareSession& operator=(const CompareSession&) = delete;
 
@@ -42,7 +47,8 @@ private:
     };
 
     void end(const ViewRun& run, ChildOutcome&& outcome);
-    void take(const ViewRun& run, ChildOutcome&& outcome);
+    void take(const ViewRun& started, ChildOutcome&& outcome);
+    void tell_views();
     void fail(const std::string& config, const std::string& view, const Failure& failure);
     Failure interruption() const;
     Comparison comparison() const;
@@ -50,6 +56,9 @@ private:
 
     const CompareRequest& request_;
     const OutputFolder& out_;
+    ViewsEnded views_ended_;
+    std::vector<std::size_t> ended_; ///< runs of every view that have ended
+    std::size_t told_ = 0;           ///< views, in their order, all runs of which have ended
     std::map<std::pair<std::size_t, std::size_t>, Found> found_; ///< by view and configuration
     std::vector<FailedRun> failed_;
     std::vector<std::string> warnings_;

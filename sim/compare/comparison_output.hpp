@@ -2,6 +2,7 @@
 // A comparison for people, programs and spreadsheets.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,12 @@ namespace degs::sim {
 /// Raised whenever a key of compare.json changes its meaning, name or unit.
 constexpr int kComparisonVersion = 1;
 
-/// Tables for the terminal: per view, then the geometric means.
+/// Tables for the terminal of the views from `begin` up to, but without, `end`.
+std::string views_text(const Comparison& comparison, std::size_t begin, std::size_t end);
+/// What follows the views: geometric means, failures, and what the ratios mean. Empty if no run has
+/// succeeded.
+std::string closing_text(const Comparison& comparison);
+/// All views, then what follows them.
 std::string comparison_text(const Comparison& comparison);
 /// compare.json
 nlohmann::ordered_json comparison_json(const Comparison& comparison);

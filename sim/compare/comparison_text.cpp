@@ -2,8 +2,8 @@
 #include "config/config_words.hpp"
 #include "config/visible_text.hpp"
 #include "sim/compare/comparison_output.hpp"
+#include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
-#include "sim/text/text_width.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -79,6 +79,22 @@ std::string time_table(const Comparison& comparison, std::size_t view) {
     return table.text();
 }
 
+/// What the frame was limited by, as far as busy shares tell.
+std::string limits_table(const Comparison& comparison, std::size_t view) {
+    TextTable table({"of the frame, %", "preprocessing", "DRAM busy", "limited by"});
+    for (const ComparisonRow& row : comparison.rows) {
+        const Measures& m = row.measures;
+        if (row.view == view) {
+            const auto& cycles = m[Measure::Cycles];
+            const auto& before = m[Measure::PreprocessingCycles];
+            const bool known = cycles && before && *cycles > 0 && !comparison.array_only;
+            table.add({comparison.configs[row.config].name, known ? percent(*before / *cycles) : "",
+                       share(m[Measure::DramUtilization]), row.limited_by});
+        }
+    }
+    return table.text();
+}
+
 /// Of the rows of a view, or of the means.
 std::string energy_table(const Comparison& comparison, const std::vector<ComparisonRow>& rows,
                          std::size_t view) {
@@ -131,7 +147,7 @@ std::string heading(const ComparedView& view) {
     if (view.fragments) {
         words += " · " + scaled(*view.fragments) + " fragments";
     }
-    return folded(visible(words), text_width(), 2) + "\n";
+    return folded(visible(words), output_columns(), 2) + "\n";
 }
 
 std::string legend(const Comparison& comparison) {
@@ -143,30 +159,39 @@ std::string legend(const Comparison& comparison) {
     }
     words += "; energy: frames per joule, " + first + " = 1";
     words += comparison.array_only ? "; arrays alone, without front ends and memory" : "";
-    return folded(words, text_width(), 2) + "\n";
+    return folded(words, output_columns(), 2) + "\n";
 }
 
 } // namespace
 
-std::string comparison_text(const Comparison& comparison) {
+std::string views_text(const Comparison& comparison, std::size_t begin, std::size_t end) {
     std::string text;
-    for (std::size_t v = 0; v < comparison.views.size(); ++v) {
+    for (std::size_t v = begin; v < end; ++v) {
         text += heading(comparison.views[v]) + time_table(comparison, v) + "\n" +
-                energy_table(comparison, comparison.rows, v) + "\n" + slots_table(comparison, v) +
-                "\n";
+                limits_table(comparison, v) + "\n" + energy_table(comparison, comparison.rows, v) +
+                "\n" + slots_table(comparison, v) + "\n";
     }
+    return text;
+}
+
+std::string closing_text(const Comparison& comparison) {
+    if (comparison.rows.empty()) {
+        return "";
+    }
+    std::string text;
     if (!comparison.means.empty()) {
         text += "geometric means over " + std::to_string(comparison.views.size()) + " views\n" +
                 means_table(comparison) + "\n" +
                 energy_table(comparison, comparison.means, comparison.views.size()) + "\n";
     }
-    if (comparison.rows.empty()) {
-        return "";
-    }
     for (const FailedRun& failed : comparison.failed) {
         text += "failed: " + visible(failed.sentence) + "\n";
     }
     return text + legend(comparison);
+}
+
+std::string comparison_text(const Comparison& comparison) {
+    return views_text(comparison, 0, comparison.views.size()) + closing_text(comparison);
 }
 
 } // namespace degs::sim

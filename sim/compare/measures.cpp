@@ -22,6 +22,7 @@ struct MeasureRule {
 
 constexpr std::array<MeasureRule, kMeasures> kRules{{
     {"cycles", "timing.cycles", false},
+    {"preprocessing_cycles", "timing.preprocessing_cycles", false},
     {"latency_ms", "timing.latency_ms", true},
     {"fps", "timing.fps", true},
     {"throughput_fps", "timing.throughput_fps", true},

@@ -16,6 +16,7 @@ namespace degs::sim {
 /// The numbers that are compared. A ratio above 1 is better than the first configuration.
 enum class Measure {
     Cycles,
+    PreprocessingCycles,
     LatencyMs,
     Fps,
     ThroughputFps, ///< of the camera path

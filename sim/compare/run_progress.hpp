@@ -30,6 +30,8 @@ public:
     void ended(const std::string& name, double seconds, bool good);
     /// Shown if there is a terminal; at least one run is running.
     void show(const std::vector<std::string>& running);
+    /// Removes the line from the terminal until it is shown again.
+    void clear() { line_.clear(); }
     /// "3 of 12 runs", or "3 of at least 12 runs".
     std::string words() const;
 

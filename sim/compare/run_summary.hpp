@@ -39,7 +39,7 @@ struct RunSummary {
 RunSummary summary_of(const RunResult& result, int camera);
 
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 4;
+constexpr int kSummaryVersion = 5;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

@@ -75,8 +75,13 @@ Progress::~Progress() {
 StatusLine::StatusLine() : terminal_(::isatty(STDERR_FILENO) != 0) {}
 
 StatusLine::~StatusLine() {
+    clear();
+}
+
+void StatusLine::clear() {
     if (shown_) {
         std::cerr << kClear << std::flush;
+        shown_ = false;
     }
 }
 

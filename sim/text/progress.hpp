@@ -46,6 +46,8 @@ public:
     StatusLine& operator=(const StatusLine&) = delete;
     void show(const std::string& words);
     void note(const std::string& words) const;
+    /// The line disappears until the next show().
+    void clear();
 
 private:
     bool terminal_;

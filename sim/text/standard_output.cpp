@@ -7,7 +7,7 @@
 
 #include "config/visible_text.hpp"
 #include "sim/failure.hpp"
-#include "sim/text/text_width.hpp"
+#include "sim/text/output_columns.hpp"
 
 namespace degs::sim {
 

@@ -9,7 +9,7 @@
 #include "config/ratio.hpp"
 #include "config/visible_text.hpp"
 #include "sim/text/losses.hpp"
-#include "sim/text/text_width.hpp"
+#include "sim/text/output_columns.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -167,7 +167,7 @@ std::string layout(const Block& block) {
     for (const auto& [name, text] : block) {
         std::string line = name;
         line.append(width + 2 - name.size(), ' ').append(visible(text));
-        lines += folded(line, text_width(), width + 2) + "\n";
+        lines += folded(line, output_columns(), width + 2) + "\n";
     }
     return lines;
 }

@@ -13,7 +13,7 @@ namespace degs::sim {
 /// Lines of a block: a name and its text.
 using Block = std::vector<std::pair<std::string, std::string>>;
 /// The names padded to one column; what they say is one line each, whatever it contains, unless it
-/// is longer than text_width().
+/// is longer than output_columns().
 std::string layout(const Block& block);
 
 /// The summary of a run; `image_path` is where the image went.

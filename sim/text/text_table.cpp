@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "config/visible_text.hpp"
-#include "sim/text/text_width.hpp"
+#include "sim/text/output_columns.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -34,7 +34,7 @@ std::string TextTable::text() const {
         }
     }
     std::string text;
-    const std::size_t most = text_width();
+    const std::size_t most = output_columns();
     for (std::size_t first = 1; first < used.size() || text.empty();) {
         std::vector<std::size_t> part{0};
         std::size_t width = widths[0];

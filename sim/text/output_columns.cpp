@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/text/text_width.hpp"
+#include "sim/text/output_columns.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -94,7 +94,7 @@ std::string folded_line(std::string line, std::size_t width, std::size_t indent)
 
 } // namespace
 
-std::size_t text_width() {
+std::size_t output_columns() {
     if (const std::size_t columns = columns_of_environment(); columns >= kNarrowest) {
         return columns;
     }

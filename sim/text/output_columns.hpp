@@ -9,7 +9,7 @@ namespace degs::sim {
 
 /// Characters per line on the standard output: what the environment variable COLUMNS says, else the
 /// width of the terminal. Without both there is no limit, because a program reads the lines.
-std::size_t text_width();
+std::size_t output_columns();
 
 /// `text`, which may have several lines, with line feeds where a line would become longer than
 /// `width`; what follows a break is indented by `indent`. Lines break at " · " and wide gaps, else

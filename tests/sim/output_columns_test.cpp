@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
-#include "sim/text/text_width.hpp"
 #include "sim/text/words.hpp"
 #include "tests/sim/child.hpp"
 
@@ -24,7 +24,7 @@ std::size_t longest(const std::string& text) {
     return most;
 }
 
-TEST(TextWidth, BreaksAtSeparatorsFirst) {
+TEST(OutputColumns, BreaksAtSeparatorsFirst) {
     const std::string line =
         "frame   1920×1080 · 0.499 ms · 2010 fps · blending 413 k of 499 k cycles";
     EXPECT_EQ(folded(line, 200, 8), line);
@@ -34,7 +34,7 @@ TEST(TextWidth, BreaksAtSeparatorsFirst) {
               "useful 49.6 %  boundary 6.8\n  drain 0.0");
 }
 
-TEST(TextWidth, NeverBreaksANumberOrItsUnit) {
+TEST(OutputColumns, NeverBreaksANumberOrItsUnit) {
     for (std::size_t width = 1; width < 40; ++width) {
         const std::string text = folded("there are 210 422 Gaussians in 54.5 MB of memory", width);
         EXPECT_NE(text.find("210 422 Gaussians"), std::string::npos) << width << "\n" << text;
@@ -61,7 +61,7 @@ private:
     std::string before_;
 };
 
-TEST(TextWidth, GoesOnBelowColumnByColumn) {
+TEST(OutputColumns, GoesOnBelowColumnByColumn) {
     TextTable table({"design", "cycles", "milliseconds", "frames"});
     table.add({"degs-64", "1 000 000", "1.00", "7"});
     {
@@ -77,7 +77,7 @@ TEST(TextWidth, GoesOnBelowColumnByColumn) {
                             "degs-64       7\n");
 }
 
-TEST(TextWidth, ComparisonsAndRunsFitTheColumns) {
+TEST(OutputColumns, ComparisonsAndRunsFitTheColumns) {
     const Environment narrow("COLUMNS", "80");
     const Folder folder;
     const std::vector<std::string> view{"--scene", "synthetic:object,gaussians=500", "--width",
@@ -97,7 +97,7 @@ TEST(TextWidth, ComparisonsAndRunsFitTheColumns) {
     EXPECT_LE(longest(run.out.substr(0, run.out.find("image "))), 80U) << run.out;
 }
 
-TEST(TextWidth, WritesAsciiWhereTheLocaleHasNoOther) {
+TEST(OutputColumns, WritesAsciiWhereTheLocaleHasNoOther) {
     const Folder folder;
     const std::vector<std::string> words{
         "run", config("degs-64"), "--scene",   "synthetic:object,gaussians=500", "--width",
