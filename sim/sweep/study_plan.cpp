@@ -2,10 +2,8 @@
 #include "sim/sweep/study_plan.hpp"
 
 #include <algorithm>
-#include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <numeric>
 #include <set>
@@ -16,6 +14,7 @@
 #include "scene/scene.hpp"
 #include "sim/compare/run_summary.hpp"
 #include "sim/report.hpp"
+#include "sim/sweep/digest.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -284,32 +283,6 @@ void plan_views(const Study& study, StudyPlan& plan) {
     }
 }
 
-/// FNV-1a, which is enough to tell studies apart.
-class Digest {
-public:
-    void add(const std::string& text) {
-        for (const char c : text + '\n') {
-            value_ = (value_ ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-        }
-    }
-    std::string text() const {
-        char digits[17];
-        std::snprintf(digits, sizeof digits, "%016" PRIx64, value_);
-        return digits;
-    }
-
-private:
-    std::uint64_t value_ = 0xcbf29ce484222325U;
-};
-
-/// Of a file its size stands for its content.
-void add_file(Digest& digest, const std::string& name) {
-    std::error_code none; // of a synthetic scene
-    digest.add(name);
-    const std::uintmax_t bytes = std::filesystem::file_size(name, none);
-    digest.add(none ? "" : std::to_string(bytes));
-}
-
 std::string digest_of(const StudyPlan& plan) {
     const CompareRequest& request = plan.request;
     Digest digest;
@@ -323,9 +296,9 @@ std::string digest_of(const StudyPlan& plan) {
         digest.add(skipped.variant.name);
     }
     for (const std::string& scene : request.scenes) {
-        add_file(digest, scene);
+        digest.add_scene(scene);
     }
-    add_file(digest, request.camera_file);
+    digest.add_file(request.camera_file);
     for (const ImageSize& size : request.sizes) {
         digest.add(std::to_string(size.width.value_or(0)) + "x" +
                    std::to_string(size.height.value_or(0)));

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a study may say: values, units, ranges, linked keys and samples.
 #include <fstream>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "config/error.hpp"
 #include "scene/scene.hpp"
+#include "sim/sweep/digest.hpp"
 #include "sim/sweep/study_plan.hpp"
 #include "tests/sim/child.hpp"
 
@@ -82,6 +84,24 @@ TEST(StudyAxes, LinkedKeysChangeTogether) {
     EXPECT_THAT(plan.keys, ElementsAre("scheduler.banks", "array.pes_per_bank", "clock_ghz"));
     EXPECT_THAT(plan.variants[1].values, ElementsAre("8", "8", "2")); // the last axis is fastest
     EXPECT_THAT(plan.variants[2].values, ElementsAre("16", "4", "1"));
+}
+
+TEST(StudyDigest, DependsOnTheContentOfScenesAndCameras) {
+    const sim_test::Folder folder;
+    const std::string scene = folder / "scene.ply";
+    const auto digest = [&scene] {
+        Digest of_scene;
+        of_scene.add_scene(scene);
+        return of_scene.text();
+    };
+    const std::string none = digest();
+    std::ofstream(scene) << "one";
+    const std::string one = digest();
+    std::ofstream(scene) << "two"; // of the same size
+    const std::string two = digest();
+    std::ofstream(folder / "cameras.json") << "[]";
+    EXPECT_EQ((std::set<std::string>{none, one, two, digest()}).size(), 4U);
+    EXPECT_EQ(digest(), digest());
 }
 
 TEST(StudyAxes, SamplesComeFromTheSeed) {
