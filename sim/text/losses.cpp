@@ -15,7 +15,8 @@ namespace {
 
 enum class Way { Raise, Lower, Set };
 
-/// A key moves a loss until it has come to `limit`: a number, or the value to set.
+/// A key moves a loss until it has come to `limit`: a number, or the value to set. Of several keys the
+/// one that moves most on close-ups stands first.
 struct Knob {
     const char* accelerator; ///< empty: all
     const char* cause;
@@ -48,10 +49,9 @@ constexpr Knob kKnobs[] = {
     {"degs", "packing", "scheduler.segments_per_cycle", Way::Raise, kMost},
     {"gbu", "row_generation", "engines.count", Way::Raise, kMost},
     {"gbu", "dispatch", "engines.count", Way::Raise, kMost},
+    {"degs", "gaps", "slicing.interleave", Way::Raise, "16"},
     {"degs", "gaps", "scheduler.queue_segments_per_pe", Way::Raise, "256"},
     {"degs", "gaps", "packing.bytes", Way::Raise, kMost},
-    {"degs", "gaps", "slicing.interleave", Way::Raise, "16"},
-    {"degs", "gaps", "span_buffer.bytes", Way::Raise, kMost},
     {"gscore", "gaps", "buffer.bytes", Way::Raise, kMost},
     {"gbu", "gaps", "engines.queue_depth", Way::Raise, "4096"},
     {"gbu", "gaps", "engines.row_pes", Way::Lower, "1"},
@@ -66,10 +66,10 @@ constexpr Knob kKnobs[] = {
     {"gscore", "terminated", "array.termination_cycles", Way::Lower, "1"},
     {"gbu", "terminated", "engines.termination_cycles", Way::Lower, "1"},
     {"gcc", "terminated", "array.skip_cycles", Way::Lower, "0"},
+    {"degs", "conflict", "slicing.interleave", Way::Raise, "16"},
     {"degs", "conflict", "scheduler.queue_segments_per_pe", Way::Raise, "256"},
     {"degs", "conflict", "packing.bytes", Way::Raise, kMost},
     {"degs", "conflict", "scheduler.reuse_cycles", Way::Lower, "1"},
-    {"degs", "conflict", "slicing.interleave", Way::Raise, "16"},
     {"degs", "conflict", "tile_size", Way::Raise, "1024"},
     {"gcc", "conflict", "array.discovery_cycles", Way::Lower, "1"},
     {"degs", "ports", "pixel_buffer.sram_banks", Way::Raise, kMost},
