@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# reproduction.sh [FOLDER]: the tables of docs/reproduction.md, measured with build/release/sim/degs on the
-# trained scenes in DEGS_SCENES (default ../shared/scenes). Every comparison stays in FOLDER with its reports.
+# reproduction.sh [FOLDER]: tables of docs/scaling.md (arrays alone) and docs/reproduction.md (whole accelerators, and
+# checks against other publications), measured with build/release/sim/degs on the trained scenes in DEGS_SCENES (default
+# ../shared/scenes). Every comparison stays in FOLDER with its reports. scripts/figures.py has the paper's figures.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=${DEGS_PROGRAM:-build/release/sim/degs}

@@ -103,7 +103,8 @@ class Trial:
                 (self.folder / child.name).symlink_to(child)
         (self.folder / "build/release/sim").mkdir(parents=True)
         (self.folder / "build/release/sim/degs").symlink_to(program)
-        self.environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8"}
+        self.environment = {**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8",
+                            "DEGS_CACHE": ""}
         scenes = Path(os.environ.get("DEGS_SCENES", ""))
         if slow and scenes.is_absolute():
             for scene in scenes.glob("*/scene.ply"):
