@@ -14,6 +14,9 @@ namespace degs {
 Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const Timebase& time,
            RenderJob& job, const BuildOptions& options)
     : RenderEngine(name), config_(config), time_(time), job_(job), options_(options) {
+    if (draws_ahead()) {
+        drawing_ = std::make_unique<TileDrawing>(job_, !config_.span.parsing);
+    }
     build_front_end();
     build_fetchers();
     build_slicing();
@@ -25,6 +28,16 @@ Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const 
                       {front_end_->frame_free, front_end_->listed},
                       pixel_buffers_.size() / config_.streams(), options_);
     build_memory();
+}
+
+// Strict mode blends tasks when they execute. So do runs whose pixels depend on that date, and tiles that are too wide
+// or may be too many for TileDrawing.
+bool Degs::draws_ahead() const {
+    const std::int64_t tiles_in_flight =
+        std::int64_t{1} * config_.streams() * config_.span_lane_depth() + config_.crossbar_cells() +
+        config_.contexts();
+    return time_.fidelity == Fidelity::Exact && config_.scheduler.scoreboard &&
+           config_.tile_size <= kMostDrawnColumns && tiles_in_flight < kMostContexts / 2;
 }
 
 std::unique_ptr<RenderEngine> DegsConfig::build(const char* module, const Timebase& time,
@@ -91,6 +104,9 @@ void Degs::build_slicing() {
             config_.span_lanes(), reachable(g, slicers, config_.scheduler.banks),
             config_.scheduler.segment_length));
         GaussianSlicingUnit& unit = *slicing_.back();
+        if (drawing_) {
+            unit.draw_with(*drawing_);
+        }
         for (int f = 0; f < of_stream; ++f) {
             auto& splats = ring(gaussian_rings_, "gaussian_buffer", config_.gaussian_chunks(), 1);
             fetchers_[m * of_stream + f]->out[g].bind(splats);
@@ -108,6 +124,7 @@ std::unique_ptr<SpanStage> Degs::make_span_module(int index) {
     SpanStage::Config config = config_.span;
     config.row_ports = config_.span_buffer.ports;
     config.reports_rows = config_.parameters_wait();
+    config.drawn = drawing_ != nullptr;
     if (!config_.spans_are_pooled()) {
         return std::make_unique<SpanUnit>(name.c_str(), config, time_, job_, index, banks);
     }

@@ -13,6 +13,7 @@
 #include "modules/front_end/tile_grants.hpp"
 #include "modules/memory_streams.hpp"
 #include "modules/span_engine/parameter_release.hpp"
+#include "modules/tile_drawing.hpp"
 
 namespace degs {
 
@@ -53,7 +54,7 @@ public:
     RingUse gaussian_buffer() const { return use_of(gaussian_rings_); }
     RingUse span_buffer() const { return use_of(span_rings_); }
     RingUse crossbar() const { return use_of(crossbar_rings_); }
-    RingUse packing_buffer() const { return use_of(packing_rings_); }
+    RingUse packing_buffer() const;
 
 private:
     template <class T>
@@ -67,6 +68,7 @@ private:
     DatedFifo<T>& wire(Rings<T>& rings, const char* name, int latency) {
         return add_wire(rings, name, time_, latency);
     }
+    bool draws_ahead() const;
     void build_front_end();
     void build_fetchers();
     void build_slicing();
@@ -92,6 +94,7 @@ private:
     Timebase time_;
     RenderJob& job_;
     BuildOptions options_;
+    std::unique_ptr<TileDrawing> drawing_; // nullptr: tasks are blended when they execute
 
     std::unique_ptr<TileFrontEnd> front_end_;
     std::vector<std::unique_ptr<SplatFetcher>> fetchers_; // one per Sorting Unit, or per stream

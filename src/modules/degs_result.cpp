@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The counters of DeGS in the terms that all accelerators share.
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 #include "config/grouped_number.hpp"
 #include "modules/degs.hpp"
@@ -45,6 +47,18 @@ void Degs::collect_stages(AcceleratorResult& result) const {
               Counters().add(slices_));
 }
 
+RingUse Degs::packing_buffer() const {
+    RingUse use = use_of(packing_rings_);
+    for (const auto& unit : packing_) {
+        const PassedPackets& passed = unit->passed();
+        use.items += passed.items();
+        use.empty_cycles += passed.empty_cycles();
+        use.occupied_cycles += passed.occupied_cycles();
+        use.high_water = std::max(use.high_water, passed.high_water());
+    }
+    return use;
+}
+
 void Degs::collect_buffers(AcceleratorResult& result) const {
     const DegsConfig& c = config_;
     add_buffer(result, {"gaussian_buffer", "Chunks of splats, once for each Slicing Unit."},
@@ -78,6 +92,11 @@ void Degs::collect_laws(AcceleratorResult& result) const {
     const std::uint64_t dropped = sum_of(banks_, &B::tasks_dropped);
     const std::uint64_t packed = sum_of(packing_, &PackingUnit::Stats::tasks);
     const SlotAccount& s = result.slots;
+    if (drawing_ && drawing_->fragments() != s.useful) {
+        throw std::logic_error("the model is broken, pixels drawn = useful tasks executed: " +
+                               std::to_string(drawing_->fragments()) + " is not " +
+                               std::to_string(s.useful));
+    }
     result.conservation.insert(
         result.conservation.end(),
         {

@@ -70,12 +70,19 @@ struct RowItem {
     std::uint32_t splat = 0; ///< DataPath index
     std::int16_t row = 0;    ///< inside the tile
     bool end = false;        ///< end of the tile instead of a row
+    DrawnRow drawn;          ///< if TileDrawing draws
 };
 
 /// Span Unit -> Issue Bank.
 struct SpanItem {
     std::optional<RowSpan> span; ///< none: the end of the tile
     TileNumber tile = 0;
+    DrawnRow drawn; ///< if TileDrawing draws: the span then has no g0 and d0
+};
+
+/// What becomes of the tasks of a segment, by bits of its mask; see DrawnRow.
+struct DrawnTasks {
+    std::uint32_t inside = 0, useful = 0, ended = 0;
 };
 
 /// Tasks of one segment on their way to the array. A packet may carry a part of them; the others
@@ -85,6 +92,7 @@ struct TaskRun {
     std::uint32_t part = 0; ///< those in this packet
     TileNumber tile = 0;
     std::uint32_t domain = 0; ///< conflict domain inside the bank's part of the tile
+    DrawnTasks drawn;         ///< if TileDrawing draws, in place of g0, d0 and offset
 };
 
 /// A fixed-width packet of tasks, Packing Unit -> Blending Array.

@@ -101,24 +101,33 @@ void sanitize_scene(Scene& scene) {
     }
 }
 
+bool is_synthetic(const std::string& spec) {
+    return spec.rfind(kSynthetic, 0) == 0;
+}
+
+SyntheticSpec synthetic_of(const std::string& spec) {
+    return parse_synthetic(spec.substr(std::string(kSynthetic).size()));
+}
+
 } // namespace
+
+std::string scene_name(const std::string& spec) {
+    return is_synthetic(spec) ? synthetic_of(spec).profile : name_of(spec);
+}
 
 Scene load_scene(const std::string& spec, const std::string& cameras_path) {
     Scene scene;
     scene.source = spec;
     std::string cameras = cameras_path;
-    if (spec.rfind(kSynthetic, 0) == 0) {
-        const SyntheticSpec synthetic =
-            parse_synthetic(spec.substr(std::string(kSynthetic).size()));
-        SyntheticScene made = make_synthetic(synthetic);
-        scene.name = synthetic.profile;
+    if (is_synthetic(spec)) {
+        SyntheticScene made = make_synthetic(synthetic_of(spec));
         scene.cloud = std::move(made.cloud);
         scene.cameras = std::move(made.cameras);
     } else {
         scene.cloud = read_cloud(spec);
-        scene.name = name_of(spec);
         cameras = cameras.empty() ? find_cameras(spec) : cameras;
     }
+    scene.name = scene_name(spec);
     sanitize_scene(scene);
     if (!cameras.empty()) {
         scene.cameras = read_cameras(cameras);
@@ -130,7 +139,7 @@ Scene load_scene(const std::string& spec, const std::string& cameras_path) {
 }
 
 std::size_t camera_count(const std::string& spec, const std::string& cameras_path) {
-    const bool synthetic = spec.rfind(kSynthetic, 0) == 0;
+    const bool synthetic = is_synthetic(spec);
     std::string cameras = cameras_path;
     if (cameras.empty() && synthetic) {
         return load_scene(spec).cameras.size();

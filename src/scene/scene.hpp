@@ -25,6 +25,9 @@ struct Scene {
 /// without a drawable Gaussian.
 Scene load_scene(const std::string& spec, const std::string& cameras_path = "");
 
+/// The name that `load_scene` would give to the scene. InputError if no synthetic scene is called so.
+std::string scene_name(const std::string& spec);
+
 /// Number of cameras that `load_scene` would find, without reading the Gaussians of a file. Throws
 /// InputError if the scene or its cameras cannot be read.
 std::size_t camera_count(const std::string& spec, const std::string& cameras_path = "");

@@ -3,34 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
-#include "splat/coupled_row.hpp"
+#include "splat/draw_rows.hpp"
 #include "splat/lanes/blend_lanes.hpp"
 #include "splat/lanes/checked_row.hpp"
+#include "splat/lanes/span_record.hpp"
 #include "splat/numbers/quantized_data_path.hpp"
 #include "splat/pixel_index.hpp"
 #include "splat/pixel_rows.hpp"
 
 namespace degs {
 namespace {
-
-/// The record of a splat for the Gaussian Slicing Unit and the Span Unit (paper: Temporary Gaussian
-/// Parameter). The mean is its nearest pixel plus an offset in [-0.5, 0.5]: a plain fp32 coordinate
-/// would lose 2^-13 px beyond x = 1024, which is enough to move span ends. In single precision all
-/// of it is one cache line: splats of a tile lie anywhere in memory.
-template <class T>
-struct alignas(64) SpanRecord {
-    std::int32_t pixel_x, pixel_y;
-    T offset_x, offset_y;
-    T slope;                  // m = -B/A = b/c (Eq. 10)
-    T c_prime;                // C' = C - B^2/A = 1/c, exactly, without the cancellation
-    T inverse_a;              // 1/A = det/c
-    T a;                      // A
-    T q_threshold;            // Q_th
-    T fold;                   // 2 ln o, subtracted from g0 so that the PE needs exp(-q/2) alone
-    PixelRange rows, columns; // of the ellipse
-};
 
 /// For the part of the ellipse inside a tile's columns: the same shape solved for y.
 struct ColumnRecord {
@@ -188,6 +173,25 @@ public:
         return blend_(task, blends_[task.splat], refuse_, pixels_, first);
     }
 
+    void draw_rows(const TileRows& rows, DrawnRow* drawn) override {
+        if constexpr (std::is_same_v<T, float>) {
+            if (!rows.tests) {
+                firsts_.resize(std::max<std::size_t>(firsts_.size(), rows.last + 1));
+                for (int row = rows.first; row <= rows.last; row += rows.step) {
+                    firsts_[row] = at(rows.context, row, 0);
+                }
+                const EndsOfRows ends{options_.ends == SpanEnds::Exact,
+                                      static_cast<float>(options_.delta)};
+                draw_(rows, spans_[rows.splat], blends_[rows.splat], ends, refuse_, pixels_,
+                      firsts_.data(), drawn);
+                return;
+            }
+        }
+        draw_row_by_row(*this, rows, drawn);
+    }
+
+    void hold_contexts(int contexts) override { rows_.hold(contexts); }
+
     BlendOutcome test(const PixelTest& test) override {
         const TestRow<T> row = test_row(test, 0);
         BlendOutcome outcome;
@@ -295,7 +299,9 @@ private:
     PixelPlanes<T> pixels_;
     BlendFunction<T> blend_;
     TestFunction<T> test_;
-    std::vector<TestRow<T>> tested_; // rows for test_
+    DrawFunction draw_ = draw_function();
+    std::vector<std::size_t> firsts_; // first pixels of rows for draw_
+    std::vector<TestRow<T>> tested_;  // rows for test_
     std::vector<SpanRecord<T>> spans_;
     std::vector<ColumnRecord> columns_;
     std::vector<BlendRecord<T>> blends_;

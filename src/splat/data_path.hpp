@@ -101,6 +101,29 @@ struct PixelValue {
     bool ended = false;
 };
 
+/// The widest tile whose rows are drawn whole: a bit per column.
+constexpr int kMostDrawnColumns = 64;
+
+/// Rows of one splat inside one tile of at most kMostDrawnColumns columns.
+struct TileRows {
+    std::uint32_t splat = 0;
+    int context = 0;                    ///< tile context of the pixels
+    int x_begin = 0, x_end = 0;         ///< columns of the tile, image px
+    int tile_y = 0;                     ///< image row of the tile's row 0
+    int first = 0, last = -1, step = 1; ///< rows inside the tile: first, first + step, ... last
+    bool tests = false; ///< rows are as wide as the splat's box, and every pixel tests itself
+};
+
+/// What becomes of the pixels of a row. Bit i of a mask is column i of the tile. It is 32 bytes without a gap, so that
+/// a copy of what was just written need not wait for the write.
+struct DrawnRow {
+    std::uint64_t inside = 0; ///< tasks inside the ellipse; all others of the span are outside
+    std::uint64_t useful = 0; ///< of these, blended; the others have ended or refuse the splat
+    std::uint64_t ended = 0;  ///< pixels that end with this splat
+    std::int32_t x0 = 0;      ///< first pixel of the span, inside the tile
+    std::int32_t length = 0;  ///< pixels; 0: the row covers no pixel of the tile
+};
+
 /// The arithmetic that the modules call: row spans, closed-form q_n, alpha, transmittance and
 /// colour, and the pixel state of all tile contexts. It has no time.
 class DataPath {
@@ -146,6 +169,11 @@ public:
     /// True if rounding may let test() find pixels inside that lie visibly outside the ellipse of
     /// the splat as it was projected: number sets.
     virtual bool rounds_coarsely() const = 0;
+    /// Solves rows and blends them, each as solve_row() and blend() do, or as row_of_box() and test(). `drawn` has a
+    /// place for each of the rows, in their order. Splats of a row come in the order of their depth.
+    virtual void draw_rows(const TileRows& rows, DrawnRow* drawn) = 0;
+    /// Makes room for tile contexts up to this number, at most kMostContexts.
+    virtual void hold_contexts(int contexts) = 0;
     /// The first `count` pixels of a row.
     virtual void read_row(int context, int row, int count, PixelValue* pixels) const = 0;
     /// One pixel of a row.

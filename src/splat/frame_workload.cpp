@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "config/error.hpp"
 #include "config/grouped_number.hpp"
+#include "splat/frame/parallel.hpp"
 #include "splat/tile_cover.hpp"
 
 namespace degs {
@@ -81,41 +83,96 @@ void count_cull(Cull cull, CullCounts& counts) {
     }
 }
 
-/// Adds a splat to the length of every list it belongs to (kept in tile_begin[tile + 1]).
+/// Adds a splat to the length of every list it belongs to (kept in ends[tile + 1]).
 std::uint32_t count_tiles(const std::vector<TileRun>& cover, const Binner& binner,
-                          FrameWorkload& work) {
+                          std::vector<std::uint64_t>& ends) {
     std::uint32_t touched = 0;
     for (const TileRun& run : cover) {
         touched += run.last - run.first + 1;
         const std::size_t begin = binner.tile(run.row, run.first) + 1;
         const std::size_t end = binner.tile(run.row, run.last) + 1;
         for (std::size_t tile = begin; tile <= end; ++tile) {
-            ++work.tile_begin[tile];
+            ++ends[tile];
         }
     }
     return touched;
 }
 
-/// Visible splats in cloud order, shaded; lists are counted but not filled.
-void project_all(const GaussianCloud& cloud, Binner& binner, FrameWorkload& work) {
-    const std::unique_ptr<Projector> projector =
-        make_projector(cloud, work.camera, work.projection);
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
+/// What becomes of neighbouring Gaussians: visible splats in cloud order, shaded.
+struct ProjectedBlock {
+    CullCounts culled;
+    std::vector<ProjectedSplat> splats;
+    std::vector<glm::vec3> means;
+    std::vector<std::uint32_t> tiles_touched;
+};
+
+/// Projects Gaussians begin .. end - 1 and counts their entries in lists.
+ProjectedBlock project_block(const GaussianCloud& cloud, const Projector& projector,
+                             std::size_t begin, std::size_t end, TileMode mode, Binner& binner,
+                             std::vector<std::uint64_t>& ends) {
+    ProjectedBlock block;
+    for (std::size_t i = begin; i < end; ++i) {
         ProjectedSplat splat;
         // In Reference mode the square decides what is on the screen, not the ellipse.
-        Cull cull = work.tile_mode == TileMode::Exact ? projector->project(i, splat)
-                                                      : projector->project_anywhere(i, splat);
+        Cull cull = mode == TileMode::Exact ? projector.project(i, splat)
+                                            : projector.project_anywhere(i, splat);
         if (cull == Cull::None) {
-            cull = binner.cover(splat).empty() ? Cull::OffScreen : projector->shade(i, splat);
+            cull = binner.cover(splat).empty() ? Cull::OffScreen : projector.shade(i, splat);
         }
         if (cull != Cull::None) {
-            count_cull(cull, work.culled);
+            count_cull(cull, block.culled);
             continue;
         }
-        work.splats.push_back(splat);
+        block.splats.push_back(splat);
+        block.means.emplace_back(cloud.means[i]);
+        block.tiles_touched.push_back(count_tiles(binner.covered(), binner, ends));
+    }
+    return block;
+}
+
+template <class Value>
+void append(std::vector<Value>& all, const std::vector<Value>& some) {
+    all.insert(all.end(), some.begin(), some.end());
+}
+
+/// Visible splats in cloud order, shaded; lists are counted but not filled.
+void project_all(const GaussianCloud& cloud, const Binner& binner, FrameWorkload& work) {
+    constexpr std::size_t kBlock = 1U << 14; // Gaussians: long against a thread's start
+    const std::unique_ptr<Projector> projector =
+        make_projector(cloud, work.camera, work.projection);
+    std::vector<ProjectedBlock> blocks((cloud.size() + kBlock - 1) / kBlock);
+    struct Worker {
+        Binner binner;
+        std::vector<std::uint64_t> ends;
+    };
+    std::vector<Worker> workers(host_threads(), Worker{binner, {}});
+    parallel_blocks(blocks.size(), [&](std::size_t b, std::size_t w) {
+        Worker& worker = workers[w];
+        worker.ends.resize(work.tile_begin.size());
+        blocks[b] =
+            project_block(cloud, *projector, b * kBlock, std::min((b + 1) * kBlock, cloud.size()),
+                          work.tile_mode, worker.binner, worker.ends);
+    });
+    std::size_t visible = 0;
+    for (const ProjectedBlock& block : blocks) {
+        visible += block.splats.size();
+        work.culled += block.culled;
+    }
+    work.splats.reserve(visible);
+    for (ProjectedBlock& block : blocks) {
+        append(work.splats, block.splats);
+        append(work.visible_means, block.means);
+        append(work.tiles_touched, block.tiles_touched);
+        block = {};
+    }
+    work.visible_of.reserve(visible);
+    for (const ProjectedSplat& splat : work.splats) {
         work.visible_of.push_back(splat.id);
-        work.visible_means.emplace_back(cloud.means[i]);
-        work.tiles_touched.push_back(count_tiles(binner.covered(), binner, work));
+    }
+    for (const Worker& worker : workers) {
+        for (std::size_t tile = 0; tile < worker.ends.size(); ++tile) {
+            work.tile_begin[tile] += worker.ends[tile];
+        }
     }
 }
 
@@ -192,6 +249,14 @@ FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& came
     reorder(work.tiles_touched, order);
     fill_lists(binner, work);
     return work;
+}
+
+CullCounts& CullCounts::operator+=(const CullCounts& other) {
+    near += other.near;
+    transparent += other.transparent;
+    degenerate += other.degenerate;
+    off_screen += other.off_screen;
+    return *this;
 }
 
 std::string CullCounts::explain() const {

@@ -18,6 +18,7 @@ enum class TileMode { Exact, Reference };
 
 struct CullCounts {
     std::uint64_t near = 0, transparent = 0, degenerate = 0, off_screen = 0;
+    CullCounts& operator+=(const CullCounts& other);
     std::uint64_t total() const { return near + transparent + degenerate + off_screen; }
     /// One sentence: how many were culled, and why.
     std::string explain() const;
@@ -48,8 +49,8 @@ struct FrameWorkload {
     std::uint32_t visible_among(std::uint64_t first_gaussians) const;
 };
 
-/// Projects, shades, sorts and bins a scene, in the format of `options`; culling, lists and order
-/// follow from its splats. The depth key is the view z rounded to float, as the original sorts
+/// Projects, shades, sorts and bins a scene, in the format of `options`, on all processors; culling, lists
+/// and order follow from its splats. The depth key is the view z rounded to float, as the original sorts
 /// float bits; ties keep index order. Throws InputError for an image without pixels, focal lengths
 /// or a tile size below 1, or a negative near plane.
 FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& camera, int tile_size,

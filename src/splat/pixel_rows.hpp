@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,8 @@ public:
         : rows_(tile_size), blocks_((rows_ + kBlock - 1) / kBlock),
           place_(contexts * rows_, kNowhere) {}
 
+    /// Room for as many contexts at least.
+    void hold(int contexts) { place_.resize(std::max(place_.size(), contexts * rows_), kNowhere); }
     std::size_t stride() const { return blocks_ * kBlock; }
     /// The row has pixels; first_pixel() may be asked.
     bool placed(int context, int row) const { return place_[index(context, row)] != kNowhere; }

@@ -5,7 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
 
+#include "splat/frame/parallel.hpp"
 #include "splat/pixel_rules.hpp"
 
 namespace degs {
@@ -159,22 +163,28 @@ Image render_reference(const FrameWorkload& workload, ReferenceCounts& counts,
     counts = {};
     const PixelBox box = pixels_of(workload, window);
     Image image(box.x1 - box.x0 + 1, box.y1 - box.y0 + 1);
-    TilePainter painter(workload);
-    for (int row = window.y0; row <= window.y1; ++row) {
+    std::vector<ReferenceCounts> row_counts(std::max(window.y1 - window.y0 + 1, 0));
+    std::vector<std::unique_ptr<TilePainter>> painters(host_threads());
+    parallel_blocks(row_counts.size(), [&](std::size_t block, std::size_t worker) {
+        std::unique_ptr<TilePainter>& painter = painters[worker];
+        painter = painter ? std::move(painter) : std::make_unique<TilePainter>(workload);
         for (int column = window.x0; column <= window.x1; ++column) {
-            const int tile = row * workload.tiles_x + column;
-            const std::size_t index = tile;
-            const std::uint32_t* splat = workload.tile_splats.data() + workload.tile_begin[index];
-            const std::uint32_t* end = workload.tile_splats.data() + workload.tile_begin[index + 1];
+            const std::size_t tile = (window.y0 + block) * workload.tiles_x + column;
+            const std::uint32_t* splat = workload.tile_splats.data() + workload.tile_begin[tile];
+            const std::uint32_t* end = workload.tile_splats.data() + workload.tile_begin[tile + 1];
             if (splat == end) {
                 continue; // the image starts as background
             }
-            painter.begin(tile);
-            for (; splat != end && !painter.finished(); ++splat) {
-                painter.paint(workload.splats[*splat]);
+            painter->begin(static_cast<int>(tile));
+            for (; splat != end && !painter->finished(); ++splat) {
+                painter->paint(workload.splats[*splat]);
             }
-            painter.write(image, box.x0, box.y0, counts);
+            painter->write(image, box.x0, box.y0, row_counts[block]);
         }
+    });
+    for (const ReferenceCounts& row : row_counts) {
+        counts.fragments += row.fragments;
+        counts.terminated += row.terminated;
     }
     return image;
 }

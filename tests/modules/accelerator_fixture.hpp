@@ -62,15 +62,24 @@ private:
     std::vector<Words> list_;
 };
 
+/// What a run records: nothing, its tiles, or those and a timeline.
+enum class Watch { Nothing, Tiles, Timeline };
+
 /// One accelerator with its job. Several may live in one elaboration.
 template <class Engine, class Config>
 class AcceleratorRun {
 public:
     AcceleratorRun(const std::string& name, const Config& config,
                    const std::vector<const FrameWorkload*>& frames,
-                   Fidelity fidelity = Fidelity::Exact, const BuildOptions& options = {})
-        : time_{ClockDomain(config.clock_ghz), fidelity}, job_(make_render_job(frames, config)) {
+                   Fidelity fidelity = Fidelity::Exact, const BuildOptions& options = {},
+                   Watch watch = Watch::Nothing)
+        : timeline_(Timeline::Config{}), time_{ClockDomain(config.clock_ghz), fidelity,
+                                               watch == Watch::Timeline ? &timeline_ : nullptr},
+          job_(make_render_job(frames, config)) {
         EXPECT_EQ(config.problem(), "");
+        if (watch != Watch::Nothing) {
+            job_.recorder = std::make_unique<SlotRecorder>(time_.timeline);
+        }
         engine_ = std::make_unique<Engine>(name.c_str(), config, time_, job_, options);
     }
     const Engine& engine() const { return *engine_; }
@@ -82,8 +91,11 @@ public:
         engine_->collect(r);
         return r;
     }
+    /// Of a run with Watch::Timeline that has ended at `end`.
+    TimelineRecord timeline(Cycle end) { return timeline_.record(end); }
 
 private:
+    Timeline timeline_;
     Timebase time_;
     RenderJob job_;
     std::unique_ptr<Engine> engine_;

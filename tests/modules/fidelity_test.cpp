@@ -34,6 +34,25 @@ public:
         }
     }
 
+    /// Designs whose banks are DrawnBanks in exact mode.
+    DegsConfig plain(unsigned index) {
+        for (;;) {
+            DegsConfig c = candidate(index);
+            c.slicing.count /= c.slicing.interleave;
+            c.slicing.interleave = 1;
+            c.span.rows = RowAssignment::Fixed;
+            c.span.count = c.scheduler.banks;
+            c.scheduler.scan = DomainScan::RoundRobin;
+            c.scheduler.scoreboard = true;
+            c.packing.reorganisation = true;
+            c.feature_buffer.fill = FeatureBuffer::Fill();
+            c.pixel_buffer.ports.ports = 0;
+            if (c.problem().empty()) {
+                return c;
+            }
+        }
+    }
+
 private:
     DegsConfig candidate(unsigned index) {
         // Every eighth run has 1024 PEs; the others share the small shapes.
@@ -147,13 +166,7 @@ std::string describe(const DegsConfig& c) {
            (c.packing.reorganisation ? "" : ", spans not compacted");
 }
 
-class SmallRunFidelity : public ::testing::TestWithParam<unsigned> {};
-
-TEST_P(SmallRunFidelity, ExactIsStrict) {
-    const unsigned index = GetParam();
-    Draw draw(index);
-    const DegsConfig config = draw.config(index);
-    SCOPED_TRACE(describe(config));
+std::vector<FrameWorkload> draw_frames(unsigned index, Draw& draw, const DegsConfig& config) {
     const bool large = config.pes() >= 256;
     std::vector<FrameWorkload> frames;
     for (int f = draw.chance(4) ? 2 : 1; f > 0; --f) {
@@ -163,10 +176,22 @@ TEST_P(SmallRunFidelity, ExactIsStrict) {
                                             config.tile_size,
                                             draw.among({1, 10, 60, 150, large ? 300 : 200})));
     }
+    return frames;
+}
+
+std::vector<const FrameWorkload*> pointers_to(const std::vector<FrameWorkload>& frames) {
     std::vector<const FrameWorkload*> list;
+    list.reserve(frames.size());
     for (const FrameWorkload& frame : frames) {
         list.push_back(&frame);
     }
+    return list;
+}
+
+void expect_exact_is_strict(unsigned index, Draw& draw, const DegsConfig& config) {
+    SCOPED_TRACE(describe(config));
+    const std::vector<FrameWorkload> frames = draw_frames(index, draw, config);
+    const std::vector<const FrameWorkload*> list = pointers_to(frames);
     const DegsRun exact("exact", config, list, Fidelity::Exact);
     const DegsRun strict("strict", config, list, Fidelity::Strict);
     sc_core::sc_start();
@@ -181,7 +206,92 @@ TEST_P(SmallRunFidelity, ExactIsStrict) {
     }
 }
 
+class SmallRunFidelity : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(SmallRunFidelity, ExactIsStrict) {
+    Draw draw(GetParam());
+    const DegsConfig config = draw.config(GetParam());
+    expect_exact_is_strict(GetParam(), draw, config);
+}
+
 INSTANTIATE_TEST_SUITE_P(Random, SmallRunFidelity, ::testing::Range(0U, 300U));
+
+class PlainRunFidelity : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(PlainRunFidelity, ExactIsStrict) {
+    Draw draw(GetParam());
+    const DegsConfig config = draw.plain(GetParam());
+    expect_exact_is_strict(GetParam(), draw, config);
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, PlainRunFidelity, ::testing::Range(1000U, 1200U));
+
+void expect_same_tiles(const SlotRecorder& a, const SlotRecorder& b) {
+    ASSERT_EQ(a.tiles().size(), b.tiles().size());
+    for (std::size_t t = 0; t < a.tiles().size(); ++t) {
+        const TileActivity& x = a.tiles()[t];
+        const TileActivity& y = b.tiles()[t];
+        for (const SlotClass& each : kSlotClasses) {
+            EXPECT_EQ(x.slots.*each.slots, y.slots.*each.slots) << each.name << " of tile " << t;
+        }
+        EXPECT_EQ(x.window.first, y.window.first) << "tile " << t;
+        EXPECT_EQ(x.window.last, y.window.last) << "tile " << t;
+        EXPECT_EQ(x.read_out, y.read_out) << "tile " << t;
+    }
+}
+
+// Their names begin with those of the two accelerators, so that only what they hold is compared.
+void expect_same_timelines(const TimelineRecord& a, const TimelineRecord& b) {
+    EXPECT_EQ(a.step, b.step);
+    EXPECT_EQ(a.end, b.end);
+    ASSERT_EQ(a.tracks.size(), b.tracks.size());
+    for (std::size_t t = 0; t < a.tracks.size(); ++t) {
+        ASSERT_EQ(a.tracks[t].states.size(), b.tracks[t].states.size()) << a.tracks[t].name;
+        for (std::size_t i = 0; i < a.tracks[t].states.size(); ++i) {
+            EXPECT_EQ(a.tracks[t].states[i].cycles, b.tracks[t].states[i].cycles)
+                << a.tracks[t].name << ", " << a.tracks[t].states[i].name;
+        }
+    }
+    ASSERT_EQ(a.rings.size(), b.rings.size());
+    for (std::size_t r = 0; r < a.rings.size(); ++r) {
+        EXPECT_EQ(a.rings[r].cell_cycles, b.rings[r].cell_cycles) << a.rings[r].name;
+    }
+    ASSERT_EQ(a.counters.size(), b.counters.size());
+    for (std::size_t c = 0; c < a.counters.size(); ++c) {
+        EXPECT_EQ(a.counters[c].sums, b.counters[c].sums) << a.counters[c].name;
+    }
+}
+
+// Tasks that have been drawn are recorded when they are packed, with the dates at which they execute.
+class RecordedRunFidelity : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(RecordedRunFidelity, ExactIsStrict) {
+    Draw draw(GetParam());
+    const DegsConfig config =
+        GetParam() % 2 == 0 ? draw.config(GetParam()) : draw.plain(GetParam());
+    SCOPED_TRACE(describe(config));
+    const std::vector<FrameWorkload> frames = draw_frames(GetParam(), draw, config);
+    const std::vector<const FrameWorkload*> list = pointers_to(frames);
+    DegsRun exact("exact", config, list, Fidelity::Exact, {}, test::Watch::Timeline);
+    DegsRun strict("strict", config, list, Fidelity::Strict, {}, test::Watch::Timeline);
+    DegsRun tiles("tiles", config, list, Fidelity::Exact, {}, test::Watch::Tiles);
+    DegsRun plain("plain", config, list);
+    sc_core::sc_start();
+    test::expect_sound(exact);
+    for (const DegsRun* run : {&exact, &tiles, &plain}) {
+        test::expect_same_statistics(*run, strict);
+    }
+    for (const DegsRun* run : {&exact, &tiles}) {
+        run->job().recorder->close();
+    }
+    strict.job().recorder->close();
+    expect_same_tiles(*exact.job().recorder, *strict.job().recorder);
+    expect_same_tiles(*tiles.job().recorder, *strict.job().recorder);
+    const Cycle end = strict.degs().finished();
+    expect_same_timelines(exact.timeline(end), strict.timeline(end));
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, RecordedRunFidelity, ::testing::Range(2000U, 2150U));
 
 } // namespace
 } // namespace degs

@@ -59,8 +59,12 @@ void Engine::collect_laws(AcceleratorResult& result) const {
     }
     const ProjectionStage::Stats& p = projection_->stats();
     const ColourStage::Stats& c = colour_->stats();
-    laws.push_back({"entries of the views = read + cancelled", grouping_->stats().view_entries,
-                    p.entries + p.entries_cancelled});
+    std::uint64_t view_entries = 0; // of the job, which may be a sample of the views
+    for (const JobTile& view : job_.tiles) {
+        view_entries += view.count;
+    }
+    laws.push_back(
+        {"entries of the views = read + cancelled", view_entries, p.entries + p.entries_cancelled});
     laws.push_back(
         {"entries read = projected + cancelled", p.entries, p.shapes + p.shapes_cancelled});
     laws.push_back({"projected = coloured + masked + cancelled", p.shapes,

@@ -54,19 +54,23 @@ void ArraySlice::end_of_elaboration() {
 }
 
 // Inlined: a call more per packet is 1 % of a run.
-template <bool Recorded>
+template <ArraySlice::Tasks Kind>
 inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket& packet) {
     const Cycle now = self_.local();
     if (now != packet.slot) {
-        refuse(packet);
+        refuse(packet.slot);
     }
     stats_.packets++;
     stats_.window.include(now);
+    if (Kind == Tasks::Drawn) {
+        end_pixels(packet);
+        return;
+    }
     const bool early = early_.has_value();
     for (const TaskRun& run : packet) {
         Context& context = context_of(run.task.context, run.tile);
         if (!early) {
-            check_reuse(context, run, now);
+            check_reuse(context.recent[run.domain], run.part, now);
         }
         // A segment is blended when its first task executes: nobody else touches its pixels before
         // its last one, so each packet only has to take its part of the outcome.
@@ -78,7 +82,7 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
             stats_.slots.boundary += count(outcome_.boundary);
             stats_.slots.terminated += count(outcome_.terminated);
         }
-        if (Recorded) {
+        if (Kind == Tasks::Recorded) {
             record(run, now);
         }
         if ((outcome_.ended & run.part) != 0) {
@@ -87,9 +91,9 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
     }
 }
 
-void ArraySlice::refuse(const TaskPacket& packet) const {
+void ArraySlice::refuse(Cycle slot) const {
     throw std::logic_error(std::string(name()) + ": a packet planned for cycle " +
-                           std::to_string(packet.slot) + " executes in cycle " +
+                           std::to_string(slot) + " executes in cycle " +
                            std::to_string(self_.local()));
 }
 
@@ -118,13 +122,19 @@ void ArraySlice::record(const TaskRun& run, Cycle date) {
     add(Slot::Terminated, outcome_.terminated);
 }
 
-template <bool Recorded>
+void ArraySlice::end_pixels(const TaskPacket& packet) {
+    for (const TaskRun& run : packet) {
+        pixels_ended(context_of(run.task.context, run.tile), run, run.drawn.ended & run.part);
+    }
+}
+
+template <ArraySlice::Tasks Kind>
 inline __attribute__((always_inline)) void ArraySlice::pump_packets() {
     while (!packets_->empty()) {
         const TaskPacket& packet = packets_->arrive(self_);
         const bool executed = packet.tasks != 0;
         if (executed) {
-            execute<Recorded>(packet);
+            execute<Kind>(packet);
         }
         const bool ends = packet.ends_tile;
         const TileNumber tile = packet.ended_tile;
@@ -136,11 +146,31 @@ inline __attribute__((always_inline)) void ArraySlice::pump_packets() {
         if (executed) {
             self_.advance();
         }
-        if (ends && job_.over(++tiles_done_)) {
-            end_reports();
-            self_.finish();
+        if (ends) {
+            count_tile();
         }
     }
+}
+
+void ArraySlice::count_tile() {
+    if (job_.over(++tiles_done_)) {
+        end_reports();
+        self_.finish();
+    }
+}
+
+void ArraySlice::end_drawn(const TaskRun& run, std::uint32_t ended, Cycle date) {
+    self_.advance_to(date);
+    pixels_ended(context_of(run.task.context, run.tile), run, ended);
+}
+
+void ArraySlice::pass_end(TileNumber tile, std::int16_t context, Cycle date, bool packet) {
+    self_.advance_to(date);
+    end_tile(tile, context);
+    if (packet) {
+        pass_packet(date);
+    }
+    count_tile();
 }
 
 void ArraySlice::run() {
@@ -155,7 +185,15 @@ void ArraySlice::run() {
 }
 
 void ArraySlice::pump() {
-    pump_packets<false>();
+    pump_packets<Tasks::Blended>();
+}
+
+void ArraySlice::RecordedPump::pump() {
+    if (slice_.drawn_) {
+        slice_.pump_packets<Tasks::Drawn>();
+    } else {
+        slice_.pump_packets<Tasks::Recorded>();
+    }
 }
 
 void ArraySlice::start_tile(Context& context, TileNumber number) {
@@ -173,20 +211,6 @@ void ArraySlice::start_tile(Context& context, TileNumber number) {
         context.live_in_segment[s] = row < tile.height ? width : 0;
         context.live_pixels += context.live_in_segment[s];
     }
-}
-
-// The scoreboard exists for this invariant. One date per segment is enough for it: a pixel that came
-// before that date may count too much, but no hazard is missed. EarlyBlender counts exactly.
-void ArraySlice::check_reuse(Context& context, const TaskRun& run, Cycle date) {
-    Recent& recent = context.recent[run.domain];
-    const Cycle writeback = config_.writeback_cycles;
-    const bool late = date - recent.date >= writeback;
-    const std::uint32_t busy = late ? 0 : recent.mask;
-    if ((busy & run.part) != 0) { // never with a scoreboard
-        stats_.hazards += __builtin_popcount(busy & run.part);
-    }
-    recent.mask = busy | run.part;
-    recent.date = date;
 }
 
 void ArraySlice::pixels_ended(Context& context, const TaskRun& run, std::uint32_t ended) {

@@ -10,7 +10,7 @@
 #include "modules/array/slot_recorder.hpp"
 #include "modules/array/task_blender.hpp"
 #include "modules/render_job.hpp"
-#include "modules/scheduler/issue_bank.hpp"
+#include "modules/scheduler/termination_grain.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
@@ -59,15 +59,38 @@ public:
                RenderJob& job, int index, int slices, int segment_length);
 
     const Stats& stats() const { return stats_; }
+    // For tasks that TileDrawing has drawn: the Packing Unit tells their dates, which do not fall, in place of packets.
+    /// The tasks `mask` of a segment execute in the cycles `first` to `last`.
+    inline void execute(const TaskRun& run, std::uint32_t mask, Cycle first, Cycle last);
+    /// Counts tasks by class; see DrawnTasks.
+    inline void count_drawn(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful);
+    /// `tasks` tasks execute so many cycles after the latest ones of their segment.
+    void check_drawn(std::int32_t distance, int tasks) {
+        stats_.hazards += distance < config_.writeback_cycles ? tasks : 0; // 0 with a scoreboard
+    }
+    Cycle writeback() const { return config_.writeback_cycles; }
+    /// Of these, the pixels `ended` end at `date`.
+    void end_drawn(const TaskRun& run, std::uint32_t ended, Cycle date);
+    /// All tasks of the cycle `date` have been told.
+    inline void pass_packet(Cycle date);
+    /// The end of a tile comes at `date`, or as soon as what came before has been executed; `packet`: together with
+    /// the tasks of this cycle, which have all been told.
+    void pass_end(TileNumber tile, std::int16_t context, Cycle date, bool packet);
+
     /// Records executed tasks in `part`, which may be null; before the simulation starts.
     void record(SlotPart* part) { part_ = part; }
+    /// Packets tell dates alone, and of their tasks those that end a pixel; before the simulation starts.
+    void expect_drawn() { drawn_ = true; }
 
 private:
-    /// Runs the slice in place of itself if its tasks are recorded, so that pump() need not ask.
+    /// What to do with the tasks of packets: blend them, record them as well, or neither, since they were drawn and
+    /// recorded before.
+    enum class Tasks { Blended, Recorded, Drawn };
+    /// Runs the slice in place of itself unless its tasks are blended alone, so that pump() need not ask.
     class RecordedPump : public Pumped {
     public:
         explicit RecordedPump(ArraySlice& slice) : slice_(slice) {}
-        void pump() override { slice_.pump_packets<true>(); }
+        void pump() override;
 
     private:
         ArraySlice& slice_;
@@ -99,22 +122,24 @@ private:
         return *current_;
     }
     [[gnu::noinline]] void start_tile(Context& context, TileNumber number);
-    template <bool Recorded>
+    template <Tasks Kind>
     void execute(const TaskPacket& packet);
-    template <bool Recorded>
+    template <Tasks Kind>
     void pump_packets();
+    void end_pixels(const TaskPacket& packet);
     /// The tasks of `run` that are in this packet, from the outcome of its segment.
     void record(const TaskRun& run, Cycle date);
     // What is rare stays out of the loop over packets, which then keeps more in registers.
-    [[noreturn, gnu::noinline]] void refuse(const TaskPacket& packet) const;
+    [[noreturn, gnu::noinline]] void refuse(Cycle slot) const;
     [[gnu::noinline]] BlendOutcome blend_otherwise(const Context& context, const TaskRun& run,
                                                    Cycle date);
     BlendOutcome blend_early(const Context& context, const TaskRun& run, Cycle date);
-    void check_reuse(Context& context, const TaskRun& run, Cycle date);
+    inline void check_reuse(Recent& recent, std::uint32_t tasks, Cycle date);
     [[gnu::noinline]] void pixels_ended(Context& context, const TaskRun& run, std::uint32_t ended);
     void report_region(const Context& context, const TaskRun& run);
     [[gnu::noinline]] void end_tile(TileNumber number, std::int16_t context);
     void end_reports();
+    void count_tile();
     std::size_t stream_of(std::int16_t context) const { return context / config_.contexts; }
 
     Config config_;
@@ -132,8 +157,52 @@ private:
     std::optional<EarlyBlender> early_; // without scoreboard
     std::size_t tiles_done_ = 0;
     SlotPart* part_ = nullptr;
+    bool drawn_ = false;
     RecordedPump recorded_{*this};
     Stats stats_;
 };
+
+inline __attribute__((always_inline)) void
+ArraySlice::execute(const TaskRun& run, std::uint32_t mask, Cycle first, Cycle last) {
+    Context& context = context_of(run.task.context, run.tile);
+    Recent& recent = context.recent[run.domain];
+    check_reuse(recent, mask, first);
+    recent.date = last;
+    count_drawn(mask, run.drawn.inside, run.drawn.useful);
+}
+
+inline __attribute__((always_inline)) void
+ArraySlice::count_drawn(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful) {
+    const auto count = [](std::uint32_t bits) {
+        return static_cast<std::uint64_t>(__builtin_popcount(bits));
+    };
+    const std::uint64_t all_inside = count(mask & inside);
+    const std::uint64_t all_useful = count(mask & useful);
+    stats_.slots.useful += all_useful;
+    stats_.slots.boundary += count(mask) - all_inside;
+    stats_.slots.terminated += all_inside - all_useful;
+}
+
+inline __attribute__((always_inline)) void ArraySlice::pass_packet(Cycle date) {
+    if (self_.local() > date) {
+        refuse(date);
+    }
+    stats_.packets++;
+    stats_.window.include(date);
+    self_.advance_to(date + 1);
+}
+
+// The scoreboard exists for this invariant. One date per segment is enough for it: a pixel that came
+// before that date may count too much, but no hazard is missed. EarlyBlender counts exactly.
+inline void ArraySlice::check_reuse(Recent& recent, std::uint32_t tasks, Cycle date) {
+    const Cycle writeback = config_.writeback_cycles;
+    const bool late = date - recent.date >= writeback;
+    const std::uint32_t busy = late ? 0 : recent.mask;
+    if ((busy & tasks) != 0) { // never with a scoreboard
+        stats_.hazards += __builtin_popcount(busy & tasks);
+    }
+    recent.mask = busy | tasks;
+    recent.date = date;
+}
 
 } // namespace degs

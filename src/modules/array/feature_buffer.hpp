@@ -48,7 +48,8 @@ public:
     /// free at `now`.
     bool admit(TileNumber tile, std::uint32_t splat, Cycle now, std::size_t stream = 0) {
         const std::uint64_t wanted = key(tile, splat);
-        return wanted == current_key_ || find(wanted, stream) || enter(wanted, now, stream);
+        return wanted == current_key_ || (several_open_ && find(wanted, stream)) ||
+               enter(wanted, now, stream);
     }
     /// Entry of the splat that enters.
     std::uint16_t current() const { return current_; }
@@ -93,6 +94,7 @@ private:
     };
     struct Stream {
         std::vector<Open> open; // ring in the order of their first rows
+        std::size_t size = 0;   // of the ring
         std::size_t oldest = 0, count = 0;
         bool waiting = false; // a splat has found no entry
     };
@@ -108,6 +110,7 @@ private:
     Free* first_free_;
     Free* end_free_;
     std::size_t free_count_;
+    bool several_open_; // splats at a time
     Cycle last_retired_ = 0;
     Fill fill_;
     std::vector<Cycle> write_ports_; // dates at which they are free, SRAM bank by bank
@@ -116,5 +119,50 @@ private:
     std::uint16_t current_ = 0;
     Stats stats_;
 };
+
+// What follows is inlined in the hot loops of banks: most splats that enter close another one.
+inline __attribute__((always_inline)) void FeatureBuffer::close_oldest(Stream& own, Cycle now) {
+    Open& oldest = own.open[own.oldest];
+    own.oldest = own.oldest + 1 == own.size ? 0 : own.oldest + 1;
+    own.count--;
+    if (oldest.key == current_key_) {
+        current_key_ = kNobody;
+    }
+    oldest.key = kNobody;
+    Entry& e = entries_[oldest.entry];
+    if (--e.held == 0) {
+        retire(oldest.entry, std::max(now, e.needed_until));
+    }
+}
+
+inline __attribute__((always_inline)) void FeatureBuffer::retire(std::uint16_t entry, Cycle date) {
+    last_retired_ = std::max(last_retired_, date);
+    *end_free_ = {last_retired_, entry};
+    end_free_ = next(end_free_);
+    free_count_++;
+}
+
+inline __attribute__((always_inline)) bool FeatureBuffer::enter(std::uint64_t splat, Cycle now,
+                                                                std::size_t stream) {
+    Stream& own = streams_[stream];
+    if (own.count == own.size) {
+        close_oldest(own, now);
+    }
+    if (next_free() > now) {
+        stats_.waits += own.waiting ? 0 : 1;
+        own.waiting = true;
+        return false;
+    }
+    own.waiting = false;
+    stats_.entries++;
+    current_ = first_free_->entry;
+    first_free_ = next(first_free_);
+    free_count_--;
+    entries_[current_] = {now, 1, fill_.cycles == 0 ? now : fill(current_, now)};
+    current_key_ = splat;
+    const std::size_t place = own.oldest + own.count++;
+    own.open[place < own.size ? place : place - own.size] = {splat, current_};
+    return true;
+}
 
 } // namespace degs

@@ -88,9 +88,13 @@ PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& conf
     }
 }
 
-void PixelBuffer::clear(int context) {
+void PixelBuffer::clear(TileNumber number) {
     for (int row = share_.first_row; row < job_.tile_size; row += share_.row_stride) {
-        job_.path->begin_row(context, row);
+        if (drawing_ != nullptr) {
+            drawing_->clear_row(number, row);
+        } else {
+            job_.path->begin_row(context_of(number), row);
+        }
     }
 }
 
@@ -144,7 +148,7 @@ void PixelBuffer::finish_tile(TileNumber number) {
     if (job_.recorder != nullptr) {
         job_.recorder->read_out(number, read_out_);
     }
-    clear(context_of(number));
+    clear(number);
     const std::uint32_t frame = job_.tiles[number].frame;
     if (frame >= frames_written_.size()) {
         frames_written_.resize(frame + 1, 0);
@@ -205,7 +209,8 @@ const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y
     const int pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
     pixels_.resize(tile.width);
     bytes_.resize(pixels_.size() * pixel_bytes);
-    job_.path->read_row(context_of(number), y, tile.width, pixels_.data());
+    const int context = drawing_ != nullptr ? drawing_->canvas(number) : context_of(number);
+    job_.path->read_row(context, y, tile.width, pixels_.data());
     unsigned char* out = bytes_.data();
     std::size_t i = image.at(tile.x, tile.y + y);
     for (const PixelValue& pixel : pixels_) {

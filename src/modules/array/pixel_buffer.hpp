@@ -8,6 +8,7 @@
 #include "config/config.hpp"
 #include "config/statistics.hpp"
 #include "modules/render_job.hpp"
+#include "modules/tile_drawing.hpp"
 #include "modules/traffic.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
@@ -90,13 +91,15 @@ public:
                 bool instant = false);
 
     const Stats& stats() const { return stats_; }
+    /// Reads the tiles where they are drawn; before the simulation starts.
+    void read_from(TileDrawing& drawing) { drawing_ = &drawing; }
     /// Dates at which each frame's last pixel of this share was in memory.
     const std::vector<Cycle>& frames_written() const { return frames_written_; }
 
 private:
     void end_of_elaboration() override;
     void run();
-    void clear(int context);
+    void clear(TileNumber number);
     TileNumber next_tile();
     void finish_tile(TileNumber number);
     int context_of(TileNumber number) const;
@@ -109,6 +112,7 @@ private:
     int contexts_;
     Share share_;
     bool instant_;
+    TileDrawing* drawing_ = nullptr; // nullptr: pixels lie in the contexts
     Process self_;
     Cycle written_ = 0;                // completion of the latest write
     Cycle read_out_ = 0;               // date at which the latest pixel had been read out

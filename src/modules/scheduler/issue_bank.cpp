@@ -2,6 +2,8 @@
 // The cycle of a bank, its intake, and what ends pixels; issue_bank_issue.cpp has the rest.
 #include "modules/scheduler/issue_bank.hpp"
 
+#include "modules/scheduler/drawn_bank.hpp"
+
 #include <algorithm>
 
 namespace degs {
@@ -70,11 +72,22 @@ void IssueBank::end_of_elaboration() {
 }
 
 void IssueBank::run() {
+    if (DrawnBank::can_run(*this)) {
+        DrawnBank(*this).run();
+    } else if (stream_count_ == 1 && streams_.front().inputs.size() == 1) {
+        run_cycles<true>();
+    } else {
+        run_cycles<false>();
+    }
+}
+
+template <bool single>
+void IssueBank::run_cycles() {
     while (!job_.over(tiles_done_)) {
         const Cycle now = self_.local();
         see_terminations();
         see_contexts();
-        accept(now);
+        accept<single>(now);
         const bool worked = issue(now);
         const bool over = finish_tiles() && job_.over(tiles_done_);
         if (packing_.due(now)) {
@@ -97,7 +110,15 @@ void IssueBank::run() {
     self_.finish();
 }
 
-void IssueBank::see_terminations() {
+// Drawn tasks report the ends of their pixels when they are issued, so a report that the ring does not hold yet is due
+// later than now.
+inline void IssueBank::see_terminations() {
+    if (packing_.draws()) {
+        while (!terminations_->empty() && terminations_->head_date() <= self_.local()) {
+            end_pixels(terminations_->take(self_));
+        }
+        return;
+    }
     while (self_.arrived(*terminations_)) {
         end_pixels(terminations_->take(self_));
     }
@@ -138,12 +159,8 @@ void IssueBank::list_started() {
 }
 
 void IssueBank::end_pixels(const Termination& message) {
-    const int first_context = message.context / contexts_ * contexts_;
     const BankStream& stream = streams_[message.context / contexts_];
-    // The turn that is the first one to have this context and is not over for the bank.
-    const std::size_t place = message.context - first_context;
-    const std::size_t turn =
-        stream.oldest + (place + contexts_ - stream.oldest % contexts_) % contexts_;
+    const std::size_t turn = turn_of(stream, message.context);
     if (turn >= stream.first_unstarted() || tile_at(stream, turn).number() != message.tile) {
         return; // the tile is over for this bank
     }
@@ -157,6 +174,12 @@ void IssueBank::end_pixels(const Termination& message) {
             queue_.pop(tile, domain);
         }
     }
+}
+
+// The turn that is the first one to have this context and is not over for the bank.
+std::size_t IssueBank::turn_of(const BankStream& stream, int context) const {
+    const std::size_t place = context % contexts_;
+    return stream.oldest + (place + contexts_ - stream.oldest % contexts_) % contexts_;
 }
 
 // All pixels of the domain that have ended. The bank looks at single pixels or at whole segments.
@@ -189,11 +212,12 @@ void IssueBank::drop(std::uint32_t mask) {
     stats_.tasks_dropped += __builtin_popcount(mask);
 }
 
-void IssueBank::accept(Cycle now) {
+template <bool single>
+inline __attribute__((always_inline)) void IssueBank::accept(Cycle now) {
     spans_left_ = spans_per_cycle_;
     features_full_ = false;
     for (int budget = config_.segments_per_cycle; budget > 0; --budget) {
-        if (!segmenter_.cutting() && !open_span(now)) {
+        if (!segmenter_.cutting() && !open_span<single>(now)) {
             break;
         }
         if (!cut_segment()) {
@@ -204,9 +228,10 @@ void IssueBank::accept(Cycle now) {
 
 // Takes the earliest item that has arrived, ties by input, if it may be taken. Inlined in the hot
 // loop.
+template <bool single>
 inline __attribute__((always_inline)) IssueBank::Taken IssueBank::take_from(BankStream& stream,
                                                                             Cycle now) {
-    BankStream::Input* const source = earliest_input(stream);
+    BankStream::Input* const source = earliest_input<single>(stream);
     if (source == nullptr) {
         return Taken::Nothing;
     }
@@ -237,9 +262,18 @@ inline __attribute__((always_inline)) IssueBank::Taken IssueBank::take_from(Bank
 }
 
 // Takes a span of the next stream that has one, in turn; a span cut halfway is finished first.
-bool IssueBank::open_span(Cycle now) {
+template <bool single>
+inline __attribute__((always_inline)) bool IssueBank::open_span(Cycle now) {
     if (spans_left_ == 0) {
         return false;
+    }
+    if constexpr (single) {
+        Taken taken;
+        do {
+            taken = take_from<true>(*next_stream_, now);
+        } while (taken == Taken::End);
+        spans_left_ -= taken == Taken::Span ? 1 : 0;
+        return taken == Taken::Span;
     }
     BankStream* const first = next_stream_;
     do {
@@ -247,7 +281,7 @@ bool IssueBank::open_span(Cycle now) {
         next_stream_ = stream.next;
         Taken taken;
         do { // ends of tiles on the way cost nothing
-            taken = take_from(stream, now);
+            taken = take_from<false>(stream, now);
         } while (taken == Taken::End);
         if (taken == Taken::Span) {
             --spans_left_;
@@ -257,7 +291,13 @@ bool IssueBank::open_span(Cycle now) {
     return false;
 }
 
-BankStream::Input* IssueBank::earliest_input(BankStream& stream) {
+template <bool single>
+inline __attribute__((always_inline)) BankStream::Input*
+IssueBank::earliest_input(BankStream& stream) {
+    if constexpr (single) {
+        BankStream::Input& only = stream.inputs.front();
+        return takes(stream, only) && self_.arrived(*only.ring) ? &only : nullptr;
+    }
     BankStream::Input* source = nullptr;
     for (BankStream::Input& input : stream.inputs) {
         if (takes(stream, input) && self_.arrived(*input.ring) &&
@@ -294,6 +334,11 @@ bool IssueBank::cut_segment() {
         segment.feature = features_.current();
         features_.hold(segment.feature);
         segmenter_.fill(segment.run, mask);
+        if (packing_.draws()) {
+            segmenter_.fill(segment.run.drawn);
+        } else {
+            segmenter_.fill(segment.run.task);
+        }
         if (queue_.size() > stats_.queue_high_water) {
             stats_.queue_high_water = queue_.size();
         }

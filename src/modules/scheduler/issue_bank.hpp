@@ -13,15 +13,10 @@
 #include "modules/scheduler/packing_unit.hpp"
 #include "modules/scheduler/segment_queue.hpp"
 #include "modules/scheduler/segmenter.hpp"
+#include "modules/scheduler/termination_grain.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
-
-/// What the bank skips of the work for ended pixels (paper, Sec. IV-B). `Segment`: all segments of a
-/// region, row x stride, whose pixels have all ended; the array reports whole regions. The others
-/// need reports of single pixels. `Task`: each segment whose own pixels have all ended; any other
-/// one is issued whole. `Pixel`: every ended pixel.
-enum class TerminationGrain { Segment, Task, Pixel };
 
 /// One Issue Bank of the Packing Scheduler (paper, Sec. IV-B): takes the row spans of its rows in
 /// depth order, cuts them at fixed strides (Segmenter), and issues segments to its Packing Unit,
@@ -88,22 +83,31 @@ public:
     const FeatureBuffer& features() const { return features_; }
 
 private:
+    friend class DrawnBank;
     static constexpr std::uint32_t kAllPixels = ~0U;
 
     void end_of_elaboration() override;
     void run();
+    /// `single`: one tile stream from one Span Unit, whose loop asks for no others.
+    template <bool single>
+    void run_cycles();
     void see_terminations();
     void see_contexts();
     // What is rare stays out of the loop over cycles, which then keeps more in registers.
     [[gnu::noinline]] void list_started();
     [[gnu::noinline]] void end_pixels(const Termination& message);
+    std::size_t turn_of(const BankStream& stream, int context) const;
     std::uint32_t end_pixels(SegmentQueue::Tile& tile, int domain, std::uint32_t mask) const;
 
     // Intake.
     enum class Taken { Nothing, End, Span };
+    template <bool single>
     void accept(Cycle now);
+    template <bool single>
     bool open_span(Cycle now);
+    template <bool single>
     Taken take_from(BankStream& stream, Cycle now);
+    template <bool single>
     BankStream::Input* earliest_input(BankStream& stream);
     [[gnu::noinline]] void enter_tile(BankStream& stream, TileNumber number);
     [[gnu::noinline]] void take_end(BankStream& stream, Cycle now);

@@ -233,7 +233,11 @@ Cycle IssueBank::next_date(Cycle now) {
             return next;
         }
     }
-    watched_.push_back(terminations_);
+    if (!packing_.draws()) {
+        watched_.push_back(terminations_);
+    } else if (!terminations_->empty()) { // all that are due are there
+        limit = std::min(limit, std::max(next, terminations_->head_date()));
+    }
     if (contexts_owed_) {
         for (const BankStream& stream : streams_) {
             if (stream.startable < stream.oldest + contexts_) {

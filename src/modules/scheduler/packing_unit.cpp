@@ -13,7 +13,7 @@ PackingUnit::PackingUnit(const sc_core::sc_module_name& name, const Config& conf
 
 // Every part ends where the packet is full or a port is taken.
 Cycle PackingUnit::add_by_ports(Process& bank, const TaskRun& run, std::uint32_t mask, int entry) {
-    Cycle execution = 0;
+    Cycle first = 0, execution = 0;
     for (std::uint32_t left = mask; left != 0;) {
         if (!open()) {
             open_packet(bank);
@@ -21,7 +21,13 @@ Cycle PackingUnit::add_by_ports(Process& bank, const TaskRun& run, std::uint32_t
         execution = next_slot_;
         const std::uint32_t part = ports_->take(run.task, left, entry, config_.width - tasks_);
         if (part != 0) {
-            put(run, mask, part);
+            join(run);
+            first = first == 0 ? execution : first;
+            if (!draws()) {
+                put(run, mask, part);
+            } else if ((part & run.drawn.ended) != 0) {
+                slice_->end_drawn(run, part & run.drawn.ended, execution);
+            }
         }
         left ^= part;
         tasks_ += __builtin_popcount(part);
@@ -31,7 +37,68 @@ Cycle PackingUnit::add_by_ports(Process& bank, const TaskRun& run, std::uint32_t
             send(bank, Idle::Ports);
         }
     }
+    if (draws()) {
+        slice_->execute(run, mask, first, execution);
+    }
     return execution;
+}
+
+// Drawn tasks, packet by packet.
+Cycle PackingUnit::add_recorded(Process& bank, const TaskRun& run, std::uint32_t mask, int entry) {
+    Cycle first = 0, execution = 0;
+    for (std::uint32_t left = mask; left != 0;) {
+        if (!open()) {
+            open_packet(bank);
+            part_->settle(run.tile);
+        }
+        execution = next_slot_;
+        const int room = config_.width - tasks_;
+        const std::uint32_t part = ports_ ? ports_->take(run.task, left, entry, room)
+                                   : room < __builtin_popcount(left) ? lowest_bits(left, room)
+                                                                     : left;
+        if (part != 0) {
+            join(run);
+            first = first == 0 ? execution : first;
+            record_tasks(run, part);
+            if ((part & run.drawn.ended) != 0 && packets_) {
+                put(run, mask, part);
+            } else if ((part & run.drawn.ended) != 0) {
+                slice_->end_drawn(run, part & run.drawn.ended, execution);
+            }
+        }
+        left ^= part;
+        tasks_ += __builtin_popcount(part);
+        if (tasks_ == config_.width) {
+            send(bank, Idle::Starved);
+        } else if (left != 0) {
+            send(bank, Idle::Ports);
+        }
+    }
+    slice_->execute(run, mask, first, execution);
+    return execution;
+}
+
+// In the open packet.
+void PackingUnit::record_tasks(const TaskRun& run, std::uint32_t part) {
+    const auto add = [&](Slot slot, std::uint32_t tasks) {
+        if (tasks != 0) {
+            part_->add(slot, run.tile, next_slot_, __builtin_popcount(tasks));
+        }
+    };
+    if (tasks_ == 0 || run.tile != latest_tile_) { // else this cycle is known to be the tile's
+        part_->work(run.tile, next_slot_, next_slot_ + 1);
+    }
+    add(Slot::Useful, part & run.drawn.useful);
+    add(Slot::Boundary, part & ~run.drawn.inside);
+    add(Slot::Terminated, part & run.drawn.inside & ~run.drawn.useful);
+    latest_tile_ = run.tile;
+}
+
+// The open packet, of drawn tasks; it has left its slot already.
+void PackingUnit::record_packet(Idle cause) {
+    if (tasks_ != config_.width) {
+        part_->add(slot_of(cause), latest_tile_, next_slot_ - 1, config_.width - tasks_);
+    }
 }
 
 bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry) {
@@ -64,9 +131,7 @@ bool PackingUnit::joins(const TaskRun& run) const {
     if (!open()) {
         return true;
     }
-    const TaskRun& other = ring_->staged().runs.front();
-    return run.task.splat == other.task.splat && run.task.row == other.task.row &&
-           run.tile == other.tile;
+    return run.task.splat == first_splat_ && run.task.row == first_row_ && run.tile == first_tile_;
 }
 
 void PackingUnit::end_tile(Process& bank, TileNumber tile, std::int16_t context) {
@@ -75,20 +140,27 @@ void PackingUnit::end_tile(Process& bank, TileNumber tile, std::int16_t context)
     if (open() && ends_tile_) {
         send(bank, Idle::Starved);
     }
-    if (!open()) {
-        ring_->reserve(bank);
-    }
-    TaskPacket& packet = ring_->staged();
-    packet.ended_tile = tile;
-    packet.ended_context = context;
+    ended_tile_ = tile;
+    ended_context_ = context;
     if (open()) {
         ends_tile_ = true;
+    } else if (!packets_) {
+        tell_end(passed_.pass_end(bank.local(), bank.local() + latency_), false);
     } else {
+        ring_->reserve(bank);
+        TaskPacket& packet = ring_->staged();
+        packet.ended_tile = tile;
+        packet.ended_context = context;
         packet.run_count = 0;
         packet.tasks = 0;
         packet.ends_tile = true;
         ring_->put_staged(bank);
     }
+}
+
+// Of a tile.
+void PackingUnit::tell_end(Cycle slot, bool packet) {
+    slice_->pass_end(ended_tile_, ended_context_, slot, packet);
 }
 
 void PackingUnit::send_due(Process& bank, Idle cause) {

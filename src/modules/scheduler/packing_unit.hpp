@@ -8,9 +8,11 @@
 
 #include "config/config.hpp"
 #include "config/statistics.hpp"
+#include "modules/array/blending_array.hpp"
 #include "modules/array/slot_recorder.hpp"
 #include "modules/messages.hpp"
 #include "modules/scheduler/packet_ports.hpp"
+#include "modules/scheduler/passed_packets.hpp"
 #include "splat/pixel_mask.hpp"
 #include "tlm/dated_fifo.hpp"
 
@@ -48,7 +50,17 @@ public:
     FifoPort<TaskPacket> out;
 
     PackingUnit(const sc_core::sc_module_name& name, const Config& config);
-    /// Records empty slots in `part`, which may be null; before the simulation starts.
+    /// Tells `slice` what executes when, in place of packets: the tasks have been drawn; before the simulation starts.
+    /// With a timeline, which shows the Packing Buffer, packets without tasks tell it.
+    void tell(ArraySlice& slice, bool timeline) {
+        slice_ = &slice;
+        packets_ = timeline;
+    }
+    bool draws() const { return slice_ != nullptr; }
+    /// The packets told without the ring.
+    const PassedPackets& passed() const { return passed_; }
+    /// Records empty slots in `part`, and the tasks if they have been drawn; it may be null; before the simulation
+    /// starts.
     void record(SlotPart* part) { part_ = part; }
 
     /// Execution date of the next task if it is packed at `now`.
@@ -91,7 +103,11 @@ public:
     const SlotAccount& idle() const { return idle_; }
 
 private:
-    void end_of_elaboration() override { ring_ = &out.ring(); }
+    friend class DrawnBank;
+    void end_of_elaboration() override {
+        ring_ = &out.ring();
+        passed_.hold(ring_->depth());
+    }
     bool open() const { return tasks_ != 0; }
     bool started() const { return next_slot_ != 0; } // a packet has been sent or opened
     // ceil(tasks / width) packets fit, that which is open among them; without dividing.
@@ -105,6 +121,13 @@ private:
     [[gnu::noinline]] Cycle add_by_ports(Process& bank, const TaskRun& run, std::uint32_t mask,
                                          int entry);
     inline void put(const TaskRun& run, std::uint32_t mask, std::uint32_t part);
+    inline Cycle add_drawn(Process& bank, const TaskRun& run, std::uint32_t mask, int count);
+    [[gnu::noinline]] Cycle add_recorded(Process& bank, const TaskRun& run, std::uint32_t mask,
+                                         int entry);
+    void record_tasks(const TaskRun& run, std::uint32_t part);
+    [[gnu::noinline]] void record_packet(Idle cause);
+    [[gnu::noinline]] void tell_end(Cycle slot, bool packet);
+    void join(const TaskRun& run);
     inline void open_packet(Process& bank);
     inline void send(Process& bank, Idle cause);
     [[gnu::noinline]] void record_packet(const TaskPacket& packet, Idle cause);
@@ -114,9 +137,20 @@ private:
     Cycle latency_;
     Cycle width_, capacity_; // tasks: of a packet, of the Packing Buffer
     DatedFifo<TaskPacket>* ring_ = nullptr;
+    ArraySlice* slice_ =
+        nullptr;          // executes drawn tasks without packets; nullptr: packets go to the ring
+    bool packets_ = true; // go through the ring
+    PassedPackets passed_;
     // The open packet is filled in its cell of the ring.
     int tasks_ = 0;          // in the open packet; 0: none is open
     bool ends_tile_ = false; // the open packet carries the end of a tile
+    TileNumber ended_tile_ = 0;
+    std::int16_t ended_context_ = 0;
+    // The span of the open packet's first task.
+    std::uint32_t first_splat_ = 0;
+    std::int16_t first_row_ = 0;
+    TileNumber first_tile_ = 0;
+    TileNumber latest_tile_ = 0; // of the latest task, if tasks are recorded here
     // Execution date of the open packet; else the first that the next one may have. An open packet
     // goes before now + latency passes its date, so next_execution() need not ask which.
     Cycle next_slot_ = 0;
@@ -131,7 +165,10 @@ private:
 
 // What follows is inlined in the hot loop of the bank.
 inline __attribute__((always_inline)) void PackingUnit::open_packet(Process& bank) {
-    ring_->reserve(bank); // free by its dates; the host may not have emptied it yet
+    if (packets_) {
+        ring_->reserve(bank); // free by its dates; the host may not have emptied it yet
+        ring_->staged().run_count = 0;
+    }
     const Cycle slot = next_execution(bank.local());
     if (slot > next_slot_) { // else nothing was idle
         idle_ += since_last_;
@@ -142,25 +179,50 @@ inline __attribute__((always_inline)) void PackingUnit::open_packet(Process& ban
         ports_->clear();
     }
     open_until_ = slot - latency_;
-    ring_->staged().run_count = 0;
     ends_tile_ = false;
 }
 
 inline __attribute__((always_inline)) void PackingUnit::send(Process& bank, Idle cause) {
-    TaskPacket& packet = ring_->staged();
-    packet.slot = next_slot_++;
-    packet.tasks = tasks_;
-    packet.ends_tile = ends_tile_;
-    if (part_ != nullptr) {
-        record_packet(packet, cause);
-    }
+    const Cycle slot = next_slot_++;
+    const bool ends = ends_tile_;
     stats_.packets++;
     stats_.tasks += tasks_;
     idle_.idle(cause, config_.width - tasks_);
-    tasks_ = 0;
     open_until_ = kNever;
     ends_tile_ = false;
+    if (draws() && part_ != nullptr) {
+        record_packet(cause);
+    }
+    if (!packets_) {
+        tasks_ = 0;
+        passed_.pass_packet(bank.local(), slot);
+        if (ends) {
+            tell_end(slot, true);
+        } else {
+            slice_->pass_packet(slot);
+        }
+        return;
+    }
+    TaskPacket& packet = ring_->staged();
+    packet.slot = slot;
+    packet.tasks = tasks_;
+    packet.ends_tile = ends;
+    packet.ended_tile = ended_tile_;
+    packet.ended_context = ended_context_;
+    if (part_ != nullptr && !draws()) {
+        record_packet(packet, cause);
+    }
+    tasks_ = 0;
     ring_->put_staged(bank);
+}
+
+// Without reorganisation the open packet has to know whose tasks it has.
+inline void PackingUnit::join(const TaskRun& run) {
+    if (!config_.reorganisation && !open()) {
+        first_splat_ = run.task.splat;
+        first_row_ = run.task.row;
+        first_tile_ = run.tile;
+    }
 }
 
 // In the open packet; tasks_ counts them elsewhere.
@@ -180,13 +242,20 @@ inline __attribute__((always_inline)) Cycle PackingUnit::add(Process& bank, cons
     if (!config_.reorganisation && !joins(run)) {
         send(bank, Idle::Blocked);
     }
+    if (draws() && part_ != nullptr) {
+        return add_recorded(bank, run, mask, entry);
+    }
     if (ports_) {
         return add_by_ports(bank, run, mask, entry);
+    }
+    if (draws()) {
+        return add_drawn(bank, run, mask, count);
     }
     while (count != 0) {
         if (!open()) {
             open_packet(bank);
         }
+        join(run);
         execution = next_slot_;
         const int taken = std::min(count, config_.width - tasks_);
         const std::uint32_t part = taken == count ? left : lowest_bits(left, taken);
@@ -198,6 +267,39 @@ inline __attribute__((always_inline)) Cycle PackingUnit::add(Process& bank, cons
             send(bank, Idle::Starved);
         }
     }
+    return execution;
+}
+
+// Where a part ends matters only if a pixel ends with one of its tasks.
+inline __attribute__((always_inline)) Cycle
+PackingUnit::add_drawn(Process& bank, const TaskRun& run, std::uint32_t mask, int count) {
+    std::uint32_t ended = mask & run.drawn.ended;
+    std::uint32_t left = mask;
+    Cycle first = 0;
+    Cycle execution = 0;
+    while (count != 0) {
+        if (!open()) {
+            open_packet(bank);
+        }
+        join(run);
+        execution = next_slot_;
+        first = first == 0 ? execution : first;
+        const int taken = std::min(count, config_.width - tasks_);
+        if (ended != 0) {
+            const std::uint32_t part = taken == count ? left : lowest_bits(left, taken);
+            left ^= part;
+            if ((ended & part) != 0) {
+                slice_->end_drawn(run, ended & part, execution);
+                ended &= ~part;
+            }
+        }
+        count -= taken;
+        tasks_ += taken;
+        if (tasks_ == config_.width) {
+            send(bank, Idle::Starved);
+        }
+    }
+    slice_->execute(run, mask, first, execution);
     return execution;
 }
 

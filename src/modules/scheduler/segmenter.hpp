@@ -56,6 +56,7 @@ public:
         g0_ = span.g0;
         d0_ = span.d0;
         splat_ = span.splat;
+        drawn_ = item.drawn;
         row_ = span.y;
         tile_ = item.tile;
         context_ = context;
@@ -69,19 +70,28 @@ public:
         const std::uint64_t high = left_ < length_ ? std::uint64_t{1} << left_ : full_;
         return static_cast<std::uint32_t>(high - low_);
     }
+    /// What becomes of the tasks of the next segment, if they are drawn.
+    void fill(DrawnTasks& drawn) const {
+        drawn.inside = static_cast<std::uint32_t>(drawn_.inside >> column_);
+        drawn.useful = static_cast<std::uint32_t>(drawn_.useful >> column_);
+        drawn.ended = static_cast<std::uint32_t>(drawn_.ended >> column_);
+    }
     /// Puts the tasks `mask` of the next segment together. It writes field by field, because a copy
     /// of data that was just written would wait for the write.
     void fill(TaskRun& run, std::uint32_t mask) const {
         run.tile = tile_;
         run.domain = domain_;
-        run.task.g0 = g0_;
-        run.task.d0 = d0_;
         run.task.splat = splat_;
         run.task.mask = mask;
         run.task.row = row_;
         run.task.column = inside_tile(column_);
-        run.task.offset = inside_tile(column_ - base_);
         run.task.context = context_;
+    }
+    /// What the PEs need to compute them, unless they are drawn.
+    void fill(BlendTask& task) const {
+        task.g0 = g0_;
+        task.d0 = d0_;
+        task.offset = inside_tile(column_ - base_);
     }
     void next() {
         column_ += length_;
@@ -100,6 +110,7 @@ private:
     TileNumber tile_ = kNoTile;
     std::uint32_t splat_ = 0;
     double g0_ = 0, d0_ = 0;
+    DrawnRow drawn_;
     int base_ = 0, column_ = 0, domain_ = 0;
     int left_ = 0;          // columns from column_ to the end of the span
     std::uint64_t low_ = 1; // bit of the segment's first pixel

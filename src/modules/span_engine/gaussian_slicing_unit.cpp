@@ -144,6 +144,7 @@ bool GaussianSlicingUnit::add_slice(TileNumber number) {
             return true;
         }
         open_chunks_.finish_splat(self_, slice.chunk);
+        free_sheets_.push_back(slice.sheet);
         slices_.pop_back();
     }
     stats_.splat_port_waits += splat_reads_left_ == 0 && dealt_ < chunk_.count ? 1 : 0;
@@ -186,6 +187,7 @@ void GaussianSlicingUnit::work(TileNumber number) {
         }
         finished = true;
         open_chunks_.finish_splat(self_, slice.chunk);
+        free_sheets_.push_back(slice.sheet);
         if (slice.splats_left > 1) {
             if (add_slice(number)) {
                 slices_.back().rows_left = slice.rows_left;
@@ -200,7 +202,7 @@ void GaussianSlicingUnit::work(TileNumber number) {
 }
 
 void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before) {
-    for (; slice.row <= slice.last && slice.row < before; slice.row += modules_) {
+    for (; slice.row <= slice.last && slice.row < before; slice.row += modules_, ++slice.drawn) {
         if ((slice.below & ~ended_[slice.row]) == 0) {
             stats_.rows_skipped++;
             continue;
@@ -221,6 +223,9 @@ void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before)
         item.splat = slice.splat;
         item.row = inside_tile(slice.row);
         item.end = false;
+        if (drawing_ != nullptr) {
+            item.drawn = *slice.drawn;
+        }
         lane.put_staged(self_);
         stats_.rows++;
     }
@@ -299,6 +304,22 @@ void GaussianSlicingUnit::begin(TileNumber number, Slice& slice) {
     slice.last = rows.last;
     slice.below = config_.skip_dead_rows ? segments_below(tile, slice.splat) : ~std::uint64_t{0};
     stats_.splats++;
+    draw(number, slice);
+}
+
+// Splats begin in depth order, whatever unit of the module they are in.
+void GaussianSlicingUnit::draw(TileNumber number, Slice& slice) {
+    if (free_sheets_.empty()) {
+        free_sheets_.push_back(sheets_.size());
+        sheets_.emplace_back(drawing_ == nullptr ? 0 : job_.tile_size);
+    }
+    slice.sheet = free_sheets_.back();
+    free_sheets_.pop_back();
+    slice.drawn = sheets_[slice.sheet].data();
+    if (drawing_ != nullptr && !slice.done()) {
+        drawing_->draw(number, slice.splat, {slice.row, slice.last}, modules_,
+                       sheets_[slice.sheet].data());
+    }
 }
 
 } // namespace degs

@@ -10,6 +10,7 @@
 #include "modules/render_job.hpp"
 #include "modules/span_engine/open_chunks.hpp"
 #include "modules/sram_ports.hpp"
+#include "modules/tile_drawing.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
@@ -99,16 +100,20 @@ public:
                         int lanes, std::size_t slices, int segment_length);
 
     const Stats& stats() const { return stats_; }
+    /// Has the rows of every splat drawn; before the simulation starts.
+    void draw_with(TileDrawing& drawing) { drawing_ = &drawing; }
 
 private:
     /// A splat in a unit.
     struct Slice {
         std::uint32_t splat = 0;
-        int row = 0, last = -1;  // the next row to send, and the last one
-        std::uint64_t below = 0; // a bit per segment that its box covers
-        int rows_left = 0;       // that the unit may send in this cycle
-        int splats_left = 0;     // that it may take in this cycle, this one included
-        std::uint64_t chunk = 0; // see OpenChunks
+        int row = 0, last = -1;          // the next row to send, and the last one
+        std::uint64_t below = 0;         // a bit per segment that its box covers
+        int rows_left = 0;               // that the unit may send in this cycle
+        int splats_left = 0;             // that it may take in this cycle, this one included
+        std::uint64_t chunk = 0;         // see OpenChunks
+        std::size_t sheet = 0;           // of sheets_
+        const DrawnRow* drawn = nullptr; // of `row`
         bool done() const { return row > last; }
     };
 
@@ -125,6 +130,7 @@ private:
     std::uint32_t splat_of(std::uint32_t place) const;
     bool add_slice(TileNumber number);
     void begin(TileNumber number, Slice& slice);
+    void draw(TileNumber number, Slice& slice);
     [[gnu::noinline]] std::uint64_t segments_below(const JobTile& tile, std::uint32_t splat) const;
     void send_rows(TileNumber number, Slice& slice, int before);
     bool takes_row_port(std::size_t lane);
@@ -149,6 +155,9 @@ private:
     bool dropping_ = false;            // a chunk in this cycle
     std::vector<Slice> slices_;        // in work, oldest first
     OpenChunks open_chunks_;
+    TileDrawing* drawing_ = nullptr;
+    std::vector<std::vector<DrawnRow>> sheets_; // rows of the splats in work
+    std::vector<std::size_t> free_sheets_;
     Stats stats_;
 };
 

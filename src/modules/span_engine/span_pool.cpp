@@ -98,7 +98,7 @@ inline __attribute__((always_inline)) bool SpanPool::take_from(Lane& lane) {
         ++stats_.row_port_waits;
         return false;
     }
-    const RowItem item = lane.rows->front();
+    const RowItem& item = lane.rows->front();
     DatedFifo<SpanItem>& ring = *lane.stream->rings[port_of_row_[item.row]];
     if (!ring.has_room(self_)) {
         waiting_ = true;
@@ -108,9 +108,10 @@ inline __attribute__((always_inline)) bool SpanPool::take_from(Lane& lane) {
     ++lane.reads;
     lane.has_row = false;
     lane.looked_at = false;
+    const bool covers = solve(item, ring.staged());
     lane.rows->drop(self_);
     report(self_, &lane - lanes_.data());
-    if (solve(item.tile, item.splat, item.row, ring.staged())) {
+    if (covers) {
         ring.put_staged(self_);
     }
     return true;

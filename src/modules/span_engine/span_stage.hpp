@@ -34,6 +34,7 @@ public:
         int crossbar_width = 0;    ///< Span Vectors that a bank takes per cycle; 0: all it can cut
         SramPorts row_ports;       ///< of a lane of the Span Buffer, whose section has the key
         bool reports_rows = false; ///< to Parameter Release
+        bool drawn = false;        ///< rows come solved, see TileDrawing
         void describe(ConfigVisitor& visitor);
         /// Modules of the stage; each has units_per_module() units.
         int modules() const { return rows == RowAssignment::Pool ? 1 : count; }
@@ -81,7 +82,7 @@ protected:
         }
     }
     /// Solves a row of a splat in `result`. False: it misses every pixel of the tile.
-    inline bool solve(TileNumber number, std::uint32_t splat, int row, SpanItem& result);
+    inline bool solve(const RowItem& row, SpanItem& result);
 
     Config config_;
     const RenderJob& job_;
@@ -90,15 +91,29 @@ protected:
 
 // Inlined in the hot loops. The pixels of the span are made in place, because a copy of what was just
 // written waits for the write.
-inline __attribute__((always_inline)) bool SpanStage::solve(TileNumber number, std::uint32_t splat,
-                                                            int row, SpanItem& result) {
-    const JobTile& tile = job_.tiles[number];
-    const int y = tile.y + row, x_end = tile.x + tile.width;
-    const auto& span = *new (&result.span) std::optional<RowSpan>(
-        config_.parsing ? job_.path->solve_row(splat, y, tile.x, x_end, tile.y)
-                        : row_of_box(*job_.path, splat, y, tile.x, x_end, tile.y));
-    result.tile = number;
+inline __attribute__((always_inline)) bool SpanStage::solve(const RowItem& row, SpanItem& result) {
     stats_.rows++;
+    result.tile = row.tile;
+    if (config_.drawn) {
+        if (row.drawn.length == 0) {
+            stats_.empty_rows++;
+            return false;
+        }
+        RowSpan& span = result.span.emplace();
+        span.splat = row.splat;
+        span.y = row.row;
+        span.x0 = inside_tile(row.drawn.x0);
+        span.length = inside_tile(row.drawn.length);
+        result.drawn = row.drawn;
+        stats_.spans++;
+        stats_.tasks += row.drawn.length;
+        return true;
+    }
+    const JobTile& tile = job_.tiles[row.tile];
+    const int y = tile.y + row.row, x_end = tile.x + tile.width;
+    const auto& span = *new (&result.span) std::optional<RowSpan>(
+        config_.parsing ? job_.path->solve_row(row.splat, y, tile.x, x_end, tile.y)
+                        : row_of_box(*job_.path, row.splat, y, tile.x, x_end, tile.y));
     if (!span) {
         stats_.empty_rows++;
         return false;

@@ -46,23 +46,21 @@ void SpanUnit::pump() {
 // and written in place: a copy of what was just written waits for the write.
 void SpanUnit::take() {
     const RowItem& item = rows_->arrive(self_);
-    const TileNumber tile_number = item.tile;
-    const std::uint32_t splat = item.splat;
-    const int row = item.row;
-    const bool end = item.end;
-    rows_->drop(self_);
-    if (end) {
-        held_.tile = tile_number;
+    if (item.end) {
+        held_.tile = item.tile;
+        rows_->drop(self_);
         held_.span.reset();
         next_port_ = 0;
         holding_ = true;
         return;
     }
-    report(self_, 0);
-    next_port_ = port_of_row_[row];
+    next_port_ = port_of_row_[item.row];
     DatedFifo<SpanItem>& ring = *rings_[next_port_];
     holding_ = ring.full();
-    if (!solve(tile_number, splat, row, holding_ ? held_ : ring.staged())) {
+    const bool covers = solve(item, holding_ ? held_ : ring.staged());
+    rows_->drop(self_);
+    report(self_, 0);
+    if (!covers) {
         holding_ = false;
         self_.work(config_.cycles_per_row, stats_.busy);
     } else if (!holding_) {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "config/error.hpp"
 #include "config/ratio.hpp"
+#include "splat/frame/parallel.hpp"
 
 namespace degs {
 namespace {
@@ -42,24 +44,23 @@ std::array<double, kTaps> gaussian_window() {
     return window;
 }
 
-/// Walks the images once, keeping the horizontally filtered rows of one window height.
+/// Walks a band of rows of the images once, keeping the horizontally filtered rows of one window height.
 class StructuralSimilarity {
 public:
     StructuralSimilarity(const Image& first, const Image& second)
         : first_(first), second_(second), length_(first.width * kChannels),
           padded_(length_ + 2 * kPad), row_(length_), ring_(kTaps, Moments(length_)) {}
 
-    double mean() {
-        double sum = 0;
-        for (int y = 0; y < first_.height + kRadius; ++y) {
+    /// The sums of rows begin .. end - 1, to sums[begin] and after.
+    void add(int begin, int end, Line& sums) {
+        for (int y = std::max(begin - kRadius, 0); y < end + kRadius; ++y) {
             if (y < first_.height) {
                 filter_row(y);
             }
-            if (y >= kRadius) {
-                sum += row_sum(y - kRadius);
+            if (y >= begin + kRadius) {
+                sums[y - kRadius] = row_sum(y - kRadius);
             }
         }
-        return mean_of(sum, length_ * first_.height);
     }
 
 private:
@@ -141,6 +142,16 @@ double StructuralSimilarity::row_sum(int y) {
     return sum;
 }
 
+double mean_similarity(const Image& first, const Image& second) {
+    constexpr int kBand = 64; // rows: long against the rows of a window
+    Line sums(first.height);
+    parallel_blocks((first.height + kBand - 1) / kBand, [&](std::size_t block, std::size_t) {
+        const int begin = static_cast<int>(block) * kBand;
+        StructuralSimilarity(first, second).add(begin, std::min(begin + kBand, first.height), sums);
+    });
+    return mean_of(std::accumulate(sums.begin(), sums.end(), 0.0), first.rgb.size());
+}
+
 } // namespace
 
 void check_comparable(const Image& reference, const Image& test) {
@@ -169,7 +180,7 @@ ImageError compare_images(const Image& reference, const Image& test) {
     ImageError result;
     result.psnr_db = -10 * std::log10(mean_of(squares, reference.rgb.size()));
     result.max_abs_error = worst;
-    result.ssim = StructuralSimilarity(reference, test).mean();
+    result.ssim = mean_similarity(reference, test);
     return result;
 }
 

@@ -14,6 +14,7 @@ namespace degs {
 namespace narrow {
 constexpr int kLanes = 4;
 #include "splat/lanes/blend_kernel.inc"
+#include "splat/lanes/draw_kernel.inc"
 } // namespace narrow
 
 #ifdef DEGS_HAS_WIDE_LANES
@@ -23,6 +24,7 @@ constexpr int kLanes = 4;
 namespace wide {
 constexpr int kLanes = 8;
 #include "splat/lanes/blend_kernel.inc"
+#include "splat/lanes/draw_kernel.inc"
 } // namespace wide
 #undef DEGS_WIDE_MOVEMASK
 #pragma GCC pop_options
@@ -36,6 +38,14 @@ std::vector<BlendFunction<float>> blend_variants() {
 
 std::vector<TestFunction<float>> test_variants() {
     return runnable<TestFunction<float>>({&narrow::test_float, &wide::test_float});
+}
+
+std::vector<DrawFunction> draw_variants() {
+    return runnable<DrawFunction>({&narrow::draw_float, &wide::draw_float});
+}
+
+DrawFunction draw_function() {
+    return draw_variants().back();
 }
 
 BlendFunction<float> blend_function(float /*type*/) {

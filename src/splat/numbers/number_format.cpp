@@ -203,39 +203,40 @@ void describe_format(ConfigVisitor& visitor, const char* key, NumberFormat& form
     }
 }
 
-Rounder::Rounder(const NumberFormat& format) : fixed_(format.kind == NumberFormat::Kind::Fixed) {
+RoundingConstants::RoundingConstants(const NumberFormat& format)
+    : fixed(format.kind == NumberFormat::Kind::Fixed) {
     if (format.is_fp64()) {
         return;
     }
-    max_ = format.max();
-    min_ = format.has_sign ? -max_ : 0.0;
-    magic_ = 1.5 * std::ldexp(format.quantum(), 52);
-    if (fixed_) {
+    max = format.max();
+    min = format.has_sign ? -max : 0.0;
+    magic = 1.5 * std::ldexp(format.quantum(), 52);
+    if (fixed) {
         return;
     }
-    odd_ = 1;
-    shift_ = 52 - format.fraction_bits;
-    half_less_one_ = (std::uint64_t{1} << (shift_ - 1)) - 1;
-    keep_ = ~((std::uint64_t{1} << shift_) - 1);
-    magnitude_ = ~std::uint64_t{0} >> format.sign_bits();
-    low_ = pattern_of(format.min_normal());
-    range_ = pattern_of(max_) + half_less_one_ - low_; // what still rounds down to the largest
+    odd = 1;
+    shift = 52 - format.fraction_bits;
+    half_less_one = (std::uint64_t{1} << (shift - 1)) - 1;
+    keep = ~((std::uint64_t{1} << shift) - 1);
+    magnitude = ~std::uint64_t{0} >> format.sign_bits();
+    low = pattern_of(format.min_normal());
+    range = pattern_of(max) + half_less_one - low; // what still rounds down to the largest
 }
 
 /// A float that is subnormal, too large or no number.
 double Rounder::beside(double x) const {
-    return x >= min_ && x <= max_ ? (x + magic_) - magic_ : outside(x);
+    return x >= to_.min && x <= to_.max ? (x + to_.magic) - to_.magic : outside(x);
 }
 
 double Rounder::outside(double x) const {
     if (std::isnan(x)) {
-        return fixed_ ? max_ : x;
+        return to_.fixed ? to_.max : x;
     }
-    const double over = fixed_ ? max_ : std::numeric_limits<double>::infinity();
+    const double over = to_.fixed ? to_.max : std::numeric_limits<double>::infinity();
     if (x > 0) {
         return over;
     }
-    return min_ < 0 ? -over : 0.0;
+    return to_.min < 0 ? -over : 0.0;
 }
 
 LaneRounding::LaneRounding(const NumberFormat& format) {

@@ -62,27 +62,41 @@ NumberFormat parse_format(const std::string& name);
 void describe_format(ConfigVisitor& visitor, const char* key, NumberFormat& format,
                      const std::string& meaning);
 
+/// Constants with which doubles, one or lanes of them (row_kernel.inc), are rounded to a format.
+struct RoundingConstants {
+    bool fixed = false;
+    double min = 0, max = 0; ///< largest finite values of either sign
+    double magic = 0;        ///< 1.5 * 2^52 units, of fixed formats and of subnormals
+    // Patterns of doubles; `magnitude` keeps the sign bit if there are no negative values.
+    std::uint64_t magnitude = 0, low = 0, range = 0, half_less_one = 0, keep = ~std::uint64_t{0};
+    std::uint64_t odd = 0; ///< 1 if anything is cut off
+    int shift = 0;
+
+    RoundingConstants() = default; ///< to fp64: keeps everything
+    explicit RoundingConstants(const NumberFormat& format);
+};
+
 /// Rounds doubles to a format; the constants are worked out once.
 class Rounder {
 public:
     Rounder() = default; ///< to fp64: keeps everything
-    explicit Rounder(const NumberFormat& format);
+    explicit Rounder(const NumberFormat& format) : to_(format) {}
 
     double operator()(double x) const {
-        if (fixed_) { // adding and subtracting 1.5 * 2^52 units rounds to whole units
-            const double y = (x + magic_) - magic_;
-            return y >= min_ && y <= max_ ? y : outside(x);
+        if (to_.fixed) { // adding and subtracting 1.5 * 2^52 units rounds to whole units
+            const double y = (x + to_.magic) - to_.magic;
+            return y >= to_.min && y <= to_.max ? y : outside(x);
         }
         // What lies between the smallest normal and the largest value: half a unit less one is
         // added to the pattern, and the last bit that is kept, before the rest is cut. With fp64 all
         // patterns stay as they are.
         std::uint64_t bits = 0;
         std::memcpy(&bits, &x, sizeof bits);
-        if ((bits & magnitude_) - low_ > range_) {
+        if ((bits & to_.magnitude) - to_.low > to_.range) {
             return beside(x);
         }
-        bits += half_less_one_ + ((bits >> shift_) & odd_);
-        bits &= keep_;
+        bits += to_.half_less_one + ((bits >> to_.shift) & to_.odd);
+        bits &= to_.keep;
         double y = 0;
         std::memcpy(&y, &bits, sizeof y);
         return y;
@@ -92,13 +106,7 @@ private:
     double beside(double x) const;
     double outside(double x) const;
 
-    bool fixed_ = false;
-    double min_ = 0, max_ = 0, magic_ = 0; // magic_: of fixed formats, and of subnormals
-    // Patterns of doubles; magnitude_ keeps the sign bit if there are no negative values.
-    std::uint64_t magnitude_ = 0, low_ = 0, range_ = 0, half_less_one_ = 0,
-                  keep_ = ~std::uint64_t{0};
-    std::uint64_t odd_ = 0; // 1 if anything is cut off
-    int shift_ = 0;
+    RoundingConstants to_;
 };
 
 /// Constants of the integer rounding of float lanes (rounding.inc): bit patterns without their sign

@@ -2,12 +2,15 @@
 #include "splat/numbers/quantized_data_path.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "splat/coupled_row.hpp"
+#include "splat/draw_rows.hpp"
 #include "splat/numbers/quantized_extent.hpp"
 #include "splat/numbers/quantized_pixels.hpp"
+#include "splat/numbers/row_lanes.hpp"
 #include "splat/pixel_index.hpp"
 #include "splat/pixel_rows.hpp"
 
@@ -34,7 +37,7 @@ class QuantizedDataPath final : public DataPath {
 public:
     QuantizedDataPath(const NumberSet& set, const DataPathOptions& options, int tile_size,
                       int contexts)
-        : row_(with_ends(set, options)), slack_(row_.set()),
+        : row_(with_ends(set, options)), numbers_(row_.set()), slack_(row_.set()),
           refuse_(options.stop == StopRule::Refuse), rows_(contexts, tile_size),
           pixels_(make_quantized_pixels(row_)) {}
 
@@ -70,17 +73,11 @@ public:
                                      int tile_y) const override {
         std::optional<RowSpan> result; // named by every return: built in the place of the call
         const QuantizedSpan solved = row_.solve(splats_[splat], y, x_begin, x_end);
-        if (solved.empty()) {
-            return result;
+        if (!solved.empty()) {
+            result = row_span(solved, x_begin);
+            result->splat = splat;
+            result->y = inside_tile(y - tile_y);
         }
-        RowSpan& span = result.emplace();
-        span.splat = splat;
-        span.y = inside_tile(y - tile_y);
-        span.x0 = inside_tile(solved.x0 - x_begin);
-        span.length = inside_tile(solved.x1 - solved.x0 + 1);
-        span.base = inside_tile(solved.base - x_begin);
-        span.g0 = solved.g0;
-        span.d0 = solved.d0;
         return result;
     }
 
@@ -156,6 +153,18 @@ public:
 
     bool rounds_coarsely() const override { return true; }
 
+    void draw_rows(const TileRows& rows, DrawnRow* drawn) override {
+        if (!rows.tests) {
+            solve_rows(rows);
+        }
+        const auto solved = [this](int index, int /*row*/) -> const RowSpan& {
+            return solved_[index];
+        };
+        draw_row_by_row(*this, rows, solved, drawn);
+    }
+
+    void hold_contexts(int contexts) override { rows_.hold(contexts); }
+
     void read_row(int context, int row, int count, PixelValue* pixels) const override {
         if (!rows_.placed(context, row)) {
             std::fill_n(pixels, count, PixelValue{});
@@ -177,6 +186,24 @@ public:
     }
 
 private:
+    static constexpr int kMostRows = kMostDrawnColumns; // tiles are square
+
+    void solve_rows(const TileRows& rows) {
+        RowsToSolve wanted;
+        wanted.y = rows.tile_y + rows.first;
+        wanted.step = rows.step;
+        wanted.count = rows.last < rows.first ? 0 : (rows.last - rows.first) / rows.step + 1;
+        wanted.x_begin = rows.x_begin;
+        wanted.x_end = rows.x_end;
+        const QuantizedSplat& splat = splats_[rows.splat];
+        for (std::uint64_t left = solve_(numbers_, splat, wanted, solved_.data()); left != 0;
+             left &= left - 1) {
+            const int i = __builtin_ctzll(left);
+            solved_[i] = row_span(
+                row_.solve(splat, wanted.y + i * wanted.step, wanted.x_begin, wanted.x_end),
+                wanted.x_begin);
+        }
+    }
     [[gnu::noinline]] BlendOutcome begin_and_blend(const BlendTask& task) {
         return pixels_->blend(task, refuse_, at(task.context, task.row, task.column));
     }
@@ -185,6 +212,9 @@ private:
     }
 
     QuantizedRow row_;
+    RowNumbers numbers_;
+    SolveRowsFunction solve_ = solve_rows_function();
+    std::array<RowSpan, kMostRows> solved_; // of the splat that is drawn
     QuantizedSlack slack_;
     bool refuse_;
     PixelRows rows_;

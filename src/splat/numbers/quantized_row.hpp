@@ -47,7 +47,7 @@ struct QuantizedPixel {
 
 /// The row path of DeGS in the formats of a number set, value by value: record, Span Unit, PE.
 /// Every operation is carried out in double and rounded once to the format of its result. This is
-/// the definition; quantized_lanes.hpp computes pixels faster.
+/// the definition; row_lanes.hpp and quantized_lanes.hpp compute rows and pixels faster.
 class QuantizedRow {
 public:
     explicit QuantizedRow(NumberSet set);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tlm/clock_domain.hpp"
+
+namespace degs {
+
+/// Counts packets that reach their array slice without the ring of the Packing Buffer, as that ring would
+/// count them; see DatedFifo::Stats.
+class PassedPackets {
+public:
+    std::uint64_t items() const { return items_; }
+    Cycle empty_cycles() const { return empty_cycles_; }
+    Cycle occupied_cycles() const { return occupied_cycles_; }
+    std::size_t high_water() const { return high_water_; }
+
+    /// For a ring of `depth` cells.
+    void hold(std::size_t depth) {
+        std::size_t size = 1;
+        while (size <= depth) {
+            size *= 2;
+        }
+        reads_.resize(size);
+    }
+    /// A packet that leaves at `written` and executes at `slot`.
+    void pass_packet(Cycle written, Cycle slot) {
+        pass(written, slot);
+        ready_ = slot + 1;
+    }
+    /// The end of a tile alone, which may be read from `date` on.
+    Cycle pass_end(Cycle written, Cycle date) {
+        const Cycle read = date > ready_ ? date : ready_;
+        pass(written, read);
+        ready_ = read;
+        return read;
+    }
+
+private:
+    void pass(Cycle written, Cycle read) {
+        const std::size_t mask = reads_.size() - 1;
+        empty_cycles_ += read - ready_;
+        occupied_cycles_ += read - written;
+        // The mark rises by one where as many items as before it were still inside.
+        if (high_water_ == 0 || reads_[(items_ - high_water_) & mask] > written) {
+            high_water_++;
+        }
+        reads_[items_++ & mask] = read;
+    }
+
+    std::vector<Cycle> reads_; // of the latest items, in their order
+    std::uint64_t items_ = 0;
+    Cycle ready_ = 0; // of the reader
+    Cycle empty_cycles_ = 0, occupied_cycles_ = 0;
+    std::size_t high_water_ = 0;
+};
+
+} // namespace degs
