@@ -74,7 +74,7 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     AcceleratorResult result;
     result.elaborate_s = elaborate.seconds();
 
-    const Stopwatch run;
+    const CpuStopwatch run;
     run_kernel(*engine, time.clock, job.tiles.size(), progress);
     result.sim_s = run.seconds();
 

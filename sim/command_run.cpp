@@ -6,10 +6,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/error.hpp"
 #include "scene/image_io.hpp"
+#include "sim/cache/cached_view.hpp"
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
+#include "sim/stopwatch.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/text/terminal.hpp"
 #include "sim/trace/tile_maps.hpp"
@@ -27,35 +30,89 @@ struct RunOptions {
     ViewRequest view;
     PathRequest path;
     std::string fidelity = "exact";
+    std::optional<std::string> within;
+    std::uint64_t seed = 1;
     std::string out = "out";
     bool no_reference = false;
+    bool no_cache = false;
     bool array_only = false;
     bool explain = false;
     TraceRequest trace;
     std::string maps; ///< folder; empty: none
 };
 
+/// What needs every tile cannot come from a sample.
+std::optional<SamplingRequest> wanted_sampling(const RunOptions& options) {
+    std::optional<SamplingRequest> sampling =
+        sampling_of(options.fidelity, options.within, options.seed);
+    if (!sampling) {
+        return {};
+    }
+    const auto refuse = [](const std::string& option) {
+        throw InputError(option + " needs every tile, so it cannot be combined with --within or "
+                                  "--fidelity sampled.");
+    };
+    if (!options.trace.file.empty()) {
+        refuse("--trace");
+    }
+    if (!options.maps.empty()) {
+        refuse("--maps");
+    }
+    if (options.path.frames > 1) {
+        refuse("--frames");
+    }
+    return sampling;
+}
+
+/// Makes or finds the frames, runs them and compares with the reference.
+RunResult simulate(const RunRequest& request, CachedView& view) {
+    const Stopwatch wall;
+    const std::vector<FrameWorkload> workloads = view.frames(request.config.accelerator());
+    std::optional<Reference> reference; // now if it needs the Gaussians, else after the run
+    const bool from_scene = request.reference && !workloads.front().projection.format.is_fp64();
+    if (from_scene && !request.sampling) {
+        reference = view.reference(workloads.front());
+    }
+    view.forget_cloud(); // everything that follows needs the splats only
+    std::vector<const FrameWorkload*> frames;
+    frames.reserve(workloads.size());
+    for (const FrameWorkload& workload : workloads) {
+        frames.push_back(&workload);
+    }
+    RunResult result = run_frames(request, frames);
+    result.scene = view.facts();
+    if (request.reference && !result.sampling) { // most of a sample's image is missing
+        reference = reference ? std::move(reference) : view.reference(workloads.front());
+        judge(result, *reference);
+    }
+    result.host.load_s = view.load_s();
+    result.host.workload_s = view.workload_s();
+    result.host.wall_s = view.load_s() + wall.seconds();
+    result.host.peak_rss_bytes = peak_rss_bytes();
+    view.keep(workloads, reference ? &*reference : nullptr);
+    return result;
+}
+
 void run(const RunOptions& options) {
+    const std::optional<SamplingRequest> sampling = wanted_sampling(options);
     const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
-    View view = load_view(options.view);
+    CachedView view(options.view, options.path,
+                    options.no_cache ? FrameCache() : FrameCache::of_user());
     const OutputFolder out(options.out, {"image.exr", "image.png", "report.json"});
     const Fidelity fidelity = options.fidelity == "strict" ? Fidelity::Strict : Fidelity::Exact;
-    std::vector<Camera> following =
-        camera_path(view.scene.cloud, view.camera, options.path.frames, options.path.step_degrees);
-    following.erase(following.begin());
     RunRequest request;
     request.config = config;
     request.fidelity = fidelity;
     request.build.array_only = options.array_only;
     request.reference = !options.no_reference;
-    request.following = std::move(following);
+    request.sampling = sampling;
     request.recording.timeline = timeline_of(options.trace);
     std::optional<OutputFolder> maps;
     if (!options.maps.empty()) {
         maps.emplace(options.maps, tile_map_files());
         request.recording.tiles = true;
     }
-    const RunResult result = simulate(request, std::move(view));
+    const RunResult result = simulate(request, view);
     write_exr(result.accelerator.images.front(), out.path("image.exr"));
     write_png(result.accelerator.images.front(), out.path("image.png"));
     out.write_json("report.json", report(result));
@@ -81,9 +138,11 @@ void add_run_command(CLI::App& program) {
     add_path_options(*command, options->path);
     command
         ->add_option("--fidelity", options->fidelity,
-                     "exact, or strict: synchronise every cycle; the results are the same")
-        ->check(CLI::IsMember({"exact", "strict"}))
+                     "exact; strict: synchronise every cycle, the results are the same; "
+                     "sampled:10%: estimate them from that share of the tiles")
+        ->type_name("TEXT:{exact,strict}") // what can be completed
         ->capture_default_str();
+    add_sampling_options(*command, options->within, options->seed);
     add_out_option(*command, options->out, "folder for image.exr, image.png and report.json");
     command
         ->add_option("--memory", options->memory,
@@ -93,6 +152,8 @@ void add_run_command(CLI::App& program) {
     add_overrides_option(*command, options->overrides);
     command->add_flag("--no-reference", options->no_reference,
                       "do not render the double-precision image to compare with");
+    command->add_flag("--no-cache", options->no_cache,
+                      "neither read nor keep frames and reference images of earlier runs");
     command->add_flag(
         "--array-only", options->array_only,
         "the rasterisation array alone: sorted lists are there at once, and memory is "

@@ -72,13 +72,25 @@ void add_commands(CLI::App& program) {
     require_decimal_numbers(program);
 }
 
-} // namespace
-
-void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides) {
-    command.add_option("--set", overrides, "path.to.key=value overrides the file; may be repeated")
+CLI::Option* add_set_option(CLI::App& command, std::vector<std::string>& overrides,
+                            const char* meaning) {
+    return command.add_option("--set", overrides, meaning)
         ->type_name("KEY=VALUE")
         ->take_all()
         ->expected(1);
+}
+
+} // namespace
+
+void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides) {
+    add_set_option(command, overrides, "path.to.key=value overrides the file; may be repeated");
+}
+
+CLI::Option* add_addressed_overrides_option(CLI::App& command,
+                                            std::vector<std::string>& overrides) {
+    return add_set_option(command, overrides,
+                          "path.to.key=value for all designs, NAME:path.to.key=value for one; may "
+                          "be repeated");
 }
 
 int run_program(int argc, char* argv[]) {

@@ -7,6 +7,7 @@
 
 #include "config/config_document.hpp"
 #include "config/statistics_document.hpp"
+#include "sim/text/losses.hpp"
 
 namespace degs::sim {
 namespace {
@@ -71,12 +72,16 @@ std::optional<double> ratio(double part, const std::optional<double>& whole) {
 void describe_host(const RunResult& result, StatsVisitor& v) {
     const HostFacts& host = result.host;
     v.begin_section("host", "The machine that simulated; differs between runs.");
-    v.text("fidelity", host.fidelity, "exact or strict.");
+    v.text("fidelity", host.fidelity, "exact, strict or sampled.");
     v.real("load_s", host.load_s, "s", "Reading the scene.");
     v.real("workload_s", host.workload_s, "s", "Projection, depth order and tile lists.");
     v.real("elaborate_s", host.elaborate_s, "s", "Building the model.");
-    v.real("sim_s", host.sim_s, "s", "The simulation proper.");
-    v.real("render_s", host.render_s, "s", "The reference image; null with --no-reference.");
+    v.real("sim_s", host.sim_s, "s", "The simulation proper, on one processor.");
+    v.real("run_s", host.run_s, "s",
+           "Everything between the projected frames and their results, on one processor: the "
+           "expected work of the tiles, building, simulation, and a sample that came to nothing.");
+    v.real("render_s", host.render_s, "s",
+           "The reference image, on one processor; null with --no-reference.");
     v.real("sim_over_render", ratio(host.sim_s, host.render_s), "", "sim_s / render_s.");
     v.real("wall_s", host.wall_s, "s", "All of it, without writing the files.");
     v.real("fragments_per_s",
@@ -93,10 +98,51 @@ void describe_outcome(const RunResult& result, StatsVisitor& v) {
     describe_image(result.error, v);
 }
 
+/// Intervals at the places that their numbers have in the report.
+ordered_json intervals_json(const std::vector<ReportInterval>& intervals) {
+    ordered_json json = ordered_json::object();
+    for (const ReportInterval& interval : intervals) {
+        ordered_json* place = &json;
+        std::size_t from = 0;
+        for (std::size_t dot = interval.path.find('.'); dot != std::string::npos;
+             dot = interval.path.find('.', from)) {
+            place = &(*place)[interval.path.substr(from, dot - from)];
+            from = dot + 1;
+        }
+        (*place)[interval.path.substr(from)] = {interval.low, interval.high};
+    }
+    return json;
+}
+
+ordered_json sampling_json(const SamplingFacts& sampling) {
+    const SamplingRequest& request = sampling.request;
+    ordered_json json;
+    json["measure"] = request.measure;
+    json["within"] = request.within > 0 ? ordered_json(request.within) : ordered_json(nullptr);
+    json["share"] = request.share > 0 ? ordered_json(request.share) : ordered_json(nullptr);
+    json["seed"] = request.seed;
+    json["reached"] = sampling.reached;
+    json["confidence"] = 0.95;
+    json["tiles"] = sampling.tiles;
+    json["tiles_measured"] = sampling.measured;
+    json["tiles_simulated"] = sampling.simulated;
+    json["groups"] = sampling.groups;
+    json["intervals"] = intervals_json(sampling.intervals);
+    return json;
+}
+
 ordered_json laws_json(const AcceleratorResult& run) {
     ordered_json json = ordered_json::array();
     for (const Conservation& c : run.conservation) {
         json.push_back({{"law", c.law}, {"left", c.left}, {"right", c.right}});
+    }
+    return json;
+}
+
+ordered_json losses_json(const RunResult& result) {
+    ordered_json json = ordered_json::array();
+    for (const Loss& loss : losses_of(result)) {
+        json.push_back({{"reason", loss.reason}, {"share", loss.share}, {"keys", loss.keys}});
     }
     return json;
 }
@@ -159,9 +205,13 @@ ordered_json report(const RunResult& result) {
     json["workload"] = workload_json(result.workload, result.scene);
     json.update(statistics_json(
         list_statistics([&](StatsVisitor& visitor) { result.accelerator.describe(visitor); })));
+    json["losses"] = losses_json(result);
     json["conservation"] = laws_json(result.accelerator);
     json.update(statistics_json(
         list_statistics([&](StatsVisitor& visitor) { describe_outcome(result, visitor); })));
+    if (result.sampling) {
+        json["sampling"] = sampling_json(*result.sampling);
+    }
     json["warnings"] = result.warnings;
     json.update(statistics_json(
         list_statistics([&](StatsVisitor& visitor) { describe_host(result, visitor); })));

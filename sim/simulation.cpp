@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/simulation.hpp"
 
+#include <stdexcept>
+#include <utility>
+
 #include <sys/resource.h>
 
+#include "sim/process/reserve.hpp"
 #include "sim/stopwatch.hpp"
+#include "sim/text/loss_keys.hpp"
 #include "sim/warnings.hpp"
 
 namespace degs::sim {
+
 SceneFacts facts_of(const Scene& scene) {
     return {scene.name, scene.source, scene.cloud.size(), scene.cloud.sh_degree, scene.dropped};
 }
@@ -51,7 +57,7 @@ std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud,
 
 Reference make_reference(const FrameWorkload& workload) {
     const Progress progress("reference image");
-    const Stopwatch clock;
+    const CpuStopwatch clock;
     Reference reference;
     reference.image = render_reference(workload, reference.counts);
     reference.render_s = clock.seconds();
@@ -77,9 +83,49 @@ void judge(RunResult& result, const Reference& reference) {
     result.error = compare_images(reference.image, result.accelerator.images.front());
 }
 
+namespace {
+
+/// The sample that the request asks for, or the reason why there is none. A sample that turns out to
+/// be too small costs the process its simulation, so that a reserve goes on.
+std::optional<SampledResult> try_sample(const RunRequest& request,
+                                        const std::vector<const FrameWorkload*>& frames,
+                                        std::string& refusal, double& lost_s) {
+    Reserve reserve;
+    refusal = reserve.called_for();
+    lost_s = reserve.replaced_s();
+    if (!refusal.empty()) {
+        return {};
+    }
+    std::optional<SampledResult> sampled;
+    {
+        Progress progress("simulation of a sample");
+        sampled = run_sampled(request.config.accelerator(), frames, request.fidelity, request.build,
+                              *request.sampling, progress);
+    }
+    if (sampled->facts.refusal.empty()) {
+        return sampled;
+    }
+    refusal = sampled->facts.refusal;
+    if (sampled->facts.groups == 0) { // nothing has been simulated yet
+        return {};
+    }
+    if (!reserve.available()) {
+        throw std::runtime_error("No process could be started for the exact run. " + refusal);
+    }
+    reserve.call(refusal);
+}
+
+const char* name_of(Fidelity fidelity) {
+    return fidelity == Fidelity::Strict ? "strict" : "exact";
+}
+
+} // namespace
+
 RunResult run_frames(const RunRequest& request, const std::vector<const FrameWorkload*>& frames) {
+    const CpuStopwatch clock;
     RunResult result;
     result.config = request.config;
+    result.movable_keys = LossKeys(result).movable();
     result.camera = frames.front()->camera;
     result.workload = facts_of(*frames.front());
     result.warnings = request.config.warnings;
@@ -87,45 +133,30 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
          saturation_warnings(request.config.accelerator().data_path(), *frames.front())) {
         result.warnings.push_back(std::move(sentence));
     }
-    Progress progress("simulation");
-    result.accelerator = run_accelerator(request.config.accelerator(), frames, request.fidelity,
-                                         request.build, request.recording, progress);
+    std::string refusal;
+    double lost_s = 0;
+    std::optional<SampledResult> sampled;
+    if (request.sampling) {
+        sampled = try_sample(request, frames, refusal, lost_s);
+    }
+    if (!refusal.empty()) {
+        result.warnings.push_back(refusal);
+    }
+    if (sampled) {
+        result.accelerator = std::move(sampled->result);
+        result.sampling = std::move(sampled->facts);
+    } else {
+        Progress progress("simulation");
+        result.accelerator = run_accelerator(request.config.accelerator(), frames, request.fidelity,
+                                             request.build, request.recording, progress);
+    }
     for (std::string& sentence : hazard_warnings(result.accelerator)) {
         result.warnings.push_back(std::move(sentence));
     }
-    result.host.fidelity = request.fidelity == Fidelity::Strict ? "strict" : "exact";
+    result.host.fidelity = sampled ? "sampled" : name_of(request.fidelity);
     result.host.elaborate_s = result.accelerator.elaborate_s;
     result.host.sim_s = result.accelerator.sim_s;
-    result.host.peak_rss_bytes = peak_rss_bytes();
-    return result;
-}
-
-RunResult simulate(const RunRequest& request, View view) {
-    const Stopwatch wall;
-    std::vector<Camera> cameras{view.camera};
-    cameras.insert(cameras.end(), request.following.begin(), request.following.end());
-    double workload_s = 0;
-    const std::vector<FrameWorkload> workloads =
-        make_workloads(view.scene.cloud, cameras, request.config.accelerator(), workload_s);
-    const SceneFacts scene = facts_of(view.scene);
-    std::optional<Reference> reference; // now if it needs the Gaussians, else after the run
-    if (request.reference && !workloads.front().projection.format.is_fp64()) {
-        reference = make_reference(view.scene.cloud, workloads.front(), workload_s);
-    }
-    view.scene.cloud = GaussianCloud{}; // everything that follows needs the splats only
-    std::vector<const FrameWorkload*> frames;
-    frames.reserve(workloads.size());
-    for (const FrameWorkload& workload : workloads) {
-        frames.push_back(&workload);
-    }
-    RunResult result = run_frames(request, frames);
-    result.scene = scene;
-    if (request.reference) {
-        judge(result, reference ? *reference : make_reference(workloads.front()));
-    }
-    result.host.load_s = view.load_s;
-    result.host.workload_s = workload_s;
-    result.host.wall_s = view.load_s + wall.seconds();
+    result.host.run_s = lost_s + clock.seconds();
     result.host.peak_rss_bytes = peak_rss_bytes();
     return result;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One run: scene -> workload -> accelerator -> results, and the reference to compare with.
+// One run: workload -> accelerator -> results, and the reference to compare with.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 #include "sim/accelerator_run.hpp"
 #include "sim/run_config.hpp"
+#include "sim/sampling/sampled_run.hpp"
 #include "sim/view.hpp"
 #include "splat/images/image_metrics.hpp"
 #include "splat/reference_renderer.hpp"
@@ -19,9 +20,9 @@ struct RunRequest {
     RunConfig config;
     Fidelity fidelity = Fidelity::Exact;
     BuildOptions build;
-    bool reference = true;         ///< render the double-precision image and compare
-    std::vector<Camera> following; ///< frames after the view's own, of the same size
+    bool reference = true; ///< render the double-precision image and compare
     Recording recording;
+    std::optional<SamplingRequest> sampling; ///< simulate a sample of the tiles, if it will do
 };
 
 /// The facts of a scene that stay when its Gaussians have become a workload.
@@ -45,7 +46,7 @@ struct WorkloadFacts {
 /// between two runs.
 struct HostFacts {
     std::string fidelity;
-    double load_s = 0, workload_s = 0, elaborate_s = 0, sim_s = 0, wall_s = 0;
+    double load_s = 0, workload_s = 0, elaborate_s = 0, sim_s = 0, run_s = 0, wall_s = 0;
     std::optional<double> render_s;
     std::uint64_t peak_rss_bytes = 0;
 };
@@ -56,8 +57,10 @@ struct RunResult {
     RunConfig config;
     WorkloadFacts workload; ///< of the first frame
     AcceleratorResult accelerator;
-    std::vector<std::string> warnings; ///< sentences; see warnings.hpp
-    std::optional<ImageError> error;   ///< first frame against the reference
+    std::vector<std::string> movable_keys; ///< see LossKeys::movable; asked before the simulation
+    std::vector<std::string> warnings;     ///< sentences; see warnings.hpp
+    std::optional<ImageError> error;       ///< first frame against the reference
+    std::optional<SamplingFacts> sampling; ///< if the numbers are estimates from a sample
     HostFacts host;
 };
 
@@ -65,7 +68,7 @@ struct RunResult {
 struct Reference {
     Image image;
     ReferenceCounts counts;
-    double render_s = 0; ///< host
+    double render_s = 0; ///< host, what one processor needs
 };
 
 SceneFacts facts_of(const Scene& scene);
@@ -87,11 +90,8 @@ void judge(RunResult& result, const Reference& reference);
 
 /// Runs the accelerator on frames that were made for it (at least one). The caller fills in the
 /// facts of the scene, the host times of earlier steps and the comparison. Throws std::logic_error if the
-/// model violates an invariant. May be called once per process.
+/// model violates an invariant. May be called once per process. If a sample is asked for that does not
+/// reach the interval, the run is exact, with a warning; another process may go on with it then.
 RunResult run_frames(const RunRequest& request, const std::vector<const FrameWorkload*>& frames);
-
-/// Makes frames, runs them and renders the reference. Throws InputError for mistakes of the user,
-/// std::logic_error if an invariant is violated. `view` loses its Gaussians once projected.
-RunResult simulate(const RunRequest& request, View view);
 
 } // namespace degs::sim

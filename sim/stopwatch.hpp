@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <ctime>
 
 namespace degs::sim {
 
@@ -14,6 +15,22 @@ public:
 
 private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Measures the time that all threads of this process have computed since its construction, s: what one
+/// processor would need.
+class CpuStopwatch {
+public:
+    double seconds() const { return now() - start_; }
+
+private:
+    static double now() {
+        timespec time{};
+        ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+
+    double start_ = now();
 };
 
 } // namespace degs::sim

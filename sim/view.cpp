@@ -110,19 +110,30 @@ Camera resize(const Camera& camera, std::optional<int> width, std::optional<int>
     return resized;
 }
 
-View load_view(const ViewRequest& request) {
+void check_view(const ViewRequest& request) {
     check_positive("--width", request.width);
     check_positive("--height", request.height);
-    const std::optional<int> height =
-        request.resolution.empty() ? request.height : resolution_height(request.resolution);
+    if (!request.resolution.empty()) {
+        resolution_height(request.resolution);
+    }
     if (request.scene.empty()) {
         throw InputError("The scene has an empty name; a file or synthetic:NAME is needed.");
     }
+}
+
+Camera camera_of(const ViewRequest& request, const Scene& scene) {
+    const std::optional<int> height =
+        request.resolution.empty() ? request.height : resolution_height(request.resolution);
+    return resize(select_camera(scene, request.camera), request.width, height);
+}
+
+View load_view(const ViewRequest& request) {
+    check_view(request);
     const Progress progress("loading " + request.scene);
     const Stopwatch clock;
     View view;
     view.scene = load_scene(request.scene, request.camera_file);
-    view.camera = resize(select_camera(view.scene, request.camera), request.width, height);
+    view.camera = camera_of(request, view.scene);
     view.load_s = clock.seconds();
     return view;
 }

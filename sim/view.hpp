@@ -49,6 +49,10 @@ struct PathRequest {
 
 /// Loads the scene and resizes the camera. Throws InputError.
 View load_view(const ViewRequest& request);
+/// What can be refused before the scene is loaded. Throws InputError.
+void check_view(const ViewRequest& request);
+/// The camera of the view in its size; the scene needs no Gaussians. Throws InputError.
+Camera camera_of(const ViewRequest& request, const Scene& scene);
 
 /// Width alone or height alone scales the view; both give the image that size at the scale of the
 /// width, so that another aspect ratio shows more or less above and below. Throws InputError.

@@ -72,4 +72,16 @@ void add_path_options(CLI::App& command, PathRequest& request) {
         ->capture_default_str();
 }
 
+void add_sampling_options(CLI::App& command, std::optional<std::string>& within,
+                          std::uint64_t& seed) {
+    command
+        .add_option("--within", within,
+                    "simulate no more tiles than it takes for a 95 % interval of this half-width: "
+                    "1% (of the cycles), or useful:2% (of another measure)")
+        ->type_name("ERROR");
+    command.add_option("--seed", seed, "of the draw of tiles, with --within or a sampled fidelity")
+        ->type_name("UINT")
+        ->capture_default_str();
+}
+
 } // namespace degs::sim

@@ -3,6 +3,8 @@
 // every source that sees it.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include <CLI/App.hpp>
@@ -28,5 +30,9 @@ CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* 
 
 /// Adds --frames and --path-step.
 void add_path_options(CLI::App& command, PathRequest& request);
+
+/// Adds --within and --seed, for commands that may simulate a sample of the tiles.
+void add_sampling_options(CLI::App& command, std::optional<std::string>& within,
+                          std::uint64_t& seed);
 
 } // namespace degs::sim

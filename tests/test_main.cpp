@@ -10,6 +10,8 @@ namespace {
 /// SystemC prints its banner before sc_main; set early, it spares builds (test discovery) and
 /// tests.
 const int kNoBanner = ::setenv("SYSTEMC_DISABLE_COPYRIGHT_MESSAGE", "1", 1);
+/// Tests neither find nor leave anything in the cache of whoever runs them.
+const int kNoCache = ::setenv("DEGS_CACHE", "", 1);
 } // namespace
 
 #ifdef __SANITIZE_ADDRESS__
@@ -21,5 +23,5 @@ extern "C" int __lsan_is_turned_off() { // NOLINT(bugprone-reserved-identifier)
 
 int sc_main(int argc, char* argv[]) {
     ::testing::InitGoogleTest(&argc, argv);
-    return kNoBanner != 0 ? kNoBanner : RUN_ALL_TESTS();
+    return kNoBanner != 0 || kNoCache != 0 ? 1 : RUN_ALL_TESTS();
 }

@@ -10,6 +10,7 @@
 #include "sim/accuracy/accuracy.hpp"
 #include "sim/accuracy/accuracy_numbers.hpp"
 #include "sim/accuracy/hard_case_run.hpp"
+#include "sim/accuracy/speed/speed.hpp"
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/scene_list.hpp"
@@ -30,7 +31,12 @@ struct AccuracyOptions {
     bool no_error_images = false;
     bool single_gaussian = false;
     bool hard_cases = false;
-    std::vector<std::string> only; ///< hard cases
+    std::vector<std::string> only;  ///< hard cases
+    std::vector<std::string> speed; ///< configurations, as written
+    std::vector<std::string> overrides;
+    std::vector<std::string> fidelities{"strict", "exact", "within:1%"};
+    std::uint64_t seeds = 5;
+    bool own_numbers = false; ///< --numbers was given
     std::uint64_t seed = 1;
     int splats = 2000;
     std::string out = "out";
@@ -130,7 +136,41 @@ void run_hard(const AccuracyOptions& options) {
     print(hard_case_table(results) + "all numbers: " + visible(out.path("hard_cases.json")) + "\n");
 }
 
+SpeedRequest speed_request(const AccuracyOptions& options) {
+    SpeedRequest request;
+    request.designs =
+        speed_designs(options.speed, options.overrides,
+                      options.own_numbers ? options.numbers : std::vector<std::string>());
+    for (const std::string& name : options.fidelities) {
+        speed_fidelity(name); // reports a mistake before anything runs
+    }
+    request.fidelities = options.fidelities;
+    request.seeds = options.seeds;
+    const std::vector<ViewRequest> views = views_of(options);
+    if (views.size() != 1 || options.resolutions.size() > 1) {
+        throw InputError("--speed measures one view: one --scene and at most one --resolution.");
+    }
+    check_scene(views.front().scene);
+    request.view = views.front();
+    request.view.resolution = options.resolutions.empty() ? "" : options.resolutions.front();
+    return request;
+}
+
+void run_speed(const AccuracyOptions& options) {
+    const SpeedRequest request = speed_request(options);
+    const OutputFolder out(options.out, {"speed.json", "speed.svg"});
+    const SpeedResult result = measure_speed(request);
+    out.write_json("speed.json", speed_json(result));
+    out.write_text("speed.svg", speed_svg(result));
+    print(speed_table(result) + "all numbers: " + visible(out.path("speed.json")) +
+          "\nplot: " + visible(out.path("speed.svg")) + "\n");
+}
+
 void run(const AccuracyOptions& options) {
+    if (!options.speed.empty()) {
+        run_speed(options);
+        return;
+    }
     if (options.hard_cases) {
         run_hard(options);
         return;
@@ -143,7 +183,7 @@ void run(const AccuracyOptions& options) {
     }
     if (options.scenes.empty()) {
         throw InputError(
-            "There is nothing to measure; --scene, --single-gaussian or --hard-cases is "
+            "There is nothing to measure; --scene, --single-gaussian, --hard-cases or --speed is "
             "needed.");
     }
     const SceneAccuracyRequest request = scene_request(options);
@@ -212,11 +252,32 @@ void add_accuracy_command(CLI::App& program) {
         ->delimiter(',')
         ->take_all()
         ->needs(hard);
-    command->add_option("--numbers", options->numbers, set_words())
+    CLI::Option* speed =
+        command
+            ->add_option(
+                "--speed", options->speed,
+                "speed of runs of these configurations against their error: every fidelity "
+                "in `ideal`, `fp32` and the numbers of the configuration, or in those of "
+                "--numbers; as FILE or NAME=FILE, several separated by spaces")
+            ->type_name("FILES");
+    command
+        ->add_option("--fidelities", options->fidelities,
+                     "strict, exact, sampled:10%, within:1%; several separated by commas")
         ->type_name("NAMES")
         ->delimiter(',')
         ->take_all()
-        ->capture_default_str();
+        ->capture_default_str()
+        ->needs(speed);
+    command->add_option("--seeds", options->seeds, "samples of each kind: seeds 1 to this number")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str()
+        ->needs(speed);
+    add_addressed_overrides_option(*command, options->overrides)->needs(speed);
+    CLI::Option* numbers = command->add_option("--numbers", options->numbers, set_words())
+                               ->type_name("NAMES")
+                               ->delimiter(',')
+                               ->take_all()
+                               ->capture_default_str();
     add_scene_options(*command, *options);
     command->add_option("--seed", options->seed, "seed of the random numbers of single Gaussians")
         ->capture_default_str();
@@ -224,7 +285,10 @@ void add_accuracy_command(CLI::App& program) {
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
     add_out_option(*command, options->out, "folder for accuracy.json, the plot and the images");
-    command->callback([options] { run(*options); });
+    command->callback([options, numbers] {
+        options->own_numbers = numbers->count() > 0;
+        run(*options);
+    });
 }
 
 } // namespace degs::sim

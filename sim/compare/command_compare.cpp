@@ -22,6 +22,8 @@ struct CompareOptions {
     PathRequest path;
     bool array_only = false;
     bool no_reference = false;
+    std::optional<std::string> within;
+    std::uint64_t seed = 1;
     int jobs = 1;
     std::string out = "out";
 };
@@ -41,6 +43,7 @@ CompareRequest request_of(const CompareOptions& options) {
     request.path = options.path;
     request.array_only = options.array_only;
     request.reference = !options.no_reference;
+    request.sampling = sampling_for_runs(options.within, options.seed, options.path.frames);
     request.jobs = options.jobs;
     return request;
 }
@@ -93,12 +96,8 @@ void add_what_options(CLI::App& command, CompareOptions& options) {
     command.add_option("--width", options.width, "image width in pixels; the views are scaled")
         ->excludes(resolution);
     add_path_options(command, options.path);
-    command
-        .add_option("--set", options.overrides,
-                    "path.to.key=value for all, NAME:path.to.key=value for one; may be repeated")
-        ->type_name("KEY=VALUE")
-        ->take_all()
-        ->expected(1);
+    add_sampling_options(command, options.within, options.seed);
+    add_addressed_overrides_option(command, options.overrides);
     command.add_flag("--array-only", options.array_only,
                      "the rasterisation arrays alone: sorted lists are there at once, and memory "
                      "is unlimited");

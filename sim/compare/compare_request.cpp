@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "config/error.hpp"
+#include "sim/compare/addressed_overrides.hpp"
 #include "sim/sweep/study_file.hpp"
 
 namespace degs::sim {
@@ -40,27 +41,6 @@ void add_drafts(std::vector<StudyDesign>& drafts, const std::string& word) {
     }
 }
 
-/// Empty if the override is for all.
-std::string addressee(const std::string& text) {
-    const std::string key = text.substr(0, text.find('='));
-    const std::size_t colon = key.find(':');
-    return colon == std::string::npos ? "" : key.substr(0, colon);
-}
-
-std::vector<std::string> overrides_of(const std::string& name,
-                                      const std::vector<std::string>& overrides) {
-    std::vector<std::string> own;
-    for (const std::string& text : overrides) {
-        const std::string to = addressee(text);
-        if (to.empty()) {
-            own.push_back(text);
-        } else if (to == name) {
-            own.push_back(text.substr(to.size() + 1));
-        }
-    }
-    return own;
-}
-
 std::vector<std::string> split(const std::string& text) {
     std::vector<std::string> parts;
     std::size_t begin = 0;
@@ -84,6 +64,16 @@ void check_scenes(const std::vector<std::string>& scenes) {
     }
 }
 
+std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string>& within,
+                                                 std::uint64_t seed, int frames) {
+    std::optional<SamplingRequest> sampling = sampling_of("exact", within, seed);
+    if (sampling && frames > 1) {
+        throw InputError("--frames asks for a camera path, which needs every tile, so it cannot be "
+                         "combined with --within.");
+    }
+    return sampling;
+}
+
 std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
                                       const std::vector<std::string>& overrides) {
     std::vector<StudyDesign> drafts;
@@ -104,14 +94,12 @@ std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
                              "'; NAME=FILE keeps them apart.");
         }
     }
-    for (const std::string& text : overrides) {
-        const std::string to = addressee(text);
-        if (!to.empty() && count(to) == 0) {
-            std::string sentence = "--set ";
-            sentence.append(text).append(" is for '").append(to);
-            throw InputError(sentence.append("', but no configuration is called so."));
-        }
+    std::vector<std::string> names;
+    names.reserve(drafts.size());
+    for (const StudyDesign& draft : drafts) {
+        names.push_back(draft.name);
     }
+    check_addressees(overrides, names);
     std::vector<NamedConfig> configs;
     configs.reserve(drafts.size());
     for (const StudyDesign& draft : drafts) {

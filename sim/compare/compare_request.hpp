@@ -2,11 +2,13 @@
 // The request of `degs compare`, checked before anything long starts.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/run_config.hpp"
+#include "sim/sampling/sampling_request.hpp"
 #include "sim/view.hpp"
 
 namespace degs::sim {
@@ -29,8 +31,9 @@ struct CompareRequest {
     std::vector<ImageSize> sizes{ImageSize{}};
     PathRequest path;
     bool array_only = false;
-    bool reference = true;
-    int jobs = 1; ///< simulations at a time
+    bool reference = true;                   ///< of runs of all tiles
+    std::optional<SamplingRequest> sampling; ///< of single frames
+    int jobs = 1;                            ///< simulations at a time
 };
 
 /// Loads configurations, each written as FILE or NAME=FILE; without a name it is called like
@@ -46,6 +49,11 @@ std::optional<std::vector<int>> parse_cameras(const std::string& text);
 
 /// "1080p,4k". Throws InputError for an unknown name and one given twice.
 std::vector<ImageSize> parse_resolutions(const std::string& text);
+
+/// What --within asks for in commands that run several designs. Throws InputError for a mistake, and
+/// if there is a camera path of several frames.
+std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string>& within,
+                                                 std::uint64_t seed, int frames);
 
 /// Throws InputError for a scene without a name and for one that is given twice.
 void check_scenes(const std::vector<std::string>& scenes);

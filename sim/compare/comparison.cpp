@@ -144,6 +144,9 @@ Comparison compare(const std::vector<std::string>& configs, const std::vector<Co
         row.measures = measures_of(run);
         row.first_task_ms = run.frame.first_task_ms;
         row.last_task_ms = run.frame.last_task_ms;
+        row.sampled_share = run.frame.sampled_share;
+        row.cycles_low = run.frame.cycles_low;
+        row.cycles_high = run.frame.cycles_high;
         row.limited_by = run.frame.limited_by;
         row.stages = run.frame.stages;
         row.report = run.report;

@@ -36,6 +36,7 @@ struct ComparisonRow {
     std::size_t view = 0, config = 0; ///< into Comparison
     Measures measures;
     std::optional<double> first_task_ms, last_task_ms; ///< of the frame, as what follows
+    std::optional<double> sampled_share, cycles_low, cycles_high;
     std::string limited_by;
     std::vector<std::pair<std::string, double>> stages; ///< with their busy shares
     std::string report;

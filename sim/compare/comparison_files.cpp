@@ -17,6 +17,7 @@ ordered_json row_json(const Comparison& comparison, const ComparisonRow& row) {
         json["view"] = row.view;
     }
     for_each_measure([&](Measure m) { put_measure(json, m, row.measures[m]); });
+    put_sampling(json, row);
     return json;
 }
 
@@ -64,7 +65,8 @@ ordered_json comparison_json(const Comparison& comparison) {
 std::string comparison_csv(const Comparison& comparison) {
     std::string text = "config,accelerator,pes,tile_size,scene,camera,width,height";
     for_each_measure([&](Measure m) { text += "," + name_of(m); });
-    text += "\n";
+    const bool sampled = any_sampled(comparison.rows);
+    text += (sampled ? sampling_headings() : "") + "\n";
     for (const ComparisonRow& row : comparison.rows) {
         const ComparedConfig& config = comparison.configs[row.config];
         const ComparedView& view = comparison.views[row.view];
@@ -74,7 +76,7 @@ std::string comparison_csv(const Comparison& comparison) {
                 std::to_string(view.camera) + "," + std::to_string(view.width) + "," +
                 std::to_string(view.height);
         for_each_measure([&](Measure m) { text += "," + csv_number(row.measures[m]); });
-        text += "\n";
+        text += (sampled ? sampling_cells(row) : "") + "\n";
     }
     return text;
 }

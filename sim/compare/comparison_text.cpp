@@ -61,6 +61,18 @@ std::vector<std::string> joined(std::vector<std::string> head,
 
 const std::vector<std::string> kRatioHeadings{"speed ×", "per mm²", "path ×", "per mm²"};
 
+/// With half of the interval, if it is an estimate.
+std::string cycles_cell(const ComparisonRow& row) {
+    const std::optional<double>& cycles = row.measures[Measure::Cycles];
+    if (!cycles) {
+        return "";
+    }
+    const bool sampled = row.cycles_low && row.cycles_high && *cycles > 0;
+    return scaled(*cycles) +
+           (sampled ? " ±" + percent((*row.cycles_high - *row.cycles_low) / 2 / *cycles) + " %"
+                    : "");
+}
+
 std::string time_table(const Comparison& comparison, std::size_t view) {
     TextTable table(joined({"", "PEs", "tile", "cycles", "ms", "fps", "path fps", "DRAM MB", "mm²"},
                            kRatioHeadings, {"PSNR dB"}));
@@ -69,10 +81,9 @@ std::string time_table(const Comparison& comparison, std::size_t view) {
         const Measures& m = row.measures;
         if (row.view == view) {
             table.add(joined({config.name, whole(config.pes), whole(config.tile_size),
-                              m[Measure::Cycles] ? scaled(*m[Measure::Cycles]) : "",
-                              digits(m[Measure::LatencyMs]), digits(m[Measure::Fps]),
-                              digits(m[Measure::ThroughputFps]), megabytes(m),
-                              fixed_ratio(m[Measure::AreaMm2])},
+                              cycles_cell(row), digits(m[Measure::LatencyMs]),
+                              digits(m[Measure::Fps]), digits(m[Measure::ThroughputFps]),
+                              megabytes(m), fixed_ratio(m[Measure::AreaMm2])},
                              ratio_cells(m), {decibels(m[Measure::PsnrDb])}));
         }
     }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/text/words.hpp"
+
 namespace degs::sim {
 
 using nlohmann::ordered_json;
@@ -49,7 +51,30 @@ std::string csv_cell(const std::string& text) {
 
 std::string csv_number(const std::optional<double>& value) {
     const ordered_json json = number_json(value);
-    return json.is_null() ? "" : json.is_string() ? json.get<std::string>() : json.dump();
+    return json.is_null()     ? ""
+           : json.is_string() ? json.get<std::string>()
+                              : as_typed(*value); // 2.178, not 2.1780000000000004
+}
+
+void put_sampling(nlohmann::ordered_json& run, const ComparisonRow& row) {
+    if (row.sampled_share) {
+        run["sampling"] = {{"share", number_json(row.sampled_share)},
+                           {"cycles", {number_json(row.cycles_low), number_json(row.cycles_high)}}};
+    }
+}
+
+bool any_sampled(const std::vector<ComparisonRow>& rows) {
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const ComparisonRow& row) { return row.sampled_share.has_value(); });
+}
+
+std::string sampling_headings() {
+    return ",sampling.share,sampling.cycles_low,sampling.cycles_high";
+}
+
+std::string sampling_cells(const ComparisonRow& row) {
+    return "," + csv_number(row.sampled_share) + "," + csv_number(row.cycles_low) + "," +
+           csv_number(row.cycles_high);
 }
 
 } // namespace degs::sim

@@ -24,6 +24,14 @@ void put_measure(nlohmann::ordered_json& run, Measure measure, const std::option
 
 nlohmann::ordered_json view_json(const ComparedView& view);
 
+/// Share of the tiles and interval of the cycles, for a run that was a sample; else nothing.
+void put_sampling(nlohmann::ordered_json& run, const ComparisonRow& row);
+/// The columns of these in CSV, behind all others and only if a row was a sample: headings, and the
+/// cells of a row.
+bool any_sampled(const std::vector<ComparisonRow>& rows);
+std::string sampling_headings();
+std::string sampling_cells(const ComparisonRow& row);
+
 /// Quoted if it must be, with quotes doubled (RFC 4180).
 std::string csv_cell(const std::string& text);
 /// As number_json(), but empty if it does not exist.

@@ -29,6 +29,9 @@ void each_field(Fields& fields, Summary& summary) {
     for_each_measure([&](Measure m) { fields("measure." + name_of(m), summary.measures[m]); });
     fields("first_task_ms", summary.first_task_ms);
     fields("last_task_ms", summary.last_task_ms);
+    fields("sampled_share", summary.sampled_share);
+    fields("cycles_low", summary.cycles_low);
+    fields("cycles_high", summary.cycles_high);
     fields("limited_by", summary.limited_by);
     fields("stages", summary.stages);
     fields("warnings", summary.warnings);
@@ -59,6 +62,15 @@ RunSummary summary_of(const RunResult& result, int camera) {
     if (!run.window.empty()) {
         summary.first_task_ms = rate_of(run.window.first, run.clock_ghz) * 1e-6;
         summary.last_task_ms = rate_of(run.window.last + 1, run.clock_ghz) * 1e-6;
+    }
+    if (result.sampling) {
+        summary.sampled_share = ratio_of(result.sampling->measured, result.sampling->tiles);
+        for (const ReportInterval& interval : result.sampling->intervals) {
+            if (interval.path == "timing.cycles") {
+                summary.cycles_low = interval.low;
+                summary.cycles_high = interval.high;
+            }
+        }
     }
     summary.limited_by = limiting_stage(run);
     for (const StageUse& stage : run.stages) {

@@ -29,6 +29,8 @@ struct RunSummary {
     Measures measures;
     std::optional<double> first_task_ms;                ///< from the start of the run
     std::optional<double> last_task_ms;                 ///< its end, likewise
+    std::optional<double> sampled_share;                ///< of the tiles; empty: all of them
+    std::optional<double> cycles_low, cycles_high;      ///< 95 % interval, of a sample
     std::string limited_by;                             ///< the busiest stage, or memory
     std::vector<std::pair<std::string, double>> stages; ///< with the share of the run they worked
     std::vector<std::string> warnings;                  ///< sentences; see warnings.hpp
@@ -39,7 +41,7 @@ struct RunSummary {
 RunSummary summary_of(const RunResult& result, int camera);
 
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 5;
+constexpr int kSummaryVersion = 6;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

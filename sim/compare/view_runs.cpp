@@ -156,7 +156,7 @@ void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs
     shared.frames.clear(); // before the next are made; children have copies of their own
     shared.workload_s = 0;
     shared.frames = make_workloads(*shared.cloud, shared.cameras, wish, shared.workload_s);
-    if (request_.reference) {
+    if (request_.reference && !request_.sampling) {
         shared.render_reference(wish.tile_mode());
     }
     for (std::size_t config : configs) {
@@ -178,7 +178,8 @@ void ViewRuns::start(const SharedView& shared, ViewRun run) {
     RunRequest request;
     request.config = request_.configs[run.config].config;
     request.build.array_only = request_.array_only;
-    request.reference = request_.reference && !run.path;
+    request.reference = request_.reference && !run.path && !request_.sampling;
+    request.sampling = request_.sampling;
     run.name = request_.configs[run.config].name + ", " + run.words;
     if (run.path) {
         run.name += ", " + std::to_string(shared.frames.size()) + " frames";

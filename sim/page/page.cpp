@@ -25,7 +25,7 @@ std::string embedded(const ordered_json& json) {
     return text;
 }
 
-std::string escaped(const std::string& text) {
+std::string html_escaped(const std::string& text) {
     std::string html;
     for (const char c : text) {
         html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
@@ -79,7 +79,7 @@ ordered_json variant_of(const PageFacts& facts, const Comparison& comparison, st
             {"pes", value_or_null(comparison.configs[v].pes)}};
 }
 
-ordered_json sentences(const std::vector<std::pair<std::string, std::string>>& list) {
+ordered_json sentences_json(const std::vector<std::pair<std::string, std::string>>& list) {
     ordered_json json = ordered_json::array();
     for (const auto& [name, why] : list) {
         json.push_back({{"name", name}, {"why", why}});
@@ -95,8 +95,8 @@ ordered_json data_of(const PageFacts& facts, const Comparison& comparison) {
                          {"missing", facts.missing},
                          {"keys", facts.keys},
                          {"measures", measures_json()},
-                         {"skipped", sentences(facts.skipped)},
-                         {"failed", sentences(facts.failed)}};
+                         {"skipped", sentences_json(facts.skipped)},
+                         {"failed", sentences_json(facts.failed)}};
     for (const char* list : {"slots", "variants", "views", "runs"}) {
         json[list] = ordered_json::array();
     }
@@ -136,7 +136,7 @@ std::string filled(const std::string& page, const std::map<std::string, std::str
 
 std::string study_page(const PageFacts& facts, const Comparison& comparison) {
     using namespace page_assets;
-    return filled(kPage, {{"title", escaped(facts.title)},
+    return filled(kPage, {{"title", html_escaped(facts.title)},
                           {"css", kStyle},
                           {"data", embedded(data_of(facts, comparison))},
                           {"d3", kD3},

@@ -19,7 +19,8 @@ using config_words::quote;
 using Kind = ConfigNode::Kind;
 
 constexpr int kMostFramesOfStudy = 10000; ///< as --frames
-const std::vector<std::string> kDesignKeys{"study", "points", "designs"};
+/// What `degs compare` cannot do; the views of a study it takes from its own options.
+const std::vector<std::string> kSweepKeys{"axes", "combine", "baseline"};
 const std::vector<std::string> kStudyKeys{"study",     "points",      "designs",   "axes",
                                           "combine",   "baseline",    "scenes",    "cameras",
                                           "width",     "camera_file", "frames",    "resolutions",
@@ -204,7 +205,7 @@ std::vector<StudyDesign> read_designs(const ConfigNode& tree) {
 void check_designs_only(const ConfigNode& tree) {
     check_top_keys(tree);
     for (const ConfigNode& key : tree.children) {
-        if (!is_among(kDesignKeys, key.key)) {
+        if (is_among(kSweepKeys, key.key)) {
             throw InputError(key.place + ": key " + quote(key.key) +
                              " of a study is for 'degs sweep', which runs all of its points.");
         }

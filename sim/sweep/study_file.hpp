@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/sampling/sampling_request.hpp"
 #include "sim/sweep/axis.hpp"
 #include "sim/view.hpp"
 
@@ -20,6 +21,7 @@ struct StudyDesign {
 struct Study {
     std::string name;
     std::vector<StudyDesign> designs;
+    std::vector<std::string> overrides; ///< of the designs, see overrides_of(); not of the file
     std::vector<Axis> axes;
     bool one_at_a_time = false; ///< an axis varies while the others keep the design's own values
     std::string baseline;       ///< name of a design; empty: the first
@@ -31,6 +33,7 @@ struct Study {
     PathRequest path;
     bool array_only = false;
     bool reference = true;
+    std::optional<SamplingRequest> sampling;
 };
 
 /// Whether a file is a study, which lists designs, and not a single design.
@@ -39,7 +42,8 @@ bool is_study(const ConfigNode& tree);
 /// The designs of a study. Throws InputError for one without a name and for an empty list.
 std::vector<StudyDesign> read_designs(const ConfigNode& tree);
 
-/// Throws InputError if a study has keys that only `degs sweep` understands.
+/// Throws InputError if a study has axes or a baseline, for which `degs sweep` is needed. Views are
+/// no mistake; `degs compare` takes those of its options.
 void check_designs_only(const ConfigNode& tree);
 
 /// Reads a study; a configuration is a study of one design. Paths in it are relative to the file.

@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "config/config_words.hpp"
+#include "sim/commands.hpp"
+#include "sim/compare/compare_request.hpp"
 #include "sim/view_options.hpp"
 
 namespace degs::sim {
@@ -12,6 +14,7 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
     command.add_option("study", options.file, "study (YAML): designs, axes and views")
         ->type_name("FILE")
         ->required();
+    add_addressed_overrides_option(command, options.overrides);
     command
         .add_option("--scene", options.scenes,
                     "scenes in place of the study's: a file (.ply), or "
@@ -42,6 +45,7 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
                      "is unlimited");
     command.add_flag("--no-reference", options.no_reference,
                      "do not render the double-precision images to compare with");
+    add_sampling_options(command, options.within, options.seed);
     // What a flag of CLI11 cannot say: whether an option with a default was given.
     command.get_option("--frames")->each([&options](const std::string&) {
         options.has_frames = true;
@@ -53,6 +57,7 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
 
 Study study_of(const StudyOptions& options) {
     Study study = read_study(options.file, options.quick);
+    study.overrides = options.overrides;
     if (!options.scenes.empty()) {
         study.scenes = options.scenes;
     }
@@ -74,6 +79,7 @@ Study study_of(const StudyOptions& options) {
     }
     study.array_only = study.array_only || options.array_only;
     study.reference = study.reference && !options.no_reference;
+    study.sampling = sampling_for_runs(options.within, options.seed, study.path.frames);
     return study;
 }
 
@@ -82,6 +88,9 @@ std::vector<std::string> words_of(const StudyOptions& options) {
     const auto add = [&words](const char* option, const std::string& value) {
         words.insert(words.end(), {option, value});
     };
+    for (const std::string& text : options.overrides) {
+        add("--set", text);
+    }
     for (const std::string& scene : options.scenes) {
         add("--scene", scene);
     }
@@ -100,6 +109,10 @@ std::vector<std::string> words_of(const StudyOptions& options) {
     }
     if (options.has_step) {
         add("--path-step", config_words::number(options.path.step_degrees));
+    }
+    if (options.within) {
+        add("--within", *options.within);
+        add("--seed", std::to_string(options.seed));
     }
     for (const auto& [option, given] :
          {std::pair("--quick", options.quick), std::pair("--array-only", options.array_only),

@@ -3,6 +3,7 @@
 // every source that sees it.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,14 +14,17 @@
 
 namespace degs::sim {
 
-/// A study's file, and what replaces the views that it states.
+/// A study's file, and what replaces the values of its designs and the views that it states.
 struct StudyOptions {
     std::string file;
+    std::vector<std::string> overrides;
     std::vector<std::string> scenes;
     std::string cameras, camera_file, resolutions;
     std::optional<int> width;
     PathRequest path;
     bool has_frames = false, has_step = false;
+    std::optional<std::string> within;
+    std::uint64_t seed = 1;
     bool quick = false, array_only = false, no_reference = false;
 };
 

@@ -38,7 +38,7 @@ struct StudyPlan {
     std::vector<SkippedVariant> skipped;
     CompareRequest request; ///< one configuration for each variant; the points say on which views
     std::vector<StudyPoint> points; ///< views in the outer, variants in the inner loop
-    std::string digest; ///< of all points and of the program's version, 16 hexadecimal digits
+    std::string digest; ///< of all points and of the program's version, 32 hexadecimal digits
 };
 
 /// Most points of a study.

@@ -41,7 +41,7 @@ std::vector<std::string> stage_names(const Comparison& comparison) {
     return names;
 }
 
-std::string csv_head(const StudyPlan& plan, const std::vector<std::string>& stages) {
+std::string csv_head(const StudyPlan& plan, const std::vector<std::string>& stages, bool sampled) {
     std::string text = "point,design";
     for (const std::string& key : plan.keys) {
         text += "," + csv_cell(key);
@@ -52,11 +52,11 @@ std::string csv_head(const StudyPlan& plan, const std::vector<std::string>& stag
     for (const std::string& stage : stages) {
         text += "," + csv_cell("stages." + stage + ".busy");
     }
-    return text + "\n";
+    return text + (sampled ? sampling_headings() : "") + "\n";
 }
 
 std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::size_t r,
-                    const std::vector<std::string>& stages) {
+                    const std::vector<std::string>& stages, bool sampled) {
     const ComparisonRow& row = results.comparison.rows[r];
     const ComparedConfig& config = results.comparison.configs[row.config];
     const ComparedView& view = results.comparison.views[row.view];
@@ -77,14 +77,15 @@ std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::siz
                                       [&stage](const auto& each) { return each.first == stage; });
         text += "," + (use == row.stages.end() ? "" : csv_number(use->second));
     }
-    return text + "\n";
+    return text + (sampled ? sampling_cells(row) : "") + "\n";
 }
 
 std::string results_csv(const StudyPlan& plan, const SweepResults& results) {
     const std::vector<std::string> stages = stage_names(results.comparison);
-    std::string text = csv_head(plan, stages);
+    const bool sampled = any_sampled(results.comparison.rows);
+    std::string text = csv_head(plan, stages, sampled);
     for (std::size_t r = 0; r < results.comparison.rows.size(); ++r) {
-        text += csv_row(plan, results, r, stages);
+        text += csv_row(plan, results, r, stages, sampled);
     }
     return text;
 }
@@ -122,6 +123,7 @@ ordered_json run_json(const SweepResults& results, std::size_t r) {
             put_measure(json, m, row.measures[m]);
         }
     });
+    put_sampling(json, row);
     json["limited_by"] = row.limited_by;
     json["stages"] = ordered_json::object();
     for (const auto& [name, busy] : row.stages) {

@@ -126,7 +126,27 @@ std::string energy_line(const AcceleratorResult& run) {
     return line;
 }
 
+/// The tiles that a sampled run simulated, and the interval that they gave.
+std::string sample_line(const SamplingFacts& sampling) {
+    const auto of_measure = [&sampling](const ReportInterval& interval) {
+        return interval.path == sampling.request.measure;
+    };
+    const auto interval =
+        std::find_if(sampling.intervals.begin(), sampling.intervals.end(), of_measure);
+    const std::string bounds =
+        interval == sampling.intervals.end()
+            ? ""
+            : " (" + scaled(interval->low) + " – " + scaled(interval->high) + ")";
+    return grouped(sampling.measured) + " of " + grouped(sampling.tiles) + " tiles (" +
+           percent(ratio_of(sampling.measured, sampling.tiles)) + " %)" + kDot +
+           sampling.request.measure + " ±" + three_digits(100 * sampling.reached) +
+           " % at 95 % confidence" + bounds;
+}
+
 std::string image_line(const RunResult& result, const std::string& image_path) {
+    if (result.sampling) {
+        return "the simulated tiles, the others hatched" + std::string(kDot) + image_path;
+    }
     if (!result.error) {
         return "not compared (--no-reference)" + std::string(kDot) + image_path;
     }
@@ -187,16 +207,20 @@ std::string size_words(const Camera& camera) {
 
 std::string summary(const RunResult& result, const std::string& image_path) {
     const AcceleratorResult& run = result.accelerator;
-    return layout({{"scene", scene_line(result)},
-                   {"design", design_line(result)},
-                   {"frame", frame_line(result)},
-                   {"slots", slots_line(run)},
-                   {"losses", losses_line(result)},
-                   {"stages", stages_line(run)},
-                   {"memory", memory_line(run)},
-                   {"energy", energy_line(run)},
-                   {"image", image_line(result, image_path)},
-                   {"host", host_line(result)}});
+    Block block{{"scene", scene_line(result)},
+                {"design", design_line(result)},
+                {"frame", frame_line(result)},
+                {"slots", slots_line(run)},
+                {"losses", losses_line(result)},
+                {"stages", stages_line(run)},
+                {"memory", memory_line(run)},
+                {"energy", energy_line(run)},
+                {"image", image_line(result, image_path)}};
+    if (result.sampling) {
+        block.push_back({"sample", sample_line(*result.sampling)});
+    }
+    block.push_back({"host", host_line(result)});
+    return layout(block);
 }
 
 } // namespace degs::sim

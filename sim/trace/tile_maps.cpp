@@ -2,14 +2,12 @@
 #include "sim/trace/tile_maps.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "config/ratio.hpp"
 #include "scene/image_io.hpp"
-#include "sim/plot/plot_style.hpp"
+#include "sim/plot/raster.hpp"
 #include "sim/text/terminal.hpp"
 #include "sim/text/words.hpp"
 
@@ -54,29 +52,21 @@ std::string slot_name(std::size_t slot) {
 }
 
 /// Dark is little, light is much; brightness rises all the way, whatever colours a person sees.
-std::array<double, 3> heat(double share) {
-    constexpr std::array<std::array<double, 3>, 6> kStops{{{0.13, 0.03, 0.25},
-                                                           {0.35, 0.10, 0.45},
-                                                           {0.65, 0.20, 0.40},
-                                                           {0.90, 0.40, 0.25},
-                                                           {0.98, 0.70, 0.25},
-                                                           {0.99, 0.98, 0.75}}};
+Colour heat(double share) {
+    constexpr std::array<Colour, 6> kStops{{{0.13, 0.03, 0.25},
+                                            {0.35, 0.10, 0.45},
+                                            {0.65, 0.20, 0.40},
+                                            {0.90, 0.40, 0.25},
+                                            {0.98, 0.70, 0.25},
+                                            {0.99, 0.98, 0.75}}};
     const double place = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
     const std::size_t below = std::min<std::size_t>(static_cast<std::size_t>(place), 4);
-    std::array<double, 3> colour{};
+    Colour colour{};
     for (std::size_t c = 0; c < 3; ++c) {
         const double to = place - std::floor(place == 5.0 ? 4.0 : place);
         colour[c] = kStops[below][c] + (kStops[below + 1][c] - kStops[below][c]) * to;
     }
     return colour;
-}
-
-std::string hex(const std::array<double, 3>& colour) {
-    char text[8];
-    std::snprintf(text, sizeof text, "#%02x%02x%02x", static_cast<unsigned>(colour[0] * 255 + 0.5),
-                  static_cast<unsigned>(colour[1] * 255 + 0.5),
-                  static_cast<unsigned>(colour[2] * 255 + 0.5));
-    return text;
 }
 
 double largest_of(const TileMap& map) {
@@ -91,19 +81,47 @@ std::string words_of(const TileMap& map, double value) {
     return map.name == "useful_share" ? percent(value) + " %" : scaled(value);
 }
 
-void draw_scale(Svg& svg, double y, const TileMap& map, double largest) {
-    constexpr int kColours = 100;
-    constexpr double kLeft = kPlotMargin, kWidth = 400;
-    for (int i = 0; i < kColours; ++i) {
-        svg.rectangle(kLeft + i * kWidth / kColours, y, kWidth / kColours + 0.5, 14,
-                      hex(heat((i + 0.5) / kColours)));
+constexpr Colour kInkColour{0.1, 0.1, 0.1}, kGreyColour{0.33, 0.33, 0.33};
+constexpr Colour kNoSplat{0.85, 0.85, 0.85};
+
+Colour colour_of(double value, double largest) {
+    return std::isnan(value) ? kNoSplat : heat(largest > 0 ? value / largest : 0);
+}
+
+// The picture in the upper left corner, so that its pixels keep their places, and below it the title,
+// the subtitle, the scale and, if there are some, the words for tiles that list no splat.
+Image with_legend(const Image& picture, const TileMap& map, const std::string& subtitle,
+                  const std::string& no_splat) {
+    constexpr int kTicks = 4, kLeastWidth = 520, kFullWidth = 960;
+    const int scale = std::max(1, picture.width / kFullWidth + (picture.width >= kLeastWidth));
+    const int line = kRasterText * scale, margin = line;
+    const double largest = largest_of(map);
+    const int width =
+        std::max({picture.width, kLeastWidth, raster_width(map.title, scale) + 2 * margin,
+                  raster_width(subtitle, scale) + 2 * margin});
+    Raster page(width, picture.height + 6 * line);
+    page.put(picture, 0, 0);
+    int y = picture.height + line / 2;
+    page.text(margin, y, scale, map.title, kInkColour);
+    page.text(margin, y += line, scale, subtitle, kGreyColour);
+    y += 3 * line / 2;
+    const int bar = width / 2;
+    for (int x = 0; x < bar; ++x) {
+        page.rectangle(margin + x, y, 1, line, heat((x + 0.5) / bar));
     }
-    for (int tick = 0; tick <= 4; ++tick) {
-        svg.text(kLeft + tick * kWidth / 4, y + 30, words_of(map, largest * tick / 4),
-                 {kSmallText, kGrey, tick == 0 ? "start" : "middle", false});
+    if (!no_splat.empty()) {
+        page.rectangle(2 * margin + bar, y, line, line, kNoSplat);
+        page.text(3 * margin + bar + line / 2, y + line / 6, scale, no_splat, kGreyColour);
     }
-    svg.rectangle(kLeft + kWidth + 60, y, 14, 14, kGrid);
-    svg.text(kLeft + kWidth + 82, y + 12, "lists no splat", {kSmallText, kGrey, "start", false});
+    y += line;
+    for (int tick = 0; tick <= kTicks; ++tick) {
+        const std::string words = words_of(map, largest * tick / kTicks);
+        const int at = margin + tick * (bar - scale) / kTicks;
+        page.rectangle(at, y, scale, line / 3, kGreyColour);
+        const int half = raster_width(words, scale) / 2;
+        page.text(std::max(at - half, margin), y + line / 2, scale, words, kGreyColour);
+    }
+    return page.image();
 }
 
 } // namespace
@@ -136,27 +154,23 @@ TileMaps tile_maps_of(const RunResult& result) {
     return maps;
 }
 
-std::string map_svg(const TileMaps& maps, const TileMap& map, const std::string& subtitle) {
-    const double side = (kPlotWidth - 2 * kPlotMargin) / maps.tiles_x;
-    constexpr double kTop = 64;
+Image map_picture(const TileMaps& maps, const TileMap& map, const std::string& subtitle) {
+    constexpr int kUsualWidth = 960, kLargestTile = 64;
+    const int side = std::clamp(kUsualWidth / maps.tiles_x, 1, kLargestTile);
     const double largest = largest_of(map);
-    Svg svg;
-    svg.text(kPlotMargin, 28, map.title, {16, kInk, "start", true});
-    svg.text(kPlotMargin, 48, subtitle, {kSmallText, kGrey, "start", false});
+    Raster picture(maps.tiles_x * side, maps.tiles_y * side);
     for (int row = 0; row < maps.tiles_y; ++row) {
         for (int column = 0; column < maps.tiles_x; ++column) {
-            const double value = map.values[row * maps.tiles_x + column];
-            svg.rectangle(kPlotMargin + column * side, kTop + row * side, side + 0.3, side + 0.3,
-                          std::isnan(value) ? kGrid : hex(heat(largest > 0 ? value / largest : 0)));
+            picture.rectangle(column * side, row * side, side, side,
+                              colour_of(map.values[row * maps.tiles_x + column], largest));
         }
     }
-    const double bottom = kTop + maps.tiles_y * side + 16;
-    draw_scale(svg, bottom, map, largest);
-    return svg.document(kPlotWidth, bottom + 44, map.title);
+    return with_legend(picture.image(), map, subtitle, "no splat listed");
 }
 
 // The image in grey below the colours, so that both can be seen.
-Image map_over(const TileMaps& maps, const TileMap& map, const Image& image) {
+Image map_over(const TileMaps& maps, const TileMap& map, const std::string& subtitle,
+               const Image& image) {
     constexpr double kHeat = 0.65;
     const double largest = largest_of(map);
     Image over = image;
@@ -166,21 +180,20 @@ Image map_over(const TileMaps& maps, const TileMap& map, const Image& image) {
             const std::size_t pixel = 3 * image.at(x, y);
             const double grey = std::clamp(
                 (image.rgb[pixel] + image.rgb[pixel + 1] + image.rgb[pixel + 2]) / 3.0, 0.0, 1.0);
-            const std::array<double, 3> colour = std::isnan(value)
-                                                     ? std::array<double, 3>{grey, grey, grey}
-                                                     : heat(largest > 0 ? value / largest : 0);
+            const Colour colour =
+                std::isnan(value) ? Colour{grey, grey, grey} : colour_of(value, largest);
             for (std::size_t c = 0; c < 3; ++c) {
                 over.rgb[pixel + c] = static_cast<float>((1 - kHeat) * grey + kHeat * colour[c]);
             }
         }
     }
-    return over;
+    return with_legend(over, map, subtitle, "");
 }
 
 std::vector<std::string> tile_map_files() {
     std::vector<std::string> files{"tiles.exr"};
     const auto add = [&files](const std::string& name) {
-        files.push_back(name + ".svg");
+        files.push_back(name + ".png");
         files.push_back(name + "_over_image.png");
     };
     for (const Measured& measured : kMeasured) {
@@ -200,8 +213,9 @@ void write_tile_maps(const RunResult& result, const OutputFolder& out) {
                                  std::to_string(maps.tile_size) + " px";
     std::vector<ExrLayer> layers;
     for (const TileMap& map : maps.maps) {
-        out.write_text(map.name + ".svg", map_svg(maps, map, subtitle));
-        write_png(map_over(maps, map, run.images.front()), out.path(map.name + "_over_image.png"));
+        write_png(map_picture(maps, map, subtitle), out.path(map.name + ".png"));
+        write_png(map_over(maps, map, subtitle, run.images.front()),
+                  out.path(map.name + "_over_image.png"));
         layers.push_back({map.name, map.values.data()});
     }
     write_exr(layers, maps.tiles_x, maps.tiles_y, out.path("tiles.exr"));

@@ -24,10 +24,11 @@ struct TileMaps {
 };
 
 TileMaps tile_maps_of(const RunResult& result);
-/// The map with its title and a legend.
-std::string map_svg(const TileMaps& maps, const TileMap& map, const std::string& subtitle);
-/// The map over the image that it is of.
-Image map_over(const TileMaps& maps, const TileMap& map, const Image& image);
+/// The map, and below it its title and a legend.
+Image map_picture(const TileMaps& maps, const TileMap& map, const std::string& subtitle);
+/// The map over the image that it is of, pixel by pixel, and below it the same legend.
+Image map_over(const TileMaps& maps, const TileMap& map, const std::string& subtitle,
+               const Image& image);
 
 /// Names of the files that write_tile_maps() writes.
 std::vector<std::string> tile_map_files();

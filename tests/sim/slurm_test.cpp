@@ -48,10 +48,11 @@ TEST(HostileSlurm, Mistakes) {
     using sim_test::degs;
     const sim_test::Folder folder;
     const auto mistake = [&folder](const std::vector<std::string>& more, const std::string& words) {
-        std::vector<std::string> arguments{"sweep",   sim_test::config("studies/ablation"),
-                                           "--scene", "synthetic:single",
-                                           "--width", "64",
-                                           "--out",   folder / "o",
+        std::vector<std::string> arguments{"sweep",    sim_test::config("studies/ablation"),
+                                           "--scene",  "synthetic:single",
+                                           "--camera", "0",
+                                           "--width",  "64",
+                                           "--out",    folder / "o",
                                            "--slurm"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         expect_mistake(degs(arguments, [] { ::setenv("PATH", "/nowhere", 1); }), words);

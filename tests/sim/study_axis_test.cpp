@@ -8,7 +8,7 @@
 
 #include "config/error.hpp"
 #include "scene/scene.hpp"
-#include "sim/sweep/digest.hpp"
+#include "sim/cache/digest.hpp"
 #include "sim/sweep/study_plan.hpp"
 #include "tests/sim/child.hpp"
 

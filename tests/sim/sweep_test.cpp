@@ -237,9 +237,10 @@ std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv) 
 // plots and the area come from the shipped study and one command.
 TEST(SweepCommand, AnArchitectsAfternoon) {
     const Folder folder;
-    const Outcome outcome = sweep(config("studies/buffers"), folder / "o",
-                                  {"--scene", "synthetic:object,gaussians=3000", "--scene",
-                                   "synthetic:outdoor,gaussians=3000", "--width", "160"});
+    const Outcome outcome =
+        sweep(config("studies/buffers"), folder / "o",
+              {"--scene", "synthetic:object,gaussians=3000", "--scene",
+               "synthetic:outdoor,gaussians=3000", "--camera", "0", "--width", "160"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_NE(outcome.out.find("buffers: 40 of 40 points · 1 cannot be built\ncannot be built: "),
               std::string::npos)
@@ -284,8 +285,8 @@ TEST(SweepCommand, AnArchitectsAfternoon) {
 TEST(SweepCommand, OptionsReplaceTheStudysViews) {
     const Folder folder;
     const Outcome outcome =
-        degs({"sweep", config("studies/ablation"), "--scene", "synthetic:single", "--width", "64",
-              "--no-reference", "--array-only", "--out", folder / "o"});
+        degs({"sweep", config("studies/ablation"), "--scene", "synthetic:single", "--camera", "0",
+              "--width", "64", "--no-reference", "--array-only", "--out", folder / "o"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_NE(outcome.err.find("\n4 of 4 points done · neither, single · camera 0"),
               std::string::npos)
@@ -293,9 +294,33 @@ TEST(SweepCommand, OptionsReplaceTheStudysViews) {
     const nlohmann::json written = nlohmann::json::parse(read_file(folder / "o/results.json"));
     EXPECT_EQ(written["array_only"], true);
     EXPECT_TRUE(written["runs"][0]["image"]["psnr_db"].is_null());
-    EXPECT_NE(degs({"sweep", config("studies/ablation"), "--scene", "synthetic:single", "--list"})
+    EXPECT_NE(degs({"sweep", config("studies/ablation"), "--scene", "synthetic:single", "--camera",
+                    "0", "--width", "64", "--list"})
                   .out.find("4  neither, synthetic:single, camera 0"),
               std::string::npos);
+}
+
+// As if the design's file had it, whoever runs the points.
+TEST(SweepRuns, TakeOverridesOfAllDesigns) {
+    const Folder folder;
+    const std::string axis = "axes:\n  packing.bytes: [16KB, 32KB]\n";
+    const std::string file = study(folder, axis);
+    const std::vector<std::string> set{"--set", "memory.latency_ns=50", "--set",
+                                       "degs-64:slicing.count=4"};
+    expect_success(sweep(file, folder / "o", set));
+    for (const char* point : {"000001", "000002"}) {
+        const auto report = nlohmann::json::parse(
+            read_file(folder / ("o/reports/" + std::string(point) + ".json")));
+        EXPECT_EQ(report["config"]["memory"]["latency_ns"], 50);
+        EXPECT_EQ(report["config"]["slicing"]["count"], 4);
+    }
+    expect_mistake(degs({"sweep", file, "--out", folder / "o"}), "holds the study");
+    const auto mistake = [&](const char* text, const char* words) {
+        expect_mistake(degs({"sweep", file, "--out", folder / "m", "--set", text}), words);
+    };
+    mistake("packing.bytes=16384", "is varied by an axis at ");
+    mistake("gbu-64:tile_size=16", "no configuration is called so");
+    mistake("packing.byte=1024", "did you mean");
 }
 
 TEST(HostileSweep, Mistakes) {

@@ -172,12 +172,16 @@
         Plot.tip(good, Plot.pointer({ x: x.of, y: y.of, title: tipOf, maxRadius: 30 }))],
     });
   };
+  /** No two values have one colour: ten have names, and more of them are neighbours in a spectrum. */
   const colourScale = (colour, runs) => {
-    const values = d3.sort(new Set(runs.map(colour.of)), (v) => v);
+    const byNumbersInThem = new Intl.Collator("en", { numeric: true }).compare;
+    const all = [...new Set(runs.map(colour.of))];
+    const values = colour.numeric ? d3.sort(all, (v) => v) : all.sort((a, b) => byNumbersInThem(String(a), String(b)));
+    const along = (interpolate, from, to) => ({
+      range: values.map((_, i) => interpolate(from + (to - from) * i / (values.length - 1))) });
     return { domain: values.map((v) => written(colour, v)),
-      ...(colour.numeric && values.length > 1
-        ? { range: values.map((_, i) => d3.interpolateViridis(0.15 + 0.7 * i / (values.length - 1))) }
-        : { scheme: "observable10" }) };
+      ...(colour.numeric && values.length > 1 ? along(d3.interpolateViridis, 0.15, 0.85)
+        : values.length > 10 ? along(d3.interpolateTurbo, 0.05, 0.95) : { scheme: "observable10" }) };
   };
 
   const drawKeys = (runs) => {
@@ -221,7 +225,7 @@
     const cells = bars.flatMap((run) => slotColumns.map((s) => ({ run, slot: s.name, share: s.column.of(run) ?? 0 })));
     const longest = d3.max(bars, (run) => short(run).length);
     plot(at("slots"), {
-      height: 60 + 22 * bars.length, marginLeft: 16 + 6.3 * longest, marginRight: 20,
+      height: 76 + 22 * bars.length, marginBottom: 46, marginLeft: 16 + 6.3 * longest, marginRight: 20,
       x: { label: "share of the PE-cycles", tickFormat: (v) => `${Math.round(100 * v)} %`, domain: [0, 1], grid: true },
       y: { label: null, domain: bars.map((run) => run.point),
         tickFormat: (p) => short(bars.find((run) => run.point === p)) },
@@ -264,7 +268,9 @@
     cell.ariaSort = order.column !== column ? "none" : order.down ? "descending" : "ascending";
     const button = document.createElement("button");
     button.type = "button";
-    button.textContent = column.name + (order.column !== column ? "" : order.down ? " ▾" : " ▴");
+    // On paper long names may break, but only behind their dots and underscores.
+    column.name.split(/(?<=[._])/).forEach((part) => button.append(part, document.createElement("wbr")));
+    button.append(order.column !== column ? "" : order.down ? " ▾" : " ▴");
     button.addEventListener("click", () => {
       order = { column, down: order.column === column && !order.down };
       drawTable(shown());

@@ -8,6 +8,7 @@
 #include <ImfInputFile.h>
 
 #include "scene/image_io.hpp"
+#include "sim/plot/raster.hpp"
 #include "sim/trace/tile_maps.hpp"
 #include "tests/sim/child.hpp"
 
@@ -103,21 +104,75 @@ INSTANTIATE_TEST_SUITE_P(Designs, MapsOf,
                              return name;
                          });
 
-TEST(TileMaps, PicturesHaveATitleAndALegend) {
+sim::TileMaps two_tiles() {
     sim::TileMaps maps;
     maps.tiles_x = 2;
     maps.tiles_y = 1;
     maps.tile_size = 4;
+    return maps;
+}
+
+double brightness(const Image& image, int x, int y) {
+    const float* const pixel = &image.rgb[3 * image.at(x, y)];
+    return pixel[0] + pixel[1] + pixel[2];
+}
+
+TEST(TileMaps, PicturesShowMuchBrighterThanLittle) {
+    const sim::TileMaps maps = two_tiles();
     const sim::TileMap map{"cycles", "Cycles of a tile", {0.0F, 2000.0F}};
-    const std::string svg = sim::map_svg(maps, map, "degs-64 · object");
-    for (const char* words : {"Cycles of a tile", "degs-64 · object", ">2.00 k<", ">1.00 k<", ">0<",
-                              "lists no splat"}) {
-        EXPECT_NE(svg.find(words), std::string::npos) << words;
+    const Image picture = sim::map_picture(maps, map, "degs-64");
+    EXPECT_LT(brightness(picture, 0, 0), brightness(picture, 127, 0)); // tiles of 64 px
+    EXPECT_EQ(brightness(picture, 0, 0), brightness(picture, 63, 63));
+    const Image over = sim::map_over(maps, map, "degs-64", Image(8, 3));
+    EXPECT_LT(brightness(over, 0, 0), brightness(over, 7, 0));
+    EXPECT_EQ(brightness(over, 0, 0), brightness(over, 3, 2)); // a tile has one colour
+}
+
+TEST(TileMaps, PicturesHaveATitleAndALegend) {
+    const sim::TileMaps maps = two_tiles();
+    const auto picture = [&maps](const char* title, float largest, const char* subtitle) {
+        return sim::map_picture(maps, {"cycles", title, {0.0F, largest}}, subtitle).rgb;
+    };
+    const auto shown = picture("Cycles of a tile", 2000, "degs-64");
+    EXPECT_NE(shown, picture("Fragments", 2000, "degs-64"));
+    EXPECT_NE(shown, picture("Cycles of a tile", 3000, "degs-64")); // the numbers of the scale
+    EXPECT_NE(shown, picture("Cycles of a tile", 2000, "gbu-64"));
+}
+
+TEST(TileMaps, PicturesGrowWithLongWords) {
+    const sim::TileMaps maps = two_tiles();
+    const sim::TileMap map{"cycles", "Cycles of a tile", {0.0F, 2000.0F}};
+    const std::string words(300, 'm');
+    EXPECT_GT(sim::map_picture(maps, map, words).width, sim::raster_width(words, 1));
+}
+
+TEST(Raster, CutsOffWhatLiesBeyondThePage) {
+    sim::Raster page(4, 3);
+    page.rectangle(-2, -2, 3, 3, {0, 0, 0});
+    page.rectangle(3, 2, 9, 9, {0, 0, 0});
+    page.text(-3, -3, 5, "W", {1, 1, 1});
+    EXPECT_EQ(brightness(page.image(), 1, 1), 3);
+    EXPECT_EQ(brightness(page.image(), 3, 2), 0);
+    EXPECT_EQ(page.image().rgb.size(), 36U);
+}
+
+TEST(Raster, DrawsTextWithinItsWidthAndHeight) {
+    const std::string words = "12.5 %";
+    for (const int scale : {1, 3}) {
+        const int width = sim::raster_width(words, scale);
+        sim::Raster page(width + 8, sim::kRasterText * scale + 8);
+        page.text(4, 4, scale, words, {0, 0, 0});
+        int black = 0;
+        for (int y = 0; y < page.image().height; ++y) {
+            for (int x = 0; x < page.image().width; ++x) {
+                const bool drawn = brightness(page.image(), x, y) == 0;
+                black += drawn;
+                EXPECT_TRUE(!drawn || (x >= 4 && x < 4 + width && y >= 4)) << x << ", " << y;
+                EXPECT_TRUE(!drawn || y < 4 + sim::kRasterText * scale) << y;
+            }
+        }
+        EXPECT_GT(black, 20 * scale * scale);
     }
-    Image image(8, 3);
-    const Image over = sim::map_over(maps, map, image);
-    EXPECT_LT(over.rgb[0], over.rgb[3 * 7]); // much is brighter than little
-    EXPECT_EQ(over.rgb[0], over.rgb[3 * 3]); // a tile has one colour
 }
 
 TEST(HostileTileMaps, Mistakes) {

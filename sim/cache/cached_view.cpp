@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/cache/cached_view.hpp"
+
+#include <utility>
+
+#include "scene/camera_path.hpp"
+#include "sim/stopwatch.hpp"
+#include "sim/text/progress.hpp"
+
+namespace degs::sim {
+namespace {
+
+constexpr double kWorthKeeping = 0.005; // s
+
+ProjectionOptions projection_of(const AcceleratorConfig& config) {
+    ProjectionOptions options;
+    options.format = config.data_path().projection;
+    return options;
+}
+
+} // namespace
+
+CachedView::CachedView(const ViewRequest& request, const PathRequest& path, FrameCache cache)
+    : request_(request), cache_(std::move(cache)) {
+    check_view(request_);
+    const Stopwatch clock;
+    key_ = cache_.scene_key(request_.scene, request_.camera_file);
+    if (std::optional<SceneCard> card = cache_.scene(key_)) {
+        facts_ = card->facts;
+        facts_.name = scene_name(request_.scene);
+        facts_.source = request_.scene;
+        scene_.name = facts_.name;
+        scene_.source = facts_.source;
+        scene_.cameras = std::move(card->cameras);
+    } else {
+        cloud();
+    }
+    const Camera camera = camera_of(request_, scene_);
+    load_s_ += load_s_ > 0 ? 0 : clock.seconds();
+    cameras_ = path.frames == 1 ? std::vector<Camera>{camera}
+                                : camera_path(cloud(), camera, path.frames, path.step_degrees);
+}
+
+const GaussianCloud& CachedView::cloud() {
+    if (scene_.cloud.empty()) {
+        const Progress progress("loading " + request_.scene);
+        const Stopwatch clock;
+        scene_ = load_scene(request_.scene, request_.camera_file);
+        facts_ = facts_of(scene_);
+        load_s_ += clock.seconds();
+        if (load_s_ > kWorthKeeping) {
+            cache_.keep(key_, SceneCard{facts_, scene_.cameras});
+        }
+    }
+    return scene_.cloud;
+}
+
+std::vector<FrameWorkload> CachedView::frames(const AcceleratorConfig& config) {
+    std::vector<FrameWorkload> frames;
+    const ProjectionOptions options = projection_of(config);
+    for (const Camera& camera : cameras_) {
+        const Stopwatch clock;
+        std::optional<FrameWorkload> kept =
+            cache_.frame(key_, camera, config.tile_size_px(), config.tile_mode(), options);
+        if (!kept) {
+            break;
+        }
+        frames.push_back(std::move(*kept));
+        workload_s_ += clock.seconds();
+    }
+    if (frames.size() < cameras_.size()) {
+        double seconds = 0;
+        frames = make_workloads(cloud(), cameras_, config, seconds);
+        frames_made_ = seconds > kWorthKeeping;
+        workload_s_ += seconds;
+    }
+    return frames;
+}
+
+Reference CachedView::reference(const FrameWorkload& frame) {
+    if (std::optional<Reference> kept = cache_.reference(key_, frame)) {
+        return std::move(*kept);
+    }
+    Reference made = frame.projection.format.is_fp64()
+                         ? make_reference(frame)
+                         : make_reference(cloud(), frame, workload_s_);
+    reference_made_ = made.render_s > kWorthKeeping;
+    return made;
+}
+
+void CachedView::forget_cloud() {
+    scene_.cloud = GaussianCloud{};
+}
+
+void CachedView::keep(const std::vector<FrameWorkload>& frames, const Reference* reference) {
+    for (const FrameWorkload& frame : frames) {
+        if (frames_made_) {
+            cache_.keep(key_, frame);
+        }
+    }
+    if (reference != nullptr && reference_made_) {
+        cache_.keep(key_, frames.front(), *reference);
+    }
+}
+
+} // namespace degs::sim

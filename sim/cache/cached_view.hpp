@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/cache/frame_cache.hpp"
+#include "sim/view.hpp"
+
+namespace degs::sim {
+
+/// What precedes the simulation of a view, found in the cache or made. The Gaussians of the scene are
+/// loaded when something has to be made from them.
+class CachedView {
+public:
+    /// Throws InputError for mistakes in the view, its scene and its cameras.
+    CachedView(const ViewRequest& request, const PathRequest& path, FrameCache cache);
+
+    /// Of the scene as it was loaded, also when its Gaussians are not there.
+    const SceneFacts& facts() const { return facts_; }
+    /// Of the path; the view's own first.
+    const std::vector<Camera>& cameras() const { return cameras_; }
+    /// The frames with the tiles of the accelerator, projected in its numbers.
+    std::vector<FrameWorkload> frames(const AcceleratorConfig& config);
+    /// The reference of such a frame.
+    Reference reference(const FrameWorkload& frame);
+    /// Frees the Gaussians; they are loaded again if they are needed after all.
+    void forget_cloud();
+    /// Keeps what was made and took some time: the frames, and references as they were returned.
+    void keep(const std::vector<FrameWorkload>& frames, const Reference* reference);
+
+    double load_s() const { return load_s_; }         ///< host
+    double workload_s() const { return workload_s_; } ///< host, projections
+
+private:
+    /// Loads the scene if it is not there.
+    const GaussianCloud& cloud();
+
+    ViewRequest request_;
+    FrameCache cache_;
+    std::string key_; ///< of the scene
+    Scene scene_;     ///< its cloud may be missing
+    SceneFacts facts_;
+    std::vector<Camera> cameras_;
+    double load_s_ = 0, workload_s_ = 0;
+    bool frames_made_ = false, reference_made_ = false; ///< and worth keeping
+};
+
+} // namespace degs::sim

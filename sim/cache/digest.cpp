@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/cache/digest.hpp"
+
+#include <cinttypes>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <new>
+#include <vector>
+
+#include <xxhash.h>
+
+namespace degs::sim {
+
+Digest::Digest() : state_(XXH3_createState()) {
+    if (state_ == nullptr) {
+        throw std::bad_alloc();
+    }
+    XXH3_128bits_reset(state_.get());
+}
+
+void Digest::Free::operator()(XXH3_state_s* state) const {
+    XXH3_freeState(state);
+}
+
+void Digest::add(const std::string& text) {
+    const std::uint64_t size = text.size();
+    XXH3_128bits_update(state_.get(), &size, sizeof size);
+    XXH3_128bits_update(state_.get(), text.data(), text.size());
+}
+
+void Digest::add_file(const std::string& name) {
+    constexpr std::size_t kBlock = 1U << 20;
+    std::ifstream file(name, std::ios::binary);
+    std::vector<char> block(kBlock);
+    std::uint64_t size = 0;
+    while (file) {
+        file.read(block.data(), static_cast<std::streamsize>(kBlock));
+        const auto got = static_cast<std::size_t>(file.gcount());
+        XXH3_128bits_update(state_.get(), block.data(), got);
+        size += got;
+    }
+    XXH3_128bits_update(state_.get(), &size, sizeof size);
+}
+
+void Digest::add_scene(const std::string& name) {
+    add(name);
+    add_file(name);
+    const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+    add_file((folder / "cameras.json").string());
+    add_file((folder.parent_path().parent_path() / "cameras.json").string());
+}
+
+std::string Digest::text() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+    char digits[33];
+    std::snprintf(digits, sizeof digits, "%016" PRIx64 "%016" PRIx64, std::uint64_t{hash.high64},
+                  std::uint64_t{hash.low64});
+    return digits;
+}
+
+} // namespace degs::sim

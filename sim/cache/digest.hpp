@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+struct XXH3_state_s;
+
+namespace degs::sim {
+
+/// A number of 128 bits that tells contents apart (XXH3); it does not protect against intent.
+class Digest {
+public:
+    Digest();
+    /// Texts that follow each other are kept apart.
+    void add(const std::string& text);
+    /// The content of a file; one that does not exist or cannot be read has none.
+    void add_file(const std::string& name);
+    /// A scene with the files in which its cameras may be, see docs/cameras.md: the name and the content.
+    void add_scene(const std::string& name);
+    /// 32 hexadecimal digits.
+    std::string text() const;
+
+private:
+    struct Free {
+        void operator()(XXH3_state_s* state) const;
+    };
+    std::unique_ptr<XXH3_state_s, Free> state_;
+};
+
+} // namespace degs::sim

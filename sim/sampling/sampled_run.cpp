@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sampling/sampled_run.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "baselines/gbu_config.hpp"
+#include "config/error.hpp"
+#include "config/ratio.hpp"
+#include "sim/accelerator_run.hpp"
+#include "sim/sampling/frame_estimate.hpp"
+#include "sim/sampling/sample_design.hpp"
+#include "sim/sampling/stopping_rule.hpp"
+#include "sim/stopwatch.hpp"
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+void hatch(Image& image, const JobTile& tile) {
+    constexpr int kApart = 8;
+    constexpr std::array<double, 3> kLine{0.5, 0.5, 0.5}, kGround{0.1, 0.1, 0.1};
+    for (int y = tile.y; y < tile.y + tile.height; ++y) {
+        for (int x = tile.x; x < tile.x + tile.width; ++x) {
+            const bool line = (x + y) % kApart == 0;
+            image.put(image.at(x, y), (line ? kLine : kGround).data(), 1.0, 0);
+        }
+    }
+}
+
+/// The engine with its job, to which tiles are added while it exists.
+class OpenRun {
+public:
+    OpenRun(const AcceleratorConfig& config, const std::vector<const FrameWorkload*>& frames,
+            const Timebase& time, const BuildOptions& options)
+        : config_(config), time_(time), job_(make_render_job(frames, config)),
+          all_(job_.tiles.begin(), job_.tiles.end()) {
+        job_.tiles = TileList();
+        job_.joined = std::make_unique<sc_core::sc_event>();
+        job_.recorder = std::make_unique<SlotRecorder>(nullptr);
+        engine_ = config.build("accelerator", time_, job_, options);
+    }
+
+    const std::vector<JobTile>& all() const { return all_; }
+    std::size_t simulated() const { return job_.tiles.size(); }
+    const AcceleratorConfig& config() const { return config_; }
+
+    /// Returns the tile's number in the job.
+    std::size_t add(std::size_t tile) {
+        job_.tiles.push_back(all_[tile]);
+        return job_.tiles.size() - 1;
+    }
+    /// Simulates until nothing is left to happen.
+    void settle() {
+        (job_.joined ? job_.joined : joined_)->notify(sc_core::SC_ZERO_TIME);
+        sc_core::sc_start();
+    }
+    /// The tiles that have been added are the last.
+    void close() {
+        joined_ = std::move(job_.joined);
+        settle();
+        job_.recorder->close();
+    }
+    /// PE-cycles of a tile of the job, so far.
+    SlotAccount slots_of(std::size_t number) const {
+        const std::vector<TileActivity>& tiles = job_.recorder->tiles();
+        return number < tiles.size() ? tiles[number].slots : SlotAccount();
+    }
+    AcceleratorResult result(bool array_only) const {
+        AcceleratorResult result;
+        result.name = config_.name;
+        result.pes = config_.pes();
+        result.clock_ghz = config_.clock_ghz;
+        result.array_only = array_only;
+        result.tiles_listed = job_.tiles.size();
+        result.stopped = time_.clock.ceil(sc_core::sc_time_stamp());
+        engine_->collect(result);
+        return result;
+    }
+    /// Tiles that were not simulated are hatched, and as transparent as where nothing was drawn.
+    std::vector<Image> images() {
+        std::set<std::pair<int, int>> drawn;
+        for (const JobTile& tile : job_.tiles) {
+            drawn.emplace(tile.x, tile.y);
+        }
+        for (const JobTile& tile : all_) {
+            if (drawn.count({tile.x, tile.y}) == 0) {
+                hatch(job_.images.front(), tile);
+            }
+        }
+        return {std::make_move_iterator(job_.images.begin()),
+                std::make_move_iterator(job_.images.end())};
+    }
+
+private:
+    const AcceleratorConfig& config_;
+    const Timebase& time_;
+    RenderJob job_;
+    std::vector<JobTile> all_;
+    std::unique_ptr<RenderEngine> engine_;
+    std::unique_ptr<sc_core::sc_event> joined_; ///< of a closed job: processes still wait for it
+};
+
+std::vector<TileWork> work_of_listed(const FrameWorkload& frame) {
+    std::vector<TileWork> work;
+    for (const TileWork& tile : estimate_tile_work(frame)) {
+        if (tile.entries > 0) {
+            work.push_back(tile);
+        }
+    }
+    return work;
+}
+
+/// The sample as it grows.
+class Sampler {
+public:
+    Sampler(OpenRun& run, const std::vector<TileWork>& work, SampleDesign design,
+            FrameEstimate& estimate, bool array_only)
+        : run_(run), work_(work), design_(std::move(design)), estimate_(estimate),
+          array_only_(array_only), warm_up_(warm_up_tiles(run.config().tile_contexts())) {}
+
+    void begin() {
+        std::vector<std::size_t> numbers;
+        for (std::size_t t = 0; t < design_.edge; ++t) {
+            numbers.push_back(run_.add(t));
+        }
+        run_.settle();
+        before_ = run_.result(array_only_);
+        estimate_.begin(before_);
+        for (const std::size_t number : numbers) {
+            edge_.push_back(number);
+        }
+    }
+
+    bool more() const { return next_ < design_.groups.size(); }
+    std::size_t tiles_next() const { return design_.tiles_of(design_.groups[next_]); }
+
+    void simulate_group() {
+        const std::size_t group = next_++;
+        TileWork simulated = kNoWork;
+        std::vector<std::pair<std::size_t, std::size_t>> blocks; // number of the first tile
+        std::size_t ahead = warm_up_;
+        for (const std::size_t b : design_.groups[group]) {
+            const TileBlock& block = design_.blocks[b];
+            for (std::size_t t = block.first - std::min(block.first, ahead); t < block.first; ++t) {
+                run_.add(t);
+                simulated += work_[t];
+            }
+            ahead = 1; // the pipeline is full
+            blocks.emplace_back(b, run_.simulated());
+            for (std::size_t t = block.first; t < block.first + block.count; ++t) {
+                run_.add(t);
+                simulated += work_[t];
+            }
+            measured_ += block.count;
+        }
+        run_.settle();
+        AcceleratorResult now = run_.result(array_only_);
+        for (const auto& [block, number] : blocks) {
+            SlotAccount slots;
+            for (std::size_t i = 0; i < design_.blocks[block].count; ++i) {
+                slots += run_.slots_of(number + i);
+            }
+            estimate_.add_block(block, group, slots);
+        }
+        estimate_.add_group(before_, now, simulated);
+        before_ = std::move(now);
+    }
+
+    AcceleratorResult end() {
+        const std::size_t tiles = run_.all().size();
+        const std::size_t first = tiles - std::min(design_.edge + warm_up_, tiles);
+        for (std::size_t t = first; t < tiles; ++t) {
+            const std::size_t number = run_.add(t);
+            if (t >= tiles - design_.edge) {
+                edge_.push_back(number);
+            }
+        }
+        run_.close();
+        AcceleratorResult now = run_.result(array_only_);
+        SlotAccount slots;
+        for (const std::size_t number : edge_) {
+            slots += run_.slots_of(number);
+        }
+        TileWork warm = kNoWork;
+        for (std::size_t t = first; t < tiles - design_.edge; ++t) {
+            warm += work_[t];
+        }
+        estimate_.end(before_, now, slots, warm);
+        return now;
+    }
+
+    std::size_t measured() const { return measured_ + 2 * design_.edge; }
+    std::size_t groups() const { return next_; }
+
+private:
+    OpenRun& run_;
+    const std::vector<TileWork>& work_;
+    SampleDesign design_;
+    FrameEstimate& estimate_;
+    bool array_only_;
+    std::size_t warm_up_, next_ = 0, measured_ = 0;
+    std::vector<std::size_t> edge_; ///< numbers of the tiles at the ends of the frame
+    AcceleratorResult before_;
+};
+
+std::vector<TileWork> work_of_blocks(const std::vector<TileWork>& work,
+                                     const SampleDesign& design) {
+    std::vector<TileWork> blocks;
+    blocks.reserve(design.blocks.size());
+    for (const TileBlock& block : design.blocks) {
+        TileWork sum = kNoWork;
+        for (std::size_t t = block.first; t < block.first + block.count; ++t) {
+            sum += work[t];
+        }
+        blocks.push_back(sum);
+    }
+    return blocks;
+}
+
+/// Why tiles of this design cannot be taken out of their order; empty if they can.
+std::string kept_between_tiles(const AcceleratorConfig& config, const BuildOptions& options) {
+    const auto* gbu = dynamic_cast<const GbuConfig*>(&config);
+    if (gbu == nullptr || gbu->reuse_cache.bytes == 0 || options.array_only) {
+        return {};
+    }
+    return "The reuse cache of this design keeps records between neighbouring tiles, of which a "
+           "sample has few (reuse_cache.bytes=0 takes it out); all tiles are simulated, and the "
+           "results are exact.";
+}
+
+std::string too_few(std::size_t tiles, std::size_t needed) {
+    return "The frame has " + grouped(tiles) +
+           " tiles that list a splat, and a sample of this design needs at least " +
+           grouped(needed) + "; all tiles are simulated, and the results are exact.";
+}
+
+std::string too_wide(const SamplingRequest& request, double reached, std::size_t measured,
+                     std::size_t tiles) {
+    return "After " + grouped(measured) + " of " + grouped(tiles) + " tiles the 95 % interval of " +
+           request.measure + " is ±" + three_digits(100 * reached) + " % wide, and ±" +
+           three_digits(100 * request.within) + " % is not to be had from less than " +
+           percent(kMostShare, 0) +
+           " % of them; all tiles are simulated, and the results are exact.";
+}
+
+Verdict verdict_on(const Sampler& sampler, const FrameEstimate& estimate, SamplingFacts& facts) {
+    if (sampler.groups() < kLeastGroups && sampler.more()) {
+        return Verdict::More;
+    }
+    facts.measured = sampler.measured();
+    facts.reached = estimate.relative_half_width(facts.request.measure);
+    return judge_sample(facts.request, ratio_of(facts.measured, facts.tiles), facts.reached,
+                        sampler.more());
+}
+
+} // namespace
+
+SampledResult run_sampled(const AcceleratorConfig& config,
+                          const std::vector<const FrameWorkload*>& frames, Fidelity fidelity,
+                          const BuildOptions& options, const SamplingRequest& request,
+                          Progress& progress) {
+    if (frames.size() != 1) {
+        throw InputError("A sample of tiles is of one frame, but the run has " +
+                         std::to_string(frames.size()) +
+                         "; --frames cannot be combined with --within or --fidelity sampled.");
+    }
+    const Stopwatch elaborate;
+    SampledResult sampled;
+    SamplingFacts& facts = sampled.facts;
+    facts.request = request;
+    facts.refusal = kept_between_tiles(config, options);
+    if (!facts.refusal.empty()) {
+        return sampled;
+    }
+    const std::vector<TileWork> work = work_of_listed(*frames.front());
+    facts.tiles = work.size();
+    const int contexts = config.tile_contexts();
+    SampleDesign design = design_sample(work, sizes_for(contexts, work.size()), request.seed);
+    if (!can_sample(design)) {
+        facts.refusal = too_few(work.size(), least_tiles(contexts));
+        return sampled;
+    }
+    const Timebase time{ClockDomain(config.clock_ghz), fidelity, nullptr};
+    OpenRun run(config, frames, time, options);
+    FrameEstimate estimate(config, *frames.front(), work_of_blocks(work, design));
+    Sampler sampler(run, work, std::move(design), estimate, options.array_only);
+    const double elaborate_s = elaborate.seconds();
+
+    const CpuStopwatch clock;
+    sampler.begin();
+    Verdict verdict = Verdict::More;
+    while (verdict == Verdict::More) {
+        sampler.simulate_group();
+        progress.done(std::min(1.0, ratio_of(sampler.measured(), work.size()) / kMostShare));
+        verdict = verdict_on(sampler, estimate, facts);
+    }
+    if (verdict == Verdict::Hopeless) {
+        facts.refusal = too_wide(request, facts.reached, facts.measured, facts.tiles);
+    } else {
+        const AcceleratorResult raw = sampler.end();
+        check_result(raw);
+        sampled.result = estimate.whole_frame(facts.tiles);
+        facts.reached = estimate.relative_half_width(request.measure);
+        facts.intervals = estimate.intervals();
+        sampled.result.images = run.images();
+    }
+    facts.measured = sampler.measured();
+    facts.simulated = run.simulated();
+    facts.groups = sampler.groups();
+    sampled.result.elaborate_s = elaborate_s;
+    sampled.result.sim_s = clock.seconds();
+    return sampled;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame from a sample of its tiles: preprocessing as it is, then groups of blocks of tiles until
+// the estimate is good enough. docs/sampling.md explains the method.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "modules/render_engine.hpp"
+#include "sim/sampling/sampling_request.hpp"
+#include "sim/text/progress.hpp"
+
+namespace degs::sim {
+
+/// The 95 % interval of a number of the report.
+struct ReportInterval {
+    std::string path; ///< "timing.cycles"
+    double low = 0, high = 0;
+};
+
+/// What a sampled run has simulated, and how far its numbers can be trusted.
+struct SamplingFacts {
+    SamplingRequest request;
+    std::size_t tiles = 0;     ///< that list a splat
+    std::size_t measured = 0;  ///< of them in the sample
+    std::size_t simulated = 0; ///< with those that warm up the pipeline, which may come twice
+    std::size_t groups = 0;
+    double reached = 0; ///< half of the interval of request.measure over its value
+    std::vector<ReportInterval> intervals;
+    /// What keeps a sample from holding the promise; empty if nothing does.
+    std::string refusal;
+};
+
+struct SampledResult {
+    AcceleratorResult
+        result; ///< of the whole frame, as estimated; the image of the simulated tiles
+    SamplingFacts facts;
+};
+
+/// May be called once per process. Throws InputError for several frames. A refusal leaves a result
+/// that must not be used.
+SampledResult run_sampled(const AcceleratorConfig& config,
+                          const std::vector<const FrameWorkload*>& frames, Fidelity fidelity,
+                          const BuildOptions& options, const SamplingRequest& request,
+                          Progress& progress);
+
+} // namespace degs::sim

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sampling/stopping_rule.hpp"
+
+#include <algorithm>
+
+namespace degs::sim {
+namespace {
+
+/// The share of the tiles at which the interval will be as narrow as was asked for: its square falls
+/// with the number of tiles, but for the correction that a finite number of them brings.
+double share_needed(double share, double reached, double within) {
+    const double odds = share / (1 - share) * (reached / within) * (reached / within);
+    return odds / (1 + odds);
+}
+
+} // namespace
+
+std::size_t warm_up_tiles(int contexts) {
+    return std::size_t{2} + contexts;
+}
+
+SampleSizes sizes_for(int contexts, std::size_t tiles) {
+    SampleSizes sizes;
+    const std::size_t warm = warm_up_tiles(contexts);
+    sizes.edge = 4 * warm;
+    sizes.block = tiles >= 300 ? 2 : 1;
+    sizes.group = std::max(4 * sizes.block, std::min(6 * warm, tiles / 30));
+    return sizes;
+}
+
+bool can_sample(const SampleDesign& design) {
+    return design.groups.size() >= 2 * kLeastGroups;
+}
+
+std::size_t least_tiles(int contexts) {
+    std::size_t tiles = 2 * kLeastGroups;
+    for (bool enough = false; !enough; ++tiles) {
+        const SampleSizes sizes = sizes_for(contexts, tiles);
+        enough = tiles >= 2 * sizes.edge + 2 * kLeastGroups * sizes.group;
+    }
+    return tiles - 1;
+}
+
+Verdict judge_sample(const SamplingRequest& request, double share, double reached, bool more) {
+    if (request.share > 0) {
+        return share >= request.share || !more ? Verdict::Enough : Verdict::More;
+    }
+    if (reached <= request.within) {
+        return Verdict::Enough;
+    }
+    // The first looks are uncertain, so that what seems a little too much is still tried.
+    constexpr double kBenefitOfDoubt = 1.2;
+    const bool hopeless =
+        !more || share > kMostShare ||
+        share_needed(share, reached, request.within) > kBenefitOfDoubt * kMostShare;
+    return hopeless ? Verdict::Hopeless : Verdict::More;
+}
+
+} // namespace degs::sim

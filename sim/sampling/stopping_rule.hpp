@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// How large the pieces of a sample are, and when it is large enough.
+#pragma once
+
+#include <cstddef>
+
+#include "sim/sampling/sample_design.hpp"
+#include "sim/sampling/sampling_request.hpp"
+
+namespace degs::sim {
+
+/// Groups before the first look at the interval: fewer say too little about their own scatter.
+inline constexpr std::size_t kLeastGroups = 8;
+/// Above this share of the tiles an exact run takes little longer, and is exact.
+inline constexpr double kMostShare = 0.5;
+
+/// Tiles that fill a pipeline with so many tile contexts: those in flight, and those whose lists are
+/// read ahead of them.
+std::size_t warm_up_tiles(int contexts);
+/// For a frame with so many tiles that list a splat.
+SampleSizes sizes_for(int contexts, std::size_t tiles);
+/// Whether a frame has the groups of two first looks.
+bool can_sample(const SampleDesign& design);
+/// The least number of tiles of a frame that can be sampled.
+std::size_t least_tiles(int contexts);
+
+enum class Verdict {
+    More,     ///< go on
+    Enough,   ///< the interval is as narrow, or the share as large, as was asked for
+    Hopeless, ///< an exact run is better
+};
+/// `share`: of the tiles, so far; `reached`: half of the interval over the value; `more`: whether
+/// tiles are left.
+Verdict judge_sample(const SamplingRequest& request, double share, double reached, bool more);
+
+} // namespace degs::sim

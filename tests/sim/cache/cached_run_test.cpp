@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs run with a cache: the same results as without, whatever has become of its entries.
+#include <algorithm>
+#include <cstdlib>
+
+#include "sim/cache/cached_view.hpp"
+#include "tests/sim/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+/// A cache in the environment of children, while it lives.
+class UsersCache {
+public:
+    explicit UsersCache(const std::string& folder) { ::setenv("DEGS_CACHE", folder.c_str(), 1); }
+    ~UsersCache() { ::setenv("DEGS_CACHE", "", 1); }
+    UsersCache(const UsersCache&) = delete;
+    UsersCache& operator=(const UsersCache&) = delete;
+};
+
+std::vector<fs::path> entries_of(const std::string& folder) {
+    std::vector<fs::path> files;
+    std::error_code none;
+    for (const auto& file : fs::directory_iterator(folder, none)) {
+        files.push_back(file.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+/// Long enough to be kept.
+const char* const kLarge = "synthetic:outdoor,gaussians=100000";
+
+std::string run_to(const std::string& out, const std::string& scene,
+                   const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"run", config("degs-16"), "--scene", scene, "--out",
+                                       out,   "--width",         "400"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_success(degs(arguments));
+    auto report = report_in(out);
+    report.erase("host");
+    return report.dump() + read_file(fs::path(out) / "image.exr");
+}
+
+TEST(CachedRun, GivesWhatAFreshRunGives) {
+    const Folder folder;
+    const std::string fresh = run_to(folder / "fresh", kLarge);
+    const UsersCache cache(folder / "cache");
+    EXPECT_EQ(run_to(folder / "first", kLarge), fresh);
+    const auto entries = entries_of(folder / "cache");
+    ASSERT_EQ(entries.size(), 3U); // the scene, the frame and the reference
+    EXPECT_EQ(run_to(folder / "second", kLarge), fresh);
+    EXPECT_EQ(entries_of(folder / "cache"), entries);
+    // Another camera, another size of tiles, a path: none of them finds this frame.
+    for (const std::vector<std::string>& other : {std::vector<std::string>{"--camera", "1"},
+                                                  {"--set", "tile_size=16"},
+                                                  {"--frames", "2"}}) {
+        const std::string cached = run_to(folder / "a", kLarge, other);
+        ::setenv("DEGS_CACHE", "", 1);
+        EXPECT_EQ(run_to(folder / "b", kLarge, other), cached) << other[0];
+        ::setenv("DEGS_CACHE", (folder / "cache").c_str(), 1);
+        EXPECT_EQ(run_to(folder / "a", kLarge, other), cached) << other[0];
+    }
+}
+
+TEST(CachedRun, SurvivesDamage) {
+    const Folder folder;
+    const UsersCache cache(folder / "cache");
+    const std::string first = run_to(folder / "o", kLarge);
+    for (const fs::path& entry : entries_of(folder / "cache")) {
+        fs::resize_file(entry, fs::file_size(entry) / 2);
+    }
+    EXPECT_EQ(run_to(folder / "o", kLarge), first);
+    EXPECT_EQ(entries_of(folder / "cache").size(), 3U);
+}
+
+TEST(CachedRun, NoticesAChangedScene) {
+    const Folder folder;
+    const UsersCache cache(folder / "cache");
+    const std::string scene = folder / "scene.ply";
+    const auto write = [&scene](const char* seed) {
+        expect_success(degs({"scene", "generate", "outdoor", "--gaussians", "100000", "--seed",
+                             seed, "--out", scene}));
+    };
+    write("1");
+    const std::string first = run_to(folder / "o", scene);
+    write("2");
+    EXPECT_NE(run_to(folder / "o", scene), first);
+}
+
+TEST(CachedRun, CanDoWithout) {
+    const Folder folder;
+    {
+        const UsersCache cache(folder / "cache");
+        run_to(folder / "o", kLarge, {"--no-cache"});
+        EXPECT_FALSE(fs::exists(folder / "cache"));
+        ::setenv("DEGS_CACHE_BYTES", "many", 1);
+        expect_mistake(
+            degs({"run", config("degs-16"), "--scene", "synthetic:single", "--out", folder / "o"}),
+            "DEGS_CACHE_BYTES is 'many'");
+        ::setenv("DEGS_CACHE_BYTES", "0", 1);
+        run_to(folder / "o", kLarge);
+        ::unsetenv("DEGS_CACHE_BYTES");
+        EXPECT_FALSE(fs::exists(folder / "cache"));
+    }
+    const UsersCache nowhere("/proc/no/such/folder");
+    run_to(folder / "o", kLarge);
+}
+
+TEST(FrameCache, FindsFramesByEverythingTheyDependOn) {
+    const Folder folder;
+    const sim::FrameCache cache(sim::DiskCache(folder / "c", 100000000));
+    const Scene scene = load_scene("synthetic:object,gaussians=500");
+    Camera camera = scene.cameras[0].scaled_to_width(160);
+    const ProjectionOptions options;
+    const FrameWorkload frame =
+        make_frame_workload(scene.cloud, camera, 16, TileMode::Exact, options);
+    cache.keep("scene", frame);
+    const auto found = [&](const std::string& key, int tile, TileMode mode,
+                           const ProjectionOptions& with) {
+        return cache.frame(key, camera, tile, mode, with);
+    };
+    const auto same = found("scene", 16, TileMode::Exact, options);
+    ASSERT_TRUE(same);
+    EXPECT_EQ(same->tile_splats, frame.tile_splats);
+    EXPECT_EQ(same->tile_begin, frame.tile_begin);
+    EXPECT_EQ(same->visible_of, frame.visible_of);
+    EXPECT_EQ(same->visible_means, frame.visible_means);
+    EXPECT_EQ(same->tiles_touched, frame.tiles_touched);
+    EXPECT_EQ(same->culled.total(), frame.culled.total());
+    EXPECT_EQ(same->gaussians, frame.gaussians);
+    EXPECT_EQ(same->sh_degree, frame.sh_degree);
+    ReferenceCounts counts, counts_of_same;
+    EXPECT_EQ(render_reference(*same, counts_of_same).rgb, render_reference(frame, counts).rgb);
+    EXPECT_FALSE(found("scenf", 16, TileMode::Exact, options));
+    EXPECT_FALSE(found("scene", 8, TileMode::Exact, options));
+    EXPECT_FALSE(found("scene", 16, TileMode::Reference, options));
+    ProjectionOptions other = options;
+    other.dilation = 0.31;
+    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
+    other = options;
+    other.format = parse_format("fp16");
+    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
+    camera.position.x += 1e-12;
+    EXPECT_FALSE(found("scene", 16, TileMode::Exact, options));
+}
+
+} // namespace
+} // namespace degs::sim_test
