@@ -65,7 +65,9 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     if (recording.timeline) {
         timeline.emplace(*recording.timeline);
     }
-    const Timebase time{ClockDomain(config.clock_ghz), fidelity, timeline ? &*timeline : nullptr};
+    std::uint64_t activations = 0;
+    const Timebase time{ClockDomain(config.clock_ghz), fidelity, timeline ? &*timeline : nullptr,
+                        &activations};
     RenderJob job = make_render_job(frames, config);
     if (timeline || recording.tiles) {
         job.recorder = std::make_unique<SlotRecorder>(time.timeline);
@@ -77,6 +79,7 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     const CpuStopwatch run;
     run_kernel(*engine, time.clock, job.tiles.size(), progress);
     result.sim_s = run.seconds();
+    result.activations = activations;
 
     result.name = config.name;
     result.pes = config.pes();

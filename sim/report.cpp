@@ -87,6 +87,9 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
     v.real("fragments_per_s",
            ratio(static_cast<double>(result.accelerator.slots.useful), host.sim_s), "pixels/s",
            "slots.useful / sim_s.");
+    v.count(
+        "activations", host.activations, "resumptions",
+        "How often the kernel resumed a process of the model; what blocks do in one is not in it.");
     v.count("peak_rss_bytes", host.peak_rss_bytes, "bytes", "Largest resident set.");
     v.end_section();
 }

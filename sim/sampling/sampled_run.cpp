@@ -285,7 +285,8 @@ SampledResult run_sampled(const AcceleratorConfig& config,
         facts.refusal = too_few(work.size(), least_tiles(contexts));
         return sampled;
     }
-    const Timebase time{ClockDomain(config.clock_ghz), fidelity, nullptr};
+    std::uint64_t activations = 0;
+    const Timebase time{ClockDomain(config.clock_ghz), fidelity, nullptr, &activations};
     OpenRun run(config, frames, time, options);
     FrameEstimate estimate(config, *frames.front(), work_of_blocks(work, design));
     Sampler sampler(run, work, std::move(design), estimate, options.array_only);
@@ -314,6 +315,7 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     facts.groups = sampler.groups();
     sampled.result.elaborate_s = elaborate_s;
     sampled.result.sim_s = clock.seconds();
+    sampled.result.activations = activations;
     return sampled;
 }
 

@@ -28,8 +28,9 @@ Lpddr5::Lpddr5(const sc_core::sc_module_name& name, const Config& config, const 
       ck_(sc_core::sc_time(config.timing.ck_ns(), sc_core::SC_NS).value()),
       extra_(
           static_cast<Ck>(std::ceil(config.controller_latency_ns / config.timing.ck_ns() - 1e-9))),
-      half_cycle_(sc_core::sc_time::from_value(time.clock.period().value() / 2)), channels_(config),
-      stats_(initiators), initiators_(initiators),
+      half_cycle_(sc_core::sc_time::from_value(time.clock.period().value() / 2)),
+      activations_(time.activations), channels_(config), stats_(initiators),
+      initiators_(initiators),
       // An answer lies at most a whole read or write, and the extra latency, ahead.
       answers_(power_above(config.timing.read_latency() + config.timing.write_latency() + extra_)) {
     for (std::size_t i = 0; i < initiators; ++i) {
@@ -63,6 +64,7 @@ void Lpddr5::transport(int socket, Payload& payload, sc_core::sc_time& delay) {
     arrival.direct = &direct;
     arrivals_.push_back(arrival);
     sc_core::wait(delay + half_cycle_);
+    count_activation(activations_);
     if (!direct.served) {
         advance(arrival.date);
         schedule();
@@ -142,6 +144,7 @@ tlm::tlm_sync_enum Lpddr5::begin_request(std::uint32_t socket, Payload& payload,
 
 // Half a CK after an edge all requests dated up to that edge have been made.
 void Lpddr5::serve() {
+    count_activation(activations_);
     const std::uint64_t edge = now() / ck_ * ck_;
     advance(edge);
     release_held_back();
@@ -265,6 +268,7 @@ void Lpddr5::schedule_responses() {
 
 // Equal dates by socket, then in the order of its requests.
 void Lpddr5::respond() {
+    count_activation(activations_);
     const Ck date = now() / ck_;
     std::vector<std::uint32_t>& due = answers_[date % answers_.size()];
     std::sort(due.begin(), due.end(), [this](std::uint32_t a, std::uint32_t b) {

@@ -133,6 +133,7 @@ private:
     std::uint64_t ck_; // kernel time units
     Ck extra_;         // controller_latency_ns
     sc_core::sc_time half_cycle_;
+    std::uint64_t* activations_; // see Timebase
     Channels channels_;
     SparseStorage storage_;
     std::vector<Stats> stats_;

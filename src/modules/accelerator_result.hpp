@@ -106,6 +106,7 @@ struct AcceleratorResult {
     TimelineRecord timeline;              ///< if the run was asked for one
     std::vector<TileRecord> tile_records; ///< likewise, in the order of the job
     double elaborate_s = 0, sim_s = 0;    ///< host; sim_s is sc_start() alone
+    std::uint64_t activations = 0;        ///< host; see Timebase
 
     /// The sections timing, stages, slots, dram and buffers of a report.
     void describe(StatsVisitor& visitor) const;

@@ -7,15 +7,20 @@ namespace degs {
 
 namespace {
 
-// Splats are in depth order, Gaussians are streamed in scene order.
+// Splats are in depth order, Gaussians are streamed in scene order. Ranks reach from the first visible
+// Gaussian to the last one only, so that a few visible ones of a large scene cost little.
 std::vector<std::uint64_t> prefix_of_pairs(const FrameWorkload& frame) {
-    std::vector<std::uint32_t> rank(frame.gaussians, 0);
-    for (std::uint32_t v = 0; v < frame.visible_of.size(); ++v) {
-        rank[frame.visible_of[v]] = v;
-    }
     std::vector<std::uint64_t> prefix(frame.visible_of.size() + 1, 0);
+    if (frame.visible_of.empty()) {
+        return prefix;
+    }
+    const std::uint32_t first = frame.visible_of.front();
+    std::vector<std::uint32_t> rank(frame.visible_of.back() - first + std::size_t{1}, 0);
+    for (std::uint32_t v = 0; v < frame.visible_of.size(); ++v) {
+        rank[frame.visible_of[v] - first] = v;
+    }
     for (std::size_t s = 0; s < frame.splats.size(); ++s) {
-        prefix[rank[frame.splats[s].id] + 1] = frame.tiles_touched[s];
+        prefix[rank[frame.splats[s].id - first] + 1] = frame.tiles_touched[s];
     }
     for (std::size_t v = 1; v < prefix.size(); ++v) {
         prefix[v] += prefix[v - 1];

@@ -165,8 +165,10 @@ Cull ProjectorIn<Numbers>::project_anywhere(std::size_t index, ProjectedSplat& o
 
 template <class Numbers>
 Cull ProjectorIn<Numbers>::shade(std::size_t index, ProjectedSplat& out) const {
-    const Vector offset = vector_in(n_, cloud_.means[index] - position_);
-    const Vector direction = offset * (k_.one / root_of(dot(offset, offset)));
+    Vector direction = vector_in(n_, cloud_.means[index] - position_);
+    if (cloud_.sh_degree > 0) { // without higher bands the colour has no direction
+        direction = direction * (k_.one / root_of(dot(direction, direction)));
+    }
     const Vector sum = evaluate_sh(n_, cloud_.sh_degree, cloud_.sh_of(index), direction);
     const double rgb[] = {value_of(k_.half + sum.x), value_of(k_.half + sum.y),
                           value_of(k_.half + sum.z)};

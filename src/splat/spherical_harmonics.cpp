@@ -1,60 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "splat/spherical_harmonics.hpp"
 
+#include "splat/sh_evaluation.hpp"
+
 namespace degs {
 namespace {
-
-/// Fills Y_k of one degree after the other.
-template <class Numbers>
-struct Basis {
-    using Scalar = typename Numbers::Scalar;
-    using Values = std::array<Scalar, kMaxShCoefficients>;
-
-    Basis(const Numbers& numbers, const Vector3<Scalar>& direction)
-        : n(numbers), x(direction.x), y(direction.y), z(direction.z), xx(x * x), yy(y * y),
-          zz(z * z) {}
-
-    Values values(int degree) const {
-        const Scalar none = n(0.0);
-        Values out{{n(kShY0), none, none, none, none, none, none, none, none, none, none, none,
-                    none, none, none, none}};
-        if (degree >= 1) {
-            fill_degree_1(out);
-        }
-        if (degree >= 2) {
-            fill_degree_2(out);
-        }
-        if (degree >= 3) {
-            fill_degree_3(out);
-        }
-        return out;
-    }
-    void fill_degree_1(Values& out) const {
-        constexpr double kY1 = 0.4886025119029199; // sqrt(3 / (4 pi))
-        out[1] = n(-kY1) * y;
-        out[2] = n(kY1) * z;
-        out[3] = n(-kY1) * x;
-    }
-    void fill_degree_2(Values& out) const {
-        out[4] = n(1.0925484305920792) * x * y;
-        out[5] = n(-1.0925484305920792) * y * z;
-        out[6] = n(0.31539156525252005) * (n(2) * zz - xx - yy);
-        out[7] = n(-1.0925484305920792) * x * z;
-        out[8] = n(0.5462742152960396) * (xx - yy);
-    }
-    void fill_degree_3(Values& out) const {
-        out[9] = n(-0.5900435899266435) * y * (n(3) * xx - yy);
-        out[10] = n(2.890611442640554) * x * y * z;
-        out[11] = n(-0.4570457994644658) * y * (n(4) * zz - xx - yy);
-        out[12] = n(0.3731763325901154) * z * (n(2) * zz - n(3) * xx - n(3) * yy);
-        out[13] = n(-0.4570457994644658) * x * (n(4) * zz - xx - yy);
-        out[14] = n(1.445305721320277) * z * (xx - yy);
-        out[15] = n(-0.5900435899266435) * x * (xx - n(3) * yy);
-    }
-
-    const Numbers& n;
-    Scalar x, y, z, xx, yy, zz;
-};
 
 using Double = MachineNumbers<double>;
 
@@ -62,23 +12,7 @@ using Double = MachineNumbers<double>;
 
 std::array<double, kMaxShCoefficients> sh_basis(int degree, const glm::dvec3& direction) {
     const Double numbers;
-    return Basis<Double>(numbers, vector_in(numbers, direction)).values(degree);
-}
-
-template <class Numbers>
-Vector3<typename Numbers::Scalar> evaluate_sh(const Numbers& numbers, int degree,
-                                              const float* coefficients,
-                                              const Vector3<typename Numbers::Scalar>& direction) {
-    const auto basis = Basis<Numbers>(numbers, direction).values(degree);
-    const int count = (degree + 1) * (degree + 1);
-    Vector3<typename Numbers::Scalar> sum = vector_in(numbers, glm::dvec3(0.0));
-    const float* rgb = coefficients;
-    for (int k = 0; k < count; ++k, rgb += 3) {
-        const auto& y = basis[k];
-        sum = {sum.x + y * numbers(double{rgb[0]}), sum.y + y * numbers(double{rgb[1]}),
-               sum.z + y * numbers(double{rgb[2]})};
-    }
-    return sum;
+    return ShBasis<Double>(numbers, degree, vector_in(numbers, direction)).values();
 }
 
 template Vector3<double> evaluate_sh(const Double&, int, const float*, const Vector3<double>&);

@@ -22,7 +22,8 @@ std::array<double, kMaxShCoefficients> sh_basis(int degree, const glm::dvec3& di
 glm::dvec3 evaluate_sh(int degree, const float* coefficients, const glm::dvec3& direction);
 
 /// The same in the arithmetic of `numbers`: coefficients and constants are rounded once, and so is
-/// the result of every operation. For double, float and Rounded.
+/// the result of every operation. Compiled for double, float and Rounded; sh_evaluation.hpp has it for any scalar.
+/// Degree 0 does not read `direction`.
 template <class Numbers>
 Vector3<typename Numbers::Scalar> evaluate_sh(const Numbers& numbers, int degree,
                                               const float* coefficients,

@@ -33,7 +33,8 @@ Memory::Memory(const sc_core::sc_module_name& name, const Config& config, const 
                std::size_t initiators)
     : sc_core::sc_module(name), in("in", initiators), config_(config),
       half_cycle_(sc_core::sc_time::from_value(time.clock.period().value() / 2)),
-      units_per_ns_(units_of(sc_core::sc_time(1, sc_core::SC_NS))), stats_(initiators) {
+      activations_(time.activations), units_per_ns_(units_of(sc_core::sc_time(1, sc_core::SC_NS))),
+      stats_(initiators) {
     int initiator = 0;
     for (auto& socket : in) {
         socket.register_b_transport(this, &Memory::transport, initiator);
@@ -77,6 +78,7 @@ void Memory::transport(int initiator, tlm::tlm_generic_payload& payload, sc_core
     request.payload = &payload;
     pending_.push_back(&request);
     sc_core::wait(delay + half_cycle_);
+    count_activation(activations_);
     if (!request.served) {
         serve_until(request.date);
     }

@@ -66,6 +66,7 @@ private:
 
     Config config_;
     sc_core::sc_time half_cycle_;
+    std::uint64_t* activations_; // see Timebase
     double units_per_ns_;
     double bus_free_ = 0; // kernel time units; fractional, because a burst is not a whole number
     std::uint64_t sequence_ = 0;

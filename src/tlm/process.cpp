@@ -20,6 +20,7 @@ void Process::sync() {
     const sc_core::sc_time target = clock_->at(local_);
     if (target > now) {
         sc_core::wait(target - now);
+        count_activation(activations_);
     }
 }
 
@@ -45,6 +46,7 @@ void Process::finish() {
 
 void Process::sleep() {
     sc_core::wait(wake_);
+    count_activation(activations_);
 }
 
 // Most sleeps end before their time. So a timeout is not taken back but serves later sleeps, too: an
@@ -54,6 +56,7 @@ void Process::doze_until(const sc_core::sc_time& date) {
     if (date > now) {
         timeout_.notify(date - now);
         sc_core::wait(wake_or_timeout_);
+        count_activation(activations_);
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "tlm/clock_domain.hpp"
@@ -34,7 +35,16 @@ struct Timebase {
     ClockDomain clock{1.0};
     Fidelity fidelity = Fidelity::Exact;
     Timeline* timeline = nullptr; ///< which processes and rings join; null: there is none
+    /// Counts how often the kernel resumed a process of a block or a memory; null: nobody counts.
+    std::uint64_t* activations = nullptr;
 };
+
+/// `counter`: Timebase::activations.
+inline void count_activation(std::uint64_t* counter) {
+    if (counter != nullptr) {
+        ++*counter;
+    }
+}
 
 /// The local clock of one SC_THREAD, and how it sleeps and is woken.
 ///
@@ -45,7 +55,8 @@ public:
     explicit Process(const Timebase& time)
         : clock_(&time.clock), strict_(time.fidelity == Fidelity::Strict),
           track_(time.timeline == nullptr ? nullptr : &time.timeline->join(*this)),
-          step_end_(track_ == nullptr ? kNever : 0), alarm_(no_alarm()) {
+          step_end_(track_ == nullptr ? kNever : 0), activations_(time.activations),
+          alarm_(no_alarm()) {
         wake_or_timeout_ |= wake_;
         wake_or_timeout_ |= timeout_;
     }
@@ -152,8 +163,9 @@ private:
     bool strict_;
     Cycle local_ = 0;
     ProcessTrack* track_;
-    Cycle step_end_;          // last date of the timeline's present step; kNever without one
-    Cycle memory_cycles_ = 0; // waited for the memory
+    Cycle step_end_;             // last date of the timeline's present step; kNever without one
+    std::uint64_t* activations_; // of all threads together, see Timebase
+    Cycle memory_cycles_ = 0;    // waited for the memory
     Pumped* body_ = nullptr;
     sc_core::sc_event wake_;
     sc_core::sc_event timeout_; // stays announced when the process is woken, see doze_until()

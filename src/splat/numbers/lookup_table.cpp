@@ -2,6 +2,7 @@
 #include "splat/numbers/lookup_table.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -63,6 +64,8 @@ double chord_distance(const Curve& curve, double a, double b) {
     return distance((low + high) / 2);
 }
 
+std::atomic<std::uint64_t> tables_filled{0};
+
 } // namespace
 
 void TableSpec::describe(ConfigVisitor& visitor) {
@@ -91,6 +94,10 @@ std::string TableSpec::cost_key() const {
            std::to_string(values.storage_bits() * (linear ? 2 : 1));
 }
 
+std::uint64_t LookupTable::filled() {
+    return tables_filled;
+}
+
 LookupTable::LookupTable(const TableSpec& spec)
     : spec_(spec), round_(spec.values), round_argument_(spec.argument) {
     if (spec.interpolation == Interpolation::Exact) {
@@ -100,6 +107,7 @@ LookupTable::LookupTable(const TableSpec& spec)
         throw InputError("A lookup table has 1 to 4096 entries and a range above 0, not " +
                          std::to_string(spec.entries) + " entries.");
     }
+    ++tables_filled;
     const bool reduced = spec.reduction == Reduction::Binary;
     const bool root = spec.function == TableFunction::SqrtOneMinus;
     low_ = reduced && root ? 0.25 : 0.0;
