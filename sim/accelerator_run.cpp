@@ -76,6 +76,7 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     AcceleratorResult result;
     result.elaborate_s = elaborate.seconds();
 
+    result.sim_start = std::chrono::steady_clock::now();
     const CpuStopwatch run;
     run_kernel(*engine, time.clock, job.tiles.size(), progress);
     result.sim_s = run.seconds();

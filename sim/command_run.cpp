@@ -65,11 +65,13 @@ std::optional<SamplingRequest> wanted_sampling(const RunOptions& options) {
 }
 
 /// Makes or finds the frames, runs them and compares with the reference.
-RunResult simulate(const RunRequest& request, CachedView& view) {
+RunResult simulate(const RunRequest& request, CachedView& view, const Stopwatch& since_start) {
     const Stopwatch wall;
     const std::vector<FrameWorkload> workloads = view.frames(request.config.accelerator());
-    std::optional<Reference> reference; // now if it needs the Gaussians, else after the run
-    const bool from_scene = request.reference && !workloads.front().projection.format.is_fp64();
+    std::optional<Reference>
+        reference; // now if it needs Gaussians that are there, else after the run
+    const bool from_scene =
+        request.reference && view.has_cloud() && !workloads.front().projection.format.is_fp64();
     if (from_scene && !request.sampling) {
         reference = view.reference(workloads.front());
     }
@@ -86,6 +88,7 @@ RunResult simulate(const RunRequest& request, CachedView& view) {
         judge(result, *reference);
     }
     result.host.load_s = view.load_s();
+    result.host.start_s = since_start.seconds_to(result.accelerator.sim_start);
     result.host.workload_s = view.workload_s();
     result.host.wall_s = view.load_s() + wall.seconds();
     result.host.peak_rss_bytes = peak_rss_bytes();
@@ -94,6 +97,7 @@ RunResult simulate(const RunRequest& request, CachedView& view) {
 }
 
 void run(const RunOptions& options) {
+    const Stopwatch since_start;
     const std::optional<SamplingRequest> sampling = wanted_sampling(options);
     const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
     CachedView view(options.view, options.path,
@@ -112,7 +116,7 @@ void run(const RunOptions& options) {
         maps.emplace(options.maps, tile_map_files());
         request.recording.tiles = true;
     }
-    const RunResult result = simulate(request, view);
+    const RunResult result = simulate(request, view, since_start);
     write_exr(result.accelerator.images.front(), out.path("image.exr"));
     write_png(result.accelerator.images.front(), out.path("image.png"));
     out.write_json("report.json", report(result));

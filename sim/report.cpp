@@ -76,6 +76,10 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
     v.real("load_s", host.load_s, "s", "Reading the scene.");
     v.real("workload_s", host.workload_s, "s", "Projection, depth order and tile lists.");
     v.real("elaborate_s", host.elaborate_s, "s", "Building the model.");
+    v.real("start_s", host.start_s, "s",
+           "From the start of the command to that of the simulation proper: scene, frames, model, "
+           "and the "
+           "reference image where it is rendered before.");
     v.real("sim_s", host.sim_s, "s", "The simulation proper, on one processor.");
     v.real("run_s", host.run_s, "s",
            "Everything between the projected frames and their results, on one processor: the "

@@ -9,8 +9,9 @@ namespace degs::sim {
 /// Measures host time since its construction.
 class Stopwatch {
 public:
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    double seconds() const { return seconds_to(std::chrono::steady_clock::now()); }
+    double seconds_to(std::chrono::steady_clock::time_point date) const {
+        return std::chrono::duration<double>(date - start_).count();
     }
 
 private:

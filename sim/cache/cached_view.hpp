@@ -24,6 +24,8 @@ public:
     std::vector<FrameWorkload> frames(const AcceleratorConfig& config);
     /// The reference of such a frame.
     Reference reference(const FrameWorkload& frame);
+    /// Something had to be made from the Gaussians, which are still there.
+    bool has_cloud() const { return !scene_.cloud.empty(); }
     /// Frees the Gaussians; they are loaded again if they are needed after all.
     void forget_cloud();
     /// Keeps what was made and took some time: the frames, and references as they were returned.

@@ -292,6 +292,7 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     Sampler sampler(run, work, std::move(design), estimate, options.array_only);
     const double elaborate_s = elaborate.seconds();
 
+    const auto sim_start = std::chrono::steady_clock::now();
     const CpuStopwatch clock;
     sampler.begin();
     Verdict verdict = Verdict::More;
@@ -316,6 +317,7 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     sampled.result.elaborate_s = elaborate_s;
     sampled.result.sim_s = clock.seconds();
     sampled.result.activations = activations;
+    sampled.result.sim_start = sim_start;
     return sampled;
 }
 

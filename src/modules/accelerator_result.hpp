@@ -2,6 +2,7 @@
 // The results of a run of any accelerator: plain values, filled when the run is over.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -101,12 +102,13 @@ struct AcceleratorResult {
     std::uint64_t background_tiles = 0, tiles_cancelled = 0;
     Cycle stopped = 0; ///< nothing was left to happen at this date
     std::vector<Conservation> conservation;
-    std::vector<std::string> left_out;    ///< sentences for --explain
-    std::vector<Image> images;            ///< one per frame
-    TimelineRecord timeline;              ///< if the run was asked for one
-    std::vector<TileRecord> tile_records; ///< likewise, in the order of the job
-    double elaborate_s = 0, sim_s = 0;    ///< host; sim_s is sc_start() alone
-    std::uint64_t activations = 0;        ///< host; see Timebase
+    std::vector<std::string> left_out;               ///< sentences for --explain
+    std::vector<Image> images;                       ///< one per frame
+    TimelineRecord timeline;                         ///< if the run was asked for one
+    std::vector<TileRecord> tile_records;            ///< likewise, in the order of the job
+    double elaborate_s = 0, sim_s = 0;               ///< host; sim_s is sc_start() alone
+    std::uint64_t activations = 0;                   ///< host; see Timebase
+    std::chrono::steady_clock::time_point sim_start; ///< host; of sc_start()
 
     /// The sections timing, stages, slots, dram and buffers of a report.
     void describe(StatsVisitor& visitor) const;

@@ -62,13 +62,18 @@ std::vector<std::uint32_t> morton_ranks(const std::vector<glm::vec3>& positions)
 RecordPlaces::RecordPlaces(const FrameWorkload& frame, RecordOrder order)
     : of_visible_(order == RecordOrder::Morton ? morton_ranks(frame.visible_means)
                                                : std::vector<std::uint32_t>()) {
-    std::vector<std::uint32_t> place(frame.gaussians, 0); // by Gaussian
+    if (frame.visible_of.empty()) {
+        return;
+    }
+    const std::uint32_t first =
+        frame.visible_of.front(); // culled Gaussians before it need no entry
+    std::vector<std::uint32_t> place(frame.visible_of.back() - first + std::size_t{1}, 0);
     for (std::uint32_t rank = 0; rank < frame.visible_of.size(); ++rank) {
-        place[frame.visible_of[rank]] = of_visible_.empty() ? rank : of_visible_[rank];
+        place[frame.visible_of[rank] - first] = of_visible_.empty() ? rank : of_visible_[rank];
     }
     of_splats_.reserve(frame.splats.size());
     for (const ProjectedSplat& splat : frame.splats) {
-        of_splats_.push_back(place[splat.id]);
+        of_splats_.push_back(place[splat.id - first]);
     }
 }
 

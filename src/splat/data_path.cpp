@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "splat/draw_rows.hpp"
+#include "splat/frame/parallel.hpp"
 #include "splat/lanes/blend_lanes.hpp"
 #include "splat/lanes/checked_row.hpp"
 #include "splat/lanes/span_record.hpp"
@@ -73,17 +74,21 @@ public:
           blend_(blend_function(T{})), test_(test_function(T{})), tested_(tile_size) {}
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
-        const auto base = static_cast<std::uint32_t>(spans_.size());
-        spans_.reserve(spans_.size() + workload.splats.size());
-        columns_.reserve(columns_.size() + workload.splats.size());
-        blends_.reserve(blends_.size() + workload.splats.size());
-        for (const ProjectedSplat& splat : workload.splats) {
-            spans_.push_back(derive<T>(splat));
-            columns_.push_back(derive_columns(splat));
-            blends_.push_back({spans_.back().a, rounded<T>(splat.colour[0]),
-                               rounded<T>(splat.colour[1]), rounded<T>(splat.colour[2])});
-        }
-        return base;
+        const std::size_t base = spans_.size();
+        const std::size_t count = workload.splats.size();
+        spans_.resize(base + count);
+        columns_.resize(base + count);
+        blends_.resize(base + count);
+        parallel_ranges(count, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const ProjectedSplat& splat = workload.splats[i];
+                spans_[base + i] = derive<T>(splat);
+                columns_[base + i] = derive_columns(splat);
+                blends_[base + i] = {spans_[base + i].a, rounded<T>(splat.colour[0]),
+                                     rounded<T>(splat.colour[1]), rounded<T>(splat.colour[2])};
+            }
+        });
+        return static_cast<std::uint32_t>(base);
     }
 
     void expect(std::uint32_t splat) const override {

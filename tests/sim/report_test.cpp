@@ -103,7 +103,7 @@ TEST(SmallRunReport, HasEveryKeyOfTheContract) {
     expect_keys(report["image"], {"psnr_db", "ssim", "max_abs_error"});
     expect_keys(report["host"],
                 {"load_s", "workload_s", "sim_s", "render_s", "wall_s", "fragments_per_s",
-                 "peak_rss_bytes", "sim_over_render", "activations"});
+                 "peak_rss_bytes", "sim_over_render", "activations", "start_s"});
     expect_keys(report["energy"], {"covers", "total_nj", "dynamic_nj", "leakage_nj", "dram_nj",
                                    "nj_per_frame", "nj_per_pixel", "average_power_w", "blocks"});
     EXPECT_NEAR(report["area"]["mm2"], 2.72, 1e-9); // paper, Table I

@@ -54,4 +54,12 @@ void parallel_blocks(std::size_t blocks,
     }
 }
 
+void parallel_ranges(std::size_t count,
+                     const std::function<void(std::size_t begin, std::size_t end)>& work) {
+    constexpr std::size_t kPart = std::size_t{1} << 13U;
+    parallel_blocks((count + kPart - 1) / kPart, [&](std::size_t part, std::size_t /*worker*/) {
+        work(part * kPart, std::min(count, (part + 1) * kPart));
+    });
+}
+
 } // namespace degs

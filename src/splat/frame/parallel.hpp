@@ -21,4 +21,9 @@ void limit_host_threads(int most);
 void parallel_blocks(std::size_t blocks,
                      const std::function<void(std::size_t block, std::size_t worker)>& work);
 
+/// Calls work(begin, end) for neighbouring parts of 0 .. count - 1, in the same way. Parts are long against the
+/// start of a thread if an item takes some 100 ns.
+void parallel_ranges(std::size_t count,
+                     const std::function<void(std::size_t begin, std::size_t end)>& work);
+
 } // namespace degs

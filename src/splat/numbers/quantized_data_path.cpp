@@ -8,6 +8,7 @@
 
 #include "splat/coupled_row.hpp"
 #include "splat/draw_rows.hpp"
+#include "splat/frame/parallel.hpp"
 #include "splat/numbers/quantized_extent.hpp"
 #include "splat/numbers/quantized_pixels.hpp"
 #include "splat/numbers/row_lanes.hpp"
@@ -42,14 +43,22 @@ public:
           pixels_(make_quantized_pixels(row_)) {}
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
-        const auto base = static_cast<std::uint32_t>(splats_.size());
-        for (const ProjectedSplat& splat : workload.splats) {
-            splats_.push_back(row_.record(splat));
-            extents_.emplace_back(row_, slack_, splats_.back());
-            boxes_.push_back(columns_of_box(splat));
-            pixels_->add(splats_.back());
+        const std::size_t base = splats_.size();
+        const std::size_t count = workload.splats.size();
+        splats_.resize(base + count);
+        extents_.resize(base + count);
+        boxes_.resize(base + count);
+        parallel_ranges(count, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                splats_[base + i] = row_.record(workload.splats[i]);
+                extents_[base + i] = QuantizedExtent(row_, slack_, splats_[base + i]);
+                boxes_[base + i] = columns_of_box(workload.splats[i]);
+            }
+        });
+        for (std::size_t i = base; i < base + count; ++i) {
+            pixels_->add(splats_[i]);
         }
-        return base;
+        return static_cast<std::uint32_t>(base);
     }
 
     void expect(std::uint32_t splat) const override {

@@ -13,16 +13,6 @@ int to_pixel(double x) {
     return static_cast<int>(below > -kFarPixel ? below : -kFarPixel);
 }
 
-/// Largest error of rounding a value of that magnitude; infinite if it is beyond the format.
-double rounding_error(const NumberFormat& format, double magnitude) {
-    if (!(magnitude <= format.max())) {
-        return std::numeric_limits<double>::infinity();
-    }
-    return format.kind == NumberFormat::Kind::Fixed
-               ? format.quantum() / 2
-               : std::max(std::ldexp(magnitude, -format.fraction_bits - 1), format.quantum() / 2);
-}
-
 /// Error of the double arithmetic below, px.
 double slack_of(double magnitude) {
     return 1e-6 + 1e-9 * magnitude;
@@ -30,11 +20,22 @@ double slack_of(double magnitude) {
 
 } // namespace
 
+QuantizedSlack::RoundingError::RoundingError(const NumberFormat& format)
+    : most_(format.max()), least_(format.quantum() / 2),
+      share_(format.kind == NumberFormat::Kind::Fixed
+                 ? 0.0
+                 : std::ldexp(1.0, -format.fraction_bits - 1)) {}
+
+double QuantizedSlack::RoundingError::of(double magnitude) const {
+    return magnitude <= most_ ? std::max(share_ * magnitude, least_)
+                              : std::numeric_limits<double>::infinity();
+}
+
 QuantizedSlack::QuantizedSlack(const NumberSet& set)
     : distance_(set.distance), square_(set.square), ratio_(set.ratio), edge_(set.edge),
       squared_(set.vertical == Vertical::Squared) {
     const TableSpec& table = set.sqrt;
-    const double unit = rounding_error(table.values, 1);
+    const double unit = RoundingError(table.values).of(1);
     switch (table.interpolation) {
     case Interpolation::Exact:
         root_ = unit;
@@ -55,24 +56,22 @@ QuantizedSlack::QuantizedSlack(const NumberSet& set)
 }
 
 double QuantizedSlack::ratio(const QuantizedSplat& splat, double reach) const {
-    const double of_dy = rounding_error(distance_, reach);
+    const double of_dy = distance_.of(reach);
     const double dy = reach + of_dy;
     const double inverse = splat.inverse_radius2;
     const double from_dy = inverse * of_dy * (2 * reach + of_dy);
-    const double product = squared_ ? inverse * rounding_error(square_, dy * dy)
-                                    : dy * rounding_error(square_, dy * inverse);
-    return from_dy + product + rounding_error(ratio_, 1.5) + cell_;
+    const double product = squared_ ? inverse * square_.of(dy * dy) : dy * square_.of(dy * inverse);
+    return from_dy + product + ratio_.of(1.5) + cell_;
 }
 
 double QuantizedSlack::ends(const QuantizedSplat& splat, double reach) const {
-    const double of_dy = rounding_error(distance_, reach);
+    const double of_dy = distance_.of(reach);
     const double slope = std::abs(splat.slope);
     const double shift = slope * (reach + of_dy);
     const double centre = 1.01 * (std::abs(splat.mean_x) + shift) + 1;
     const double width = 1.01 * splat.radius + 1;
-    return slope * of_dy + rounding_error(edge_, shift) + rounding_error(edge_, centre) +
-           splat.radius * root_ + rounding_error(edge_, width) +
-           rounding_error(edge_, centre + width) + outward_;
+    return slope * of_dy + edge_.of(shift) + edge_.of(centre) + splat.radius * root_ +
+           edge_.of(width) + edge_.of(centre + width) + outward_;
 }
 
 QuantizedExtent::QuantizedExtent(const QuantizedRow& row, const QuantizedSlack& slack,

@@ -23,7 +23,18 @@ public:
     double ends(const QuantizedSplat& splat, double reach) const;
 
 private:
-    NumberFormat distance_, square_, ratio_, edge_;
+    /// Largest error of rounding a value of some magnitude, for one format.
+    class RoundingError {
+    public:
+        explicit RoundingError(const NumberFormat& format);
+        /// Infinite if the magnitude is beyond the format.
+        double of(double magnitude) const;
+
+    private:
+        double most_, least_, share_;
+    };
+
+    RoundingError distance_, square_, ratio_, edge_;
     bool squared_;
     double cell_ = 0, root_ = 0; // of the root: as an error of x, as one of the result
     double outward_ = 0;         // px that the set's ends lie outside
@@ -33,6 +44,8 @@ private:
 /// to the last rounding; columns and rows_in_columns() may name a few too many, never one too few.
 class QuantizedExtent {
 public:
+    /// Of no splat.
+    QuantizedExtent() = default;
     QuantizedExtent(const QuantizedRow& row, const QuantizedSlack& slack,
                     const QuantizedSplat& splat);
 

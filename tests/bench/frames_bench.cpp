@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "tests/bench/groups.hpp"
+#include "tests/bench/limits.hpp"
+#include "tests/bench/program.hpp"
+
+namespace degs::bench {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Runs of a design on a view. Other work on the machine only adds to a time, so the smallest one counts.
+struct Times {
+    double sim_s = kNever, render_s = kNever;
+    double fragments = 0; ///< of the design
+
+    void add(const nlohmann::json& report) {
+        const nlohmann::json& host = report["host"];
+        sim_s = std::min(sim_s, host["sim_s"].get<double>());
+        if (host["render_s"].is_number()) {
+            render_s = std::min(render_s, host["render_s"].get<double>());
+        }
+        fragments = report["slots"]["useful"].get<double>();
+    }
+    double ns_per_fragment() const { return 1e9 * sim_s / fragments; }
+};
+
+const std::vector<std::string> kFp32{"--set", "pipeline.numbers=fp32"};
+
+std::vector<std::string> with(std::vector<std::string> options, const std::string& more) {
+    options.push_back(more);
+    return options;
+}
+
+/// host.sim_s of degs-64 over host.render_s of the same frame.
+void over_reference(benchmark::State& state, const View& view, const std::string& numbers,
+                    double limit) {
+    Times times;
+    for (auto iteration : state) {
+        (void)iteration;
+        times.add(run_design("degs-64", view, {"--set", "pipeline.numbers=" + numbers}));
+        state.SetIterationTime(times.sim_s);
+    }
+    report_ratio(state, times.sim_s / times.render_s, limit);
+    state.counters["ns/fragment"] = times.ns_per_fragment();
+}
+
+/// Time per fragment in a large image over that in a small one.
+void by_resolution(benchmark::State& state, const View& small, const View& large, double limit) {
+    const Folder cache;
+    Times of_small, of_large;
+    for (auto iteration : state) {
+        (void)iteration;
+        of_small.add(run_design("degs-64", small, with(kFp32, "--no-reference"), cache.path()));
+        of_large.add(run_design("degs-64", large, with(kFp32, "--no-reference"), cache.path()));
+        state.SetIterationTime(of_small.sim_s + of_large.sim_s);
+    }
+    report_ratio(state, of_large.ns_per_fragment() / of_small.ns_per_fragment(), limit);
+    state.counters["ns/fragment"] = of_large.ns_per_fragment();
+}
+
+/// Time of a frame on 1024 PEs over that on 64.
+void by_size(benchmark::State& state, const View& view, double limit) {
+    const Folder cache;
+    Times of_small, of_large;
+    for (auto iteration : state) {
+        (void)iteration;
+        of_small.add(run_design("degs-64", view, with(kFp32, "--no-reference"), cache.path()));
+        of_large.add(run_design("degs-1024", view, with(kFp32, "--no-reference"), cache.path()));
+        state.SetIterationTime(of_small.sim_s + of_large.sim_s);
+    }
+    report_ratio(state, of_large.sim_s / of_small.sim_s, limit);
+    state.counters["ns/fragment"] = of_large.ns_per_fragment();
+}
+
+void add_over_reference(const std::string& name, const View& view) {
+    // Single precision is the machine's own. In the formats of `paper` every operation is rounded as well.
+    const std::pair<const char*, double> numbers[] = {{"fp32", 2.0}, {"paper", 3.0}};
+    for (const auto& [set, limit] : numbers) {
+        add_ratio("exact over reference/" + name + "/" + set,
+                  [view, set = std::string(set), limit = limit](benchmark::State& state) {
+                      over_reference(state, view, set, limit);
+                  });
+    }
+}
+
+} // namespace
+
+void register_frames() {
+    const bool brief = options().shortened;
+    const std::string object = "synthetic:object";
+    const std::vector<std::string> close =
+        brief ? std::vector<std::string>{"--width", "320"} : std::vector<std::string>{};
+    add_over_reference(object, {object, 2, close});
+    if (const auto scenes = trained_scenes(); scenes.empty()) {
+        std::fputs(
+            "The trained scenes are not there, so only synthetic ones are measured; the variable "
+            "DEGS_SCENES names their folder.\n",
+            stderr);
+    } else if (!brief) {
+        for (const char* scene : {"flowers", "guitar", "seal", "skull", "st-peter"}) {
+            add_over_reference(scene, {(scenes / scene / "scene.ply").string(), 2, {}});
+        }
+    }
+    const View small{object, 2, brief ? close : std::vector<std::string>{"--resolution", "1080p"}};
+    const View large{object, 2,
+                     brief ? std::vector<std::string>{"--width", "640"}
+                           : std::vector<std::string>{"--resolution", "8k"}};
+    add_ratio(brief ? "time per fragment, 640 over 320 px wide"
+                    : "time per fragment, 8K over 1080p",
+              [=](benchmark::State& state) { by_resolution(state, small, large, 1.2); });
+    add_ratio("time of a frame, 1024 over 64 PEs",
+              [=](benchmark::State& state) { by_size(state, small, 1.5); });
+}
+
+} // namespace degs::bench
