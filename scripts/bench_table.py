@@ -11,6 +11,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/performance.md"
@@ -68,9 +69,12 @@ def lines_of(options):
     """The text between the markers, and whether the large frame kept its limits."""
     read = lambda path: json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
     sentence, good = large_frame(read(options.report), pathlib.Path(options.typescript).read_text(encoding="utf-8"))
+    results = read(options.bench)
+    load = results["context"]["load_avg"][0]  # processes that wanted a processor, before the first benchmark
     table = ["| benchmark | ratio | limit | met | measured |", "| --- | ---: | ---: | :-: | --- |"]
-    table += ["| " + " | ".join(row) + " |" for row in bench_rows(read(options.bench))]
-    return [f"Machine: {machine()}. Commit: {commit()}.", "", *table, "", sentence], good
+    table += ["| " + " | ".join(row) + " |" for row in bench_rows(results)]
+    conditions = f"Machine: {machine()}, load average {load:.1f} at the start. Commit: {commit()}."
+    return [conditions, "", *table, "", textwrap.fill(sentence, 120)], good
 
 
 def main():
