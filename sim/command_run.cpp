@@ -8,6 +8,7 @@
 
 #include "config/error.hpp"
 #include "scene/image_io.hpp"
+#include "sim/analytic/analytic_run.hpp"
 #include "sim/cache/cached_view.hpp"
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
@@ -64,6 +65,35 @@ std::optional<SamplingRequest> wanted_sampling(const RunOptions& options) {
     return sampling;
 }
 
+const std::string kAnalytic = "analytic";
+
+/// An estimate has neither an image nor dates.
+void refuse_beside_analytic(const RunOptions& options) {
+    const std::pair<bool, const char*> asked[] = {
+        {options.within.has_value(), "--within"}, {!options.trace.file.empty(), "--trace"},
+        {!options.maps.empty(), "--maps"},        {options.path.frames > 1, "--frames"},
+        {options.array_only, "--array-only"},     {options.explain, "--explain"}};
+    for (const auto& [given, option] : asked) {
+        if (given) {
+            throw InputError(std::string(option) +
+                             " needs a simulation, so it cannot be combined with --fidelity "
+                             "analytic.");
+        }
+    }
+}
+
+void estimate(const RunOptions& options) {
+    refuse_beside_analytic(options);
+    const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
+    CachedView view(options.view, options.path,
+                    options.no_cache ? FrameCache() : FrameCache::of_user());
+    const OutputFolder out(options.out, {"analytic.json"});
+    const AnalyticRun run = run_analytic(config, view);
+    out.write_json("analytic.json", analytic_json(run));
+    print_warnings(run.warnings);
+    print(analytic_text(run));
+}
+
 /// Makes or finds the frames, runs them and compares with the reference.
 RunResult simulate(const RunRequest& request, CachedView& view, const Stopwatch& since_start) {
     const Stopwatch wall;
@@ -98,6 +128,9 @@ RunResult simulate(const RunRequest& request, CachedView& view, const Stopwatch&
 
 void run(const RunOptions& options) {
     const Stopwatch since_start;
+    if (options.fidelity == kAnalytic) {
+        return estimate(options);
+    }
     const std::optional<SamplingRequest> sampling = wanted_sampling(options);
     const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
     CachedView view(options.view, options.path,
@@ -143,8 +176,9 @@ void add_run_command(CLI::App& program) {
     command
         ->add_option("--fidelity", options->fidelity,
                      "exact; strict: synchronise every cycle, the results are the same; "
-                     "sampled:10%: estimate them from that share of the tiles")
-        ->type_name("TEXT:{exact,strict}") // what can be completed
+                     "sampled:10%: estimate them from that share of the tiles; analytic: estimate "
+                     "the time in milliseconds, without a simulation and without an image")
+        ->type_name("TEXT:{exact,strict,analytic}") // what can be completed
         ->capture_default_str();
     add_sampling_options(*command, options->within, options->seed);
     add_out_option(*command, options->out, "folder for image.exr, image.png and report.json");

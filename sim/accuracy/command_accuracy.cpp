@@ -34,7 +34,7 @@ struct AccuracyOptions {
     std::vector<std::string> only;  ///< hard cases
     std::vector<std::string> speed; ///< configurations, as written
     std::vector<std::string> overrides;
-    std::vector<std::string> fidelities{"strict", "exact", "within:1%"};
+    std::vector<std::string> fidelities{"strict", "exact", "within:1%", "analytic"};
     std::uint64_t seeds = 5;
     bool own_numbers = false; ///< --numbers was given
     std::uint64_t seed = 1;
@@ -262,7 +262,7 @@ void add_accuracy_command(CLI::App& program) {
             ->type_name("FILES");
     command
         ->add_option("--fidelities", options->fidelities,
-                     "strict, exact, sampled:10%, within:1%; several separated by commas")
+                     "strict, exact, sampled:10%, within:1%, analytic; several separated by commas")
         ->type_name("NAMES")
         ->delimiter(',')
         ->take_all()

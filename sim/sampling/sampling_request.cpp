@@ -72,9 +72,10 @@ std::optional<SamplingRequest> parse_sampled(const std::string& fidelity) {
                                             ? share_of(fidelity.substr(prefix.size()))
                                             : std::nullopt;
     if (!share || !(*share > 0 && *share < 1)) {
-        throw InputError("--fidelity is '" + fidelity +
-                         "', but must be exact, strict, or sampled: with a percentage of the tiles "
-                         "above 0% and below 100%, as in sampled:10%.");
+        throw InputError(
+            "--fidelity is '" + fidelity +
+            "', but must be exact, strict, analytic, or sampled: with a percentage of the tiles "
+            "above 0% and below 100%, as in sampled:10%.");
     }
     SamplingRequest request;
     request.share = *share;

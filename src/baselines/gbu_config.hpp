@@ -67,6 +67,7 @@ struct GbuConfig : AcceleratorConfig {
     }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
+    std::unique_ptr<AnalyticModel> analytic() const override;
 
     // Derived sizes.
     int pes() const override { return engines.count * engines.row_pes; }

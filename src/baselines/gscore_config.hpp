@@ -60,6 +60,7 @@ struct GscoreConfig : AcceleratorConfig {
     }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
+    std::unique_ptr<AnalyticModel> analytic() const override;
 
     /// Bytes of the state of a pixel, which need not be whole ones.
     double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }

@@ -124,6 +124,7 @@ struct DegsConfig : AcceleratorConfig {
     }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
+    std::unique_ptr<AnalyticModel> analytic() const override;
 
     // Derived sizes.
     int pes() const override { return scheduler.banks * array.pes_per_bank; }

@@ -8,6 +8,7 @@
 
 #include "cost/bill_of_materials.hpp"
 #include "modules/accelerator_result.hpp"
+#include "modules/analytic/analytic_model.hpp"
 #include "modules/front_end/frame_end_config.hpp"
 #include "modules/pipeline_config.hpp"
 #include "modules/render_job.hpp"
@@ -85,6 +86,8 @@ struct AcceleratorConfig {
     virtual std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time,
                                                 RenderJob& job,
                                                 const BuildOptions& options) const = 0;
+    /// How long a frame takes on the design, without a simulation; null if nobody has worked it out.
+    virtual std::unique_ptr<AnalyticModel> analytic() const { return nullptr; }
 
 protected:
     void describe_common(ConfigVisitor& visitor);

@@ -31,9 +31,10 @@ struct SpeedRequest {
     ViewRequest view;
 };
 
-/// "strict", "exact", "sampled:10%" or "within:1%".
+/// "strict", "exact", "analytic", "sampled:10%" or "within:1%".
 struct SpeedFidelity {
     std::string name;
+    bool analytic = false; ///< no simulation
     Fidelity fidelity = Fidelity::Exact;
     std::optional<SamplingRequest> sampling;
 };

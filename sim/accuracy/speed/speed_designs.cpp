@@ -40,6 +40,10 @@ SpeedFidelity speed_fidelity(const std::string& name) {
         fidelity.sampling = parse_within(name.substr(within.size()));
         return fidelity;
     }
+    fidelity.analytic = name == "analytic";
+    if (fidelity.analytic) {
+        return fidelity;
+    }
     fidelity.sampling = parse_sampled(name);
     fidelity.fidelity = name == "strict" ? Fidelity::Strict : Fidelity::Exact;
     return fidelity;

@@ -97,7 +97,7 @@ std::string percent_words(std::optional<double> error) {
 }
 
 std::string held_words(const SpeedGroup& group) {
-    if (group.fidelity == "exact" || group.fidelity == "strict") {
+    if (group.fidelity == "exact" || group.fidelity == "strict" || group.fidelity == "analytic") {
         return "";
     }
     if (group.sampled == 0) {

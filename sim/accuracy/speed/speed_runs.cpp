@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "sim/accuracy/speed/speed.hpp"
+#include "sim/analytic/analytic_run.hpp"
 #include "sim/cache/binary.hpp"
 #include "sim/cache/cached_view.hpp"
 #include "sim/compare/measures.hpp"
 #include "sim/process/child_process.hpp"
+#include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
 #include "splat/images/image_difference.hpp"
 
@@ -133,7 +136,23 @@ private:
         }
     }
 
+    /// Some milliseconds in this process.
+    SpeedOutcome estimated(const SpeedDesign& design) const {
+        const std::unique_ptr<AnalyticModel> model = analytic_model_of(design.config);
+        const CpuStopwatch clock;
+        const AnalyticFrame frame = estimate_frame(*model, frames_.front());
+        SpeedOutcome outcome;
+        outcome.run_s = clock.seconds();
+        outcome.cycles = frame.cycles;
+        outcome.utilization = frame.utilization;
+        outcome.dram_bytes = frame.bytes;
+        return outcome;
+    }
+
     SpeedOutcome run(const SpeedDesign& design, const SpeedFidelity& fidelity) const {
+        if (fidelity.analytic) {
+            return estimated(design);
+        }
         RunRequest request;
         request.config = design.config;
         request.fidelity = fidelity.fidelity;

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/analytic/analytic_run.hpp"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "config/error.hpp"
+#include "sim/report.hpp"
+#include "sim/stopwatch.hpp"
+#include "sim/text/text_table.hpp"
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+using nlohmann::ordered_json;
+
+double milliseconds(const AnalyticRun& run) {
+    return run.frame.cycles / (run.config.accelerator().clock_ghz * 1e6);
+}
+
+ordered_json units_json(const AnalyticFrame& frame) {
+    ordered_json units;
+    for (const AnalyticFrame::Unit& unit : frame.units) {
+        units[unit.name] = {{"preparing_cycles", unit.preparing},
+                            {"rendering_cycles", unit.rendering}};
+    }
+    return units;
+}
+
+std::string cycles_words(double cycles) {
+    return grouped(static_cast<std::uint64_t>(std::max(cycles, 0.0)));
+}
+
+} // namespace
+
+std::unique_ptr<AnalyticModel> analytic_model_of(const RunConfig& config) {
+    std::unique_ptr<AnalyticModel> model = config.accelerator().analytic();
+    if (model == nullptr) {
+        throw InputError("The accelerator of " + config.accelerator().name +
+                         " has no analytic model; it can be simulated with --fidelity exact.");
+    }
+    return model;
+}
+
+AnalyticRun run_analytic(const RunConfig& config, CachedView& view) {
+    AnalyticRun run;
+    run.config = config;
+    const std::unique_ptr<AnalyticModel> model = analytic_model_of(config);
+    const std::vector<FrameWorkload> frames = view.frames(config.accelerator());
+    const Stopwatch clock;
+    run.frame = estimate_frame(*model, frames.front());
+    run.estimate_s = clock.seconds();
+    run.scene = view.facts();
+    run.camera = frames.front().camera;
+    run.workload = facts_of(frames.front());
+    run.warnings = config.warnings;
+    run.load_s = view.load_s();
+    run.workload_s = view.workload_s();
+    view.keep(frames, nullptr);
+    return run;
+}
+
+ordered_json analytic_json(const AnalyticRun& run) {
+    ordered_json json;
+    json["schema"] = {{"name", "degs-analytic"}, {"version", kAnalyticVersion}};
+    json["tool"] = tool_json();
+    json["scene"] = scene_json(run.scene);
+    json["camera"] = camera_json(run.camera);
+    json["config"] = resolved(run.config);
+    json["workload"] = workload_json(run.workload, run.scene);
+    const AnalyticFrame& frame = run.frame;
+    json["timing"] = {
+        {"cycles", frame.cycles},          {"lower_cycles", frame.lower},
+        {"upper_cycles", frame.upper},     {"preprocessing_cycles", frame.preparation},
+        {"latency_ms", milliseconds(run)}, {"clock_ghz", run.config.accelerator().clock_ghz}};
+    json["units"] = units_json(frame);
+    json["limited_by"] = frame.limited_by;
+    json["slots"] = {{"pes", run.config.accelerator().pes()}, {"utilization", frame.utilization}};
+    json["dram"] = {{"bytes", frame.bytes}};
+    json["sample"] = {
+        {"tiles", frame.tiles}, {"tiles_drawn", frame.drawn}, {"rows_apart", frame.rows_apart}};
+    json["warnings"] = run.warnings;
+    json["host"] = {{"fidelity", "analytic"},
+                    {"load_s", run.load_s},
+                    {"workload_s", run.workload_s},
+                    {"estimate_s", run.estimate_s},
+                    {"peak_rss_bytes", peak_rss_bytes()}};
+    return json;
+}
+
+std::string analytic_text(const AnalyticRun& run) {
+    const AnalyticFrame& frame = run.frame;
+    TextTable table({"unit", "preparing, cycles", "rendering, cycles", "of the estimate %"});
+    for (const AnalyticFrame::Unit& unit : frame.units) {
+        table.add({unit.name, cycles_words(unit.preparing), cycles_words(unit.rendering),
+                   percent((unit.preparing + unit.rendering) / frame.cycles)});
+    }
+    std::string text = table.text();
+    text += "\n" + run.config.accelerator().name + " takes about " + cycles_words(frame.cycles) +
+            " cycles, " + three_digits(milliseconds(run)) + " ms, of which " +
+            cycles_words(frame.preparation) + " before the first tile.\n";
+    text += "At least " + cycles_words(frame.lower) +
+            " if all units overlapped perfectly, at most " + cycles_words(frame.upper) +
+            " if none did; rendering is limited by " + frame.limited_by + ".\n";
+    text += "PEs are used to " + percent(frame.utilization) + " %; " +
+            scaled_bytes(static_cast<std::uint64_t>(frame.bytes)) + " move to and from memory.\n";
+    text += "The estimate rests on " + std::to_string(frame.drawn) + " of " +
+            std::to_string(frame.tiles) + " tiles and took " + three_digits(1e3 * run.estimate_s) +
+            " ms; there is no image.\n";
+    return text;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs run --fidelity analytic: the time of a frame without a simulation. docs/analytic.md explains
+// the method.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "modules/analytic/analytic_frame.hpp"
+#include "sim/cache/cached_view.hpp"
+#include "sim/simulation.hpp"
+
+namespace degs::sim {
+
+/// Raised whenever a key of analytic.json changes its meaning, name or unit.
+constexpr int kAnalyticVersion = 1;
+
+struct AnalyticRun {
+    SceneFacts scene;
+    Camera camera;
+    RunConfig config;
+    WorkloadFacts workload;
+    AnalyticFrame frame;
+    std::vector<std::string> warnings;
+    double load_s = 0, workload_s = 0, estimate_s = 0; ///< host
+};
+
+/// The model of the design. Throws InputError if its accelerator has none.
+std::unique_ptr<AnalyticModel> analytic_model_of(const RunConfig& config);
+/// The frame of the view on the design. Throws InputError likewise.
+AnalyticRun run_analytic(const RunConfig& config, CachedView& view);
+
+/// analytic.json
+nlohmann::ordered_json analytic_json(const AnalyticRun& run);
+/// For terminals: a table of the units, the estimate and its bounds.
+std::string analytic_text(const AnalyticRun& run);
+
+} // namespace degs::sim

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// GCC without simulation: its array takes a slot for every window that a splat's traversal visits
+// and that has not ended. See docs/analytic.md.
+#include <algorithm>
+#include <cmath>
+
+#include "baselines/gcc/config.hpp"
+#include "baselines/gcc/footprint.hpp"
+#include "modules/analytic/front_end_load.hpp"
+
+namespace degs::gcc {
+namespace {
+
+class Analytic : public AnalyticModel {
+public:
+    explicit Analytic(const Config& config)
+        : config_(config), memory_(config.memory, config.clock_ghz) {}
+    std::vector<std::string> units() const override {
+        return {"grouping", "projection", "colour", "blending", "memory"};
+    }
+    PreparationCycles preparation(const FrameWorkload& frame) const override;
+    std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
+    CoarseTile::Options drawing() const override {
+        return {config_.array.window, config_.array.window};
+    }
+    // Rows of windows; four rows of pixels tell which windows a splat meets.
+    Blocks blocks() const override {
+        return {config_.array.window, config_.view_size / config_.array.window,
+                std::max(1, config_.array.window / 4)};
+    }
+    double places() const override { return 4.0 * config_.listed_gaussians(); }
+    double memory_latency() const override { return memory_.latency; }
+    double latency() const override { return 6 * memory_.latency; }
+    int pes() const override { return config_.pes(); }
+
+    enum Unit : std::size_t { kGrouping, kProjection, kColour, kBlending, kMemory };
+    const Config& config() const { return config_; }
+    const MemoryRate& memory() const { return memory_; }
+
+private:
+    Config config_;
+    MemoryRate memory_;
+};
+
+class Clock : public TileClock {
+public:
+    Clock(const Analytic& model, const FrameWorkload& frame)
+        : model_(model), frame_(frame), side_(model.config().array.window) {}
+    void begin(const CoarseTile&) override { windows_ = 0; }
+    void splat(const CoarseTile& tile) override;
+    TileCycles end(const CoarseTile& tile) override;
+
+private:
+    WindowMask windows_of(const CoarseSpan& span) const {
+        return span.first <= span.last ? windows_between(span.first / side_, span.last / side_) : 0;
+    }
+
+    WindowMask visited(const CoarseTile& tile, int row, const CoarseSpan* spans,
+                       const CoarseSpan* end) const;
+
+    const Analytic& model_;
+    const FrameWorkload& frame_;
+    int side_;
+    double windows_ = 0;
+};
+
+std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload& frame) const {
+    return std::make_unique<Clock>(*this, frame);
+}
+
+PreparationCycles Analytic::preparation(const FrameWorkload& frame) const {
+    const double gaussians = static_cast<double>(frame.gaussians);
+    const double entries = static_cast<double>(frame.tile_pairs());
+    const Grouping::Config& grouping = config_.grouping;
+    PreparationCycles result;
+    result.bytes = gaussians * static_cast<double>(config_.traffic.stage_one_bytes()) +
+                   entries * config_.traffic.list_entry_bytes;
+    const double group =
+        std::max(gaussians / grouping.means_per_cycle, entries / grouping.entries_per_cycle);
+    const double in_flight = 1.0 * grouping.chunk * grouping.chunks_in_flight;
+    const double moved = memory_.cycles(result.bytes);
+    result.busy[kGrouping] = group;
+    result.busy[kMemory] = moved;
+    result.time =
+        std::max({group, moved, gaussians / in_flight * memory_.latency}) + 2 * memory_.latency;
+    return result;
+}
+
+/// The windows of one row of windows that the traversal visits: those with a valid pixel, and
+/// neighbours across a side with one, whether or not they have any.
+WindowMask Clock::visited(const CoarseTile& tile, int row, const CoarseSpan* spans,
+                          const CoarseSpan* end) const {
+    WindowMask visited = 0;
+    for (; spans != end; ++spans) {
+        visited |= windows_of(*spans);
+        if (spans->first > 0) {
+            visited |= windows_of({spans->row, spans->first - 1, spans->first - 1});
+        }
+        if (spans->last + 1 < tile.width()) {
+            visited |= windows_of({spans->row, spans->last + 1, spans->last + 1});
+        }
+    }
+    for (const int tip : {tile.first_row(), tile.last_row()}) { // between drawn rows
+        if (tip / side_ == row) {
+            visited |= windows_of(tile.span_of(tip));
+        }
+    }
+    const int above = row * side_ - 1, below = (row + 1) * side_;
+    if (above >= tile.first_row() && above <= tile.last_row()) {
+        visited |= windows_of(tile.span_of(above));
+    }
+    if (below <= tile.last_row() && below >= tile.first_row()) {
+        visited |= windows_of(tile.span_of(below));
+    }
+    return visited;
+}
+
+void Clock::splat(const CoarseTile& tile) {
+    const CoarseSpan* span = tile.spans().data();
+    const CoarseSpan* const end = span + tile.spans().size();
+    for (const int row : tile.blocks()) {
+        const CoarseSpan* const first = span;
+        while (span != end && span->row < (row + 1) * side_) {
+            ++span;
+        }
+        for (WindowMask left = visited(tile, row, first, span); left != 0; left &= left - 1) {
+            const int column = __builtin_ctzll(left) * side_;
+            windows_ += tile.cell_is_live(row * side_, column) ? 1 : 0;
+        }
+    }
+}
+
+TileCycles Clock::end(const CoarseTile& tile) {
+    const Config& config = model_.config();
+    const double walked = tile.walked();
+    const double sh = static_cast<double>(config.traffic.common().sh_bytes(frame_.sh_degree));
+    const auto bursts = [&](double bytes) {
+        return std::ceil(bytes / config.traffic.burst_bytes) * config.traffic.burst_bytes;
+    };
+    TileCycles cycles;
+    cycles.slots = windows_ * tile.blocks_per_drawn() * config.pes();
+    cycles.fragments = tile.fragments();
+    cycles.bytes = walked * (config.traffic.list_entry_bytes + bursts(config.traffic.shape_bytes) +
+                             bursts(sh)) +
+                   tile.pixels() * config.traffic.pixel_bytes;
+    const double passes =
+        std::ceil(std::log(config.projection.group) / std::log(config.colour.merge_ways));
+    cycles.walked = walked;
+    cycles.busy[Analytic::kProjection] =
+        walked * config.projection.cycles_per_gaussian / config.projection.units;
+    cycles.busy[Analytic::kColour] =
+        walked * std::max(1.0 * config.colour.cycles_per_colour / config.colour.units,
+                          passes / config.colour.keys_per_cycle);
+    cycles.busy[Analytic::kBlending] = cycles.slots / config.pes();
+    cycles.busy[Analytic::kMemory] = model_.memory().cycles(cycles.bytes);
+    cycles.time = *std::max_element(cycles.busy.begin(), cycles.busy.end());
+    return cycles;
+}
+
+} // namespace
+
+std::unique_ptr<AnalyticModel> Config::analytic() const {
+    return std::make_unique<Analytic>(*this);
+}
+
+} // namespace degs::gcc

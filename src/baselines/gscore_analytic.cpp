@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// GSCore without simulation: its array takes a slot per sub-tile that a splat's box meets and that
+// is not done. See docs/analytic.md.
+#include <algorithm>
+
+#include "baselines/gscore_config.hpp"
+#include "modules/analytic/front_end_load.hpp"
+#include "splat/subtile_cover.hpp"
+
+namespace degs {
+namespace {
+
+class GscoreAnalytic : public AnalyticModel {
+public:
+    explicit GscoreAnalytic(const GscoreConfig& config);
+    std::vector<std::string> units() const override {
+        return {"projection", "sorting", "blending", "memory"};
+    }
+    PreparationCycles preparation(const FrameWorkload& frame) const override {
+        return front_.preparation(frame, kMemory);
+    }
+    std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
+    CoarseTile::Options drawing() const override {
+        return {config_.array.side(), config_.array.side()};
+    }
+    // Rows only tell when a sub-tile is done; two of each are enough.
+    Blocks blocks() const override { return {1, config_.array.side() / 2}; }
+    int sorters() const override { return config_.sorting.count; }
+    SortCycles sort_cycles(double entries, double walked) const override {
+        return degs::sort_cycles(config_.sorting, entries, walked, front_.sort_capacity);
+    }
+    double places() const override { return static_cast<double>(front_.places); }
+    double memory_latency() const override { return front_.memory.latency; }
+    double latency() const override {
+        return 4 * front_.memory.latency + config_.array.pipeline_cycles;
+    }
+    int pes() const override { return config_.pes(); }
+
+    enum Unit : std::size_t { kBlending = kArrayUnits, kMemory };
+    const GscoreConfig& config() const { return config_; }
+    const FrontEndLoad& front() const { return front_; }
+
+private:
+    GscoreConfig config_;
+    FrontEndLoad front_;
+};
+
+class GscoreClock : public TileClock {
+public:
+    GscoreClock(const GscoreAnalytic& model, const FrameWorkload& frame)
+        : model_(model), frame_(frame), grid_(frame.tile_size, model.config().array.side()) {}
+    void begin(const CoarseTile& tile) override {
+        passes_ = 0;
+        inside_ = grid_.inside(tile.width(), tile.height());
+    }
+    void splat(const CoarseTile& tile) override;
+    TileCycles end(const CoarseTile& tile) override;
+
+private:
+    SubtileMask named(const CoarseTile& tile) const;
+
+    const GscoreAnalytic& model_;
+    const FrameWorkload& frame_;
+    SubtileGrid grid_;
+    SubtileMask inside_ = 0;
+    double passes_ = 0;
+};
+
+GscoreAnalytic::GscoreAnalytic(const GscoreConfig& config)
+    : config_(config), front_(MemoryRate(config.memory, config.clock_ghz)) {
+    front_.traffic = config.traffic;
+    front_.projection = config.projection;
+    front_.binning = config.binning;
+    front_.fetching = config.fetching;
+    front_.places = std::uint64_t{1} * config.splat_chunks() * config.fetching.chunk;
+    front_.sort_capacity = config.sort_capacity();
+}
+
+std::unique_ptr<TileClock> GscoreAnalytic::clock(const FrameWorkload& frame) const {
+    return std::make_unique<GscoreClock>(*this, frame);
+}
+
+SubtileMask GscoreClock::named(const CoarseTile& tile) const {
+    switch (model_.config().array.subtile_skip) {
+    case SubtileTest::Obb:
+        return grid_.meeting(OrientedBox(frame_.splats[tile.splat()]), tile.x(), tile.y());
+    case SubtileTest::Exact: {
+        SubtileMask mask = 0;
+        for (const CoarseSpan& span : tile.spans()) {
+            mask |= grid_.of_pixels(span.row, {span.first, span.last});
+        }
+        return mask;
+    }
+    default:
+        return inside_;
+    }
+}
+
+void GscoreClock::splat(const CoarseTile& tile) {
+    const int side = grid_.side();
+    for (SubtileMask left = named(tile) & inside_; left != 0; left &= left - 1) {
+        const int s = __builtin_ctz(left);
+        if (tile.cell_is_live(s / grid_.per_side() * side, s % grid_.per_side() * side)) {
+            passes_ += 1;
+        }
+    }
+}
+
+TileCycles GscoreClock::end(const CoarseTile& tile) {
+    const FrontEndLoad& front = model_.front();
+    const double entries = tile.entries(), walked = tile.walked();
+    TileCycles cycles;
+    cycles.slots = passes_ * model_.pes();
+    cycles.fragments = tile.fragments();
+    cycles.bytes = front.tile_bytes(entries, walked, tile.pixels());
+    cycles.walked = walked;
+    cycles.busy[kSortingUnits] = model_.sort_cycles(entries, walked).all / model_.sorters();
+    cycles.busy[GscoreAnalytic::kBlending] = passes_;
+    cycles.busy[GscoreAnalytic::kMemory] = front.memory.cycles(cycles.bytes);
+    cycles.time = std::max(passes_, front.fetch_cycles(walked));
+    return cycles;
+}
+
+} // namespace
+
+std::unique_ptr<AnalyticModel> GscoreConfig::analytic() const {
+    return std::make_unique<GscoreAnalytic>(*this);
+}
+
+} // namespace degs

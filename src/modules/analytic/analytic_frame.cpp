@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/analytic/analytic_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "config/ratio.hpp"
+#include "modules/analytic/frame_schedule.hpp"
+#include "splat/frame/parallel.hpp"
+
+namespace degs {
+namespace {
+
+/// Splats on bands and rows of splats that are looked at, which bounds the time: some 15 ns each.
+constexpr double kVisits = 150e3;
+/// Chains of tiles that are followed one after the other; blocks of work for the host's processors.
+constexpr std::size_t kChains = 2;
+
+struct Listed {
+    int tile;
+    std::size_t turn; ///< among the tiles that list a splat, in the order of rendering
+    double entries;
+};
+
+/// Tiles that list a splat, in the order of the lengths of their lists.
+std::vector<Listed> listed_tiles(const FrameWorkload& frame) {
+    std::vector<Listed> tiles;
+    for (int tile = 0; tile < frame.tiles(); ++tile) {
+        const std::uint64_t entries = frame.tile_begin[tile + 1] - frame.tile_begin[tile];
+        if (entries != 0) {
+            tiles.push_back({tile, tiles.size(), static_cast<double>(entries)});
+        }
+    }
+    std::stable_sort(tiles.begin(), tiles.end(),
+                     [](const Listed& a, const Listed& b) { return a.entries < b.entries; });
+    return tiles;
+}
+
+/// Means over the entries of the lists.
+struct EntrySizes {
+    double rows = 0;   ///< of a splat on a tile
+    double visits = 0; ///< what these rows cost to draw, in visits
+};
+
+EntrySizes entry_sizes(const FrameWorkload& frame, int step) {
+    constexpr std::size_t kSkip = 16;
+    constexpr double kPixelsPerVisit = 16; // one in four is blended
+    const double side = frame.tile_size;
+    double rows = 0, visits = 0, entries = 0;
+    for (std::size_t s = 0; s < frame.splats.size(); s += kSkip) {
+        const ProjectedSplat& splat = frame.splats[s];
+        const double height = std::min(2 * std::sqrt(splat.q_threshold * splat.cov_c), side);
+        const double width = std::min(2 * std::sqrt(splat.q_threshold * splat.cov_a), side);
+        const double tiles = frame.tiles_touched[s];
+        rows += tiles * height / step;
+        visits += tiles * height / step * (1 + width / kPixelsPerVisit);
+        entries += tiles;
+    }
+    return entries == 0 ? EntrySizes() : EntrySizes{rows / entries, visits / entries};
+}
+
+/// One block of rows in so many: as few as it takes to afford all tiles, as long as a splat has a
+/// drawn row or so on each of its tiles.
+int rows_apart(const AnalyticModel::Blocks& blocks, const EntrySizes& sizes, double entries) {
+    int apart = 1;
+    while (entries * (1 + sizes.visits / apart) > kVisits && 2 * apart <= blocks.most_apart &&
+           2 * apart <= sizes.rows) {
+        apart *= 2;
+    }
+    return apart;
+}
+
+struct Chosen {
+    std::size_t place; ///< among the listed tiles
+    double weight;     ///< tiles that it stands for
+};
+
+/// A systematic sample, in the order of the lengths of the lists, in which the chance of a tile
+/// follows the root of its length: long lists are dearer to draw and differ more among themselves.
+std::vector<Chosen> choose(const std::vector<Listed>& tiles, double visits_per_entry) {
+    const auto visits = [&](double apart) {
+        double sum = 0;
+        for (const Listed& tile : tiles) {
+            sum += std::min(1.0, std::sqrt(tile.entries) / apart) * tile.entries;
+        }
+        return sum * visits_per_entry;
+    };
+    double apart = 1e-9, most = 1e9; // between two chosen tiles, in roots of lengths
+    for (int step = 0; step < 40 && visits(apart) > kVisits; ++step) {
+        const double middle = std::sqrt(apart * most);
+        (visits(middle) > kVisits ? apart : most) = middle;
+        if (most / apart < 1.01) {
+            apart = most;
+        }
+    }
+    std::vector<Chosen> chosen;
+    double place = 0.5;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        const double chance = std::min(1.0, std::sqrt(tiles[t].entries) / apart);
+        place += chance;
+        if (place >= 1) {
+            place -= 1;
+            chosen.push_back({t, 1 / chance});
+        }
+    }
+    if (chosen.empty() && !tiles.empty()) {
+        chosen.push_back({tiles.size() / 2, static_cast<double>(tiles.size())});
+    }
+    return chosen;
+}
+
+TileCycles scaled(const TileCycles& tile, double factor) {
+    TileCycles result = tile;
+    for (double* value :
+         {&result.time, &result.walked, &result.slots, &result.fragments, &result.bytes}) {
+        *value *= factor;
+    }
+    for (double& cycles : result.busy) {
+        cycles *= factor;
+    }
+    return result;
+}
+
+void add(TileCycles& sum, const TileCycles& tile) {
+    sum.time += tile.time;
+    sum.slots += tile.slots;
+    sum.fragments += tile.fragments;
+    sum.bytes += tile.bytes;
+    for (std::size_t u = 0; u < kMostAnalyticUnits; ++u) {
+        sum.busy[u] += tile.busy[u];
+    }
+}
+
+/// All tiles in the order of rendering; one that was not drawn takes what the nearest drawn one
+/// takes, per entry of its list.
+std::vector<ScheduledTile> all_tiles(const std::vector<Listed>& tiles,
+                                     const std::vector<Chosen>& chosen,
+                                     const std::vector<TileCycles>& cycles) {
+    std::vector<ScheduledTile> result(tiles.size());
+    std::size_t nearest = 0;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        while (nearest + 1 < chosen.size() &&
+               chosen[nearest].place + chosen[nearest + 1].place <= 2 * t) {
+            ++nearest;
+        }
+        const double like = tiles[chosen[nearest].place].entries;
+        result[tiles[t].turn] = {tiles[t].entries,
+                                 scaled(cycles[nearest], tiles[t].entries / like)};
+    }
+    return result;
+}
+
+} // namespace
+
+AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& frame) {
+    const std::vector<Listed> tiles = listed_tiles(frame);
+    const AnalyticModel::Blocks blocks = model.blocks();
+    const EntrySizes sizes = entry_sizes(frame, blocks.step);
+    const int apart = rows_apart(blocks, sizes, rate_of(frame.tile_pairs(), 1));
+    const std::vector<Chosen> chosen = choose(tiles, 1 + sizes.visits / apart);
+
+    std::vector<TileCycles> cycles(chosen.size());
+    const std::size_t chains = std::min(kChains, chosen.size());
+    parallel_blocks(chains, [&](std::size_t chain, std::size_t) {
+        CoarseTile tile(frame, model.drawing());
+        const std::unique_ptr<TileClock> clock = model.clock(frame);
+        for (std::size_t c = chain; c < chosen.size(); c += chains) {
+            // Which blocks are drawn goes round with the tiles.
+            const int first = static_cast<int>(c) * 5 % apart;
+            tile.begin(tiles[chosen[c].place].tile, {blocks.height, apart, first, blocks.step});
+            clock->begin(tile);
+            while (tile.next()) {
+                clock->splat(tile);
+                tile.blend();
+            }
+            cycles[c] = clock->end(tile);
+        }
+    });
+
+    const std::vector<ScheduledTile> scheduled = all_tiles(tiles, chosen, cycles);
+    TileCycles sum;
+    for (const ScheduledTile& tile : scheduled) {
+        add(sum, tile.cycles);
+    }
+    const PreparationCycles before = model.preparation(frame);
+    AnalyticFrame result;
+    result.tiles = tiles.size();
+    result.drawn = chosen.size();
+    result.rows_apart = apart;
+    result.preparation = before.time;
+    const double rendering = schedule(model, scheduled);
+    result.cycles = before.time + model.latency() + rendering;
+    result.bytes = before.bytes + sum.bytes;
+    result.utilization = rendering == 0 ? 0 : sum.fragments / (rendering * model.pes());
+    const std::vector<std::string> names = model.units();
+    double longest = 0, longest_before = 0;
+    for (std::size_t u = 0; u < names.size(); ++u) {
+        result.units.push_back({names[u], before.busy[u], sum.busy[u]});
+        result.upper += before.busy[u] + sum.busy[u];
+        longest_before = std::max(longest_before, before.busy[u]);
+        if (sum.busy[u] > longest) {
+            longest = sum.busy[u];
+            result.limited_by = names[u];
+        }
+    }
+    result.lower = longest_before + longest;
+    return result;
+}
+
+} // namespace degs

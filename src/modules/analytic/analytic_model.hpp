@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an accelerator says about the time of a frame without being simulated. docs/analytic.md
+// explains the method.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "splat/frame/coarse_tile.hpp"
+
+namespace degs {
+
+/// Cycles by kind of unit, in the order of AnalyticModel::units(): how long all units of the kind
+/// together are busy at the least.
+constexpr std::size_t kMostAnalyticUnits = 8;
+using UnitCycles = std::array<double, kMostAnalyticUnits>;
+
+/// What a tile takes.
+struct TileCycles {
+    double time = 0;   ///< in which its engine works on it, if splats are there
+    double walked = 0; ///< splats of the list that are needed
+    UnitCycles busy{};
+    double slots = 0;     ///< PE-cycles in which a task is executed
+    double fragments = 0; ///< of them those that are blended
+    double bytes = 0;     ///< moved to and from memory
+};
+
+/// Follows tiles through a design by recurrences over their splats. Tiles of similar lists come one
+/// after the other, and each finds the units as the one before left them.
+class TileClock {
+public:
+    virtual ~TileClock() = default;
+    /// Before the first splat of `tile`.
+    virtual void begin(const CoarseTile& tile) = 0;
+    /// `tile` has solved a splat and not blended it.
+    virtual void splat(const CoarseTile& tile) = 0;
+    /// After the last one.
+    virtual TileCycles end(const CoarseTile& tile) = 0;
+};
+
+/// Everything before the first tile.
+struct PreparationCycles {
+    double time = 0; ///< until the lists of the frame are complete
+    UnitCycles busy{};
+    double bytes = 0; ///< moved, reads and writes
+};
+
+/// One design: kinds of units, and how to work out their cycles.
+class AnalyticModel {
+public:
+    virtual ~AnalyticModel() = default;
+    /// Names, at most kMostAnalyticUnits; the last is "memory".
+    virtual std::vector<std::string> units() const = 0;
+    virtual PreparationCycles preparation(const FrameWorkload& frame) const = 0;
+    virtual std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const = 0;
+    /// What the clock asks of a tile.
+    virtual CoarseTile::Options drawing() const = 0;
+    /// How rows may be left out of a tile: of blocks of `height` rows one in up to `most_apart` is
+    /// drawn, and of that every `step`-th row.
+    struct Blocks {
+        int height = 1, most_apart = 1, step = 1;
+    };
+    virtual Blocks blocks() const = 0;
+    /// Units that sort lists, in turn; 0: lists come sorted.
+    virtual int sorters() const { return 0; }
+    /// Cycles of a sorter on a list: until its first splats may be fetched, and in all.
+    struct SortCycles {
+        double first = 0, all = 0;
+    };
+    virtual SortCycles sort_cycles(double /*entries*/, double /*walked*/) const { return {}; }
+    /// Splats that are fetched while those of the tile before are in work.
+    virtual double places() const { return 0; }
+    /// Tiles in work side by side; each is given to the first one that is free.
+    virtual int engines() const { return 1; }
+    virtual double memory_latency() const = 0; ///< cycles
+    /// From complete lists to the first task, and from the last task to the last pixel in memory.
+    virtual double latency() const = 0;
+    virtual int pes() const = 0;
+};
+
+} // namespace degs

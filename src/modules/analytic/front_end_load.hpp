@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The front end of accelerators that work tile by tile, as cycles: projection, binning, sorting and
+// fetching, each at its rate.
+#pragma once
+
+#include <cstdint>
+
+#include "modules/analytic/analytic_model.hpp"
+#include "modules/front_end/hierarchical_sorter.hpp"
+#include "modules/front_end/projection_unit.hpp"
+#include "modules/front_end/sorting_unit.hpp"
+#include "modules/front_end/splat_fetcher.hpp"
+#include "modules/front_end/tile_binner.hpp"
+#include "modules/main_memory_config.hpp"
+#include "modules/traffic.hpp"
+
+namespace degs {
+
+/// Memory as a rate and a latency, which is what `memory.model: bus` is. The rate of LPDDR5 is that
+/// of its bus: refreshes, activations and turnarounds are left out.
+struct MemoryRate {
+    double bytes_per_cycle = 0, latency = 0; ///< latency in cycles
+    MemoryRate(const MainMemoryConfig& memory, double clock_ghz)
+        : bytes_per_cycle(memory.peak_gb_per_s() / clock_ghz),
+          latency(memory.latency_ns * clock_ghz) {}
+    double cycles(double bytes) const { return bytes / bytes_per_cycle; }
+};
+
+/// Kinds of units of the front end; those of an array follow.
+enum FrontEndUnit : std::size_t { kProjectionUnits, kSortingUnits, kArrayUnits };
+
+class FrontEndLoad {
+public:
+    TrafficConfig traffic;
+    ProjectionUnit::Config projection;
+    TileBinner::Config binning;
+    SplatFetcher::Config fetching;
+    std::uint64_t places = 0;        ///< for splats before the array, of one fetcher
+    std::uint64_t sort_capacity = 0; ///< keys
+    MemoryRate memory;
+
+    explicit FrontEndLoad(const MemoryRate& rate) : memory(rate) {}
+
+    PreparationCycles preparation(const FrameWorkload& frame, std::size_t memory_unit) const;
+    /// Cycles in which a fetcher has the first `walked` splats of a list come from memory.
+    double fetch_cycles(double walked) const;
+    /// Bytes of a tile: its list, the splats that are fetched, its pixels.
+    double tile_bytes(double entries, double walked, double pixels) const;
+};
+
+/// Of one sorter on a list of `entries`.
+AnalyticModel::SortCycles sort_cycles(const SortingUnit::Config& config, double entries,
+                                      std::uint64_t capacity);
+AnalyticModel::SortCycles sort_cycles(const HierarchicalSorter::Config& config, double entries,
+                                      double walked, std::uint64_t capacity);
+
+} // namespace degs

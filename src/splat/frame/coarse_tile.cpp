@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "splat/frame/coarse_tile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "splat/frame/fast_exp.hpp"
+#include "splat/pixel_rules.hpp"
+
+namespace degs {
+namespace {
+
+/// Entries between the splat that is solved and the one that is asked for: lists visit splats in no
+/// order of memory.
+constexpr std::uint64_t kPrefetched = 6;
+
+} // namespace
+
+CoarseTile::CoarseTile(const FrameWorkload& frame, const Options& options)
+    : frame_(frame), options_(options),
+      cells_x_((frame.tile_size + options.cell_width - 1) / options.cell_width),
+      samples_((frame.tile_size + kApart - 1) / kApart) {}
+
+void CoarseTile::begin(int tile, const RowChoice& choice) {
+    const int size = frame_.tile_size;
+    tile_ = tile;
+    x_ = tile % frame_.tiles_x * size;
+    y_ = tile / frame_.tiles_x * size;
+    width_ = std::min(size, frame_.camera.width - x_);
+    height_ = std::min(size, frame_.camera.height - y_);
+    begin_ = entry_ = frame_.tile_begin[tile];
+    end_ = frame_.tile_begin[tile + 1];
+    blended_ = 0;
+    choose_rows(choice);
+    transmittance_.assign(rows_.size() * samples_, 1.0F);
+    live_in_cell_.assign(cell_of(height_ - 1, 0) + cells_x_, 0);
+    live_ = 0;
+    for (const int row : rows_) {
+        for (int column = phase_of(row); column < width_; column += kApart) {
+            ++live_in_cell_[cell_of(row, column)];
+            ++live_;
+        }
+    }
+}
+
+void CoarseTile::choose_rows(const RowChoice& choice) {
+    const int blocks = (height_ + choice.height - 1) / choice.height;
+    const int first = std::min(choice.first, blocks - 1);
+    blocks_.clear();
+    rows_.clear();
+    rows_from_.clear();
+    place_of_row_.assign(height_, 0);
+    int height_of_blocks = 0;
+    for (int block = 0; block < blocks; ++block) {
+        const bool drawn = block % choice.apart == first % choice.apart;
+        const int begin = block * choice.height;
+        const int end = std::min(begin + choice.height, height_);
+        if (drawn) {
+            blocks_.push_back(block);
+            height_of_blocks += end - begin;
+        }
+        for (int row = begin; row < end; ++row) {
+            rows_from_.push_back(static_cast<int>(rows_.size()));
+            if (drawn && (row - begin) % choice.step == 0) {
+                place_of_row_[row] = rows_.size() * samples_;
+                rows_.push_back(row);
+            }
+        }
+    }
+    rows_from_.push_back(static_cast<int>(rows_.size()));
+    rows_per_drawn_ = static_cast<double>(height_) / static_cast<double>(rows_.size());
+    blocks_per_drawn_ = static_cast<double>(height_) / height_of_blocks;
+}
+
+CoarseSpan CoarseTile::span_of(int row) const {
+    CoarseSpan span;
+    span.row = row;
+    const float dy = static_cast<float>(row) - mu_y_;
+    const float rest = threshold_ - dy * dy * inverse_c_;
+    if (rest < 0) {
+        return span;
+    }
+    const float centre = mu_x_ + slope_ * dy;
+    const float reach = std::sqrt(rest * det_over_c_);
+    float left = std::ceil(centre - reach), right = std::floor(centre + reach);
+    if (options_.outward) {
+        left = std::floor(centre - reach) - static_cast<float>(options_.delta);
+        right = std::ceil(centre + reach) + static_cast<float>(options_.delta);
+    }
+    left = std::max(left, 0.0F);
+    right = std::min(right, static_cast<float>(width_ - 1));
+    if (left <= right) {
+        span.first = static_cast<int>(left);
+        span.last = static_cast<int>(right);
+    }
+    return span;
+}
+
+bool CoarseTile::next() {
+    if (entry_ == end_ || live_ == 0) {
+        return false;
+    }
+    splat_ = frame_.tile_splats[entry_++];
+    if (entry_ + kPrefetched < end_) {
+        __builtin_prefetch(&frame_.splats[frame_.tile_splats[entry_ + kPrefetched]]);
+    }
+    const ProjectedSplat& s = frame_.splats[splat_];
+    const double inverse_c = 1 / s.cov_c;
+    mu_x_ = static_cast<float>(s.mu_x - x_);
+    mu_y_ = static_cast<float>(s.mu_y - y_);
+    inverse_c_ = static_cast<float>(inverse_c);
+    threshold_ = static_cast<float>(s.q_threshold);
+    opacity_ = static_cast<float>(s.opacity);
+    conic_a_ = static_cast<float>(s.conic_a());
+    slope_ = static_cast<float>(s.cov_b * inverse_c);
+    det_over_c_ = static_cast<float>(s.det * inverse_c);
+    const float reach = std::sqrt(static_cast<float>(s.q_threshold * s.cov_c));
+    const auto most = static_cast<float>(height_ - 1);
+    first_row_ = static_cast<int>(std::clamp(std::ceil(mu_y_ - reach), 0.0F, most + 1));
+    last_row_ = static_cast<int>(std::clamp(std::floor(mu_y_ + reach), -1.0F, most));
+    spans_.clear();
+    for (int r = first_drawn(); r < end_drawn(); ++r) {
+        const CoarseSpan span = span_of(rows_[r]);
+        if (span.first <= span.last) {
+            spans_.push_back(span);
+        }
+    }
+    return true;
+}
+
+CoarseTile::Samples CoarseTile::samples_in(const CoarseSpan& span) const {
+    const int phase = phase_of(span.row);
+    // Division of what may be negative: a tile further left keeps it positive.
+    return {(span.first - phase + kApart - 1 + kApart) / kApart - 1,
+            (span.last - phase + kApart) / kApart - 1};
+}
+
+double CoarseTile::live_share(const CoarseSpan& span) const {
+    Samples in = samples_in(span);
+    if (in.last < in.first) { // the nearest one
+        const int most = (width_ - 1 - phase_of(span.row) + kApart) / kApart - 1;
+        in.first = in.last = std::clamp(in.first, 0, std::max(most, 0));
+    }
+    const float* row = transmittance_.data() + place_of_row_[span.row];
+    int live = 0;
+    for (int i = in.first; i <= in.last; ++i) {
+        live += row[i] > 0 ? 1 : 0;
+    }
+    return static_cast<double>(live) / (in.last - in.first + 1);
+}
+
+void CoarseTile::blend() {
+    for (const CoarseSpan& span : spans_) {
+        const Samples in = samples_in(span);
+        float* const row = transmittance_of(span.row);
+        const float dy = static_cast<float>(span.row) - mu_y_;
+        const float q_row = dy * dy * inverse_c_;
+        const float start = static_cast<float>(phase_of(span.row)) - (mu_x_ + slope_ * dy);
+        for (int i = in.first; i <= in.last; ++i) {
+            if (row[i] == 0) {
+                continue;
+            }
+            const float dx = start + static_cast<float>(i * kApart);
+            const float q = conic_a_ * dx * dx + q_row;
+            if (q > threshold_) {
+                continue;
+            }
+            const float alpha =
+                std::min(static_cast<float>(kAlphaMax), opacity_ * fast_exp(-0.5F * q));
+            const float rest = row[i] * (1.0F - alpha);
+            if (rest >= static_cast<float>(kStopTransmittance)) {
+                row[i] = rest;
+                ++blended_;
+            } else {
+                row[i] = 0;
+                --live_;
+                --live_in_cell_[cell_of(span.row, phase_of(span.row) + i * kApart)];
+            }
+        }
+    }
+}
+
+} // namespace degs

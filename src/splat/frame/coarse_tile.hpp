@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The splats of a tile, drawn with few of its pixels: exact spans, sampled transmittance.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "splat/frame_workload.hpp"
+
+namespace degs {
+
+/// Some rows of a tile: of its blocks of `height` rows every `apart`-th one, from `first` on, and in
+/// these every `step`-th row.
+struct RowChoice {
+    int height = 1, apart = 1, first = 0, step = 1;
+};
+
+/// Pixels of a row, px from the left border of the tile.
+struct CoarseSpan {
+    int row = 0; ///< of the tile
+    int first = 0, last = -1;
+    int length() const { return last - first + 1; }
+};
+
+/// Draws some rows of a tile splat by splat, near to far, by the rules of the reference renderer in
+/// single precision, at one column in four. What ends is known per cell, a block of pixels.
+class CoarseTile {
+public:
+    struct Options {
+        int cell_width = 1, cell_height = 1; ///< px, from the upper left corner of a tile
+        bool outward = false; ///< spans end at the first pixels outside the ellipse, or on it
+        int delta = 0;        ///< px more than that at both ends
+    };
+    CoarseTile(const FrameWorkload& frame, const Options& options);
+
+    /// At least one row of the tile is drawn, whatever the choice.
+    void begin(int tile, const RowChoice& choice);
+    /// Solves the next splat of the list. False if the list is over or all sampled pixels have
+    /// ended.
+    bool next();
+    /// Blends the solved splat.
+    void blend();
+
+    // Of the tile.
+    int tile() const { return tile_; }
+    int x() const { return x_; } ///< px
+    int y() const { return y_; }
+    int width() const { return width_; } ///< px inside the image
+    int height() const { return height_; }
+    double pixels() const { return 1.0 * width_ * height_; }
+    double entries() const { return static_cast<double>(end_ - begin_); }
+    double walked() const { return static_cast<double>(entry_ - begin_); } ///< solved so far
+    /// What a drawn row stands for, and what a block with drawn rows stands for.
+    double rows_per_drawn() const { return rows_per_drawn_; }
+    double blocks_per_drawn() const { return blocks_per_drawn_; }
+    /// The rows that are drawn, and the blocks that they make up; top to bottom.
+    const std::vector<int>& rows() const { return rows_; }
+    const std::vector<int>& blocks() const { return blocks_; }
+
+    // Of the solved splat.
+    std::uint32_t splat() const { return splat_; }
+    /// Rows of the tile that its bounding box meets, drawn or not.
+    int first_row() const { return first_row_; }
+    int last_row() const { return last_row_; }
+    /// The drawn ones among them, as a range of rows().
+    int first_drawn() const { return rows_from_[first_row_]; }
+    int end_drawn() const { return rows_from_[std::max(last_row_ + 1, first_row_)]; }
+    /// Drawn rows with a pixel of the span, top to bottom.
+    const std::vector<CoarseSpan>& spans() const { return spans_; }
+    /// The span of any row of the image, px from the upper left corner of the tile; empty without a
+    /// pixel inside the tile's columns.
+    CoarseSpan span_of(int row) const;
+
+    /// Share of the sampled pixels of the span that have not ended.
+    double live_share(const CoarseSpan& span) const;
+    /// False once all sampled pixels of the cell that holds the pixel have ended.
+    bool cell_is_live(int row, int column) const {
+        return live_in_cell_[cell_of(row, column)] != 0;
+    }
+
+    /// Fragments so far, scaled to all pixels.
+    double fragments() const { return static_cast<double>(blended_) * kApart * rows_per_drawn_; }
+
+private:
+    static constexpr int kApart = 4; ///< px between sampled columns
+    /// Neighbouring rows have their columns apart; every row has one.
+    int phase_of(int row) const { return row * 3 % std::min(kApart, width_); }
+    struct Samples {
+        int first, last;
+    };
+    std::size_t cell_of(int row, int column) const {
+        return row / options_.cell_height * cells_x_ + column / options_.cell_width;
+    }
+    Samples samples_in(const CoarseSpan& span) const;
+    void choose_rows(const RowChoice& choice);
+    float* transmittance_of(int row) { return transmittance_.data() + place_of_row_[row]; }
+
+    const FrameWorkload& frame_;
+    Options options_;
+    int cells_x_, samples_; ///< cells and places for samples per row
+    int tile_ = 0, x_ = 0, y_ = 0, width_ = 0, height_ = 0;
+    double rows_per_drawn_ = 1, blocks_per_drawn_ = 1;
+    std::vector<int> blocks_;
+    std::vector<int> rows_;                 ///< drawn ones, rising
+    std::vector<int> rows_from_;            ///< by row: how many of rows_ are above it
+    std::vector<std::size_t> place_of_row_; ///< in transmittance_, if the row is drawn
+    std::uint64_t begin_ = 0, end_ = 0, entry_ = 0;
+    std::vector<float> transmittance_; ///< of the sampled pixels; 0: ended
+    std::vector<int> live_in_cell_;
+    int live_ = 0; ///< sampled pixels
+    std::uint64_t blended_ = 0;
+
+    std::uint32_t splat_ = 0;
+    float mu_x_ = 0, mu_y_ = 0; ///< px from the tile
+    float conic_a_ = 0, slope_ = 0, inverse_c_ = 0, det_over_c_ = 0, threshold_ = 0, opacity_ = 0;
+    int first_row_ = 0, last_row_ = -1;
+    std::vector<CoarseSpan> spans_;
+};
+
+} // namespace degs

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs run --fidelity analytic: near the simulation, inside its bounds, and following the design.
+#include "tests/sim/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using nlohmann::json;
+
+std::string analytic_config(const std::string& name) {
+    return std::string(DEGS_CONFIGS) + "/" + name + ".yaml";
+}
+
+json analytic_of(const std::string& config, const std::vector<std::string>& more) {
+    const Folder folder;
+    std::vector<std::string> arguments{"run", config, "--fidelity", "analytic", "--no-cache",
+                                       "--out", folder / "out"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_success(degs(arguments));
+    return json::parse(read_file(folder / "out/analytic.json"));
+}
+
+double cycles_of(const json& report) {
+    return report["timing"]["cycles"];
+}
+
+const std::vector<std::string> kAnalyticView{"--scene", "synthetic:object,gaussians=4000",
+                                             "--width", "320"};
+
+std::vector<std::string> analytic_view_and(const std::vector<std::string>& more) {
+    std::vector<std::string> all = kAnalyticView;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+class Analytic : public testing::TestWithParam<std::string> {};
+
+TEST_P(Analytic, IsNearTheSimulation) {
+    const Folder folder;
+    std::vector<std::string> arguments{"run", analytic_config(GetParam()), "--no-reference",
+                                       "--no-cache", "--out", folder / "out"};
+    arguments.insert(arguments.end(), kAnalyticView.begin(), kAnalyticView.end());
+    expect_success(degs(arguments));
+    const json exact = json::parse(read_file(folder / "out/report.json"));
+    const json estimate = analytic_of(analytic_config(GetParam()), kAnalyticView);
+    const double cycles = cycles_of(exact);
+    EXPECT_NEAR(cycles_of(estimate), cycles, 0.25 * cycles);
+    EXPECT_NEAR(estimate["slots"]["utilization"], exact["slots"]["utilization"], 0.25);
+    const double bytes = exact["dram"]["read_bytes"].get<double>() +
+                         exact["dram"]["written_bytes"].get<double>();
+    EXPECT_NEAR(estimate["dram"]["bytes"], bytes, 0.3 * bytes);
+    EXPECT_EQ(estimate["workload"]["tile_pairs"], exact["workload"]["tile_pairs"]);
+}
+
+TEST_P(Analytic, LiesBetweenItsBounds) {
+    const json report = analytic_of(analytic_config(GetParam()), kAnalyticView);
+    EXPECT_LE(report["timing"]["lower_cycles"], report["timing"]["cycles"]);
+    EXPECT_GT(report["timing"]["lower_cycles"], 0);
+    EXPECT_GE(report["timing"]["upper_cycles"], report["timing"]["lower_cycles"]);
+    EXPECT_TRUE(report["units"].contains(report["limited_by"].get<std::string>()));
+    EXPECT_LE(report["slots"]["utilization"], 1);
+}
+
+TEST_P(Analytic, IsTheSameEveryTime) {
+    json first = analytic_of(analytic_config(GetParam()), kAnalyticView);
+    json second = analytic_of(analytic_config(GetParam()), kAnalyticView);
+    first.erase("host");
+    second.erase("host");
+    EXPECT_EQ(first, second);
+}
+
+// A bus of 2 GB/s moves two bytes per cycle, which then takes longer than everything else.
+TEST_P(Analytic, FollowsTheMemory) {
+    const json report = analytic_of(analytic_config(GetParam()),
+                                    analytic_view_and({"--set", "memory.bandwidth_gb_per_s=2"}));
+    EXPECT_EQ(report["limited_by"], "memory");
+    EXPECT_GE(cycles_of(report), report["dram"]["bytes"].get<double>() / 2);
+}
+
+TEST_P(Analytic, TakesAnEmptyFrameAndASinglePixel) {
+    for (const std::vector<std::string>& view :
+         {std::vector<std::string>{"--scene", "synthetic:object,gaussians=1", "--width", "1"},
+          std::vector<std::string>{"--scene", "synthetic:object,gaussians=1", "--width", "2000"}}) {
+        const json report = analytic_of(analytic_config(GetParam()), view);
+        EXPECT_GT(cycles_of(report), 0);
+        EXPECT_LT(cycles_of(report), 1e6);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Designs, Analytic,
+                         testing::Values("degs-64", "degs-64-tuned", "gscore-64", "gbu-64",
+                                         "gcc-64"),
+                         [](const auto& info) {
+                             std::string name = info.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST(AnalyticCommand, FollowsTheSizeOfTheArray) {
+    double before = 1e12;
+    for (const std::string size : {"16", "64", "256"}) {
+        const double cycles = cycles_of(analytic_of(analytic_config("degs-" + size), kAnalyticView));
+        EXPECT_LT(cycles, before) << size;
+        before = cycles;
+    }
+}
+
+TEST(AnalyticCommand, RefusesWhatNeedsASimulation) {
+    const Folder folder;
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--within", "1%"}, {"--array-only"}, {"--frames", "2"},
+          {"--maps", folder / "maps"}, {"--trace", folder / "trace"}, {"--explain"}}) {
+        std::vector<std::string> arguments{"run", analytic_config("degs-64"), "--fidelity",
+                                           "analytic", "--out", folder / "out"};
+        arguments.insert(arguments.end(), kAnalyticView.begin(), kAnalyticView.end());
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Outcome outcome = degs(arguments);
+        EXPECT_NE(outcome.code, 0);
+        EXPECT_NE(outcome.err.find(more.front() + " needs a simulation"), std::string::npos)
+            << outcome.err;
+    }
+}
+
+} // namespace
+} // namespace degs::sim_test
