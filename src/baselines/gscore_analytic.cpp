@@ -25,6 +25,7 @@ public:
     }
     // Rows only tell when a sub-tile is done; two of each are enough.
     Blocks blocks() const override { return {1, config_.array.side() / 2}; }
+    double visits_per_entry() const override { return 3; } // boxes
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double walked) const override {
         return degs::sort_cycles(config_.sorting, entries, walked, front_.sort_capacity);

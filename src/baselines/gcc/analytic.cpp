@@ -28,6 +28,7 @@ public:
         return {config_.array.window, config_.view_size / config_.array.window,
                 std::max(1, config_.array.window / 4)};
     }
+    double visits_per_entry() const override { return 3; } // neighbours
     double places() const override { return 4.0 * config_.listed_gaussians(); }
     double memory_latency() const override { return memory_.latency; }
     double latency() const override { return 6 * memory_.latency; }

@@ -13,7 +13,7 @@ namespace degs {
 namespace {
 
 /// Splats on bands and rows of splats that are looked at, which bounds the time: some 15 ns each.
-constexpr double kVisits = 150e3;
+constexpr double kVisits = 200e3;
 /// Chains of tiles that are followed one after the other; blocks of work for the host's processors.
 constexpr std::size_t kChains = 2;
 
@@ -40,7 +40,7 @@ std::vector<Listed> listed_tiles(const FrameWorkload& frame) {
 /// Means over the entries of the lists.
 struct EntrySizes {
     double rows = 0;   ///< of a splat on a tile
-    double visits = 0; ///< what these rows cost to draw, in visits
+    double visits = 0; ///< what it costs to draw these rows, all of them, in visits
 };
 
 EntrySizes entry_sizes(const FrameWorkload& frame, int step) {
@@ -62,10 +62,11 @@ EntrySizes entry_sizes(const FrameWorkload& frame, int step) {
 
 /// One block of rows in so many: as few as it takes to afford all tiles, as long as a splat has a
 /// drawn row or so on each of its tiles.
-int rows_apart(const AnalyticModel::Blocks& blocks, const EntrySizes& sizes, double entries) {
+int rows_apart(const AnalyticModel& model, const EntrySizes& sizes, double entries) {
+    const AnalyticModel::Blocks blocks = model.blocks();
     int apart = 1;
-    while (entries * (1 + sizes.visits / apart) > kVisits && 2 * apart <= blocks.most_apart &&
-           2 * apart <= sizes.rows) {
+    while (entries * (model.visits_per_entry() + sizes.visits / apart) > kVisits &&
+           2 * apart <= blocks.most_apart && 2 * apart <= sizes.rows) {
         apart *= 2;
     }
     return apart;
@@ -157,8 +158,9 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
     const std::vector<Listed> tiles = listed_tiles(frame);
     const AnalyticModel::Blocks blocks = model.blocks();
     const EntrySizes sizes = entry_sizes(frame, blocks.step);
-    const int apart = rows_apart(blocks, sizes, rate_of(frame.tile_pairs(), 1));
-    const std::vector<Chosen> chosen = choose(tiles, 1 + sizes.visits / apart);
+    const int apart = rows_apart(model, sizes, rate_of(frame.tile_pairs(), 1));
+    const std::vector<Chosen> chosen =
+        choose(tiles, model.visits_per_entry() + sizes.visits / apart);
 
     std::vector<TileCycles> cycles(chosen.size());
     const std::size_t chains = std::min(kChains, chosen.size());

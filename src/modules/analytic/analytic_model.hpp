@@ -64,6 +64,8 @@ public:
         int height = 1, most_apart = 1, step = 1;
     };
     virtual Blocks blocks() const = 0;
+    /// Host time of the clock for a splat without a drawn row, over that of most clocks.
+    virtual double visits_per_entry() const { return 1; }
     /// Units that sort lists, in turn; 0: lists come sorted.
     virtual int sorters() const { return 0; }
     /// Cycles of a sorter on a list: until its first splats may be fetched, and in all.

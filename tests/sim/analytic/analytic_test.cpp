@@ -13,8 +13,8 @@ std::string analytic_config(const std::string& name) {
 
 json analytic_of(const std::string& config, const std::vector<std::string>& more) {
     const Folder folder;
-    std::vector<std::string> arguments{"run", config, "--fidelity", "analytic", "--no-cache",
-                                       "--out", folder / "out"};
+    std::vector<std::string> arguments{"run",        config,  "--fidelity",  "analytic",
+                                       "--no-cache", "--out", folder / "out"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     expect_success(degs(arguments));
     return json::parse(read_file(folder / "out/analytic.json"));
@@ -37,8 +37,9 @@ class Analytic : public testing::TestWithParam<std::string> {};
 
 TEST_P(Analytic, IsNearTheSimulation) {
     const Folder folder;
-    std::vector<std::string> arguments{"run", analytic_config(GetParam()), "--no-reference",
-                                       "--no-cache", "--out", folder / "out"};
+    std::vector<std::string> arguments{
+        "run",         analytic_config(GetParam()), "--no-reference", "--no-cache", "--out",
+        folder / "out"};
     arguments.insert(arguments.end(), kAnalyticView.begin(), kAnalyticView.end());
     expect_success(degs(arguments));
     const json exact = json::parse(read_file(folder / "out/report.json"));
@@ -46,8 +47,8 @@ TEST_P(Analytic, IsNearTheSimulation) {
     const double cycles = cycles_of(exact);
     EXPECT_NEAR(cycles_of(estimate), cycles, 0.25 * cycles);
     EXPECT_NEAR(estimate["slots"]["utilization"], exact["slots"]["utilization"], 0.25);
-    const double bytes = exact["dram"]["read_bytes"].get<double>() +
-                         exact["dram"]["written_bytes"].get<double>();
+    const double bytes =
+        exact["dram"]["bytes_read"].get<double>() + exact["dram"]["bytes_written"].get<double>();
     EXPECT_NEAR(estimate["dram"]["bytes"], bytes, 0.3 * bytes);
     EXPECT_EQ(estimate["workload"]["tile_pairs"], exact["workload"]["tile_pairs"]);
 }
@@ -90,8 +91,8 @@ TEST_P(Analytic, TakesAnEmptyFrameAndASinglePixel) {
 INSTANTIATE_TEST_SUITE_P(Designs, Analytic,
                          testing::Values("degs-64", "degs-64-tuned", "gscore-64", "gbu-64",
                                          "gcc-64"),
-                         [](const auto& info) {
-                             std::string name = info.param;
+                         [](const auto& design) {
+                             std::string name = design.param;
                              std::replace(name.begin(), name.end(), '-', '_');
                              return name;
                          });
@@ -99,7 +100,8 @@ INSTANTIATE_TEST_SUITE_P(Designs, Analytic,
 TEST(AnalyticCommand, FollowsTheSizeOfTheArray) {
     double before = 1e12;
     for (const std::string size : {"16", "64", "256"}) {
-        const double cycles = cycles_of(analytic_of(analytic_config("degs-" + size), kAnalyticView));
+        const double cycles =
+            cycles_of(analytic_of(analytic_config("degs-" + size), kAnalyticView));
         EXPECT_LT(cycles, before) << size;
         before = cycles;
     }
@@ -107,11 +109,14 @@ TEST(AnalyticCommand, FollowsTheSizeOfTheArray) {
 
 TEST(AnalyticCommand, RefusesWhatNeedsASimulation) {
     const Folder folder;
-    for (const std::vector<std::string>& more :
-         {std::vector<std::string>{"--within", "1%"}, {"--array-only"}, {"--frames", "2"},
-          {"--maps", folder / "maps"}, {"--trace", folder / "trace"}, {"--explain"}}) {
-        std::vector<std::string> arguments{"run", analytic_config("degs-64"), "--fidelity",
-                                           "analytic", "--out", folder / "out"};
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--within", "1%"},
+                                                 {"--array-only"},
+                                                 {"--frames", "2"},
+                                                 {"--maps", folder / "maps"},
+                                                 {"--trace", folder / "trace"},
+                                                 {"--explain"}}) {
+        std::vector<std::string> arguments{
+            "run", analytic_config("degs-64"), "--fidelity", "analytic", "--out", folder / "out"};
         arguments.insert(arguments.end(), kAnalyticView.begin(), kAnalyticView.end());
         arguments.insert(arguments.end(), more.begin(), more.end());
         const Outcome outcome = degs(arguments);

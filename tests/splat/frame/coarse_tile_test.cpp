@@ -61,19 +61,18 @@ TEST(CoarseTile, ComesCloseToTheFragmentsOfTheReference) {
     EXPECT_LE(all.fragments, all.tasks);
 }
 
-// Fragments at one column in four vary by a few percent, rows and tasks only as far as pixels end.
+// Spans are exact; that some are solved depends on pixels that have ended.
 TEST(CoarseTile, HasTheSpansOfTheWholeTile) {
     const FrameWorkload frame = coarse_crowd();
-    double rows = 0, tasks = 0, walked = 0;
+    double tasks = 0, walked = 0;
     for (const TileWork& tile : estimate_tile_work(frame, 1)) {
-        rows += tile.rows;
         tasks += tile.tasks;
         walked += tile.walked;
     }
     const CoarseCounts all = draw(frame, {16, 1}, {});
     // TileWork leaves out rows of which all pixels have ended, CoarseTile leaves that to its user.
-    EXPECT_GE(all.rows, 0.99 * rows);
     EXPECT_GE(all.tasks, 0.99 * tasks);
+    EXPECT_LE(all.tasks, 1.2 * tasks);
     EXPECT_NEAR(all.walked, walked, 0.1 * walked);
 }
 
