@@ -37,9 +37,9 @@ TileWork sum_of(const std::vector<TileWork>& blocks) {
 }
 
 TileWork less(const TileWork& all, const TileWork& part) {
-    return {all.tiles - part.tiles,        all.pixels - part.pixels, all.entries - part.entries,
-            all.walked - part.walked,      all.rows - part.rows,     all.tasks - part.tasks,
-            all.fragments - part.fragments};
+    return {all.tiles - part.tiles,         all.pixels - part.pixels, all.entries - part.entries,
+            all.walked - part.walked,       all.rows - part.rows,     all.tasks - part.tasks,
+            all.fragments - part.fragments, all.cycles - part.cycles};
 }
 
 std::uint64_t rounded(double value) {

@@ -93,7 +93,8 @@ RegressionEstimator::RegressionEstimator(const std::vector<TileWork>& population
 // In the order of what they explain; a small sample is fitted to the first of them. The mean of each
 // over the population is 1.
 RegressionEstimator::Terms RegressionEstimator::terms_of(const TileWork& work) const {
-    Terms terms{work.fragments, work.tiles, work.rows, work.walked, work.tasks, work.entries};
+    Terms terms{work.cycles, work.fragments, work.tiles,  work.rows,
+                work.walked, work.tasks,     work.entries};
     for (std::size_t t = 0; t < kTerms; ++t) {
         terms[t] *= scale_[t];
     }
@@ -103,7 +104,7 @@ RegressionEstimator::Terms RegressionEstimator::terms_of(const TileWork& work) c
 void RegressionEstimator::add(std::size_t block, std::size_t group, std::vector<double> measured) {
     const Terms& terms = population_[block];
     // The residuals scatter the more, the more work a run has: weights are inverse to the work.
-    sample_.push_back({terms, 1 / (0.1 + terms[0] + terms[2]), group, std::move(measured)});
+    sample_.push_back({terms, 1 / (0.1 + terms[1] + terms[3]), group, std::move(measured)});
 }
 
 RegressionEstimator::Fit RegressionEstimator::fit(std::size_t measure, std::size_t left_out) const {

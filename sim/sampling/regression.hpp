@@ -40,7 +40,7 @@ public:
     double total_without(std::size_t measure, std::size_t group) const;
 
 private:
-    static constexpr std::size_t kTerms = 6;
+    static constexpr std::size_t kTerms = 7;
     using Terms = std::array<double, kTerms>;
     struct Block {
         Terms terms;

@@ -36,7 +36,8 @@ private:
 double price_of(const std::vector<TileWork>& work, const TileBlock& block) {
     double price = 0;
     for (std::size_t t = block.first; t < block.first + block.count; ++t) {
-        price += work[t].tasks + work[t].rows + work[t].walked;
+        price +=
+            work[t].cycles > 0 ? work[t].cycles : work[t].tasks + work[t].rows + work[t].walked;
     }
     return price;
 }

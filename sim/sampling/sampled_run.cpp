@@ -11,6 +11,7 @@
 #include "baselines/gbu_config.hpp"
 #include "config/error.hpp"
 #include "config/ratio.hpp"
+#include "modules/analytic/expected_work.hpp"
 #include "sim/accelerator_run.hpp"
 #include "sim/sampling/frame_estimate.hpp"
 #include "sim/sampling/sample_design.hpp"
@@ -105,16 +106,6 @@ private:
     std::unique_ptr<sc_core::sc_event> joined_; ///< of a closed job: processes still wait for it
 };
 
-std::vector<TileWork> work_of_listed(const FrameWorkload& frame) {
-    std::vector<TileWork> work;
-    for (const TileWork& tile : estimate_tile_work(frame)) {
-        if (tile.entries > 0) {
-            work.push_back(tile);
-        }
-    }
-    return work;
-}
-
 /// The sample as it grows.
 class Sampler {
 public:
@@ -143,14 +134,16 @@ public:
         const std::size_t group = next_++;
         TileWork simulated = kNoWork;
         std::vector<std::pair<std::size_t, std::size_t>> blocks; // number of the first tile
-        std::size_t ahead = warm_up_;
+        std::size_t least = warm_up_, over = 0; // `over`: behind the block before
         for (const std::size_t b : design_.groups[group]) {
             const TileBlock& block = design_.blocks[b];
-            for (std::size_t t = block.first - std::min(block.first, ahead); t < block.first; ++t) {
+            for (std::size_t t = std::max(over, warm_up_from(block.first, least)); t < block.first;
+                 ++t) {
                 run_.add(t);
                 simulated += work_[t];
             }
-            ahead = 1; // the pipeline is full
+            least = 1; // the pipeline is full
+            over = block.first + block.count;
             blocks.emplace_back(b, run_.simulated());
             for (std::size_t t = block.first; t < block.first + block.count; ++t) {
                 run_.add(t);
@@ -198,6 +191,23 @@ public:
     std::size_t groups() const { return next_; }
 
 private:
+    /// The first tile of those that bring the pipeline into the state in which it meets tile `first`.
+    /// Where tiles take few cycles, writes of several tiles before are still under way.
+    std::size_t warm_up_from(std::size_t first, std::size_t least) const {
+        constexpr double kSettled = 600; // cycles
+        constexpr std::size_t kMost = 12;
+        std::size_t from = first - std::min(first, least);
+        double cycles = 0;
+        for (std::size_t t = from; t < first; ++t) {
+            cycles += work_[t].cycles;
+        }
+        for (; from > 0 && first - from < kMost && cycles < kSettled && work_[first].cycles > 0;
+             --from) {
+            cycles += work_[from - 1].cycles;
+        }
+        return from;
+    }
+
     OpenRun& run_;
     const std::vector<TileWork>& work_;
     SampleDesign design_;
@@ -277,7 +287,8 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     if (!facts.refusal.empty()) {
         return sampled;
     }
-    const std::vector<TileWork> work = work_of_listed(*frames.front());
+    const std::unique_ptr<AnalyticModel> model = config.analytic();
+    const std::vector<TileWork> work = expected_work(*frames.front(), model.get());
     facts.tiles = work.size();
     const int contexts = config.tile_contexts();
     SampleDesign design = design_sample(work, sizes_for(contexts, work.size()), request.seed);

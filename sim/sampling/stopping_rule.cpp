@@ -23,7 +23,7 @@ SampleSizes sizes_for(int contexts, std::size_t tiles) {
     SampleSizes sizes;
     const std::size_t warm = warm_up_tiles(contexts);
     sizes.edge = 4 * warm;
-    sizes.block = tiles >= 300 ? 2 : 1;
+    sizes.block = tiles >= 400 ? 4 : tiles >= 200 ? 2 : 1;
     sizes.group = std::max(4 * sizes.block, std::min(6 * warm, tiles / 30));
     return sizes;
 }

@@ -37,29 +37,6 @@ std::vector<Listed> listed_tiles(const FrameWorkload& frame) {
     return tiles;
 }
 
-/// Means over the entries of the lists.
-struct EntrySizes {
-    double rows = 0;   ///< of a splat on a tile
-    double visits = 0; ///< what it costs to draw these rows, all of them, in visits
-};
-
-EntrySizes entry_sizes(const FrameWorkload& frame, int step) {
-    constexpr std::size_t kSkip = 16;
-    constexpr double kPixelsPerVisit = 16; // one in four is blended
-    const double side = frame.tile_size;
-    double rows = 0, visits = 0, entries = 0;
-    for (std::size_t s = 0; s < frame.splats.size(); s += kSkip) {
-        const ProjectedSplat& splat = frame.splats[s];
-        const double height = std::min(2 * std::sqrt(splat.q_threshold * splat.cov_c), side);
-        const double width = std::min(2 * std::sqrt(splat.q_threshold * splat.cov_a), side);
-        const double tiles = frame.tiles_touched[s];
-        rows += tiles * height / step;
-        visits += tiles * height / step * (1 + width / kPixelsPerVisit);
-        entries += tiles;
-    }
-    return entries == 0 ? EntrySizes() : EntrySizes{rows / entries, visits / entries};
-}
-
 /// One block of rows in so many: as few as it takes to afford all tiles, as long as a splat has a
 /// drawn row or so on each of its tiles.
 int rows_apart(const AnalyticModel& model, const EntrySizes& sizes, double entries) {

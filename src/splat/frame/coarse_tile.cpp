@@ -34,10 +34,12 @@ void CoarseTile::begin(int tile, const RowChoice& choice) {
     choose_rows(choice);
     transmittance_.assign(rows_.size() * samples_, 1.0F);
     live_in_cell_.assign(cell_of(height_ - 1, 0) + cells_x_, 0);
+    live_in_row_.assign(height_, 0);
     live_ = 0;
     for (const int row : rows_) {
         for (int column = phase_of(row); column < width_; column += kApart) {
             ++live_in_cell_[cell_of(row, column)];
+            ++live_in_row_[row];
             ++live_;
         }
     }
@@ -174,10 +176,28 @@ void CoarseTile::blend() {
             } else {
                 row[i] = 0;
                 --live_;
+                --live_in_row_[span.row];
                 --live_in_cell_[cell_of(span.row, phase_of(span.row) + i * kApart)];
             }
         }
     }
+}
+
+EntrySizes entry_sizes(const FrameWorkload& frame, int step) {
+    constexpr std::size_t kSkip = 16;
+    constexpr double kPixelsPerVisit = 16; // one in four is blended
+    const double side = frame.tile_size;
+    double rows = 0, visits = 0, entries = 0;
+    for (std::size_t s = 0; s < frame.splats.size(); s += kSkip) {
+        const ProjectedSplat& splat = frame.splats[s];
+        const double height = std::min(2 * std::sqrt(splat.q_threshold * splat.cov_c), side);
+        const double width = std::min(2 * std::sqrt(splat.q_threshold * splat.cov_a), side);
+        const double tiles = frame.tiles_touched[s];
+        rows += tiles * height / step;
+        visits += tiles * height / step * (1 + width / kPixelsPerVisit);
+        entries += tiles;
+    }
+    return entries == 0 ? EntrySizes() : EntrySizes{rows / entries, visits / entries};
 }
 
 } // namespace degs

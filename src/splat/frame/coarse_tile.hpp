@@ -72,6 +72,8 @@ public:
     /// pixel inside the tile's columns.
     CoarseSpan span_of(int row) const;
 
+    /// False once all sampled pixels of a drawn row have ended.
+    bool row_is_live(int row) const { return live_in_row_[row] != 0; }
     /// Share of the sampled pixels of the span that have not ended.
     double live_share(const CoarseSpan& span) const;
     /// False once all sampled pixels of the cell that holds the pixel have ended.
@@ -107,7 +109,7 @@ private:
     std::vector<std::size_t> place_of_row_; ///< in transmittance_, if the row is drawn
     std::uint64_t begin_ = 0, end_ = 0, entry_ = 0;
     std::vector<float> transmittance_; ///< of the sampled pixels; 0: ended
-    std::vector<int> live_in_cell_;
+    std::vector<int> live_in_cell_, live_in_row_;
     int live_ = 0; ///< sampled pixels
     std::uint64_t blended_ = 0;
 
@@ -117,5 +119,13 @@ private:
     int first_row_ = 0, last_row_ = -1;
     std::vector<CoarseSpan> spans_;
 };
+
+/// Means over the entries of the lists.
+struct EntrySizes {
+    double rows = 0;   ///< of a splat on a tile
+    double visits = 0; ///< what it costs to draw these rows, all of them, in visits
+};
+/// If every `step`-th row is drawn.
+EntrySizes entry_sizes(const FrameWorkload& frame, int step);
 
 } // namespace degs

@@ -31,7 +31,7 @@ std::vector<TileWork> population(std::size_t count, unsigned seed) {
     for (std::size_t i = 0; i < count; ++i) {
         const double walked = 100 * size(draw), rows = walked * (2 + size(draw));
         const double fragments = rows * (3 + size(draw));
-        blocks.push_back({2, 2048, walked * 1.5, walked, rows, fragments * 1.2, fragments});
+        blocks.push_back({2, 2048, walked * 1.5, walked, rows, fragments * 1.2, fragments, 0});
     }
     return blocks;
 }
@@ -59,7 +59,7 @@ TEST(RegressionEstimator, IsExactWhereTheSizesExplainEverything) {
 // Equal sizes leave the mean: total = N mean, and each block is the distance to the mean of the others
 // away from it, n / (n - 1) times that to the mean of all.
 TEST(RegressionEstimator, IsTheExpansionEstimatorForEqualSizes) {
-    const std::vector<TileWork> blocks(40, TileWork{1, 16, 5, 5, 4, 8, 8});
+    const std::vector<TileWork> blocks(40, TileWork{1, 16, 5, 5, 4, 8, 8, 9});
     RegressionEstimator estimator(blocks);
     const std::vector<double> values{3, 5, 4, 8, 1, 6};
     for (std::size_t i = 0; i < values.size(); ++i) {

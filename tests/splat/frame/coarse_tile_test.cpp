@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "splat/frame/tile_work.hpp"
 #include "splat/reference_renderer.hpp"
 #include "tests/splat/brute_force.hpp"
 
@@ -59,21 +58,6 @@ TEST(CoarseTile, ComesCloseToTheFragmentsOfTheReference) {
     const auto fragments = static_cast<double>(reference.fragments);
     EXPECT_NEAR(all.fragments, fragments, 0.03 * fragments);
     EXPECT_LE(all.fragments, all.tasks);
-}
-
-// Spans are exact; that some are solved depends on pixels that have ended.
-TEST(CoarseTile, HasTheSpansOfTheWholeTile) {
-    const FrameWorkload frame = coarse_crowd();
-    double tasks = 0, walked = 0;
-    for (const TileWork& tile : estimate_tile_work(frame, 1)) {
-        tasks += tile.tasks;
-        walked += tile.walked;
-    }
-    const CoarseCounts all = draw(frame, {16, 1}, {});
-    // TileWork leaves out rows of which all pixels have ended, CoarseTile leaves that to its user.
-    EXPECT_GE(all.tasks, 0.99 * tasks);
-    EXPECT_LE(all.tasks, 1.2 * tasks);
-    EXPECT_NEAR(all.walked, walked, 0.1 * walked);
 }
 
 TEST(CoarseTile, StandsForTheRowsThatItLeavesOut) {
