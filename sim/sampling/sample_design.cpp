@@ -91,9 +91,6 @@ SampleDesign design_sample(const std::vector<TileWork>& work, const SampleSizes&
     }
     // The last stratum is not full: without this the first groups would always be the large ones.
     draws.shuffle(design.groups);
-    for (std::vector<std::size_t>& group : design.groups) {
-        std::sort(group.begin(), group.end());
-    }
     return design;
 }
 

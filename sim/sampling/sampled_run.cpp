@@ -134,11 +134,12 @@ public:
         const std::size_t group = next_++;
         TileWork simulated = kNoWork;
         std::vector<std::pair<std::size_t, std::size_t>> blocks; // number of the first tile
-        std::size_t least = warm_up_, over = 0; // `over`: behind the block before
+        std::size_t least = warm_up_, over = 0;                  // `over`: behind the block before
         for (const std::size_t b : design_.groups[group]) {
             const TileBlock& block = design_.blocks[b];
-            for (std::size_t t = std::max(over, warm_up_from(block.first, least)); t < block.first;
-                 ++t) {
+            std::size_t from = warm_up_from(block.first, least);
+            from = over <= block.first ? std::max(over, from) : from; // else it lies further down
+            for (std::size_t t = from; t < block.first; ++t) {
                 run_.add(t);
                 simulated += work_[t];
             }

@@ -49,7 +49,7 @@ Verdict judge_sample(const SamplingRequest& request, double share, double reache
         return Verdict::Enough;
     }
     // The first looks are uncertain, so that what seems a little too much is still tried.
-    constexpr double kBenefitOfDoubt = 1.2;
+    constexpr double kBenefitOfDoubt = 1.5;
     const bool hopeless =
         !more || share > kMostShare ||
         share_needed(share, reached, request.within) > kBenefitOfDoubt * kMostShare;

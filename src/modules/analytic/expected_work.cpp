@@ -10,7 +10,7 @@ namespace degs {
 namespace {
 
 /// Entries of lists, and rows of splats, that are looked at: some 20 ns each.
-constexpr double kMostVisits = 2e6;
+constexpr double kMostVisits = 1e6;
 /// Tiles that a worker takes at a time; a clock starts afresh with them.
 constexpr std::size_t kRun = 128;
 

@@ -113,7 +113,7 @@ double coverage(std::size_t sample, Noise noise) {
         std::shuffle(order.begin(), order.end(), draw);
         RegressionEstimator estimator(blocks);
         for (std::size_t b = 0; b < sample; ++b) {
-            estimator.add(order[b], 0, {values[order[b]]});
+            estimator.add(order[b], b / 4, {values[order[b]]});
         }
         const Estimate estimate = estimator.total(0);
         inside += std::abs(estimate.value - total) <= estimate.half_width ? 1 : 0;

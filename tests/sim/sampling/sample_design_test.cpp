@@ -26,7 +26,13 @@ TEST(SampleDesign, DealsEveryTileBetweenTheEndsOnce) {
     const SampleDesign design = design_sample(rising(503), {16, 2, 24}, 5);
     std::vector<int> seen(503, 0);
     for (const std::vector<std::size_t>& group : design.groups) {
-        EXPECT_TRUE(std::is_sorted(group.begin(), group.end()));
+        const auto work = [&design](std::size_t b) { // of its last tile, times its tiles
+            const TileBlock& block = design.blocks[b];
+            return block.count * (block.first + block.count);
+        };
+        EXPECT_TRUE(std::is_sorted(group.begin(), group.end(), [&](std::size_t a, std::size_t b) {
+            return work(a) < work(b);
+        }));
         for (const std::size_t b : group) {
             for (std::size_t i = 0; i < design.blocks[b].count; ++i) {
                 ++seen[design.blocks[b].first + i];
