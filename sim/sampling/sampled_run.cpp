@@ -233,6 +233,14 @@ std::vector<TileWork> work_of_blocks(const std::vector<TileWork>& work,
     return blocks;
 }
 
+std::size_t listed_tiles(const FrameWorkload& frame) {
+    std::size_t listed = 0;
+    for (int tile = 0; tile < frame.tiles(); ++tile) {
+        listed += frame.tile_begin[tile] != frame.tile_begin[tile + 1] ? 1 : 0;
+    }
+    return listed;
+}
+
 /// Why tiles of this design cannot be taken out of their order; empty if they can.
 std::string kept_between_tiles(const AcceleratorConfig& config, const BuildOptions& options) {
     const auto* gbu = dynamic_cast<const GbuConfig*>(&config);
@@ -288,15 +296,15 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     if (!facts.refusal.empty()) {
         return sampled;
     }
-    const std::unique_ptr<AnalyticModel> model = config.analytic();
-    const std::vector<TileWork> work = expected_work(*frames.front(), model.get());
-    facts.tiles = work.size();
+    facts.tiles = listed_tiles(*frames.front());
     const int contexts = config.tile_contexts();
-    SampleDesign design = design_sample(work, sizes_for(contexts, work.size()), request.seed);
-    if (!can_sample(design)) {
-        facts.refusal = too_few(work.size(), least_tiles(contexts));
+    if (!can_sample(contexts, facts.tiles)) {
+        facts.refusal = too_few(facts.tiles, least_tiles(contexts));
         return sampled;
     }
+    const std::unique_ptr<AnalyticModel> model = config.analytic();
+    const std::vector<TileWork> work = expected_work(*frames.front(), model.get());
+    SampleDesign design = design_sample(work, sizes_for(contexts, work.size()), request.seed);
     std::uint64_t activations = 0;
     const Timebase time{ClockDomain(config.clock_ghz), fidelity, nullptr, &activations};
     OpenRun run(config, frames, time, options);

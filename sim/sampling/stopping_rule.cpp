@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "config/ratio.hpp"
+
 namespace degs::sim {
 namespace {
 
@@ -28,17 +30,25 @@ SampleSizes sizes_for(int contexts, std::size_t tiles) {
     return sizes;
 }
 
-bool can_sample(const SampleDesign& design) {
-    return design.groups.size() >= 2 * kLeastGroups;
+bool can_sample(int contexts, std::size_t tiles) {
+    /// Of the tiles, those that may be simulated before the first look.
+    constexpr double kFirstLook = 0.6;
+    const SampleSizes sizes = sizes_for(contexts, tiles);
+    if (tiles < 2 * sizes.edge + 2 * kLeastGroups * sizes.group) {
+        return false;
+    }
+    const std::size_t warm = warm_up_tiles(contexts);
+    const std::size_t group = sizes.group + sizes.group / sizes.block + warm;
+    return ratio_of(2 * sizes.edge + warm + kLeastGroups * group, tiles) <= kFirstLook;
 }
 
 std::size_t least_tiles(int contexts) {
-    std::size_t tiles = 2 * kLeastGroups;
-    for (bool enough = false; !enough; ++tiles) {
-        const SampleSizes sizes = sizes_for(contexts, tiles);
-        enough = tiles >= 2 * sizes.edge + 2 * kLeastGroups * sizes.group;
+    constexpr std::size_t kAlways = 2000; // of any frame this large a small part is enough
+    std::size_t least = kAlways * warm_up_tiles(contexts);
+    while (least > 1 && can_sample(contexts, least - 1)) {
+        --least;
     }
-    return tiles - 1;
+    return least;
 }
 
 Verdict judge_sample(const SamplingRequest& request, double share, double reached, bool more) {

@@ -71,11 +71,11 @@ TEST(SampleDesign, HasNoGroupsWithoutTilesBetweenTheEnds) {
 TEST(StoppingRule, NamesTheLeastNumberOfTilesThatCanBeSampled) {
     for (const int contexts : {1, 2, 8}) {
         const std::size_t least = least_tiles(contexts);
-        const auto possible = [contexts](std::size_t tiles) {
-            return can_sample(design_sample(rising(tiles), sizes_for(contexts, tiles), 1));
-        };
-        EXPECT_TRUE(possible(least)) << contexts;
-        EXPECT_FALSE(possible(least - 1)) << contexts;
+        EXPECT_TRUE(can_sample(contexts, least)) << contexts;
+        EXPECT_TRUE(can_sample(contexts, 3 * least)) << contexts;
+        EXPECT_FALSE(can_sample(contexts, least - 1)) << contexts;
+        const SampleDesign design = design_sample(rising(least), sizes_for(contexts, least), 1);
+        EXPECT_GE(design.groups.size(), 2 * kLeastGroups) << contexts;
     }
 }
 
