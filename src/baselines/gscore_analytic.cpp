@@ -32,6 +32,7 @@ public:
     }
     double places() const override { return static_cast<double>(front_.places); }
     double memory_latency() const override { return front_.memory.latency; }
+    double pixel_bytes() const override { return config_.traffic.pixel_bytes; }
     double latency() const override {
         return 4 * front_.memory.latency + config_.array.pipeline_cycles;
     }

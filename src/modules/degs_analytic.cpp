@@ -51,6 +51,7 @@ public:
     double places() const override { return static_cast<double>(front_.places); }
     int engines() const override { return config_.streams(); }
     double memory_latency() const override { return front_.memory.latency; }
+    double pixel_bytes() const override { return config_.traffic.pixel_bytes; }
     double latency() const override;
     int pes() const override { return config_.pes(); }
 

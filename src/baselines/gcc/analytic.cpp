@@ -31,6 +31,7 @@ public:
     double visits_per_entry() const override { return 3; } // neighbours
     double places() const override { return 4.0 * config_.listed_gaussians(); }
     double memory_latency() const override { return memory_.latency; }
+    double pixel_bytes() const override { return config_.traffic.pixel_bytes; }
     double latency() const override { return 6 * memory_.latency; }
     int pes() const override { return config_.pes(); }
 
@@ -134,16 +135,15 @@ void Clock::splat(const CoarseTile& tile) {
 TileCycles Clock::end(const CoarseTile& tile) {
     const Config& config = model_.config();
     const double walked = tile.walked();
-    const double sh = static_cast<double>(config.traffic.common().sh_bytes(frame_.sh_degree));
-    const auto bursts = [&](double bytes) {
-        return std::ceil(bytes / config.traffic.burst_bytes) * config.traffic.burst_bytes;
+    const auto alone = [&](std::uint64_t record) {
+        return scattered_bytes(static_cast<int>(record), config.traffic.burst_bytes);
     };
+    const double gaussian = config.traffic.list_entry_bytes + alone(config.traffic.shape_bytes) +
+                            alone(config.traffic.common().sh_bytes(frame_.sh_degree));
     TileCycles cycles;
     cycles.slots = windows_ * tile.blocks_per_drawn() * config.pes();
     cycles.fragments = tile.fragments();
-    cycles.bytes = walked * (config.traffic.list_entry_bytes + bursts(config.traffic.shape_bytes) +
-                             bursts(sh)) +
-                   tile.pixels() * config.traffic.pixel_bytes;
+    cycles.bytes = walked * gaussian + tile.pixels() * config.traffic.pixel_bytes;
     const double passes =
         std::ceil(std::log(config.projection.group) / std::log(config.colour.merge_ways));
     cycles.walked = walked;

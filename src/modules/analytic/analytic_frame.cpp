@@ -129,6 +129,19 @@ std::vector<ScheduledTile> all_tiles(const std::vector<Listed>& tiles,
     return result;
 }
 
+/// Of the tiles that list no splat.
+double background_pixels(const FrameWorkload& frame) {
+    double pixels = 0;
+    for (int tile = 0; tile < frame.tiles(); ++tile) {
+        if (frame.tile_begin[tile] == frame.tile_begin[tile + 1]) {
+            const int size = frame.tile_size;
+            pixels += 1.0 * std::min(size, frame.camera.width - tile % frame.tiles_x * size) *
+                      std::min(size, frame.camera.height - tile / frame.tiles_x * size);
+        }
+    }
+    return pixels;
+}
+
 } // namespace
 
 AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& frame) {
@@ -170,7 +183,7 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
     result.preparation = before.time;
     const double rendering = schedule(model, scheduled);
     result.cycles = before.time + model.latency() + rendering;
-    result.bytes = before.bytes + sum.bytes;
+    result.bytes = before.bytes + sum.bytes + background_pixels(frame) * model.pixel_bytes();
     result.utilization = rendering == 0 ? 0 : sum.fragments / (rendering * model.pes());
     const std::vector<std::string> names = model.units();
     double longest = 0, longest_before = 0;

@@ -78,6 +78,7 @@ public:
     /// Tiles in work side by side; each is given to the first one that is free.
     virtual int engines() const { return 1; }
     virtual double memory_latency() const = 0; ///< cycles
+    virtual double pixel_bytes() const = 0;    ///< of the frame buffer
     /// From complete lists to the first task, and from the last task to the last pixel in memory.
     virtual double latency() const = 0;
     virtual int pes() const = 0;

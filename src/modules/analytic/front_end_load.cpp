@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace degs {
 namespace {
@@ -31,16 +32,21 @@ double halvings(double keys, double most) {
 
 } // namespace
 
+double scattered_bytes(int record, int burst) {
+    return record - std::gcd(record, burst) + burst;
+}
+
 PreparationCycles FrontEndLoad::preparation(const FrameWorkload& frame,
                                             std::size_t memory_unit) const {
     const double gaussians = as_real(frame.gaussians), visible = as_real(frame.splats.size());
     const double pairs = as_real(frame.tile_pairs()), chunk = projection.chunk;
     const double sh = as_real(traffic.sh_bytes(frame.sh_degree));
-    const double bursts = std::ceil(sh / traffic.burst_bytes) * traffic.burst_bytes;
+    const double alone =
+        scattered_bytes(static_cast<int>(traffic.sh_bytes(frame.sh_degree)), traffic.burst_bytes);
     PreparationCycles result;
     result.bytes =
         gaussians * traffic.geometry_bytes +
-        (traffic.sh == ShReads::All ? gaussians * sh : std::min(visible * bursts, gaussians * sh)) +
+        (traffic.sh == ShReads::All ? gaussians * sh : std::min(visible * alone, gaussians * sh)) +
         visible * traffic.splat_bytes + pairs * traffic.list_entry_bytes;
     const double project = gaussians * projection.cycles_per_gaussian / projection.count;
     const double shade = visible * projection.cycles_per_colour / projection.count;
@@ -64,7 +70,8 @@ double FrontEndLoad::fetch_cycles(double walked) const {
 
 double FrontEndLoad::tile_bytes(double entries, double walked, double pixels) const {
     const double fetched = std::min(entries, walked + as_real(places) / 2);
-    return entries * traffic.list_entry_bytes + fetched * traffic.splat_bytes +
+    return entries * traffic.list_entry_bytes +
+           fetched * scattered_bytes(traffic.splat_bytes, traffic.burst_bytes) +
            pixels * traffic.pixel_bytes;
 }
 

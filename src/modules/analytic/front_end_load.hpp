@@ -26,6 +26,10 @@ struct MemoryRate {
     double cycles(double bytes) const { return bytes / bytes_per_cycle; }
 };
 
+/// Bytes that a record of `record` bytes moves if it is read alone, in whole bursts of `burst` bytes,
+/// on average over the places at which records of this length lie.
+double scattered_bytes(int record, int burst);
+
 /// Kinds of units of the front end; those of an array follow.
 enum FrontEndUnit : std::size_t { kProjectionUnits, kSortingUnits, kArrayUnits };
 
