@@ -298,8 +298,8 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     }
     facts.tiles = listed_tiles(*frames.front());
     const int contexts = config.tile_contexts();
-    if (!can_sample(contexts, facts.tiles)) {
-        facts.refusal = too_few(facts.tiles, least_tiles(contexts));
+    if (!can_sample(request, contexts, facts.tiles)) {
+        facts.refusal = too_few(facts.tiles, least_tiles(request, contexts));
         return sampled;
     }
     const std::unique_ptr<AnalyticModel> model = config.analytic();

@@ -30,7 +30,7 @@ SampleSizes sizes_for(int contexts, std::size_t tiles) {
     return sizes;
 }
 
-bool can_sample(int contexts, std::size_t tiles) {
+bool can_sample(const SamplingRequest& request, int contexts, std::size_t tiles) {
     /// Of the tiles, those that may be simulated before the first look.
     constexpr double kFirstLook = 0.6;
     const SampleSizes sizes = sizes_for(contexts, tiles);
@@ -39,13 +39,14 @@ bool can_sample(int contexts, std::size_t tiles) {
     }
     const std::size_t warm = warm_up_tiles(contexts);
     const std::size_t group = sizes.group + sizes.group / sizes.block + warm;
-    return ratio_of(2 * sizes.edge + warm + kLeastGroups * group, tiles) <= kFirstLook;
+    return request.share > 0 ||
+           ratio_of(2 * sizes.edge + warm + kLeastGroups * group, tiles) <= kFirstLook;
 }
 
-std::size_t least_tiles(int contexts) {
+std::size_t least_tiles(const SamplingRequest& request, int contexts) {
     constexpr std::size_t kAlways = 2000; // of any frame this large a small part is enough
     std::size_t least = kAlways * warm_up_tiles(contexts);
-    while (least > 1 && can_sample(contexts, least - 1)) {
+    while (least > 1 && can_sample(request, contexts, least - 1)) {
         --least;
     }
     return least;

@@ -32,7 +32,9 @@ public:
     }
     double places() const override { return static_cast<double>(front_.places); }
     double memory_latency() const override { return front_.memory.latency; }
-    double pixel_bytes() const override { return config_.traffic.pixel_bytes; }
+    TileCycles background(double pixels) const override {
+        return front_.memory.writes(pixels * config_.traffic.pixel_bytes, kMemory);
+    }
     double latency() const override {
         return 4 * front_.memory.latency + config_.array.pipeline_cycles;
     }

@@ -51,7 +51,9 @@ public:
     double places() const override { return static_cast<double>(front_.places); }
     int engines() const override { return config_.streams(); }
     double memory_latency() const override { return front_.memory.latency; }
-    double pixel_bytes() const override { return config_.traffic.pixel_bytes; }
+    TileCycles background(double pixels) const override {
+        return front_.memory.writes(pixels * config_.traffic.pixel_bytes, kMemory);
+    }
     double latency() const override;
     int pes() const override { return config_.pes(); }
 

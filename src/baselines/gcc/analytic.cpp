@@ -31,7 +31,9 @@ public:
     double visits_per_entry() const override { return 3; } // neighbours
     double places() const override { return 4.0 * config_.listed_gaussians(); }
     double memory_latency() const override { return memory_.latency; }
-    double pixel_bytes() const override { return config_.traffic.pixel_bytes; }
+    TileCycles background(double pixels) const override {
+        return memory_.writes(pixels * config_.traffic.pixel_bytes, kMemory);
+    }
     double latency() const override { return 6 * memory_.latency; }
     int pes() const override { return config_.pes(); }
 

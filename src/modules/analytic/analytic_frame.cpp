@@ -171,7 +171,8 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
     });
 
     const std::vector<ScheduledTile> scheduled = all_tiles(tiles, chosen, cycles);
-    TileCycles sum;
+    const TileCycles background = model.background(background_pixels(frame));
+    TileCycles sum = background;
     for (const ScheduledTile& tile : scheduled) {
         add(sum, tile.cycles);
     }
@@ -181,9 +182,9 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
     result.drawn = chosen.size();
     result.rows_apart = apart;
     result.preparation = before.time;
-    const double rendering = schedule(model, scheduled);
+    const double rendering = schedule(model, scheduled, background.busy);
     result.cycles = before.time + model.latency() + rendering;
-    result.bytes = before.bytes + sum.bytes + background_pixels(frame) * model.pixel_bytes();
+    result.bytes = before.bytes + sum.bytes;
     result.utilization = rendering == 0 ? 0 : sum.fragments / (rendering * model.pes());
     const std::vector<std::string> names = model.units();
     double longest = 0, longest_before = 0;

@@ -78,7 +78,8 @@ public:
     /// Tiles in work side by side; each is given to the first one that is free.
     virtual int engines() const { return 1; }
     virtual double memory_latency() const = 0; ///< cycles
-    virtual double pixel_bytes() const = 0;    ///< of the frame buffer
+    /// Bytes and memory cycles of pixels of tiles that list no splat.
+    virtual TileCycles background(double pixels) const = 0;
     /// From complete lists to the first task, and from the last task to the last pixel in memory.
     virtual double latency() const = 0;
     virtual int pes() const = 0;

@@ -5,12 +5,12 @@
 
 namespace degs {
 
-double schedule(const AnalyticModel& model, const std::vector<ScheduledTile>& tiles) {
+double schedule(const AnalyticModel& model, const std::vector<ScheduledTile>& tiles,
+                UnitCycles used) {
     const std::size_t sorters = std::max(model.sorters(), 1);
     std::vector<double> sorter_free(sorters, 0), fetcher_free(sorters, 0);
     std::vector<double> engine_free(model.engines(), 0), engine_fetches(model.engines(), 0);
-    UnitCycles used{};
-    double end = 0;
+    double end = *std::max_element(used.begin(), used.end());
     for (std::size_t t = 0; t < tiles.size(); ++t) {
         const ScheduledTile& tile = tiles[t];
         const TileCycles& cycles = tile.cycles;

@@ -15,6 +15,8 @@ struct ScheduledTile {
 
 /// The cycles from complete lists to the end of the last tile: every tile waits for its list, for
 /// its splats and for an engine, and no kind of unit does more than it can.
-double schedule(const AnalyticModel& model, const std::vector<ScheduledTile>& tiles);
+/// `used`: cycles that units spend on what belongs to no tile of the list.
+double schedule(const AnalyticModel& model, const std::vector<ScheduledTile>& tiles,
+                UnitCycles used);
 
 } // namespace degs

@@ -24,6 +24,13 @@ struct MemoryRate {
         : bytes_per_cycle(memory.peak_gb_per_s() / clock_ghz),
           latency(memory.latency_ns * clock_ghz) {}
     double cycles(double bytes) const { return bytes / bytes_per_cycle; }
+    /// What writing takes of memory, the unit with that number, and of nothing else.
+    TileCycles writes(double bytes, std::size_t unit) const {
+        TileCycles written;
+        written.bytes = bytes;
+        written.busy[unit] = cycles(bytes);
+        return written;
+    }
 };
 
 /// Bytes that a record of `record` bytes moves if it is read alone, in whole bursts of `burst` bytes,

@@ -69,13 +69,19 @@ TEST(SampleDesign, HasNoGroupsWithoutTilesBetweenTheEnds) {
 }
 
 TEST(StoppingRule, NamesTheLeastNumberOfTilesThatCanBeSampled) {
+    SamplingRequest within, share;
+    within.within = 0.01;
+    share.share = 0.1;
     for (const int contexts : {1, 2, 8}) {
-        const std::size_t least = least_tiles(contexts);
-        EXPECT_TRUE(can_sample(contexts, least)) << contexts;
-        EXPECT_TRUE(can_sample(contexts, 3 * least)) << contexts;
-        EXPECT_FALSE(can_sample(contexts, least - 1)) << contexts;
-        const SampleDesign design = design_sample(rising(least), sizes_for(contexts, least), 1);
-        EXPECT_GE(design.groups.size(), 2 * kLeastGroups) << contexts;
+        for (const SamplingRequest& request : {within, share}) {
+            const std::size_t least = least_tiles(request, contexts);
+            EXPECT_TRUE(can_sample(request, contexts, least)) << contexts;
+            EXPECT_TRUE(can_sample(request, contexts, 3 * least)) << contexts;
+            EXPECT_FALSE(can_sample(request, contexts, least - 1)) << contexts;
+            const SampleDesign design = design_sample(rising(least), sizes_for(contexts, least), 1);
+            EXPECT_GE(design.groups.size(), 2 * kLeastGroups) << contexts;
+        }
+        EXPECT_LE(least_tiles(share, contexts), least_tiles(within, contexts));
     }
 }
 
@@ -84,8 +90,8 @@ TEST(StoppingRule, StopsWhereTheIntervalIsNarrowEnough) {
     request.within = 0.01;
     EXPECT_EQ(judge_sample(request, 0.1, 0.0099, true), Verdict::Enough);
     EXPECT_EQ(judge_sample(request, 0.1, 0.012, true), Verdict::More);
-    // A tenth of the tiles gives 5 %: 1 % would take odds of 25 / 9, which is 74 % of the tiles.
-    EXPECT_EQ(judge_sample(request, 0.1, 0.05, true), Verdict::Hopeless);
+    // A tenth of the tiles gives 6 %: 1 % would take odds of 36 / 9, which is 80 % of the tiles.
+    EXPECT_EQ(judge_sample(request, 0.1, 0.06, true), Verdict::Hopeless);
     EXPECT_EQ(judge_sample(request, 0.51, 0.0101, true), Verdict::Hopeless);
     EXPECT_EQ(judge_sample(request, 0.1, 0.0101, false), Verdict::Hopeless);
 }
