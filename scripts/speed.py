@@ -100,7 +100,7 @@ def holds(row):
 def table(options):
     """Prints Markdown."""
     with open(KEPT, encoding="utf-8", newline="") as file:
-        conditions = file.readline()[2:].strip()
+        file.readline()  # machine and commit
         rows = list(csv.DictReader(file))
     headings = ["view", "design", "numbers", "fidelity", "× render", "M fragments/s", "cycles, %", "utilization, %",
                 "DRAM, %", "PSNR, dB", "intervals hold"]
@@ -118,8 +118,6 @@ def table(options):
                  percentage(row["cycles_error"]), percentage(row["utilization_error"]), percentage(row["dram_error"]),
                  f"{float(row['psnr_db']):.3g}" if row["psnr_db"] else "", holds(row)]
         print("| " + " | ".join(cells[column] for column in short) + " |")
-    if not options.short:
-        print(f"\nMeasured on {conditions}.")
 
 
 def main():
