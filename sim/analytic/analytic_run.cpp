@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/config_document.hpp"
 #include "config/error.hpp"
 #include "sim/report.hpp"
 #include "sim/stopwatch.hpp"

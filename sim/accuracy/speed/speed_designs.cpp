@@ -25,6 +25,11 @@ std::vector<std::string> changed_formats(const RunConfig& config) {
     return paths;
 }
 
+/// An override of one design among several.
+std::string addressed(std::string design, const std::string& path, const std::string& value) {
+    return design.append(":").append(path).append("=").append(value);
+}
+
 std::string set_of_design(const RunConfig& config) {
     const std::string changed = changed_formats(config).empty() ? "" : " *";
     return name_of(config.accelerator().data_path().numbers) + changed;
@@ -66,9 +71,9 @@ std::vector<SpeedDesign> speed_designs(const std::vector<std::string>& configs,
         for (const std::string& set : sets) {
             std::vector<std::string> changes = overrides;
             if (set != own_set) {
-                changes.push_back(own[c].name + ":pipeline.numbers=" + set);
+                changes.push_back(addressed(own[c].name, "pipeline.numbers", set));
                 for (const std::string& path : changed_formats(own[c].config)) {
-                    changes.push_back(own[c].name + ":" + path + "=" + kOfTheSet);
+                    changes.push_back(addressed(own[c].name, path, kOfTheSet));
                 }
             }
             designs.push_back({own[c].name, set, load_configs(configs, changes)[c].config});
