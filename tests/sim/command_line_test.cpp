@@ -110,7 +110,8 @@ TEST(BashCompletion, KnowsCommandsOptionsAndValues) {
     EXPECT_EQ(completions({"degs", "scene", ""}), (Words{"convert", "generate", "info"}));
     EXPECT_EQ(completions({"degs", "run", "--came"}),
               (Words{"--camera", "--camera-file", "--cameras"}));
-    EXPECT_EQ(completions({"degs", "run", "--fidelity", ""}), (Words{"exact", "strict"}));
+    EXPECT_EQ(completions({"degs", "run", "--fidelity", ""}),
+              (Words{"analytic", "exact", "strict"}));
     EXPECT_EQ(completions({"degs", "scene", "info", "x.ply", "--wi"}), Words{"--width"});
     EXPECT_EQ(completions({"degs", "help", "me"}), Words{"memory"});
     EXPECT_EQ(completions({"degs", "run", "--width", ""}), Words{});
@@ -186,7 +187,7 @@ TEST(ZshCompletion, HasTheOptionsAndCommandsOfTheHelp) {
 TEST(ZshCompletion, KnowsValuesFilesAndWhatMayBeRepeated) {
     const std::string script = degs({"help", "--zsh-completion"}).out;
     const std::string run = zsh_function(script, "degs_run");
-    EXPECT_NE(run.find(":(exact strict)'"), std::string::npos) << run;
+    EXPECT_NE(run.find(":(exact strict analytic)'"), std::string::npos) << run;
     EXPECT_NE(run.find("'(--scene)'--scene'["), std::string::npos) << run;
     EXPECT_NE(run.find("]:SCENE:__degs_scenes'"), std::string::npos) << run;
     EXPECT_NE(run.find("'*'--set'["), std::string::npos) << run;
