@@ -9,6 +9,7 @@
 #include "config/error.hpp"
 #include "sim/report.hpp"
 #include "sim/stopwatch.hpp"
+#include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
 
@@ -99,17 +100,21 @@ std::string analytic_text(const AnalyticRun& run) {
                    percent((unit.preparing + unit.rendering) / frame.cycles)});
     }
     std::string text = table.text();
-    text += "\n" + run.config.accelerator().name + " takes about " + cycles_words(frame.cycles) +
-            " cycles, " + three_digits(milliseconds(run)) + " ms, of which " +
-            cycles_words(frame.preparation) + " before the first tile.\n";
-    text += "At least " + cycles_words(frame.lower) +
-            " if all units overlapped perfectly, at most " + cycles_words(frame.upper) +
-            " if none did; rendering is limited by " + frame.limited_by + ".\n";
-    text += "PEs are used to " + percent(frame.utilization) + " %; " +
-            scaled_bytes(static_cast<std::uint64_t>(frame.bytes)) + " move to and from memory.\n";
-    text += "The estimate rests on " + std::to_string(frame.drawn) + " of " +
-            std::to_string(frame.tiles) + " tiles and took " + three_digits(1e3 * run.estimate_s) +
-            " ms; there is no image.\n";
+    const auto say = [&text](const std::string& sentence) {
+        text += folded(sentence, output_columns(), 0) + "\n";
+    };
+    text += "\n";
+    say(run.config.accelerator().name + " takes about " + cycles_words(frame.cycles) + " cycles, " +
+        three_digits(milliseconds(run)) + " ms, of which " + cycles_words(frame.preparation) +
+        " before the first tile.");
+    say("At least " + cycles_words(frame.lower) + " if all units overlapped perfectly, at most " +
+        cycles_words(frame.upper) + " if none did; rendering is limited by " + frame.limited_by +
+        ".");
+    say("PEs are used to " + percent(frame.utilization) + " %; " +
+        scaled_bytes(static_cast<std::uint64_t>(frame.bytes)) + " move to and from memory.");
+    say("The estimate rests on " + std::to_string(frame.drawn) + " of " +
+        std::to_string(frame.tiles) + " tiles and took " + three_digits(1e3 * run.estimate_s) +
+        " ms; there is no image.");
     return text;
 }
 

@@ -12,7 +12,7 @@
 namespace degs {
 namespace {
 
-/// Splats on bands and rows of splats that are looked at, which bounds the time: some 15 ns each.
+/// Entries of lists and rows of splats that are looked at, which bounds the time: some 20 ns each.
 constexpr double kVisits = 200e3;
 /// Chains of tiles that are followed one after the other; blocks of work for the host's processors.
 constexpr std::size_t kChains = 2;
@@ -49,14 +49,10 @@ int rows_apart(const AnalyticModel& model, const EntrySizes& sizes, double entri
     return apart;
 }
 
-struct Chosen {
-    std::size_t place; ///< among the listed tiles
-    double weight;     ///< tiles that it stands for
-};
-
 /// A systematic sample, in the order of the lengths of the lists, in which the chance of a tile
 /// follows the root of its length: long lists are dearer to draw and differ more among themselves.
-std::vector<Chosen> choose(const std::vector<Listed>& tiles, double visits_per_entry) {
+/// Their places in `tiles`.
+std::vector<std::size_t> choose(const std::vector<Listed>& tiles, double visits_per_entry) {
     const auto visits = [&](double apart) {
         double sum = 0;
         for (const Listed& tile : tiles) {
@@ -72,18 +68,17 @@ std::vector<Chosen> choose(const std::vector<Listed>& tiles, double visits_per_e
             apart = most;
         }
     }
-    std::vector<Chosen> chosen;
+    std::vector<std::size_t> chosen;
     double place = 0.5;
     for (std::size_t t = 0; t < tiles.size(); ++t) {
-        const double chance = std::min(1.0, std::sqrt(tiles[t].entries) / apart);
-        place += chance;
+        place += std::min(1.0, std::sqrt(tiles[t].entries) / apart);
         if (place >= 1) {
             place -= 1;
-            chosen.push_back({t, 1 / chance});
+            chosen.push_back(t);
         }
     }
     if (chosen.empty() && !tiles.empty()) {
-        chosen.push_back({tiles.size() / 2, static_cast<double>(tiles.size())});
+        chosen.push_back(tiles.size() / 2);
     }
     return chosen;
 }
@@ -101,7 +96,6 @@ TileCycles scaled(const TileCycles& tile, double factor) {
 }
 
 void add(TileCycles& sum, const TileCycles& tile) {
-    sum.time += tile.time;
     sum.slots += tile.slots;
     sum.fragments += tile.fragments;
     sum.bytes += tile.bytes;
@@ -113,16 +107,15 @@ void add(TileCycles& sum, const TileCycles& tile) {
 /// All tiles in the order of rendering; one that was not drawn takes what the nearest drawn one
 /// takes, per entry of its list.
 std::vector<ScheduledTile> all_tiles(const std::vector<Listed>& tiles,
-                                     const std::vector<Chosen>& chosen,
+                                     const std::vector<std::size_t>& chosen,
                                      const std::vector<TileCycles>& cycles) {
     std::vector<ScheduledTile> result(tiles.size());
     std::size_t nearest = 0;
     for (std::size_t t = 0; t < tiles.size(); ++t) {
-        while (nearest + 1 < chosen.size() &&
-               chosen[nearest].place + chosen[nearest + 1].place <= 2 * t) {
+        while (nearest + 1 < chosen.size() && chosen[nearest] + chosen[nearest + 1] <= 2 * t) {
             ++nearest;
         }
-        const double like = tiles[chosen[nearest].place].entries;
+        const double like = tiles[chosen[nearest]].entries;
         result[tiles[t].turn] = {tiles[t].entries,
                                  scaled(cycles[nearest], tiles[t].entries / like)};
     }
@@ -149,7 +142,7 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
     const AnalyticModel::Blocks blocks = model.blocks();
     const EntrySizes sizes = entry_sizes(frame, blocks.step);
     const int apart = rows_apart(model, sizes, rate_of(frame.tile_pairs(), 1));
-    const std::vector<Chosen> chosen =
+    const std::vector<std::size_t> chosen =
         choose(tiles, model.visits_per_entry() + sizes.visits / apart);
 
     std::vector<TileCycles> cycles(chosen.size());
@@ -160,7 +153,7 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
         for (std::size_t c = chain; c < chosen.size(); c += chains) {
             // Which blocks are drawn goes round with the tiles.
             const int first = static_cast<int>(c) * 5 % apart;
-            tile.begin(tiles[chosen[c].place].tile, {blocks.height, apart, first, blocks.step});
+            tile.begin(tiles[chosen[c]].tile, {blocks.height, apart, first, blocks.step});
             clock->begin(tile);
             while (tile.next()) {
                 clock->splat(tile);

@@ -107,6 +107,20 @@ TEST(AnalyticCommand, FollowsTheSizeOfTheArray) {
     }
 }
 
+TEST(AnalyticCommand, FitsTheTerminal) {
+    const Folder folder;
+    const Outcome outcome =
+        degs({"run", analytic_config("degs-64"), "--scene", "synthetic:object,gaussians=4000",
+              "--width", "320", "--fidelity", "analytic", "--out", folder / "out"},
+             [] { ::setenv("COLUMNS", "80", 1); });
+    expect_success(outcome);
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) {
+        EXPECT_LE(line.size(), 80U) << line;
+    }
+    EXPECT_NE(outcome.out.find("takes about"), std::string::npos) << outcome.out;
+}
+
 TEST(AnalyticCommand, RefusesWhatNeedsASimulation) {
     const Folder folder;
     for (const std::vector<std::string>& more : {std::vector<std::string>{"--within", "1%"},
