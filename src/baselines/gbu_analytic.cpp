@@ -9,14 +9,12 @@
 namespace degs {
 namespace {
 
-class GbuAnalytic : public AnalyticModel {
+class GbuAnalytic : public FrontEndModel {
 public:
-    explicit GbuAnalytic(const GbuConfig& config);
+    explicit GbuAnalytic(const GbuConfig& config)
+        : FrontEndModel(config, config.list_buffer.chunks, kMemory), config_(config) {}
     std::vector<std::string> units() const override {
         return {"projection", "sorting", "generation", "blending", "memory"};
-    }
-    PreparationCycles preparation(const FrameWorkload& frame) const override {
-        return front_.preparation(frame, kMemory);
     }
     std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
     CoarseTile::Options drawing() const override { return {config_.tile_size, 1}; }
@@ -26,27 +24,20 @@ public:
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double) const override { // handed over as a whole
         const double all =
-            degs::sort_cycles(config_.sorting, entries, entries, front_.sort_capacity).all;
+            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity).all;
         return {all, all};
     }
-    double places() const override { return static_cast<double>(front_.places); }
-    double memory_latency() const override { return front_.memory.latency; }
-    TileCycles background(double pixels) const override {
-        return front_.memory.writes(pixels * config_.traffic.pixel_bytes, kMemory);
-    }
     double latency() const override {
-        return 4 * front_.memory.latency + config_.engines.generation_latency +
+        return 4 * memory_latency() + config_.engines.generation_latency +
                config_.engines.row_pe_latency;
     }
     int pes() const override { return config_.pes(); }
 
     enum Unit : std::size_t { kGeneration = kArrayUnits, kBlending, kMemory };
     const GbuConfig& config() const { return config_; }
-    const FrontEndLoad& front() const { return front_; }
 
 private:
     GbuConfig config_;
-    FrontEndLoad front_;
 };
 
 /// An engine: a splat enters its rows' queues in one cycle if all of them have room.
@@ -69,16 +60,6 @@ private:
     std::vector<RowPe> pes_;
     double generated_ = 0, slots_ = 0;
 };
-
-GbuAnalytic::GbuAnalytic(const GbuConfig& config)
-    : config_(config), front_(MemoryRate(config.memory, config.clock_ghz)) {
-    front_.traffic = config.traffic;
-    front_.projection = config.projection;
-    front_.binning = config.binning;
-    front_.fetching = config.fetching;
-    front_.places = std::uint64_t{1} * config.list_buffer.chunks * config.fetching.chunk;
-    front_.sort_capacity = config.sort_capacity();
-}
 
 std::unique_ptr<TileClock> GbuAnalytic::clock(const FrameWorkload&) const {
     return std::make_unique<GbuClock>(*this);

@@ -10,14 +10,12 @@
 namespace degs {
 namespace {
 
-class GscoreAnalytic : public AnalyticModel {
+class GscoreAnalytic : public FrontEndModel {
 public:
-    explicit GscoreAnalytic(const GscoreConfig& config);
+    explicit GscoreAnalytic(const GscoreConfig& config)
+        : FrontEndModel(config, config.splat_chunks(), kMemory), config_(config) {}
     std::vector<std::string> units() const override {
         return {"projection", "sorting", "blending", "memory"};
-    }
-    PreparationCycles preparation(const FrameWorkload& frame) const override {
-        return front_.preparation(frame, kMemory);
     }
     std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
     CoarseTile::Options drawing() const override {
@@ -28,25 +26,16 @@ public:
     double visits_per_entry() const override { return 3; } // boxes
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double walked) const override {
-        return degs::sort_cycles(config_.sorting, entries, walked, front_.sort_capacity);
+        return degs::sort_cycles(config_.sorting, entries, walked, front().sort_capacity);
     }
-    double places() const override { return static_cast<double>(front_.places); }
-    double memory_latency() const override { return front_.memory.latency; }
-    TileCycles background(double pixels) const override {
-        return front_.memory.writes(pixels * config_.traffic.pixel_bytes, kMemory);
-    }
-    double latency() const override {
-        return 4 * front_.memory.latency + config_.array.pipeline_cycles;
-    }
+    double latency() const override { return 4 * memory_latency() + config_.array.pipeline_cycles; }
     int pes() const override { return config_.pes(); }
 
     enum Unit : std::size_t { kBlending = kArrayUnits, kMemory };
     const GscoreConfig& config() const { return config_; }
-    const FrontEndLoad& front() const { return front_; }
 
 private:
     GscoreConfig config_;
-    FrontEndLoad front_;
 };
 
 class GscoreClock : public TileClock {
@@ -69,16 +58,6 @@ private:
     SubtileMask inside_ = 0;
     double passes_ = 0;
 };
-
-GscoreAnalytic::GscoreAnalytic(const GscoreConfig& config)
-    : config_(config), front_(MemoryRate(config.memory, config.clock_ghz)) {
-    front_.traffic = config.traffic;
-    front_.projection = config.projection;
-    front_.binning = config.binning;
-    front_.fetching = config.fetching;
-    front_.places = std::uint64_t{1} * config.splat_chunks() * config.fetching.chunk;
-    front_.sort_capacity = config.sort_capacity();
-}
 
 std::unique_ptr<TileClock> GscoreAnalytic::clock(const FrameWorkload& frame) const {
     return std::make_unique<GscoreClock>(*this, frame);

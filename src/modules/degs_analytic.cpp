@@ -26,14 +26,12 @@ private:
     std::size_t next_ = 0;
 };
 
-class DegsAnalytic : public AnalyticModel {
+class DegsAnalytic : public FrontEndModel {
 public:
-    explicit DegsAnalytic(const DegsConfig& config);
+    explicit DegsAnalytic(const DegsConfig& config)
+        : FrontEndModel(config, config.gaussian_chunks(), kMemory), config_(config) {}
     std::vector<std::string> units() const override {
         return {"projection", "sorting", "slicing", "span", "packing", "blending", "memory"};
-    }
-    PreparationCycles preparation(const FrameWorkload& frame) const override {
-        return front_.preparation(frame, kMemory);
     }
     std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
     CoarseTile::Options drawing() const override {
@@ -46,24 +44,17 @@ public:
     }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double) const override {
-        return degs::sort_cycles(config_.sorting, entries, front_.sort_capacity);
+        return degs::sort_cycles(config_.sorting, entries, front().sort_capacity);
     }
-    double places() const override { return static_cast<double>(front_.places); }
     int engines() const override { return config_.streams(); }
-    double memory_latency() const override { return front_.memory.latency; }
-    TileCycles background(double pixels) const override {
-        return front_.memory.writes(pixels * config_.traffic.pixel_bytes, kMemory);
-    }
     double latency() const override;
     int pes() const override { return config_.pes(); }
 
     enum Unit : std::size_t { kSlicing = kArrayUnits, kSpan, kPacking, kBlending, kMemory };
     const DegsConfig& config() const { return config_; }
-    const FrontEndLoad& front() const { return front_; }
 
 private:
     DegsConfig config_;
-    FrontEndLoad front_;
 };
 
 /// A tile is a stream of rows through the Slicing Units, a lane of the Span Buffer, a Span Unit and
@@ -110,23 +101,13 @@ private:
     double tasks_ = 0, rows_ = 0, segments_ = 0, slices_ = 0;
 };
 
-DegsAnalytic::DegsAnalytic(const DegsConfig& config)
-    : config_(config), front_(MemoryRate(config.memory, config.clock_ghz)) {
-    front_.traffic = config.traffic;
-    front_.projection = config.projection;
-    front_.binning = config.binning;
-    front_.fetching = config.fetching;
-    front_.places = std::uint64_t{1} * config.gaussian_chunks() * config.fetching.chunk;
-    front_.sort_capacity = config.sort_capacity();
-}
-
 std::unique_ptr<TileClock> DegsAnalytic::clock(const FrameWorkload& frame) const {
     return std::make_unique<DegsClock>(*this, frame);
 }
 
 double DegsAnalytic::latency() const {
-    return 3 * front_.memory.latency + config_.span.latency_cycles +
-           config_.packing.latency_cycles + config_.array.writeback_cycles;
+    return 3 * memory_latency() + config_.span.latency_cycles + config_.packing.latency_cycles +
+           config_.array.writeback_cycles;
 }
 
 DegsClock::DegsClock(const DegsAnalytic& model, const FrameWorkload& frame)

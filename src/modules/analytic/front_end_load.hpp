@@ -59,6 +59,37 @@ public:
     double tile_bytes(double entries, double walked, double pixels) const;
 };
 
+/// A model with such a front end. Its units begin with those of FrontEndUnit and end with memory.
+class FrontEndModel : public AnalyticModel {
+public:
+    PreparationCycles preparation(const FrameWorkload& frame) const override {
+        return front_.preparation(frame, memory_unit_);
+    }
+    double places() const override { return static_cast<double>(front_.places); }
+    double memory_latency() const override { return front_.memory.latency; }
+    TileCycles background(double pixels) const override {
+        return front_.memory.writes(pixels * front_.traffic.pixel_bytes, memory_unit_);
+    }
+    const FrontEndLoad& front() const { return front_; }
+
+protected:
+    /// `chunks` of splats are fetched ahead of the array.
+    template <class Config>
+    FrontEndModel(const Config& config, int chunks, std::size_t memory_unit)
+        : front_(MemoryRate(config.memory, config.clock_ghz)), memory_unit_(memory_unit) {
+        front_.traffic = config.traffic;
+        front_.projection = config.projection;
+        front_.binning = config.binning;
+        front_.fetching = config.fetching;
+        front_.places = std::uint64_t{1} * chunks * config.fetching.chunk;
+        front_.sort_capacity = config.sort_capacity();
+    }
+
+private:
+    FrontEndLoad front_;
+    std::size_t memory_unit_;
+};
+
 /// Of one sorter on a list of `entries`.
 AnalyticModel::SortCycles sort_cycles(const SortingUnit::Config& config, double entries,
                                       std::uint64_t capacity);
