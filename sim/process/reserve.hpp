@@ -22,9 +22,9 @@ public:
     bool available() const { return pid_ > 0; }
     /// In the copy, once it has been called: why. Else empty.
     const std::string& called_for() const { return reason_; }
-    /// In the copy, once it has been called: what the process that it replaces has computed since that
-    /// began, s of one processor; a stopwatch that was started before the copy was made goes on with it.
-    /// Else 0.
+    /// In the copy, once it has been called: processor seconds of the process that it replaces, from the
+    /// start of that process. They belong to what a CpuStopwatch shows that was started before the copy,
+    /// because the clock of the copy begins at 0. Else 0.
     double replaced_s() const { return replaced_s_; }
     /// The copy goes on in place of this process, which ends when the copy does, with its exit code.
     /// `reason` is not empty.

@@ -102,7 +102,7 @@ TEST(NeededSplatWork, OneVisibleAmongAMillionCulledIsOneSplat) {
     EXPECT_GT(among.culled.near, 0U);
     EXPECT_GT(among.culled.transparent, 0U);
     EXPECT_GT(among.culled.off_screen, 0U);
-    // What the host keeps of a frame has the length of what is visible.
+    // The host's tables reach from the first visible Gaussian to the last.
     EXPECT_EQ(among.visible_of.size(), 1U);
     EXPECT_EQ(among.visible_means.capacity(), 1U);
     EXPECT_EQ(among.tile_splats, alone.tile_splats);
