@@ -2,14 +2,13 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <filesystem>
+#include <utility>
 
 #include "config/error.hpp"
 #include "scene/cameras.hpp"
 #include "scene/input_file.hpp"
-#include "scene/ply/ply.hpp"
+#include "scene/scene_formats.hpp"
 #include "scene/synthetic/synthetic.hpp"
 
 namespace degs {
@@ -17,43 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Reader {
-    const char* extension; ///< lower case
-    GaussianCloud (*read)(const std::string& path);
-};
-constexpr std::array<Reader, 1> kReaders{{
-    {".ply", read_ply},
-}};
-
 constexpr const char* kSynthetic = "synthetic:";
 constexpr const char* kCameras = "cameras.json";
-
-std::string extension_of(const std::string& path) {
-    std::string extension = fs::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return extension;
-}
-
-std::string allowed_extensions() {
-    std::string list;
-    for (const std::string& extension : scene_extensions()) {
-        list += (list.empty() ? "" : ", ") + extension;
-    }
-    return list;
-}
-
-GaussianCloud read_cloud(const std::string& path) {
-    const InputFile exists(path); // a missing file is reported first
-    for (const Reader& reader : kReaders) {
-        if (extension_of(path) == reader.extension) {
-            return reader.read(path);
-        }
-    }
-    fail_file(path, "the extension '" + extension_of(path) +
-                        "' is not that of a scene file; allowed are " + allowed_extensions() +
-                        ", or 'synthetic:NAME'.");
-}
 
 /// Training writes model/point_cloud/iteration_N/point_cloud.ply and model/cameras.json.
 bool is_training_output(const fs::path& file) {
@@ -124,7 +88,11 @@ Scene load_scene(const std::string& spec, const std::string& cameras_path) {
         scene.cloud = std::move(made.cloud);
         scene.cameras = std::move(made.cameras);
     } else {
-        scene.cloud = read_cloud(spec);
+        SceneContent content = read_scene_file(spec);
+        scene.cloud = std::move(content.cloud);
+        scene.cameras = std::move(content.cameras);
+        scene.traits = content.traits;
+        scene.notes = std::move(content.notes);
         cameras = cameras.empty() ? find_cameras(spec) : cameras;
     }
     scene.name = scene_name(spec);
@@ -149,15 +117,6 @@ std::size_t camera_count(const std::string& spec, const std::string& cameras_pat
         cameras = cameras.empty() ? find_cameras(spec) : cameras;
     }
     return cameras.empty() ? 1 : std::max<std::size_t>(read_cameras(cameras).size(), 1);
-}
-
-std::vector<std::string> scene_extensions() {
-    std::vector<std::string> extensions;
-    extensions.reserve(kReaders.size());
-    for (const Reader& reader : kReaders) {
-        extensions.emplace_back(reader.extension);
-    }
-    return extensions;
 }
 
 Camera select_camera(const Scene& scene, int index) {

@@ -5,23 +5,24 @@
 #include <string>
 #include <vector>
 
-#include "splat/camera.hpp"
-#include "splat/gaussian.hpp"
+#include "scene/scene_content.hpp"
 
 namespace degs {
 
 struct Scene {
-    std::string name;            ///< short, for reports: of the file, its folder or the profile
-    std::string source;          ///< what the user wrote
-    GaussianCloud cloud;         ///< sanitized and not empty
-    std::vector<Camera> cameras; ///< never empty: scenes without cameras get an orbit view
-    SanitizeReport dropped;      ///< what was not drawable
+    std::string name;               ///< short, for reports: of the file, its folder or the profile
+    std::string source;             ///< what the user wrote
+    GaussianCloud cloud;            ///< sanitized and not empty
+    std::vector<Camera> cameras;    ///< never empty: scenes without cameras get an orbit view
+    SanitizeReport dropped;         ///< what was not drawable
+    SceneTraits traits;             ///< how the file wants to be drawn
+    std::vector<std::string> notes; ///< a full sentence for everything guessed or passed over
 };
 
-/// Loads `spec`: a scene file (its extension chooses the reader), or
+/// Loads `spec`: a scene file of any of the scene_formats(), or
 /// "synthetic:NAME[,gaussians=N][,seed=N]". Cameras come from `cameras_path` if given, else
 /// from cameras.json beside the file (or, for the folder layout of the original training code,
-/// beside the model). Throws InputError for every mistake in the input, also for a scene
+/// beside the model), else from the file itself. Throws InputError for every mistake in the input, also for a scene
 /// without a drawable Gaussian.
 Scene load_scene(const std::string& spec, const std::string& cameras_path = "");
 
@@ -31,9 +32,6 @@ std::string scene_name(const std::string& spec);
 /// Number of cameras that `load_scene` would find, without reading the Gaussians of a file. Throws
 /// InputError if the scene or its cameras cannot be read.
 std::size_t camera_count(const std::string& spec, const std::string& cameras_path = "");
-
-/// File name extensions that `load_scene` reads, e.g. ".ply".
-std::vector<std::string> scene_extensions();
 
 /// Returns a camera by its position in `scene.cameras`. InputError if it does not exist.
 Camera select_camera(const Scene& scene, int index);

@@ -56,7 +56,7 @@ void expect_markers(const GaussianCloud& cloud, std::size_t rows, int degree) {
 
 GaussianCloud read(const PlyBuilder& ply) {
     const Folder folder;
-    return read_ply(folder.write("scene.ply", ply.file()));
+    return read_ply(folder.write("scene.ply", ply.file())).cloud;
 }
 
 class PlyDegree : public testing::TestWithParam<int> {};
@@ -233,7 +233,7 @@ TEST(Ply, WritesWhatItReads) {
     const GaussianCloud cloud = extreme_cloud();
     write_ply(cloud, folder.path("out.ply"));
     EXPECT_EQ(folder.entries(), 1U); // no temporary file stays behind
-    const GaussianCloud back = read_ply(folder.path("out.ply"));
+    const GaussianCloud back = read_ply(folder.path("out.ply")).cloud;
     EXPECT_EQ(back.sh_degree, 2);
     EXPECT_EQ(back.means, cloud.means);
     EXPECT_EQ(back.rotations, cloud.rotations);

@@ -2,6 +2,7 @@
 #include "scene/scene.hpp"
 
 #include "scene/ply/ply.hpp"
+#include "scene/scene_formats.hpp"
 #include "scene/synthetic/synthetic.hpp"
 #include "tests/scene/scene_fixture.hpp"
 

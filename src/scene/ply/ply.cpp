@@ -148,11 +148,13 @@ private:
 
 } // namespace
 
-GaussianCloud read_ply(const std::string& path) {
+SceneContent read_ply(const std::string& path) {
     InputFile file(path);
     const PlyHeader header = read_ply_header(file);
     const PlySplatLayout layout = find_splat_layout(path, header);
-    return CloudReader(file, header, layout).read();
+    SceneContent content;
+    content.cloud = CloudReader(file, header, layout).read();
+    return content;
 }
 
 } // namespace degs

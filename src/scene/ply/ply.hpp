@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "splat/gaussian.hpp"
+#include "scene/scene_content.hpp"
 
 namespace degs {
 
@@ -12,7 +12,7 @@ namespace degs {
 /// f_rest properties, everything else skipped. Applies the activations (exp, sigmoid) and, if the
 /// file has a Mip-Splatting `filter_3D`, fuses it into scale and opacity. Rotations stay as they are
 /// and nothing is dropped; `sanitize` does both. InputError for anything that is not such a file.
-GaussianCloud read_ply(const std::string& path);
+SceneContent read_ply(const std::string& path);
 
 /// Writes the layout that `read_ply` and other 3DGS tools read: binary, little-endian, all float.
 /// Means are rounded to float; scale and opacity return within float rounding of log and exp, 0 and

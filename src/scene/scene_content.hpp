@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "splat/camera.hpp"
+#include "splat/gaussian.hpp"
+
+namespace degs {
+
+/// What a scene file says about how its Gaussians want to be drawn. The defaults are those of the
+/// original 3DGS code, which says nothing.
+struct SceneTraits {
+    /// Trained with an opacity that makes up for the low-pass filter of the projection
+    /// (Mip-Splatting): SPZ flag 1, `SplatRenderMode: mip` of a PLY.
+    bool antialiased = false;
+};
+
+/// All that one scene file holds, before anything is dropped.
+struct SceneContent {
+    GaussianCloud cloud;
+    std::vector<Camera> cameras; ///< those in the file itself; most formats have none
+    SceneTraits traits;
+    std::vector<std::string> notes; ///< a full sentence for everything guessed or passed over
+};
+
+} // namespace degs

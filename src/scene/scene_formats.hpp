@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which file formats hold scenes, and who reads them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene_content.hpp"
+
+namespace degs {
+
+struct SceneFormat {
+    const char* name;                       ///< short, for messages, e.g. "PLY"
+    std::vector<const char*> extensions;    ///< lower case with the dot, e.g. ".ply"
+    bool (*matches)(std::string_view head); ///< do the first kHeadBytes of a file look like it?
+    SceneContent (*read)(const std::string& path);
+};
+
+/// Bytes of a file that decide about its format (fewer if the file is shorter).
+constexpr std::size_t kHeadBytes = 64;
+
+const std::vector<SceneFormat>& scene_formats();
+
+/// File name extensions of all formats, e.g. ".ply".
+std::vector<std::string> scene_extensions();
+
+/// Reads a scene file. Its first bytes choose the format, because files are renamed; formats
+/// without a signature are known by the extension. InputError for a file of no format.
+SceneContent read_scene_file(const std::string& path);
+
+} // namespace degs
