@@ -14,6 +14,9 @@ set(CMAKE_MESSAGE_LOG_LEVEL WARNING) # Debian's Imath complains of Python bindin
 find_package(OpenEXR CONFIG REQUIRED)
 unset(CMAKE_MESSAGE_LOG_LEVEL)
 find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
+# Codecs of compressed scenes; Debian ships them with pkg-config files.
+pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 find_package(yaml-cpp CONFIG REQUIRED)
 
 # Header-only packages. Debian's glm has no CMake package of a stable name, so look for the header.

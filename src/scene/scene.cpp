@@ -89,6 +89,8 @@ Scene load_scene(const std::string& spec, const std::string& cameras_path) {
         scene.cameras = std::move(made.cameras);
     } else {
         SceneContent content = read_scene_file(spec);
+        convert_axes(content.cloud, content.axes, Axes{});
+        convert_axes(content.cameras, content.axes, Axes{});
         scene.cloud = std::move(content.cloud);
         scene.cameras = std::move(content.cameras);
         scene.traits = content.traits;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/axes.hpp"
 #include "splat/camera.hpp"
 #include "splat/gaussian.hpp"
 
@@ -22,6 +23,7 @@ struct SceneContent {
     GaussianCloud cloud;
     std::vector<Camera> cameras; ///< those in the file itself; most formats have none
     SceneTraits traits;
+    Axes axes; ///< of the cloud and the cameras; load_scene() turns both to RDF
     std::vector<std::string> notes; ///< a full sentence for everything guessed or passed over
 };
 

@@ -7,6 +7,7 @@
 
 #include "scene/input_file.hpp"
 #include "scene/ply/ply.hpp"
+#include "scene/spz/spz.hpp"
 
 namespace degs {
 namespace {
@@ -47,6 +48,12 @@ std::string head_of(const std::string& path) {
 const std::vector<SceneFormat>& scene_formats() {
     static const std::vector<SceneFormat> formats{
         {"PLY", {".ply"}, [](std::string_view head) { return starts_with(head, "ply"); }, read_ply},
+        {"SPZ",
+         {".spz"},
+         [](std::string_view head) {
+             return starts_with(head, "\x1f\x8b") || starts_with(head, "NGSP");
+         },
+         read_spz},
     };
     return formats;
 }
