@@ -13,6 +13,7 @@
 #include "sim/text/terminal.hpp"
 #include "sim/text/words.hpp"
 #include "sim/view_options.hpp"
+#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {
@@ -76,6 +77,7 @@ void run(const RenderOptions& options) {
     write_png(result.image, out.path("image.png"));
     out.write_json("render.json", render_json(result, wall.seconds()));
     const std::uint64_t fragments = result.workload.reference->fragments;
+    print_warnings(result.scene.notes);
     print(layout({{"scene", scene_words(result.scene) + " · " + grouped(result.workload.visible) +
                                 " visible"},
                   {"frame", size_words(result.camera) + " · " + scaled(fragments) +

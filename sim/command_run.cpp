@@ -112,7 +112,7 @@ RunResult simulate(const RunRequest& request, CachedView& view, const Stopwatch&
         frames.push_back(&workload);
     }
     RunResult result = run_frames(request, frames);
-    result.scene = view.facts();
+    put_scene(view.facts(), result);
     if (request.reference && !result.sampling) { // most of a sample's image is missing
         reference = reference ? std::move(reference) : view.reference(workloads.front());
         judge(result, *reference);

@@ -15,6 +15,7 @@
 #include "sim/text/scene_words.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/view_options.hpp"
+#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {
@@ -78,6 +79,7 @@ void add_info(CLI::App& scene) {
     add_resolution_option(*command, view.resolution)->needs(options->camera)->excludes(width);
     command->callback([options] {
         const View loaded = load_view(options->view);
+        print_warnings(loaded.scene.notes);
         print(scene_info(loaded.scene));
         if (options->camera->count() != 0) {
             print(view_info(loaded.scene, loaded.camera));
@@ -131,7 +133,9 @@ void add_convert(CLI::App& scene) {
         ->required();
     command->callback([options] {
         check_ply(options->out);
-        write_scene(load_scene(options->in), options->out);
+        const Scene loaded = load_scene(options->in);
+        print_warnings(loaded.notes);
+        write_scene(loaded, options->out);
     });
 }
 

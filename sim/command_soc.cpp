@@ -12,6 +12,7 @@
 #include "sim/text/standard_output.hpp"
 #include "sim/trace/trace_options.hpp"
 #include "sim/view_options.hpp"
+#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {
@@ -55,6 +56,7 @@ void run(const SocOptions& options) {
     request.reads_per_write = options.reads_per_write;
     request.refresh_hz = options.refresh_hz;
     const View view = load_view(options.view);
+    print_warnings(view.scene.notes);
     const OutputFolder out(options.out, {"soc.json", "soc.svg"});
     request.timeline = timeline_of(options.trace);
     const SocResult result = run_soc(request, view);

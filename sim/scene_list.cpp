@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scene/scene_spec.hpp"
+
 namespace degs::sim {
 namespace {
 
@@ -12,10 +14,13 @@ bool exists(const std::string& file) {
     return std::filesystem::exists(file, ignored);
 }
 
-/// True if the piece is a setting of the synthetic scene before it and not the name of a scene.
+/// True if the piece is a setting of the scene before it and not the name of a scene.
 bool is_setting(const std::vector<std::string>& scenes, std::size_t own, const std::string& piece) {
-    return scenes.size() > own && scenes.back().rfind("synthetic:", 0) == 0 &&
-           piece.find('=') != std::string::npos && !exists(piece);
+    const auto takes_settings = [](const std::string& scene) {
+        return scene.rfind("synthetic:", 0) == 0 || parse_scene_spec(scene).path != scene;
+    };
+    return scenes.size() > own && piece.find('=') != std::string::npos &&
+           piece.find('?') == std::string::npos && takes_settings(scenes.back()) && !exists(piece);
 }
 
 void split(const std::string& word, std::vector<std::string>& scenes) {

@@ -14,7 +14,13 @@
 namespace degs::sim {
 
 SceneFacts facts_of(const Scene& scene) {
-    return {scene.name, scene.source, scene.cloud.size(), scene.cloud.sh_degree, scene.dropped};
+    return {scene.name,    scene.source, scene.cloud.size(), scene.cloud.sh_degree,
+            scene.dropped, scene.traits, scene.notes};
+}
+
+void put_scene(const SceneFacts& scene, RunResult& result) {
+    result.scene = scene;
+    result.warnings.insert(result.warnings.begin(), scene.notes.begin(), scene.notes.end());
 }
 
 WorkloadFacts facts_of(const FrameWorkload& workload) {

@@ -30,7 +30,9 @@ struct SceneFacts {
     std::string name, source;
     std::uint64_t gaussians = 0;
     int sh_degree = 0;
-    SanitizeReport dropped; ///< Gaussians of the file that cannot be drawn
+    SanitizeReport dropped;         ///< Gaussians of the file that cannot be drawn
+    SceneTraits traits;             ///< how the file wants to be drawn
+    std::vector<std::string> notes; ///< sentences: what was guessed or passed over in the file
 };
 
 struct WorkloadFacts {
@@ -74,6 +76,8 @@ struct Reference {
 };
 
 SceneFacts facts_of(const Scene& scene);
+/// Completes the result of a run with its scene, whose notes become the first warnings.
+void put_scene(const SceneFacts& scene, RunResult& result);
 WorkloadFacts facts_of(const FrameWorkload& workload);
 /// Largest resident set of this process so far.
 std::uint64_t peak_rss_bytes();

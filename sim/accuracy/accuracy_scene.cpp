@@ -119,6 +119,7 @@ std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
     std::vector<AccuracyRow> rows;
     for (const ViewRequest& view : request.scenes) {
         const View loaded = load_view(view);
+        print_warnings(loaded.scene.notes);
         std::vector<Camera> cameras;
         for (const std::string& name : request.resolutions) {
             cameras.push_back(resize(loaded.camera, std::nullopt, resolution_height(name)));

@@ -7,6 +7,7 @@
 #include "config/error.hpp"
 #include "config/visible_text.hpp"
 #include "scene/input_file.hpp"
+#include "scene/scene_spec.hpp"
 #include "sim/accuracy/accuracy.hpp"
 #include "sim/accuracy/accuracy_numbers.hpp"
 #include "sim/accuracy/hard_case_run.hpp"
@@ -78,8 +79,8 @@ void check_scene(const std::string& scene) {
     if (scene.empty()) {
         throw InputError("A scene has an empty name; a file or synthetic:NAME is needed.");
     }
-    if (scene.rfind("synthetic:", 0) != 0) {
-        const InputFile exists(scene);
+    if (const SceneSpec spec = parse_scene_spec(scene); !spec.synthetic) {
+        const InputFile exists(spec.path);
     }
 }
 

@@ -57,7 +57,8 @@ AnalyticRun run_analytic(const RunConfig& config, CachedView& view) {
     run.scene = view.facts();
     run.camera = frames.front().camera;
     run.workload = facts_of(frames.front());
-    run.warnings = config.warnings;
+    run.warnings = view.facts().notes;
+    run.warnings.insert(run.warnings.end(), config.warnings.begin(), config.warnings.end());
     run.load_s = view.load_s();
     run.workload_s = view.workload_s();
     view.keep(frames, nullptr);

@@ -10,6 +10,8 @@
 
 #include <xxhash.h>
 
+#include "scene/scene_spec.hpp"
+
 namespace degs::sim {
 
 Digest::Digest() : state_(XXH3_createState()) {
@@ -44,9 +46,10 @@ void Digest::add_file(const std::string& name) {
 }
 
 void Digest::add_scene(const std::string& name) {
+    const std::string file = parse_scene_spec(name).path;
     add(name);
-    add_file(name);
-    const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+    add_file(file);
+    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
     add_file((folder / "cameras.json").string());
     add_file((folder.parent_path().parent_path() / "cameras.json").string());
 }

@@ -17,6 +17,7 @@ public:
     /// The content of a file; one that does not exist or cannot be read has none.
     void add_file(const std::string& name);
     /// A scene with the files in which its cameras may be, see docs/cameras.md: the name and the content.
+    /// InputError if it has options that no scene has.
     void add_scene(const std::string& name);
     /// 32 hexadecimal digits.
     std::string text() const;

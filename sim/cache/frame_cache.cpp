@@ -56,7 +56,7 @@ void pass_camera(Stream& stream, Value& camera) {
 
 template <class Stream, class Value>
 void pass_facts(Stream& stream, Value& facts) {
-    stream.pass(facts.gaussians, facts.sh_degree, facts.dropped);
+    stream.pass(facts.gaussians, facts.sh_degree, facts.dropped, facts.traits);
 }
 
 /// Lists of numbers of 8 bytes come before those of 4, so that all of them lie at their multiples.
@@ -134,8 +134,12 @@ std::optional<SceneCard> FrameCache::scene(const std::string& scene_key) const {
     SceneCard card;
     const auto read = [&card](const char* content, std::size_t bytes) {
         BinaryReader in(content, bytes);
-        std::uint64_t cameras = 0;
+        std::uint64_t notes = 0, cameras = 0;
         pass_facts(in, card.facts);
+        in.get(notes);
+        for (; notes > 0 && in.good(); --notes) {
+            in.get(card.facts.notes.emplace_back());
+        }
         in.get(cameras);
         for (; cameras > 0 && in.good(); --cameras) {
             pass_camera(in, card.cameras.emplace_back());
@@ -152,6 +156,10 @@ void FrameCache::keep(const std::string& scene_key, const SceneCard& card) const
     }
     BinaryWriter out;
     pass_facts(out, card.facts);
+    out.put(std::uint64_t{card.facts.notes.size()});
+    for (const std::string& note : card.facts.notes) {
+        out.put(note);
+    }
     out.put(std::uint64_t{card.cameras.size()});
     for (const Camera& camera : card.cameras) {
         pass_camera(out, camera);

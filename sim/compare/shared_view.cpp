@@ -30,7 +30,7 @@ std::string SharedView::run(const RunRequest& request, bool path) const {
         }
     }
     RunResult result = run_frames(request, wanted);
-    result.scene = scene;
+    put_scene(scene, result);
     if (request.reference && !path) {
         judge(result, *reference);
     }

@@ -9,6 +9,7 @@
 #include "scene/cameras.hpp"
 #include "scene/input_file.hpp"
 #include "scene/scene_formats.hpp"
+#include "scene/scene_spec.hpp"
 #include "scene/synthetic/synthetic.hpp"
 
 namespace degs {
@@ -16,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSynthetic = "synthetic:";
 constexpr const char* kCameras = "cameras.json";
 
 /// Training writes model/point_cloud/iteration_N/point_cloud.ply and model/cameras.json.
@@ -65,39 +65,50 @@ void sanitize_scene(Scene& scene) {
     }
 }
 
-bool is_synthetic(const std::string& spec) {
-    return spec.rfind(kSynthetic, 0) == 0;
+SyntheticSpec synthetic_of(const SceneSpec& spec) {
+    return parse_synthetic(spec.path.substr(spec.path.find(':') + 1));
 }
 
-SyntheticSpec synthetic_of(const std::string& spec) {
-    return parse_synthetic(spec.substr(std::string(kSynthetic).size()));
+/// Turns everything to RDF, the axes of cameras.json.
+void turn(SceneContent& content, const std::optional<Axes>& told) {
+    if (content.axes_assumed && !told) {
+        content.notes.insert(content.notes.begin(),
+                             "The file does not say which way its axes point; " +
+                                 content.axes.name() +
+                                 " was assumed. If the image stands on its head, '?axes=rdf' "
+                                 "behind the name of the file helps.");
+    }
+    const Axes from = told.value_or(content.axes);
+    convert_axes(content.cloud, from, Axes{});
+    convert_axes(content.cameras, from, Axes{});
 }
 
 } // namespace
 
-std::string scene_name(const std::string& spec) {
-    return is_synthetic(spec) ? synthetic_of(spec).profile : name_of(spec);
+std::string scene_name(const std::string& text) {
+    const SceneSpec spec = parse_scene_spec(text);
+    return spec.synthetic ? synthetic_of(spec).profile : name_of(spec.path);
 }
 
-Scene load_scene(const std::string& spec, const std::string& cameras_path) {
+Scene load_scene(const std::string& text, const std::string& cameras_path) {
+    const SceneSpec spec = parse_scene_spec(text);
     Scene scene;
-    scene.source = spec;
+    scene.source = text;
     std::string cameras = cameras_path;
-    if (is_synthetic(spec)) {
+    if (spec.synthetic) {
         SyntheticScene made = make_synthetic(synthetic_of(spec));
         scene.cloud = std::move(made.cloud);
         scene.cameras = std::move(made.cameras);
     } else {
-        SceneContent content = read_scene_file(spec);
-        convert_axes(content.cloud, content.axes, Axes{});
-        convert_axes(content.cameras, content.axes, Axes{});
+        SceneContent content = read_scene_file(spec.path);
+        turn(content, spec.axes);
         scene.cloud = std::move(content.cloud);
         scene.cameras = std::move(content.cameras);
         scene.traits = content.traits;
         scene.notes = std::move(content.notes);
-        cameras = cameras.empty() ? find_cameras(spec) : cameras;
+        cameras = cameras.empty() ? find_cameras(spec.path) : cameras;
     }
-    scene.name = scene_name(spec);
+    scene.name = scene_name(text);
     sanitize_scene(scene);
     if (!cameras.empty()) {
         scene.cameras = read_cameras(cameras);
@@ -108,15 +119,15 @@ Scene load_scene(const std::string& spec, const std::string& cameras_path) {
     return scene;
 }
 
-std::size_t camera_count(const std::string& spec, const std::string& cameras_path) {
-    const bool synthetic = is_synthetic(spec);
+std::size_t camera_count(const std::string& text, const std::string& cameras_path) {
+    const SceneSpec spec = parse_scene_spec(text);
     std::string cameras = cameras_path;
-    if (cameras.empty() && synthetic) {
-        return load_scene(spec).cameras.size();
+    if (cameras.empty() && spec.synthetic) {
+        return load_scene(text).cameras.size();
     }
-    if (!synthetic) {
-        const InputFile exists(spec);
-        cameras = cameras.empty() ? find_cameras(spec) : cameras;
+    if (!spec.synthetic) {
+        const InputFile exists(spec.path);
+        cameras = cameras.empty() ? find_cameras(spec.path) : cameras;
     }
     return cameras.empty() ? 1 : std::max<std::size_t>(read_cameras(cameras).size(), 1);
 }

@@ -23,7 +23,8 @@ struct SceneContent {
     GaussianCloud cloud;
     std::vector<Camera> cameras; ///< those in the file itself; most formats have none
     SceneTraits traits;
-    Axes axes; ///< of the cloud and the cameras; load_scene() turns both to RDF
+    Axes axes;                 ///< of the cloud and the cameras; load_scene() turns both to RDF
+    bool axes_assumed = false; ///< the file does not name them, and its format is used either way
     std::vector<std::string> notes; ///< a full sentence for everything guessed or passed over
 };
 

@@ -82,10 +82,7 @@ public:
     SceneContent decode() {
         const bool plain = file_.size() >= 4 && load_u32(file_.data()) == kSpzMagic;
         SpzRecords records = plain ? decode_version_4() : decode_gzip();
-        if (!records.axes) {
-            content_.notes.push_back("The file does not say which way its axes point; RUB (right, "
-                                     "up, back), the convention of SPZ, is assumed.");
-        }
+        content_.axes_assumed = !records.axes;
         content_.axes = records.axes.value_or(*parse_axes("RUB"));
         content_.traits.antialiased = (header_.flags & kSpzAntialiased) != 0;
         content_.notes.insert(content_.notes.end(), records.notes.begin(), records.notes.end());

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_spec.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "config/error.hpp"
+
+namespace degs {
+namespace {
+
+constexpr const char* kSyntheticPrefix = "synthetic:";
+
+[[noreturn]] void fail_spec(const std::string& text, const std::string& sentence) {
+    throw InputError("Scene '" + text + "': " + sentence);
+}
+
+struct SpecKey {
+    const char* name;
+    /// Stores the value; a sentence that says what is allowed if it cannot be.
+    std::function<std::string(SceneSpec& spec, const std::string& value)> take;
+};
+
+std::string take_axes(SceneSpec& spec, const std::string& value) {
+    spec.axes = parse_axes(value);
+    return spec.axes ? ""
+                     : "axes is '" + value +
+                           "', but must be three letters: R or L, D or U, F or B, for the "
+                           "directions of +X, +Y and +Z (right or left, down or up, forward or "
+                           "back), e.g. rdf.";
+}
+
+const std::vector<SpecKey>& spec_keys() {
+    static const std::vector<SpecKey> keys{{"axes", take_axes}};
+    return keys;
+}
+
+void take_option(const std::string& text, const std::string& option, SceneSpec& spec) {
+    const std::size_t equals = option.find('=');
+    const std::string name = option.substr(0, equals);
+    std::string allowed;
+    for (const SpecKey& key : spec_keys()) {
+        if (name == key.name && equals != std::string::npos) {
+            const std::string mistake = key.take(spec, option.substr(equals + 1));
+            if (!mistake.empty()) {
+                fail_spec(text, mistake);
+            }
+            return;
+        }
+        allowed += (allowed.empty() ? "" : ", ") + std::string(key.name) + "=VALUE";
+    }
+    fail_spec(text,
+              "'" + option + "' is not an option of a scene file; allowed are " + allowed + ".");
+}
+
+} // namespace
+
+SceneSpec parse_scene_spec(const std::string& text) {
+    SceneSpec spec;
+    spec.path = text;
+    spec.synthetic = text.rfind(kSyntheticPrefix, 0) == 0;
+    const std::size_t mark = text.rfind('?');
+    std::error_code ignored;
+    if (spec.synthetic || mark == std::string::npos || text.find('=', mark) == std::string::npos ||
+        std::filesystem::exists(text, ignored)) {
+        return spec;
+    }
+    spec.path = text.substr(0, mark);
+    std::set<std::string> seen;
+    for (std::size_t begin = mark + 1; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string option = text.substr(begin, end - begin);
+        if (!seen.insert(option.substr(0, option.find('='))).second) {
+            fail_spec(text, "'" + option + "' repeats an option.");
+        }
+        take_option(text, option, spec);
+        begin = end + 1;
+    }
+    return spec;
+}
+
+} // namespace degs

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scene/axes.hpp"
+
+namespace degs {
+
+/// What a user writes to name a scene: "PATH", "PATH?key=value,key=value" or "synthetic:NAME,...".
+struct SceneSpec {
+    std::string path;         ///< of the file; of synthetic scenes all that was written
+    bool synthetic = false;   ///< no file
+    std::optional<Axes> axes; ///< of the file, whatever it says itself
+};
+
+/// A file whose name is exactly `text` wins over options. InputError that lists what is allowed for
+/// an unknown key, a key without a value, one given twice or a value that the key cannot have. Does
+/// not look whether the file exists otherwise.
+SceneSpec parse_scene_spec(const std::string& text);
+
+} // namespace degs
