@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/camera_path.hpp"
+#include "scene/cameras/camera_path.hpp"
 #include "scene/scene.hpp"
 
 namespace degs::sim {

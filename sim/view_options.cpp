@@ -25,7 +25,8 @@ CLI::Option* add_config_option(CLI::App& command, std::string& config) {
 CLI::Option* add_camera_file_option(CLI::App& command, std::string& file) {
     return command
         .add_option("--camera-file", file,
-                    "cameras.json to use instead of the one beside the scene")
+                    "cameras.json, transforms.json or a COLMAP model to use instead of the cameras "
+                    "beside the scene")
         ->type_name("FILE");
 }
 

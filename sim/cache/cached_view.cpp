@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "scene/camera_path.hpp"
+#include "scene/cameras/camera_path.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
 

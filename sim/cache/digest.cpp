@@ -3,13 +3,13 @@
 
 #include <cinttypes>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <new>
 #include <vector>
 
 #include <xxhash.h>
 
+#include "scene/cameras/camera_file.hpp"
 #include "scene/scene_spec.hpp"
 
 namespace degs::sim {
@@ -49,9 +49,14 @@ void Digest::add_scene(const std::string& name) {
     const std::string file = parse_scene_spec(name).path;
     add(name);
     add_file(file);
-    const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    add_file((folder / "cameras.json").string());
-    add_file((folder.parent_path().parent_path() / "cameras.json").string());
+    add_cameras(cameras_beside(file));
+}
+
+void Digest::add_cameras(const std::string& name) {
+    for (const std::string& file : files_of_cameras(name)) {
+        add(file);
+        add_file(file);
+    }
 }
 
 std::string Digest::text() const {

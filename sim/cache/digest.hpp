@@ -19,6 +19,8 @@ public:
     /// A scene with the files in which its cameras may be, see docs/cameras.md: the name and the content.
     /// InputError if it has options that no scene has.
     void add_scene(const std::string& name);
+    /// The files of cameras that `name` stands for, see read_camera_file().
+    void add_cameras(const std::string& name);
     /// 32 hexadecimal digits.
     std::string text() const;
 

@@ -125,8 +125,7 @@ std::string FrameCache::scene_key(const std::string& spec, const std::string& ca
     Digest digest;
     digest.add(program_);
     digest.add_scene(spec);
-    digest.add(camera_file);
-    digest.add_file(camera_file);
+    digest.add_cameras(camera_file);
     return digest.text();
 }
 

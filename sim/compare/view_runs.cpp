@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "scene/camera_path.hpp"
+#include "scene/cameras/camera_path.hpp"
 #include "sim/compare/shared_view.hpp"
 
 namespace degs::sim {

@@ -37,6 +37,15 @@ void fail_file(const std::string& path, const std::string& sentence) {
     throw InputError(path + ": " + sentence);
 }
 
+std::string in_quotes(std::string_view text) {
+    constexpr std::size_t kLongest = 40;
+    std::string out = "'";
+    for (const char c : text.substr(0, kLongest)) {
+        out += c >= ' ' && c <= '~' ? c : '?';
+    }
+    return out + (text.size() > kLongest ? "...'" : "'");
+}
+
 InputFile::InputFile(const std::string& path)
     : path_(path), size_(checked_size(path)), stream_(path, std::ios::binary) {
     if (!stream_) {

@@ -5,11 +5,15 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 namespace degs {
 
 /// Throws InputError "<path>: <sentence>".
 [[noreturn]] void fail_file(const std::string& path, const std::string& sentence);
+
+/// Text of a file in a message: in quotes, printable and short, whatever the file holds.
+std::string in_quotes(std::string_view text);
 
 /// A regular file of known size, read in blocks. Every failure is an InputError that names it.
 class InputFile {

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "config/error.hpp"
-#include "scene/cameras.hpp"
+#include "scene/cameras/camera_file.hpp"
+#include "scene/cameras/orbit_camera.hpp"
 #include "scene/input_file.hpp"
 #include "scene/scene_formats.hpp"
 #include "scene/scene_spec.hpp"
@@ -17,35 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCameras = "cameras.json";
-
-/// Training writes model/point_cloud/iteration_N/point_cloud.ply and model/cameras.json.
-bool is_training_output(const fs::path& file) {
-    return file.stem() == "point_cloud" &&
-           file.parent_path().filename().string().rfind("iteration_", 0) == 0;
-}
-
 std::string name_of(const fs::path& file) {
     const fs::path absolute = fs::absolute(file);
-    if (is_training_output(absolute)) {
+    if (is_training_output(absolute.string())) {
         return absolute.parent_path().parent_path().parent_path().filename().string();
     }
     return file.stem() == "scene" ? absolute.parent_path().filename().string()
                                   : file.stem().string();
-}
-
-/// Empty if there is none.
-std::string find_cameras(const fs::path& file) {
-    const fs::path folder = fs::absolute(file).parent_path();
-    std::error_code ignored;
-    if (fs::exists(folder / kCameras, ignored)) {
-        return (file.parent_path() / kCameras).string();
-    }
-    const fs::path model = folder.parent_path().parent_path();
-    if (is_training_output(fs::absolute(file)) && fs::exists(model / kCameras, ignored)) {
-        return (model / kCameras).string();
-    }
-    return {};
 }
 
 void sanitize_scene(Scene& scene) {
@@ -106,12 +85,14 @@ Scene load_scene(const std::string& text, const std::string& cameras_path) {
         scene.cameras = std::move(content.cameras);
         scene.traits = content.traits;
         scene.notes = std::move(content.notes);
-        cameras = cameras.empty() ? find_cameras(spec.path) : cameras;
+        cameras = cameras.empty() ? cameras_beside(spec.path) : cameras;
     }
     scene.name = scene_name(text);
     sanitize_scene(scene);
     if (!cameras.empty()) {
-        scene.cameras = read_cameras(cameras);
+        CameraFile file = read_camera_file(cameras);
+        scene.cameras = std::move(file.cameras);
+        scene.notes.insert(scene.notes.end(), file.notes.begin(), file.notes.end());
     }
     if (scene.cameras.empty()) {
         scene.cameras.push_back(orbit_camera(scene.cloud));
@@ -127,9 +108,9 @@ std::size_t camera_count(const std::string& text, const std::string& cameras_pat
     }
     if (!spec.synthetic) {
         const InputFile exists(spec.path);
-        cameras = cameras.empty() ? find_cameras(spec.path) : cameras;
+        cameras = cameras.empty() ? cameras_beside(spec.path) : cameras;
     }
-    return cameras.empty() ? 1 : std::max<std::size_t>(read_cameras(cameras).size(), 1);
+    return cameras.empty() ? 1 : std::max<std::size_t>(read_camera_file(cameras).cameras.size(), 1);
 }
 
 Camera select_camera(const Scene& scene, int index) {

@@ -165,7 +165,9 @@ def try_page(page, program, options):
     reasons, fresh, trial = [], [], Trial(program, options.slow)
     for block in blocks:
         if "file" in block.directives:
-            (trial.folder / block.directives["file"]).write_text("\n".join(block.lines) + "\n")
+            file = trial.folder / block.directives["file"]
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text("\n".join(block.lines) + "\n")
         if block in due:
             start = time.monotonic()
             found, lines = try_block(block, trial, options.update)

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
-#include "scene/camera_path.hpp"
+#include "scene/cameras/camera_path.hpp"
 #include "sim/report.hpp"
 #include "sim/simulation.hpp"
 #include "tests/random/promises.hpp"

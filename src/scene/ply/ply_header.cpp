@@ -52,15 +52,6 @@ Words split(std::string_view line) {
     }
 }
 
-/// User text in a message: printable and short, whatever the file holds.
-std::string in_quotes(std::string_view text) {
-    std::string out = "'";
-    for (const char c : text.substr(0, 40)) {
-        out += c >= ' ' && c <= '~' ? c : '?';
-    }
-    return out + (text.size() > 40 ? "...'" : "'");
-}
-
 class HeaderParser {
 public:
     explicit HeaderParser(InputFile& file) : file_(file) {

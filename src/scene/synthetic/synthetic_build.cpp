@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/cameras.hpp"
+#include "scene/cameras/orbit_camera.hpp"
 #include "splat/spherical_harmonics.hpp"
 
 namespace degs {

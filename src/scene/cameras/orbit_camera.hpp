@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "splat/camera.hpp"
 #include "splat/gaussian.hpp"
 
 namespace degs {
-
-/// Reads cameras.json of the original 3DGS code: an array of {width, height, position, rotation, fx, fy}
-/// with optional id and img_name. `rotation` holds the rows of the camera-to-world matrix. Throws
-/// InputError with the file, the entry and the key for every value outside the rules of docs/cameras.md.
-/// Reading takes at most 12 bytes of memory per byte of the file, the cameras included.
-std::vector<Camera> read_cameras(const std::string& path);
 
 /// The view of `orbit_camera` on a scene that has no cameras of its own.
 struct OrbitOptions {

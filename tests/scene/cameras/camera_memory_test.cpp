@@ -5,8 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "scene/cameras.hpp"
-#include "tests/scene/scene_fixture.hpp"
+#include "tests/scene/cameras/camera_builder.hpp"
 
 namespace degs {
 namespace {
@@ -48,7 +47,7 @@ double memory_per_byte(const std::string& path) {
     if (child == 0) {
         const long before = peak_bytes();
         try {
-            read_cameras(path);
+            test::read_cameras_of(path);
         } catch (const InputError&) {
         }
         const long grown = peak_bytes() - before;
@@ -82,6 +81,37 @@ TEST(CameraMemory, IsAtMostTwelveTimesTheFile) {
         EXPECT_GE(cost, 0) << what;
         EXPECT_LE(cost, 12) << what;
     }
+}
+
+std::string many_images() {
+    std::vector<test::ColmapImage> images(kFileBytes / 78);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        images[i].name = std::to_string(i);
+    }
+    return test::colmap_images(images);
+}
+
+TEST(CameraMemory, OfOtherFormatsIsAtMostTwelveTimesTheFile) {
+    const std::string frame = R"({"transform_matrix":[[1,0,0,0],[0,1,0,0],[0,0,1,0]]})";
+    const std::string head = R"({"w":1,"h":1,"fl_x":1,"frames":[)";
+    const std::pair<const char*, std::string> cases[] = {
+        {"frames", filled(head, frame + ",", frame + "]}")},
+        {"an unknown key", filled(R"({"x":[)", "{\"a\":[]},", "1],\"frames\":[]}")},
+        {"numbers in a matrix", filled(head + R"({"transform_matrix":[)", "1,", "1]}]}")}};
+    const test::Folder folder;
+    const std::string path = folder.write("transforms.json", frame);
+    for (const auto& [what, text] : cases) {
+        folder.write("transforms.json", text);
+        const double cost = memory_per_byte(path);
+        EXPECT_GE(cost, 0) << what;
+        EXPECT_LE(cost, 12) << what;
+    }
+    folder.write("m/cameras.bin", test::colmap_cameras({test::ColmapLens{}}));
+    const std::string images = folder.write("m/images.bin", many_images());
+    const double cost = memory_per_byte(images);
+    EXPECT_GE(cost, 0);
+    EXPECT_LE(cost, 12);
+    EXPECT_EQ(read_camera_file(images).cameras.size(), kFileBytes / 78);
 }
 
 } // namespace

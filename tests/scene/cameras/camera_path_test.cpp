@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/camera_path.hpp"
+#include "scene/cameras/camera_path.hpp"
 
 #include <cmath>
 #include <limits>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "config/error.hpp"
-#include "scene/cameras.hpp"
+#include "scene/cameras/orbit_camera.hpp"
 
 namespace degs {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/camera_path.hpp"
+#include "scene/cameras/camera_path.hpp"
 
 #include <algorithm>
 #include <cmath>

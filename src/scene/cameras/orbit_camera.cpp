@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/cameras.hpp"
+#include "scene/cameras/orbit_camera.hpp"
 #include "splat/angles.hpp"
 
 namespace degs {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/cameras.hpp"
+#include "scene/cameras/orbit_camera.hpp"
 
 #include "splat/projection.hpp"
-#include "tests/scene/scene_fixture.hpp"
+#include "tests/scene/cameras/camera_builder.hpp"
 
 namespace degs {
 namespace {
 
 TEST(Cameras, AreReadWithRowsOfTheRotation) {
     const test::Folder folder;
-    const std::vector<Camera> cameras = read_cameras(folder.write("cameras.json", R"([
+    const std::vector<Camera> cameras = test::read_cameras_of(folder.write("cameras.json", R"([
         {"id": 7, "img_name": "left", "width": 640, "height": 480, "position": [1, -2.5, 3e-1],
          "rotation": [[0, 0, 1], [1, 0, 0], [0, 1, 0]], "fx": 500.25, "fy": 501, "extra": null},
         {"width": 64.0, "height": 65536, "position": [0, 0, 0],

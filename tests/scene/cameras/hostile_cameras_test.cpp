@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/cameras.hpp"
-
-#include "tests/scene/scene_fixture.hpp"
+#include "tests/scene/cameras/camera_builder.hpp"
 
 namespace degs {
 namespace {
 
 using test::IsSentenceWith;
+using test::read_cameras_of;
 
 const char* const kIdentity = "[[1,0,0],[0,1,0],[0,0,1]]";
 
@@ -31,7 +30,7 @@ std::string file_with(const std::string& key, const std::string& value) {
 std::string complaint_about_cameras(const std::string& text) {
     const test::Folder folder;
     const std::string path = folder.write("cameras.json", text);
-    std::string sentence = test::complaint([&] { read_cameras(path); });
+    std::string sentence = test::complaint([&] { read_cameras_of(path); });
     EXPECT_EQ(sentence.rfind(path + ": ", 0), 0U) << sentence;
     return sentence;
 }
@@ -54,7 +53,7 @@ TEST(HostileCameras, EveryMistakeHasItsSentence) {
         {"fx", "-3", "focal length fx of -3"},
         {"fy", "1e12", "focal length fy of 1000000000000"},
         {"fy", "[1]", "fy that is not a number"},
-        {"img_name", "7", "img_name that is not a text"},
+        {"img_name", "7", "'img_name' that is not a text"},
         {"position", "[1,2]", "position that is not an array of 3"},
         {"position", "{}", "position that is not an array of 3"},
         {"position", "[1,2,\"x\"]", "position[2] that is not a number"},
@@ -75,7 +74,7 @@ TEST(HostileCameras, EveryMistakeHasItsSentence) {
 
 TEST(HostileCameras, FilesThatAreNoCameraFiles) {
     const std::pair<std::string, const char*> cases[] = {
-        {"{}", "this is a single object"},
+        {"{}", "the file has no key 'frames'"},
         {"3", "this is a single number"},
         {"[]", "holds no camera"},
         {"[3]", "camera 0 is not an object"},
@@ -93,7 +92,7 @@ TEST(HostileCameras, FilesThatAreNoCameraFiles) {
     const std::string deep = std::string(100000, '[') + std::string(100000, ']');
     EXPECT_THAT(complaint_about_cameras(deep), IsSentenceWith("camera 0 is not an object"));
     EXPECT_THAT(complaint_about_cameras(""), IsSentenceWith("empty"));
-    EXPECT_THAT(test::complaint([] { read_cameras("/no/such/cameras.json"); }),
+    EXPECT_THAT(test::complaint([] { read_cameras_of("/no/such/cameras.json"); }),
                 IsSentenceWith("/no/such/cameras.json: there is no such file"));
 }
 
@@ -118,14 +117,14 @@ TEST(HostileCameras, WhatIsNotNeededIsSkippedWithinLimits) {
         return text.insert(text.size() - 2, R"(,"extra":)" + value);
     };
     const std::string odd = R"({"width":[1,2],"x":{"width":{}},"y":[[{"id":"no"}],null]})";
-    const std::vector<Camera> cameras = read_cameras(folder.write("c.json", with(odd)));
+    const std::vector<Camera> cameras = read_cameras_of(folder.write("c.json", with(odd)));
     ASSERT_EQ(cameras.size(), 1U);
     EXPECT_EQ(cameras[0].width, 64);
     EXPECT_EQ(cameras[0].id, 3);
     const auto nested = [](int levels) {
         return std::string(levels, '[') + std::string(levels, ']');
     };
-    EXPECT_EQ(read_cameras(folder.write("d.json", with(nested(60)))).size(), 1U);
+    EXPECT_EQ(read_cameras_of(folder.write("d.json", with(nested(60)))).size(), 1U);
     EXPECT_THAT(complaint_about_cameras(with(nested(100))), IsSentenceWith("64 deep"));
     std::string keys;
     for (int i = 0; i < 300; ++i) {

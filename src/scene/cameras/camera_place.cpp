@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/cameras/camera_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "scene/input_file.hpp"
+
+namespace degs {
+namespace {
+
+constexpr double kOrthonormality = 1e-3; // largest deviation of an entry of R^T R from identity
+constexpr double kWorthANote = 0.01;     // px
+
+std::string pixels_text(double pixels) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g px", pixels);
+    return text;
+}
+
+} // namespace
+
+void CameraPlace::fail(const std::string& sentence) const {
+    fail_file(path_, entry_ + " " + sentence);
+}
+
+int checked_side(const CameraPlace& place, const std::string& name, double value,
+                 const std::string& text) {
+    if (!(value >= 1 && value <= kMostCameraSide) || value != std::floor(value)) {
+        place.fail("has a " + name + " of " + text + "; allowed are integers from 1 to " +
+                   std::to_string(kMostCameraSide) + ".");
+    }
+    return static_cast<int>(value);
+}
+
+double checked_focal_length(const CameraPlace& place, const std::string& name, double value,
+                            const std::string& text) {
+    if (!(value > 0 && value <= kMostFocalLength)) {
+        place.fail("has a focal length " + name + " of " + text +
+                   "; allowed are more than 0 and at most 1e9 pixels.");
+    }
+    return value;
+}
+
+void check_rotation(const CameraPlace& place, const std::string& name, const glm::dmat3& matrix) {
+    const glm::dmat3 product = glm::transpose(matrix) * matrix;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            if (!(std::abs(product[i][j] - (i == j ? 1 : 0)) <= kOrthonormality)) {
+                place.fail("has a " + name +
+                           " whose rows are not orthogonal unit vectors within 1e-3.");
+            }
+        }
+    }
+    if (!(glm::determinant(matrix) > 0)) {
+        place.fail("has a " + name +
+                   " that mirrors (determinant -1); only proper rotations are allowed.");
+    }
+}
+
+void LensResidue::join(const LensResidue& other) {
+    principal_shift = std::max(principal_shift, other.principal_shift);
+    distortion = std::max(distortion, other.distortion);
+}
+
+double corner_distortion(const LensDistortion& lens, const Camera& camera, double cx, double cy) {
+    const double x = std::max(std::abs(cx), std::abs(camera.width - cx)) / camera.fx;
+    const double y = std::max(std::abs(cy), std::abs(camera.height - cy)) / camera.fy;
+    const double r2 = x * x + y * y;
+    const auto cubic = [r2](const double* k) { return 1 + r2 * (k[0] + r2 * (k[1] + r2 * k[2])); };
+    const double radial = (cubic(lens.k) + r2 * r2 * r2 * r2 * lens.r8) / cubic(lens.k + 3) - 1;
+    const double dx = x * radial + 2 * lens.p[0] * x * y + lens.p[1] * (r2 + 2 * x * x);
+    const double dy = y * radial + 2 * lens.p[1] * x * y + lens.p[0] * (r2 + 2 * y * y);
+    return std::hypot(camera.fx * dx, camera.fy * dy);
+}
+
+std::string lens_note(const std::string& path, const LensResidue& residue) {
+    std::string what;
+    if (residue.principal_shift >= kWorthANote) {
+        what = "principal points up to " + pixels_text(residue.principal_shift) +
+               " off the middle of the image, where they are put";
+    }
+    // Phrased so that a distortion that is not a number is mentioned, too.
+    if (!(residue.distortion < kWorthANote)) {
+        what += std::string(what.empty() ? "" : ", and ") + "lens distortion of up to " +
+                pixels_text(residue.distortion) + " in the corners, which is left out";
+    }
+    return what.empty() ? "" : "The cameras of " + path + " have " + what + ".";
+}
+
+} // namespace degs

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the readers of camera files have in common: messages that name the entry, and the rules that
+// every camera obeys.
+#pragma once
+
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "splat/camera.hpp"
+
+namespace degs {
+
+constexpr int kMostCameraSide = 65536;   ///< px
+constexpr double kMostFocalLength = 1e9; ///< px
+
+/// The entry of a file that is being read.
+class CameraPlace {
+public:
+    /// `entry` is the subject of the sentences, e.g. "camera 3". `path` outlives this object.
+    CameraPlace(const std::string& path, std::string entry)
+        : path_(path), entry_(std::move(entry)) {}
+
+    /// Throws InputError "<path>: <entry> <sentence>".
+    [[noreturn]] void fail(const std::string& sentence) const;
+
+    const std::string& path() const { return path_; }
+    const std::string& entry() const { return entry_; }
+
+private:
+    const std::string& path_;
+    std::string entry_;
+};
+
+/// `value` as a side of an image. `name` and `text` are the key and the value as the file has them.
+/// Throws InputError unless it is an integer from 1 to kMostCameraSide.
+int checked_side(const CameraPlace& place, const std::string& name, double value,
+                 const std::string& text);
+
+/// Throws InputError unless 0 < `value` <= kMostFocalLength.
+double checked_focal_length(const CameraPlace& place, const std::string& name, double value,
+                            const std::string& text);
+
+/// Throws InputError unless the rows of the matrix are orthogonal unit vectors within 1e-3 and it does
+/// not mirror. `name` is the key.
+void check_rotation(const CameraPlace& place, const std::string& name, const glm::dmat3& matrix);
+
+/// Lens properties beyond a Camera, which has its principal point in the middle and no distortion.
+struct LensResidue {
+    double principal_shift =
+        0;                 ///< px, the larger of both axes, of the principal point off the middle
+    double distortion = 0; ///< px, of the corner of the image
+
+    void join(const LensResidue& other);
+};
+
+/// Radial and tangential distortion as OpenCV has it; zero if unused.
+struct LensDistortion {
+    double k[6] = {0, 0, 0, 0, 0, 0}; ///< k1 to k3 of the numerator, k4 to k6 of the denominator
+    double p[2] = {0, 0};
+    double r8 = 0; ///< of the eighth power of the radius, nerfstudio's k4
+};
+/// px by which a lens moves the corner of the image that lies the farthest from the principal point
+/// `cx`, `cy` (px).
+double corner_distortion(const LensDistortion& lens, const Camera& camera, double cx, double cy);
+
+/// A full sentence for what of the lenses is left out; empty if that is less than a hundredth of a
+/// pixel.
+std::string lens_note(const std::string& path, const LensResidue& residue);
+
+} // namespace degs
