@@ -7,6 +7,7 @@
 
 #include "scene/input_file.hpp"
 #include "scene/ply/ply.hpp"
+#include "scene/splat_file/splat_file.hpp"
 #include "scene/spz/spz.hpp"
 
 namespace degs {
@@ -54,6 +55,7 @@ const std::vector<SceneFormat>& scene_formats() {
              return starts_with(head, "\x1f\x8b") || starts_with(head, "NGSP");
          },
          read_spz},
+        {".splat", {".splat"}, [](std::string_view) { return false; }, read_splat_file},
     };
     return formats;
 }

@@ -5,15 +5,19 @@
 #include <cmath>
 #include <vector>
 
+#include "scene/ply/compressed_ply.hpp"
+#include "scene/ply/ply_comments.hpp"
 #include "scene/ply/ply_header.hpp"
 #include "scene/ply/ply_rows.hpp"
 #include "scene/ply/ply_splat_layout.hpp"
 #include "scene/ply/ply_values.hpp"
+#include "splat/frame/parallel.hpp"
+#include "splat/spherical_harmonics.hpp"
 
 namespace degs {
 namespace {
 
-constexpr std::size_t kReadBytes = 1 << 20;
+constexpr std::size_t kReadBytes = 4 << 20; ///< worth the start of a thread
 constexpr std::size_t kStripRows = 64; ///< converted column by column while they fit the L1 cache
 
 /// One scalar of the file and where it goes: `to` is the value of the first Gaussian.
@@ -27,7 +31,8 @@ struct Binding {
 class CloudReader {
 public:
     CloudReader(InputFile& file, const PlyHeader& header, const PlySplatLayout& layout)
-        : rows_(file, header, *layout.vertex), count_(layout.vertex->count) {
+        : rows_(file, header, *layout.vertex), count_(layout.vertex->count), scales_(layout.scales),
+          rgb_(layout.rgb) {
         allocate(layout);
         bind(layout);
     }
@@ -39,10 +44,12 @@ public:
         for (std::size_t first = 0; first < count_; first += block) {
             const std::size_t rows = std::min(block, count_ - first);
             rows_.read(bytes.data(), rows);
-            for (std::size_t i = 0; i < rows; i += kStripRows) {
-                convert(bytes.data() + i * rows_.row_bytes(), first + i,
-                        std::min(kStripRows, rows - i));
-            }
+            parallel_ranges(rows, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; i += kStripRows) {
+                    convert(bytes.data() + i * rows_.row_bytes(), first + i,
+                            std::min(kStripRows, end - i));
+                }
+            });
         }
         return std::move(cloud_);
     }
@@ -65,6 +72,8 @@ private:
         const std::string axes[] = {"x", "y", "z"};
         for (int i = 0; i < 3; ++i) {
             means_.push_back({rows_.column(axes[i]), &cloud_.means[0].x + i, 3});
+        }
+        for (int i = 0; i < layout.scales; ++i) {
             bind_float("scale_" + std::to_string(i), &cloud_.scales[0].x + i, 3);
         }
         for (int i = 0; i < 4; ++i) {
@@ -74,17 +83,19 @@ private:
         if (layout.has_filter_3d) {
             bind_float("filter_3D", filters_.data(), 1);
         }
-        bind_sh();
+        bind_sh(layout);
     }
 
     /// The file is channel-major (all of red, then green, then blue), the cloud interleaved.
-    void bind_sh() {
+    void bind_sh(const PlySplatLayout& layout) {
+        const std::string colours[] = {"red", "green", "blue"};
         const int coefficients = cloud_.sh_coefficients();
         const std::size_t pitch = coefficients * 3;
         for (int channel = 0; channel < 3; ++channel) {
-            bind_float("f_dc_" + std::to_string(channel), cloud_.sh.data() + channel, pitch);
+            bind_float(layout.rgb ? colours[channel] : "f_dc_" + std::to_string(channel),
+                       cloud_.sh.data() + channel, pitch);
             for (int k = 1; k < coefficients; ++k) {
-                const int in_file = channel * (coefficients - 1) + k - 1;
+                const int in_file = channel * layout.rest_coefficients + k - 1;
                 bind_float("f_rest_" + std::to_string(in_file), cloud_.sh.data() + k * 3 + channel,
                            pitch);
             }
@@ -122,24 +133,32 @@ private:
 
     void activate(std::size_t i) {
         glm::dvec3 scale = glm::exp(glm::dvec3(cloud_.scales[i]));
+        scale.z = scales_ == 3 ? scale.z : 0;
         double opacity = 1.0 / (1.0 + std::exp(-static_cast<double>(cloud_.opacities[i])));
         if (!filters_.empty()) {
             fuse_filter(filters_[i], scale, opacity);
         }
         cloud_.scales[i] = scale;
         cloud_.opacities[i] = static_cast<float>(opacity);
+        for (int channel = 0; rgb_ && channel < 3; ++channel) {
+            float& dc = cloud_.sh[i * cloud_.sh_coefficients() * 3 + channel];
+            dc = static_cast<float>((dc / 255.0 - 0.5) / kShY0);
+        }
     }
 
-    /// Mip-Splatting's 3D smoothing filter: a wider Gaussian of the same integral.
-    static void fuse_filter(double filter, glm::dvec3& scale, double& opacity) {
+    /// Mip-Splatting's 3D smoothing filter: a wider Gaussian of the same integral. A disc has none to
+    /// keep along its normal.
+    void fuse_filter(double filter, glm::dvec3& scale, double& opacity) const {
         const glm::dvec3 smoothed = glm::sqrt(scale * scale + filter * filter);
         const glm::dvec3 ratio = scale / smoothed;
-        opacity *= filter == 0.0 ? 1.0 : ratio.x * ratio.y * ratio.z;
+        opacity *= filter == 0.0 ? 1.0 : ratio.x * ratio.y * (scales_ == 3 ? ratio.z : 1);
         scale = smoothed;
     }
 
     PlyRows rows_;
     std::size_t count_;
+    int scales_;
+    bool rgb_;
     GaussianCloud cloud_;
     std::vector<float> filters_;
     std::vector<Binding<double>> means_;
@@ -151,9 +170,15 @@ private:
 SceneContent read_ply(const std::string& path) {
     InputFile file(path);
     const PlyHeader header = read_ply_header(file);
-    const PlySplatLayout layout = find_splat_layout(path, header);
     SceneContent content;
+    read_ply_comments(header.comments, content);
+    if (is_compressed_ply(header)) {
+        content.cloud = read_compressed_ply(file, header);
+        return content;
+    }
+    const PlySplatLayout layout = find_splat_layout(path, header, content.notes);
     content.cloud = CloudReader(file, header, layout).read();
+    content.traits.antialiased = content.traits.antialiased || layout.has_filter_3d;
     return content;
 }
 

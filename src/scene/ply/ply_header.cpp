@@ -105,7 +105,20 @@ private:
             if (!words.empty() && words[0] != "comment" && words[0] != "obj_info") {
                 return words;
             }
+            if (words.size() > 1 && words[0] == "comment") {
+                keep_comment(words);
+            }
         }
+    }
+
+    /// With one blank between its words.
+    void keep_comment(const Words& words) {
+        std::string text(words[1]);
+        for (std::size_t i = 2; i < words.size(); ++i) {
+            text += ' ';
+            text += words[i];
+        }
+        header_.comments.push_back(std::move(text));
     }
 
     void parse_format(const Words& words) {

@@ -38,7 +38,8 @@ struct PlyElement {
 struct PlyHeader {
     PlyFormat format = PlyFormat::LittleEndian;
     std::vector<PlyElement> elements;
-    std::uint64_t data_begin = 0; ///< byte after the header
+    std::vector<std::string> comments; ///< without the word 'comment'
+    std::uint64_t data_begin = 0;      ///< byte after the header
 
     const PlyElement* find(const std::string& element) const;
 };

@@ -7,19 +7,16 @@
 namespace degs {
 namespace {
 
-constexpr std::array<const char*, 14> kRequired{
-    "x",       "y",       "z",       "f_dc_0", "f_dc_1", "f_dc_2", "opacity",
-    "scale_0", "scale_1", "scale_2", "rot_0",  "rot_1",  "rot_2",  "rot_3"};
+constexpr std::array<const char*, 10> kRequired{"x",       "y",     "z",     "opacity", "scale_0",
+                                                "scale_1", "rot_0", "rot_1", "rot_2",   "rot_3"};
+constexpr int kDegree4Rest = 24; ///< coefficients per channel
 
 /// Files that hold Gaussians, but not in a form that can be drawn from these properties alone.
 struct Foreign {
     const char* marker; ///< property of the vertices
     const char* sentence;
 };
-constexpr std::array<Foreign, 5> kForeign{{
-    {"packed_position",
-     "this is a PlayCanvas compressed PLY, which is not supported; convert it to "
-     "an uncompressed PLY first."},
+constexpr std::array<Foreign, 4> kForeign{{
     {"trbf_center", "this is a dynamic scene (SpacetimeGaussians), which is not supported; export "
                     "one standard PLY per frame."},
     {"scale_t", "this is a dynamic (4D) scene, which is not supported; export one standard PLY per "
@@ -53,7 +50,19 @@ void refuse_ordinary_geometry(const std::string& path, const PlyHeader& header,
     }
 }
 
-void refuse_missing(const std::string& path, const PlyElement& vertex, int rest_count) {
+/// Of a type that says which number is full intensity.
+bool has_rgb(const PlyElement& vertex) {
+    for (const PlyProperty& p : vertex.properties) {
+        const bool colour = p.name == "red" || p.name == "green" || p.name == "blue";
+        if (colour && (p.list_count || p.type != PlyType::UInt8)) {
+            return false;
+        }
+    }
+    return vertex.has("red") && vertex.has("green") && vertex.has("blue");
+}
+
+void refuse_missing(const std::string& path, const PlyElement& vertex, const PlySplatLayout& layout,
+                    int rest_count) {
     std::string missing;
     const auto require = [&](const std::string& name) {
         if (!is_scalar(vertex, name)) {
@@ -62,6 +71,12 @@ void refuse_missing(const std::string& path, const PlyElement& vertex, int rest_
     };
     for (const char* const name : kRequired) {
         require(name);
+    }
+    for (int i = 0; i < 3 && !layout.rgb; ++i) {
+        require("f_dc_" + std::to_string(i));
+    }
+    if (layout.scales == 3) {
+        require("scale_2");
     }
     for (int i = 0; i < rest_count; ++i) {
         require("f_rest_" + std::to_string(i));
@@ -72,21 +87,46 @@ void refuse_missing(const std::string& path, const PlyElement& vertex, int rest_
     }
 }
 
-int degree_of(const std::string& path, int rest_count) {
-    for (int degree = 0; degree <= 3; ++degree) {
+void find_degree(const std::string& path, int rest_count, PlySplatLayout& layout,
+                 std::vector<std::string>& notes) {
+    layout.rest_coefficients = rest_count / 3;
+    for (int degree = 0; degree <= 4; ++degree) {
         if (rest_count == 3 * ((degree + 1) * (degree + 1) - 1)) {
-            return degree;
+            layout.sh_degree = std::min(degree, 3);
+            if (degree == 4) {
+                notes.emplace_back("The spherical harmonics of degree 4 were dropped, because "
+                                   "images are drawn with degree 3 at most.");
+            }
+            return;
         }
     }
     fail_file(path,
               "the file has " + std::to_string(rest_count) +
-                  " properties f_rest_*; allowed are 0, 9, 24 and 45, for spherical harmonics "
-                  "of degree 0 to 3.");
+                  " properties f_rest_*; allowed are 0, 9, 24, 45 and 72, for spherical harmonics "
+                  "of degree 0 to 4.");
+}
+
+/// Files that lack what has a substitute.
+void find_substitutes(const PlyElement& vertex, PlySplatLayout& layout,
+                      std::vector<std::string>& notes) {
+    if (!vertex.has("scale_2") && is_scalar(vertex, "scale_1")) {
+        layout.scales = 2;
+        notes.emplace_back(
+            "The file has two scales per Gaussian (2D Gaussian Splatting); the third "
+            "was set to 0, and the discs are drawn like other Gaussians.");
+    }
+    if (!vertex.has("f_dc_0") && !vertex.has("f_dc_1") && !vertex.has("f_dc_2") &&
+        has_rgb(vertex)) {
+        layout.rgb = true;
+        notes.emplace_back("The file has no f_dc_0, f_dc_1 and f_dc_2; red, green and blue were "
+                           "taken for the colour in every direction.");
+    }
 }
 
 } // namespace
 
-PlySplatLayout find_splat_layout(const std::string& path, const PlyHeader& header) {
+PlySplatLayout find_splat_layout(const std::string& path, const PlyHeader& header,
+                                 std::vector<std::string>& notes) {
     PlySplatLayout layout;
     layout.vertex = header.find("vertex");
     if (layout.vertex == nullptr) {
@@ -102,8 +142,9 @@ PlySplatLayout find_splat_layout(const std::string& path, const PlyHeader& heade
     const auto rest_count = static_cast<int>(
         std::count_if(vertex.properties.begin(), vertex.properties.end(),
                       [](const PlyProperty& p) { return p.name.rfind("f_rest_", 0) == 0; }));
-    layout.sh_degree = degree_of(path, rest_count);
-    refuse_missing(path, vertex, rest_count);
+    find_degree(path, rest_count, layout, notes);
+    find_substitutes(vertex, layout, notes);
+    refuse_missing(path, vertex, layout, rest_count);
     layout.has_filter_3d = is_scalar(vertex, "filter_3D");
     return layout;
 }
