@@ -17,6 +17,7 @@ find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
 # Codecs of compressed scenes; Debian ships them with pkg-config files.
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+find_package(TinyGLTF CONFIG REQUIRED)
 find_package(yaml-cpp CONFIG REQUIRED)
 
 # Header-only packages. Debian's glm has no CMake package of a stable name, so look for the header.

@@ -10,6 +10,7 @@
 #include <xxhash.h>
 
 #include "scene/cameras/camera_file.hpp"
+#include "scene/scene_formats.hpp"
 #include "scene/scene_spec.hpp"
 
 namespace degs::sim {
@@ -49,6 +50,9 @@ void Digest::add_scene(const std::string& name) {
     const std::string file = parse_scene_spec(name).path;
     add(name);
     add_file(file);
+    for (const std::string& part : scene_external_files(file)) {
+        add_file(part);
+    }
     add_cameras(cameras_beside(file));
 }
 

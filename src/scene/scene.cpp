@@ -110,7 +110,9 @@ std::size_t camera_count(const std::string& text, const std::string& cameras_pat
         const InputFile exists(spec.path);
         cameras = cameras.empty() ? cameras_beside(spec.path) : cameras;
     }
-    return cameras.empty() ? 1 : std::max<std::size_t>(read_camera_file(cameras).cameras.size(), 1);
+    const std::vector<Camera> found =
+        cameras.empty() ? read_scene_cameras(spec.path) : read_camera_file(cameras).cameras;
+    return std::max<std::size_t>(found.size(), 1);
 }
 
 Camera select_camera(const Scene& scene, int index) {

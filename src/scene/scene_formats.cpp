@@ -5,6 +5,9 @@
 #include <cctype>
 #include <filesystem>
 
+#include "config/error.hpp"
+#include "scene/gltf/gltf.hpp"
+#include "scene/gltf/gltf_source.hpp"
 #include "scene/input_file.hpp"
 #include "scene/ply/ply.hpp"
 #include "scene/splat_file/splat_file.hpp"
@@ -44,31 +47,8 @@ std::string head_of(const std::string& path) {
     return head;
 }
 
-} // namespace
-
-const std::vector<SceneFormat>& scene_formats() {
-    static const std::vector<SceneFormat> formats{
-        {"PLY", {".ply"}, [](std::string_view head) { return starts_with(head, "ply"); }, read_ply},
-        {"SPZ",
-         {".spz"},
-         [](std::string_view head) {
-             return starts_with(head, "\x1f\x8b") || starts_with(head, "NGSP");
-         },
-         read_spz},
-        {".splat", {".splat"}, [](std::string_view) { return false; }, read_splat_file},
-    };
-    return formats;
-}
-
-std::vector<std::string> scene_extensions() {
-    std::vector<std::string> extensions;
-    for (const SceneFormat& format : scene_formats()) {
-        extensions.insert(extensions.end(), format.extensions.begin(), format.extensions.end());
-    }
-    return extensions;
-}
-
-SceneContent read_scene_file(const std::string& path) {
+/// InputError for a file of no format.
+const SceneFormat& format_of(const std::string& path) {
     const std::string head = head_of(path);
     const std::string extension = extension_of(path);
     const std::vector<SceneFormat>& formats = scene_formats();
@@ -83,7 +63,51 @@ SceneContent read_scene_file(const std::string& path) {
                             "' is not that of a scene file; allowed are " + allowed_extensions() +
                             ", or 'synthetic:NAME'.");
     }
-    return format->read(path);
+    return *format;
+}
+
+} // namespace
+
+const std::vector<SceneFormat>& scene_formats() {
+    static const std::vector<SceneFormat> formats{
+        {"PLY", {".ply"}, [](std::string_view head) { return starts_with(head, "ply"); }, read_ply},
+        {"SPZ",
+         {".spz"},
+         [](std::string_view head) {
+             return starts_with(head, "\x1f\x8b") || starts_with(head, "NGSP");
+         },
+         read_spz},
+        {"glTF", {".glb", ".gltf"}, is_gltf, read_gltf, read_gltf_cameras, gltf_external_files},
+        {".splat", {".splat"}, [](std::string_view) { return false; }, read_splat_file},
+    };
+    return formats;
+}
+
+std::vector<std::string> scene_extensions() {
+    std::vector<std::string> extensions;
+    for (const SceneFormat& format : scene_formats()) {
+        extensions.insert(extensions.end(), format.extensions.begin(), format.extensions.end());
+    }
+    return extensions;
+}
+
+SceneContent read_scene_file(const std::string& path) {
+    return format_of(path).read(path);
+}
+
+std::vector<Camera> read_scene_cameras(const std::string& path) {
+    const SceneFormat& format = format_of(path);
+    return format.read_cameras == nullptr ? std::vector<Camera>{} : format.read_cameras(path);
+}
+
+std::vector<std::string> scene_external_files(const std::string& path) {
+    try {
+        const SceneFormat& format = format_of(path);
+        return format.external_files == nullptr ? std::vector<std::string>{}
+                                                : format.external_files(path);
+    } catch (const InputError&) {
+        return {}; // reading the scene says what is wrong
+    }
 }
 
 } // namespace degs

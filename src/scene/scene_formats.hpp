@@ -15,6 +15,10 @@ struct SceneFormat {
     std::vector<const char*> extensions;    ///< lower case with the dot, e.g. ".ply"
     bool (*matches)(std::string_view head); ///< do the first kHeadBytes of a file look like it?
     SceneContent (*read)(const std::string& path);
+    /// The cameras in the file, without its Gaussians; nullptr: the format has none.
+    std::vector<Camera> (*read_cameras)(const std::string& path) = nullptr;
+    /// Files that `read` reads in addition; nullptr: none.
+    std::vector<std::string> (*external_files)(const std::string& path) = nullptr;
 };
 
 /// Bytes of a file that decide about its format (fewer if the file is shorter).
@@ -28,5 +32,11 @@ std::vector<std::string> scene_extensions();
 /// Reads a scene file. Its first bytes choose the format, because files are renamed; formats
 /// without a signature are known by the extension. InputError for a file of no format.
 SceneContent read_scene_file(const std::string& path);
+
+/// The cameras that read_scene_file() would return, at less cost. InputError as there.
+std::vector<Camera> read_scene_cameras(const std::string& path);
+
+/// Files that read_scene_file() reads in addition to `path`; none if it would fail.
+std::vector<std::string> scene_external_files(const std::string& path);
 
 } // namespace degs

@@ -104,6 +104,22 @@ TEST(StudyDigest, DependsOnTheContentOfScenesAndCameras) {
     EXPECT_EQ(digest(), digest());
 }
 
+TEST(StudyDigest, DependsOnTheBuffersOfAGltf) {
+    const sim_test::Folder folder;
+    const std::string scene = folder / "scene.gltf";
+    std::ofstream(scene) << R"({"asset":{"version":"2.0"},)"
+                         << R"("buffers":[{"byteLength":3,"uri":"data.bin"}]})";
+    const auto digest_with = [&](const char* data) {
+        std::ofstream(folder / "data.bin") << data;
+        Digest of_scene;
+        of_scene.add_scene(scene);
+        return of_scene.text();
+    };
+    const std::string one = digest_with("one");
+    EXPECT_NE(digest_with("two"), one);
+    EXPECT_EQ(digest_with("one"), one);
+}
+
 TEST(StudyAxes, SamplesComeFromTheSeed) {
     const auto sample = [](const std::string& seed) {
         return plan_with("  some: { random: 6, seed: " + seed +
