@@ -21,6 +21,7 @@ namespace {
 struct RenderOptions {
     ViewRequest view;
     std::string tiles = "exact";
+    RenderingRules rules;
     int tile_size = 16;
     std::string out = "out";
 };
@@ -42,7 +43,8 @@ RenderResult render(const RenderOptions& options, const View& view) {
     const Stopwatch project;
     const FrameWorkload workload =
         make_frame_workload(view.scene.cloud, view.camera, options.tile_size,
-                            options.tiles == "reference" ? TileMode::Reference : TileMode::Exact);
+                            options.tiles == "reference" ? TileMode::Reference : TileMode::Exact,
+                            options.rules.options(view.scene.traits.antialiased));
     result.workload_s = project.seconds();
     result.workload = facts_of(workload);
     const Stopwatch draw;
@@ -66,6 +68,33 @@ nlohmann::ordered_json render_json(const RenderResult& result, double wall_s) {
                     {"wall_s", wall_s},
                     {"peak_rss_bytes", peak_rss_bytes()}};
     return json;
+}
+
+void add_rule_options(CLI::App& command, RenderingRules& rules) {
+    command
+        .add_option_function<std::string>(
+            "--order",
+            [&rules](const std::string& name) {
+                rules.order = name == name_of(SplatOrder::Distance) ? SplatOrder::Distance
+                                                                    : SplatOrder::Depth;
+            },
+            "depth: splats are blended by view z; distance: by that to the camera")
+        ->check(CLI::IsMember(splat_order_names()))
+        ->default_str(name_of(rules.order));
+    command
+        .add_option_function<std::string>(
+            "--antialiasing",
+            [&rules](const std::string& name) {
+                rules.antialiasing = name == "on"    ? Antialiasing::On
+                                     : name == "off" ? Antialiasing::Off
+                                                     : Antialiasing::Scene;
+            },
+            "whether opacities make up for the low-pass filter; scene: as its file says")
+        ->check(CLI::IsMember(antialiasing_names()))
+        ->default_str("scene");
+    command.add_option("--low-pass", rules.low_pass, "px^2 added to both variances of a splat")
+        ->check(CLI::Range(0.0, 10.0))
+        ->capture_default_str();
 }
 
 void run(const RenderOptions& options) {
@@ -99,6 +128,7 @@ void add_render_command(CLI::App& program) {
             "exact: tiles that the ellipse touches; reference: those of the 3-sigma square")
         ->check(CLI::IsMember({"exact", "reference"}))
         ->capture_default_str();
+    add_rule_options(*command, options->rules);
     command->add_option("--tile-size", options->tile_size, "pixels")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();

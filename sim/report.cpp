@@ -34,8 +34,13 @@ void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, S
     v.count("dropped", scene.dropped.total(), "Gaussians", "The sum of scene.dropped.");
     v.count("visible", workload.visible, "Gaussians", "Splats that at least one tile lists.");
     describe_culled(workload.culled, v);
-    v.text("projection", workload.projection,
+    v.text("projection", workload.projection.format.name(),
            "Format in which the accelerator's splats were projected.");
+    v.text("order", name_of(workload.projection.order),
+           "What splats are blended by: depth is view z, distance that to the camera.");
+    v.text("antialiasing", workload.projection.compensated ? "on" : "off",
+           "Whether opacities make up for the low-pass filter.");
+    v.real("low_pass", workload.projection.dilation, "px2", "Added to both variances of a splat.");
     v.count("tile_size", workload.tile_size, "px", "Side of a tile.");
     v.count("tiles", workload.tiles, "tiles", "Tiles of the image.");
     v.count("empty_tiles", workload.empty_tiles, "tiles", "Tiles that list no splat.");
@@ -165,6 +170,7 @@ ordered_json scene_json(const SceneFacts& scene) {
             {"source", scene.source},
             {"gaussians", scene.gaussians},
             {"sh_degree", scene.sh_degree},
+            {"antialiased", scene.traits.antialiased},
             {"dropped",
              {{"non_finite", scene.dropped.non_finite},
               {"zero_rotation", scene.dropped.zero_rotation},

@@ -29,7 +29,7 @@ WorkloadFacts facts_of(const FrameWorkload& workload) {
     facts.visible = workload.splats.size();
     facts.tile_pairs = workload.tile_pairs();
     facts.culled = workload.culled;
-    facts.projection = workload.projection.format.name();
+    facts.projection = workload.projection;
     facts.tile_size = workload.tile_size;
     facts.tiles = workload.tiles();
     for (std::size_t t = 0; t < facts.tiles; ++t) {
@@ -44,15 +44,14 @@ std::uint64_t peak_rss_bytes() {
     return std::uint64_t{1024} * usage.ru_maxrss; // Linux counts in KiB
 }
 
-std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud,
+std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds) {
     const Progress progress("projecting and sorting");
     const Stopwatch clock;
     std::vector<FrameWorkload> workloads;
     workloads.reserve(cameras.size());
-    ProjectionOptions options;
-    options.format = config.data_path().projection;
+    const ProjectionOptions options = projection_of(config.data_path(), traits.antialiased);
     for (const Camera& camera : cameras) {
         workloads.push_back(
             make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode(), options));

@@ -38,7 +38,7 @@ struct SceneFacts {
 struct WorkloadFacts {
     std::uint64_t gaussians = 0, visible = 0, tile_pairs = 0;
     CullCounts culled;
-    std::string projection; ///< format that the accelerator's splats were projected in
+    ProjectionOptions projection; ///< of the accelerator's splats
     int tile_size = 0;
     std::uint64_t tiles = 0, empty_tiles = 0;
     std::optional<ReferenceCounts> reference;
@@ -82,9 +82,9 @@ WorkloadFacts facts_of(const FrameWorkload& workload);
 /// Largest resident set of this process so far.
 std::uint64_t peak_rss_bytes();
 
-/// The frames of `cameras` with the tiles of the accelerator, projected in its numbers; adds the
-/// host seconds to `seconds`.
-std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud,
+/// The frames of `cameras` with the tiles of the accelerator, projected in its numbers and by its
+/// rules; adds the host seconds to `seconds`.
+std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds);
 Reference make_reference(const FrameWorkload& workload);

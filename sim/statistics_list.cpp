@@ -16,7 +16,7 @@ std::vector<Statistic> report_statistics(const RunConfig& config) {
     camera.fx = camera.fy = camera.width;
     double seconds = 0;
     const std::vector<FrameWorkload> frames =
-        make_workloads(GaussianCloud{}, {camera}, accelerator, seconds);
+        make_workloads(GaussianCloud{}, SceneTraits{}, {camera}, accelerator, seconds);
     RunRequest request;
     request.config = config;
     const RunResult result = run_frames(request, {&frames.front()});

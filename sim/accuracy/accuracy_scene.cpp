@@ -30,8 +30,9 @@ struct Frame {
             return workload;
         }
         if (projected.projection.format != set.projection) {
-            projected = make_frame_workload(*cloud, workload.camera, workload.tile_size,
-                                            TileMode::Exact, projected_in(set));
+            projected =
+                make_frame_workload(*cloud, workload.camera, workload.tile_size, TileMode::Exact,
+                                    projected_in(set, workload.projection));
         }
         return projected;
     }
@@ -135,7 +136,8 @@ std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
                 std::to_string(camera.width) + "x" + std::to_string(camera.height);
             frame.cloud = &loaded.scene.cloud;
             frame.workload =
-                make_frame_workload(loaded.scene.cloud, camera, request.tile_size, TileMode::Exact);
+                make_frame_workload(loaded.scene.cloud, camera, request.tile_size, TileMode::Exact,
+                                    RenderingRules().options(loaded.scene.traits.antialiased));
             frame.reference = make_reference(frame.workload).image;
             measure_frame(request, frame, out, rows);
         }

@@ -12,12 +12,6 @@ namespace {
 
 constexpr double kWorthKeeping = 0.005; // s
 
-ProjectionOptions projection_of(const AcceleratorConfig& config) {
-    ProjectionOptions options;
-    options.format = config.data_path().projection;
-    return options;
-}
-
 } // namespace
 
 CachedView::CachedView(const ViewRequest& request, const PathRequest& path, FrameCache cache)
@@ -57,7 +51,7 @@ const GaussianCloud& CachedView::cloud() {
 
 std::vector<FrameWorkload> CachedView::frames(const AcceleratorConfig& config) {
     std::vector<FrameWorkload> frames;
-    const ProjectionOptions options = projection_of(config);
+    const ProjectionOptions options = projection_of(config.data_path(), facts_.traits.antialiased);
     for (const Camera& camera : cameras_) {
         const Stopwatch clock;
         std::optional<FrameWorkload> kept =
@@ -70,7 +64,7 @@ std::vector<FrameWorkload> CachedView::frames(const AcceleratorConfig& config) {
     }
     if (frames.size() < cameras_.size()) {
         double seconds = 0;
-        frames = make_workloads(cloud(), cameras_, config, seconds);
+        frames = make_workloads(cloud(), facts_.traits, cameras_, config, seconds);
         frames_made_ = seconds > kWorthKeeping;
         workload_s_ += seconds;
     }

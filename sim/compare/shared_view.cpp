@@ -12,11 +12,13 @@
 namespace degs::sim {
 
 void SharedView::render_reference(TileMode mode) {
-    const std::pair<int, TileMode> tiles{mode == TileMode::Exact ? 0 : frames.front().tile_size,
-                                         mode};
-    if (!reference || reference_tiles != tiles) {
-        reference = make_reference(*cloud, frames.front(), workload_s);
-        reference_tiles = tiles;
+    const FrameWorkload& frame = frames.front();
+    const ProjectionOptions& rules = frame.projection;
+    const decltype(reference_kind) kind{mode == TileMode::Exact ? 0 : frame.tile_size, mode,
+                                        rules.order, rules.compensated, rules.dilation};
+    if (!reference || reference_kind != kind) {
+        reference = make_reference(*cloud, frame, workload_s);
+        reference_kind = kind;
     }
 }
 

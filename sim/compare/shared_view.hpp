@@ -3,7 +3,7 @@
 
 #include <optional>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "sim/simulation.hpp"
@@ -18,8 +18,9 @@ struct SharedView {
     std::vector<Camera> cameras; ///< of the path, the view's own first
     double load_s = 0, workload_s = 0;
     std::vector<FrameWorkload> frames;  ///< of the present group
-    std::optional<Reference> reference; ///< of `reference_tiles`
-    std::pair<int, TileMode> reference_tiles;
+    std::optional<Reference> reference; ///< of `reference_kind`
+    /// What the image depends on beside the view: side and mode of tiles, and the rules.
+    std::tuple<int, TileMode, SplatOrder, bool, double> reference_kind;
 
     /// With exact tiles the image does not depend on their size.
     void render_reference(TileMode mode);

@@ -12,18 +12,20 @@
 namespace degs::sim {
 namespace {
 
-/// Frames depend on these: the format of the projection (empty for fp64, whose frames are the
-/// reference's and come first), the side of a tile and the tile mode.
-using FrameKind = std::tuple<std::string, int, TileMode>;
+/// Frames depend on these: the rules, the format of the projection (empty for fp64, whose frames are
+/// the reference's and come first), the side of a tile and the tile mode.
+using FrameKind = std::tuple<SplatOrder, bool, double, std::string, int, TileMode>;
 
 /// Configurations that want the same frames.
 std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedConfig>& all,
-                                                        const std::vector<std::size_t>& configs) {
+                                                        const std::vector<std::size_t>& configs,
+                                                        const SceneTraits& traits) {
     std::map<FrameKind, std::vector<std::size_t>> groups;
     for (std::size_t c : configs) {
         const AcceleratorConfig& config = all[c].config.accelerator();
-        const NumberFormat projection = config.data_path().projection;
-        groups[{projection.is_fp64() ? "" : projection.name(), config.tile_size_px(),
+        const ProjectionOptions rules = projection_of(config.data_path(), traits.antialiased);
+        groups[{rules.order, rules.compensated, rules.dilation,
+                rules.format.is_fp64() ? "" : rules.format.name(), config.tile_size_px(),
                 config.tile_mode()}]
             .push_back(c);
     }
@@ -135,7 +137,7 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
         shared.cameras =
             camera_path(scene.cloud, first, request_.path.frames, request_.path.step_degrees);
         shared.load_s = load_s;
-        for (const auto& [kind, members] : groups_of(request_.configs, configs)) {
+        for (const auto& [kind, members] : groups_of(request_.configs, configs, scene.traits)) {
             if (!interrupted_) {
                 run_group(shared, place, members);
             }
@@ -155,7 +157,8 @@ void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs
     const AcceleratorConfig& wish = request_.configs[configs.front()].config.accelerator();
     shared.frames.clear(); // before the next are made; children have copies of their own
     shared.workload_s = 0;
-    shared.frames = make_workloads(*shared.cloud, shared.cameras, wish, shared.workload_s);
+    shared.frames =
+        make_workloads(*shared.cloud, shared.scene.traits, shared.cameras, wish, shared.workload_s);
     if (request_.reference && !request_.sampling) {
         shared.render_reference(wish.tile_mode());
     }

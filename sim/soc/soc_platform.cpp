@@ -17,8 +17,9 @@ std::size_t initiators(const SocRequest& request) {
     return kFirstCore + request.cores;
 }
 
-Accelerator::Options with_timeline(Timeline* timeline) {
+Accelerator::Options accelerator_options(const Scene& scene, Timeline* timeline) {
     Accelerator::Options options;
+    options.antialiased = scene.traits.antialiased;
     options.timeline = timeline;
     return options;
 }
@@ -26,7 +27,7 @@ Accelerator::Options with_timeline(Timeline* timeline) {
 } // namespace
 
 SocPlatform::SocPlatform(const sc_core::sc_module_name& name, const SocRequest& request,
-                         const Camera& camera, Timeline* timeline)
+                         const View& view, Timeline* timeline)
     : sc_core::sc_module(name),
       capacity_(capacity_of(request.memory)), time_{ClockDomain(
                                                         request.config.accelerator().clock_ghz),
@@ -34,7 +35,8 @@ SocPlatform::SocPlatform(const sc_core::sc_module_name& name, const SocRequest& 
       memory_("memory", request.memory, time_, initiators(request)),
       bus_("bus", initiators(request),
            {{kRegisters, kRegisterWindow, false}, {kMemory, capacity_, true}}),
-      accelerator_("accelerator", request.config.accelerator(), with_timeline(timeline)),
+      accelerator_("accelerator", request.config.accelerator(),
+                   accelerator_options(view.scene, timeline)),
       irq_("irq") {
     bus_.out[bus_.socket_of(0)].bind(accelerator_.registers);
     for (std::size_t i = 0; i < initiators(request); ++i) {
@@ -46,8 +48,8 @@ SocPlatform::SocPlatform(const sc_core::sc_module_name& name, const SocRequest& 
     accelerator_.irq.bind(irq_);
     accelerator_.mem.bind(bus_.in[kAccelerator]);
     Display::Config screen;
-    screen.width = camera.width;
-    screen.height = camera.height;
+    screen.width = view.camera.width;
+    screen.height = view.camera.height;
     screen.refresh_hz = request.refresh_hz > 0 ? request.refresh_hz : 1;
     display_ = std::make_unique<Display>("display", screen);
     display_->out.bind(bus_.in[kDisplay]);

@@ -24,8 +24,8 @@ namespace degs::sim {
 /// accelerator's (scene, workspace, frame buffers), the upper half the cores'.
 class SocPlatform : public sc_core::sc_module {
 public:
-    SocPlatform(const sc_core::sc_module_name& name, const SocRequest& request,
-                const Camera& camera, Timeline* timeline = nullptr);
+    SocPlatform(const sc_core::sc_module_name& name, const SocRequest& request, const View& view,
+                Timeline* timeline = nullptr);
 
     SocHost& host() { return *host_; }
     /// The display, which shows nothing until show() is called.

@@ -36,10 +36,12 @@ Image image_of(const std::vector<unsigned char>& rgba, const Camera& camera) {
 }
 
 double psnr(const std::vector<unsigned char>& rgba, const GaussianCloud& cloud,
-            const Camera& camera, const AcceleratorConfig& config) {
+            const Camera& camera, const AcceleratorConfig& config, bool antialiased) {
     ReferenceCounts counts;
     Image reference = render_reference(
-        make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode()), counts);
+        make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode(),
+                            config.data_path().rules.options(antialiased)),
+        counts);
     for (float& value : reference.rgb) {
         value = std::clamp(value, 0.0F, 1.0F);
     }
@@ -49,9 +51,9 @@ double psnr(const std::vector<unsigned char>& rgba, const GaussianCloud& cloud,
 /// A frame for each load, one after the other in one simulation.
 class StudyRuns {
 public:
-    StudyRuns(const SocRequest& request, SocPlatform& platform, GaussianCloud cloud, Camera camera)
-        : request_(request), platform_(platform), cloud_(std::move(cloud)),
-          camera_(std::move(camera)) {}
+    StudyRuns(const SocRequest& request, SocPlatform& platform, const View& view)
+        : request_(request), platform_(platform), cloud_(as_floats(view.scene.cloud)),
+          camera_(view.camera), antialiased_(view.scene.traits.antialiased) {}
 
     void operator()(SocHost& host) {
         host.load_scene(cloud_);
@@ -71,7 +73,10 @@ public:
         platform_.set_load(0);
         result.display = platform_.display().stats();
     }
-    void judge() { result.psnr_db = psnr(pixels_, cloud_, camera_, request_.config.accelerator()); }
+    void judge() {
+        result.psnr_db =
+            psnr(pixels_, cloud_, camera_, request_.config.accelerator(), antialiased_);
+    }
 
     SocResult result;
 
@@ -101,6 +106,7 @@ private:
     SocPlatform& platform_;
     GaussianCloud cloud_;
     Camera camera_;
+    bool antialiased_;
     std::vector<unsigned char> pixels_;
 };
 
@@ -112,8 +118,8 @@ SocResult run_soc(const SocRequest& request, const View& view) {
     if (request.timeline) {
         timeline.emplace(*request.timeline);
     }
-    SocPlatform platform("soc", request, view.camera, timeline ? &*timeline : nullptr);
-    StudyRuns study(request, platform, as_floats(view.scene.cloud), view.camera);
+    SocPlatform platform("soc", request, view, timeline ? &*timeline : nullptr);
+    StudyRuns study(request, platform, view);
     platform.host().program = [&study](SocHost& host) { study(host); };
     {
         Progress progress("platform");

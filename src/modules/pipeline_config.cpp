@@ -17,6 +17,9 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
                    "3-sigma square (paper, Sec. II-A), radius ceil(3 sqrt(lambda_max)), as the "
                    "reference code; exact by default, because preprocessing has the ellipse's "
                    "rows and columns for span parsing anyway [assumed]");
+    visitor.section("rules", rules,
+                    "what renderers of the same Gaussians disagree about; the defaults are those "
+                    "of the reference code");
     NumberSet set = set_of(numbers);
     visitor.begin_section("formats",
                           "single parts of `numbers` in other formats; set: as they are there");
@@ -42,7 +45,7 @@ cost::Precision PipelineConfig::precision() const {
 
 DataPathOptions PipelineConfig::options(SpanEnds ends, int delta) const {
     const DataPathOptions named = named_numbers(name_of(numbers), formats.assignments());
-    return {numbers, ends, delta, stop_rule, named.set, named.projection};
+    return {numbers, ends, delta, stop_rule, named.set, named.projection, rules};
 }
 
 } // namespace degs

@@ -14,6 +14,7 @@ struct PipelineConfig {
     Arithmetic numbers = Arithmetic::Fp32;
     StopRule stop_rule = StopRule::Refuse;
     TileMode tiles = TileMode::Exact;
+    RenderingRules rules;
     ConfigChanges formats; ///< of the number set that `numbers` names
     void describe(ConfigVisitor& visitor);
     /// Bits of a pixel's transmittance and colour in the formats of `numbers` and `formats`.

@@ -141,8 +141,7 @@ AcceleratorFault Accelerator::prepare() {
 AcceleratorFault Accelerator::make_workload() {
     std::uint32_t dropped = 0;
     const GaussianCloud cloud = scene_.cloud(dropped);
-    ProjectionOptions options;
-    options.format = config_->data_path().projection;
+    const ProjectionOptions options = projection_of(config_->data_path(), options_.antialiased);
     FrameWorkload work =
         make_frame_workload(cloud, request_.camera, job_.tile_size, config_->tile_mode(), options);
     registers_.set(Register::Dropped, dropped);

@@ -32,6 +32,7 @@ public:
     struct Options {
         AcceleratorRequest::Limits limits;
         Fidelity fidelity = Fidelity::Exact;
+        bool antialiased = false; ///< what the files of its scenes say, see RenderingRules
         MemoryGateway::Options memory;
         Timeline* timeline = nullptr; ///< which the accelerator joins; must outlive it
     };

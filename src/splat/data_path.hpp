@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "splat/frame/rendering_rules.hpp"
 #include "splat/frame_workload.hpp"
 #include "splat/numbers/number_set.hpp"
 #include "splat/pixel_index.hpp"
@@ -34,7 +35,11 @@ struct DataPathOptions {
     /// The format in which its frames are projected (ProjectionOptions::format). The data path
     /// itself takes splats as they are.
     NumberFormat projection = {};
+    RenderingRules rules = {}; ///< likewise
 };
+
+/// The options that project a scene for a data path; `antialiased` as in RenderingRules::options().
+ProjectionOptions projection_of(const DataPathOptions& path, bool antialiased);
 
 /// The number set of an arithmetic; that of Fp64 is `ideal`.
 NumberSet set_of(Arithmetic arithmetic);

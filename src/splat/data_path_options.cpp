@@ -41,6 +41,10 @@ DataPathOptions options_of(const NumberSet& set) {
     return options;
 }
 
+ProjectionOptions projection_of(const DataPathOptions& path, bool antialiased) {
+    return path.rules.options(antialiased, path.projection);
+}
+
 NumberSet set_of(Arithmetic arithmetic) {
     return number_set(arithmetic == Arithmetic::Fp64 ? "ideal" : name_of(arithmetic));
 }

@@ -50,8 +50,8 @@ struct FrameWorkload {
 };
 
 /// Projects, shades, sorts and bins a scene, in the format of `options`, on all processors; culling, lists
-/// and order follow from its splats. The depth key is the view z rounded to float, as the original sorts
-/// float bits; ties keep index order. Throws InputError for an image without pixels, focal lengths
+/// and order follow from its splats. The depth key is that of the options, rounded to float, as the original
+/// sorts float bits; ties keep index order. Throws InputError for an image without pixels, focal lengths
 /// or a tile size below 1, or a negative near plane.
 FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& camera, int tile_size,
                                   TileMode mode, const ProjectionOptions& options = {});

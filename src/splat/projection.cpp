@@ -38,7 +38,7 @@ struct ViewConstants {
     Scalar fx, fy;
     Scalar half_width, half_height;    ///< px
     Scalar most_slope_x, most_slope_y; ///< limits of x/z and y/z in the Jacobian
-    Scalar near_plane, dilation, alpha_min;
+    Scalar near_plane, dilation, alpha_min, least_compensation;
     Scalar half, one, two;
 
     ViewConstants(const Numbers& n, const Camera& c, const ProjectionOptions& o)
@@ -47,8 +47,8 @@ struct ViewConstants {
           half_width(n(0.5 * c.width)), half_height(n(0.5 * c.height)),
           most_slope_x(n(o.jacobian_clamp * c.width / (2.0 * c.fx))),
           most_slope_y(n(o.jacobian_clamp * c.height / (2.0 * c.fy))), near_plane(n(o.near_plane)),
-          dilation(n(o.dilation)), alpha_min(n(o.alpha_min)), half(n(0.5)), one(n(1.0)),
-          two(n(2.0)) {}
+          dilation(n(o.dilation)), alpha_min(n(o.alpha_min)),
+          least_compensation(n(kLeastCompensation)), half(n(0.5)), one(n(1.0)), two(n(2.0)) {}
 };
 
 /// The projection in the arithmetic of `Numbers`; members are rounded, locals of double are not.
@@ -58,7 +58,8 @@ public:
     ProjectorIn(const GaussianCloud& cloud, const Camera& camera, const ProjectionOptions& options,
                 Numbers numbers)
         : Projector(camera), cloud_(cloud), position_(camera.position), n_(std::move(numbers)),
-          k_(n_, camera, options), alpha_min_(options.alpha_min) {}
+          k_(n_, camera, options), alpha_min_(options.alpha_min), order_(options.order),
+          compensated_(options.compensated) {}
 
     Cull project_anywhere(std::size_t index, ProjectedSplat& out) const override;
     Cull shade(std::size_t index, ProjectedSplat& out) const override;
@@ -71,9 +72,11 @@ private:
     };
 
     Matrix rotation_of(const glm::vec4& slots) const;
+    Scalar depth_of(const Scalar& x, const Scalar& y, const Scalar& z) const;
     void set_mean(const Scalar& x, const Scalar& y, const Scalar& z, ProjectedSplat& out) const;
-    void set_covariance(std::size_t index, const Scalar& x, const Scalar& y, const Scalar& z,
-                        ProjectedSplat& out) const;
+    void set_opacity(const Scalar& opacity, ProjectedSplat& out) const;
+    Scalar set_covariance(std::size_t index, const Scalar& x, const Scalar& y, const Scalar& z,
+                          ProjectedSplat& out) const;
     Scalar limited(const Scalar& slope, const Scalar& most) const {
         const Scalar least = n_(0.0) - most;
         return slope < least ? least : most < slope ? most : slope;
@@ -88,6 +91,8 @@ private:
     Numbers n_; // before what is made of it
     ViewConstants<Numbers> k_;
     double alpha_min_;
+    SplatOrder order_;
+    bool compensated_;
 };
 
 /// Rotation matrix of a quaternion in slot order w, x, y, z. Dividing by |q|^2 makes it orthonormal
@@ -103,6 +108,23 @@ auto ProjectorIn<Numbers>::rotation_of(const glm::vec4& slots) const -> Matrix {
             {s * (x * z + w * y), s * (y * z - w * x), one - s * (x * x + y * y)}};
 }
 
+/// The distance is formed from slopes, so that no square of a world unit leaves a narrow format.
+template <class Numbers>
+auto ProjectorIn<Numbers>::depth_of(const Scalar& x, const Scalar& y, const Scalar& z) const
+    -> Scalar {
+    if (order_ == SplatOrder::Depth) {
+        return z;
+    }
+    const Scalar slope_x = x / z, slope_y = y / z;
+    return z * root_of(k_.one + slope_x * slope_x + slope_y * slope_y);
+}
+
+template <class Numbers>
+void ProjectorIn<Numbers>::set_opacity(const Scalar& opacity, ProjectedSplat& out) const {
+    out.opacity = value_of(opacity);
+    out.q_threshold = value_of(k_.two * log_of(opacity / k_.alpha_min));
+}
+
 template <class Numbers>
 void ProjectorIn<Numbers>::set_mean(const Scalar& x, const Scalar& y, const Scalar& z,
                                     ProjectedSplat& out) const {
@@ -112,10 +134,11 @@ void ProjectorIn<Numbers>::set_mean(const Scalar& x, const Scalar& y, const Scal
 
 /// The dilated covariance from the rows u, v of J Rv R S (2x3). The determinant is Cauchy-Binet's
 /// sum of non-negative terms; a c - b^2 loses all digits for needles. The slopes x/z and y/z are
-/// limited for the Jacobian only: the linearisation is useless far outside.
+/// limited for the Jacobian only: the linearisation is useless far outside. Returns the factor that
+/// makes up for the dilation, see ProjectionOptions::compensated.
 template <class Numbers>
-void ProjectorIn<Numbers>::set_covariance(std::size_t index, const Scalar& x, const Scalar& y,
-                                          const Scalar& z, ProjectedSplat& out) const {
+auto ProjectorIn<Numbers>::set_covariance(std::size_t index, const Scalar& x, const Scalar& y,
+                                          const Scalar& z, ProjectedSplat& out) const -> Scalar {
     const Scalar slope_x = limited(x / z, k_.most_slope_x);
     const Scalar slope_y = limited(y / z, k_.most_slope_y);
     const Vector row_x = (k_.right - k_.forward * slope_x) * (k_.fx / z); // rows of J Rv
@@ -131,7 +154,14 @@ void ProjectorIn<Numbers>::set_covariance(std::size_t index, const Scalar& x, co
     out.cov_a = value_of(a0 + d);
     out.cov_b = value_of(dot(u, v));
     out.cov_c = value_of(c0 + d);
-    out.det = value_of(dot(normal, normal) + d * (a0 + c0) + d * d);
+    const Scalar before = dot(normal, normal);
+    const Scalar after = before + d * (a0 + c0) + d * d;
+    out.det = value_of(after);
+    if (!compensated_) {
+        return k_.one;
+    }
+    const Scalar ratio = before / after;
+    return root_of(ratio < k_.least_compensation ? k_.least_compensation : ratio);
 }
 
 template <class Numbers>
@@ -144,18 +174,23 @@ Cull ProjectorIn<Numbers>::project_anywhere(std::size_t index, ProjectedSplat& o
     }
     const Scalar opacity = n_(double{cloud_.opacities[index]});
     out.id = static_cast<std::uint32_t>(index);
-    out.depth = value_of(z);
-    out.opacity = value_of(opacity);
-    out.q_threshold = value_of(k_.two * log_of(opacity / k_.alpha_min));
+    set_opacity(opacity, out);
     if (!(out.q_threshold >= 0)) {
         return Cull::Transparent;
     }
     const Scalar x = dot(k_.right, rounded);
     const Scalar y = dot(k_.down, rounded);
+    out.depth = value_of(depth_of(x, y, z));
     set_mean(x, y, z, out);
-    set_covariance(index, x, y, z, out);
+    const Scalar compensation = set_covariance(index, x, y, z, out);
     if (is_degenerate(out)) {
         return Cull::Degenerate;
+    }
+    if (compensated_) {
+        set_opacity(opacity * compensation, out);
+        if (!(out.q_threshold >= 0)) {
+            return Cull::Transparent;
+        }
     }
     if (!std::is_same_v<Scalar, double>) {
         make_consistent(out, alpha_min_);

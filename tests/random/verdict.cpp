@@ -61,7 +61,7 @@ std::string run_one(const Trial& trial, const std::string& configs, const std::s
         sim::load_view({trial.scene, cameras, trial.camera, trial.width, trial.height, ""});
     double seconds = 0;
     const std::vector<FrameWorkload> workloads = sim::make_workloads(
-        view.scene.cloud,
+        view.scene.cloud, view.scene.traits,
         camera_path(view.scene.cloud, view.camera, trial.frames, trial.step_degrees),
         request.config.accelerator(), seconds);
     std::vector<const FrameWorkload*> frames;

@@ -123,7 +123,11 @@ inline BruteSplat brute_project(const GaussianCloud& cloud, std::size_t i, const
     out.mu_x = fx * p.x / p.z + (camera.width - 1) / Real(2);
     out.mu_y = fy * p.y / p.z + (camera.height - 1) / Real(2);
     out.opacity = cloud.opacities[i];
-    out.depth = static_cast<float>(p.z);
+    if (options.compensated) {
+        const Real before = cov[0][0] * cov[1][1] - cov[1][0] * cov[1][0];
+        out.opacity *= std::sqrt(std::max(Real(0.000025), before / out.det));
+    }
+    out.depth = static_cast<float>(options.order == SplatOrder::Distance ? glm::length(p) : p.z);
     out.visible = p.z > options.near_plane && out.opacity >= options.alpha_min;
     const glm::dvec3 direction = glm::normalize(cloud.means[i] - camera.position);
     const glm::dvec3 sum = evaluate_sh(cloud.sh_degree, cloud.sh_of(i), direction);

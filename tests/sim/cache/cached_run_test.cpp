@@ -51,9 +51,11 @@ TEST(CachedRun, GivesWhatAFreshRunGives) {
     ASSERT_EQ(entries.size(), 3U); // the scene, the frame and the reference
     EXPECT_EQ(run_to(folder / "second", kLarge), fresh);
     EXPECT_EQ(entries_of(folder / "cache"), entries);
-    // Another camera, another size of tiles, a path: none of them finds this frame.
+    // Another camera, another size of tiles, other rules, a path: none of them finds this frame.
     for (const std::vector<std::string>& other : {std::vector<std::string>{"--camera", "1"},
                                                   {"--set", "tile_size=16"},
+                                                  {"--set", "pipeline.rules.order=distance"},
+                                                  {"--set", "pipeline.rules.antialiasing=on"},
                                                   {"--frames", "2"}}) {
         const std::string cached = run_to(folder / "a", kLarge, other);
         ::setenv("DEGS_CACHE", "", 1);
@@ -139,8 +141,20 @@ TEST(FrameCache, FindsFramesByEverythingTheyDependOn) {
     other.dilation = 0.31;
     EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
     other = options;
+    other.order = SplatOrder::Distance;
+    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
+    other = options;
+    other.compensated = true;
+    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
+    other = options;
     other.format = parse_format("fp16");
     EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
+    // A card of a scene says how the scene wants to be drawn.
+    sim::SceneCard card;
+    card.facts.traits.antialiased = true;
+    cache.keep("scene", card);
+    ASSERT_TRUE(cache.scene("scene"));
+    EXPECT_TRUE(cache.scene("scene")->facts.traits.antialiased);
     camera.position.x += 1e-12;
     EXPECT_FALSE(found("scene", 16, TileMode::Exact, options));
 }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "splat/frame/rendering_rules.hpp"
+
+#include "config/config.hpp"
+
+namespace degs {
+
+const std::vector<const char*>& splat_order_names() {
+    static const std::vector<const char*> names{"depth", "distance"};
+    return names;
+}
+
+const char* name_of(SplatOrder order) {
+    return splat_order_names().at(static_cast<std::size_t>(order));
+}
+
+const std::vector<const char*>& antialiasing_names() {
+    static const std::vector<const char*> names{"scene", "off", "on"};
+    return names;
+}
+
+void RenderingRules::describe(ConfigVisitor& visitor) {
+    visitor.choice(
+        "order", order, splat_order_names(),
+        "order in which splats are blended; depth: view z (reference code, paper "
+        "Sec. II-A); distance: Euclidean distance to the camera (KHR_gaussian_splatting)");
+    visitor.choice("antialiasing", antialiasing, antialiasing_names(),
+                   "opacity times sqrt(det before / det after the low-pass filter), as "
+                   "Mip-Splatting trains; scene: if the scene file says that it was trained so, "
+                   "because images of either kind of scene are wrong with the other rule");
+    visitor.real(
+        "low_pass", low_pass, 0, 10,
+        "px^2 added to both variances of a splat; 0.3: reference code and gsplat; files of "
+        "Mip-Splatting and Brush are trained with 0.1");
+}
+
+ProjectionOptions RenderingRules::options(bool antialiased, const NumberFormat& format) const {
+    ProjectionOptions options;
+    options.dilation = low_pass;
+    options.order = order;
+    options.compensated =
+        antialiasing == Antialiasing::On || (antialiasing == Antialiasing::Scene && antialiased);
+    options.format = format;
+    return options;
+}
+
+} // namespace degs

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every accelerator draws by the rules that its configuration names, and its report says so.
+#include <algorithm>
+
+#include "tests/sim/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+const char* const kScene = "synthetic:object,gaussians=3000";
+
+nlohmann::json run_in(const std::string& out, const std::string& design, const Words& rules,
+                      const Words& more) {
+    Words arguments{"run",      config(design),
+                    "--scene",  kScene,
+                    "--width",  "160",
+                    "--camera", "1",
+                    "--out",    out,
+                    "--set",    "pipeline.numbers=fp64"};
+    for (const std::string& rule : rules) {
+        arguments.insert(arguments.end(), {"--set", "pipeline.rules." + rule});
+    }
+    if (design.rfind("degs", 0) == 0) {
+        arguments.insert(arguments.end(), {"--set", "pipeline.span_ends=exact"});
+    }
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_success(degs(arguments));
+    auto report = report_in(out);
+    report.erase("host");
+    return report;
+}
+
+class RulesOfRun : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(RulesOfRun, ReachImageReferenceAndReport) {
+    const Folder folder;
+    const std::string design = GetParam();
+    const auto image_in = [&folder](const char* name) {
+        return read_file(fs::path(folder / name) / "image.exr");
+    };
+    run_in(folder / "plain", design, {}, {});
+    for (const Words& rules :
+         {Words{"order=distance"}, Words{"antialiasing=on"}, Words{"low_pass=0.1"},
+          Words{"order=distance", "antialiasing=on", "low_pass=0.1"}}) {
+        const auto exact = run_in(folder / "exact", design, rules, {});
+        const auto strict = run_in(folder / "strict", design, rules, {"--fidelity", "strict"});
+        EXPECT_EQ(exact, strict);
+        EXPECT_EQ(image_in("exact"), image_in("strict"));
+        EXPECT_NE(image_in("exact"), image_in("plain"));
+        // The reference is drawn by the same rules.
+        const auto& psnr = exact["image"]["psnr_db"];
+        EXPECT_TRUE(psnr == "inf" || psnr > 120.0) << psnr;
+        EXPECT_EQ(exact["workload"]["fragments"], exact["slots"]["useful"]);
+        const auto has = [&rules](const char* rule) {
+            return std::find(rules.begin(), rules.end(), rule) != rules.end();
+        };
+        EXPECT_EQ(exact["workload"]["order"], has("order=distance") ? "distance" : "depth");
+        EXPECT_EQ(exact["workload"]["antialiasing"], has("antialiasing=on") ? "on" : "off");
+        EXPECT_EQ(exact["workload"]["low_pass"], has("low_pass=0.1") ? 0.1 : 0.3);
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Designs, RulesOfRun,
+                         ::testing::Values("degs-16", "gscore-16", "gbu-16", "gcc-16"));
+
+TEST(RulesOfEstimates, SampledAndAnalyticSeeThem) {
+    const Folder folder;
+    const Words distance{"--set", "pipeline.rules.order=distance", "--set",
+                         "pipeline.rules.antialiasing=on"};
+    for (const Words& fidelity : {Words{"--fidelity", "analytic"}, Words{"--within", "20%"}}) {
+        Words arguments{"run", config("degs-16"), "--scene",   kScene, "--width",
+                        "640", "--out",           folder / "o"};
+        arguments.insert(arguments.end(), fidelity.begin(), fidelity.end());
+        arguments.insert(arguments.end(), distance.begin(), distance.end());
+        expect_success(degs(arguments));
+        const char* const file = fidelity[1] == "analytic" ? "o/analytic.json" : "o/report.json";
+        const auto report = nlohmann::json::parse(read_file(folder / file));
+        EXPECT_EQ(report["workload"]["order"], "distance");
+        EXPECT_EQ(report["workload"]["antialiasing"], "on");
+    }
+}
+
+// Designs of one comparison may have rules of their own; each is compared with its own reference.
+TEST(RulesOfComparison, EachDesignHasItsReference) {
+    const Folder folder;
+    const std::string file = config("degs-16");
+    const Outcome outcome =
+        degs({"compare", "plain=" + file, "far=" + file, "--scene", kScene, "--width", "160",
+              "--set", "pipeline.numbers=fp64", "--set", "pipeline.span_ends=exact", "--set",
+              "far:pipeline.rules.order=distance", "--out", folder / "o"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    int reports = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder / "o/reports")) {
+        if (entry.is_regular_file()) {
+            const auto report = nlohmann::json::parse(read_file(entry.path()));
+            const bool far = entry.path().filename() == "2-far.json";
+            EXPECT_EQ(report["workload"]["order"], far ? "distance" : "depth");
+            EXPECT_EQ(report["image"]["psnr_db"], "inf");
+            EXPECT_EQ(report["workload"]["fragments"], report["slots"]["useful"]);
+            ++reports;
+        }
+    }
+    EXPECT_EQ(reports, 2);
+}
+
+TEST(RulesOfRender, TheCommandHasThem) {
+    const Folder folder;
+    const auto image = [&folder](const Words& rules) {
+        Words arguments{"render", "--scene", kScene, "--width", "160", "--out", folder / "o"};
+        arguments.insert(arguments.end(), rules.begin(), rules.end());
+        expect_success(degs(arguments));
+        return read_file(folder / "o/image.exr");
+    };
+    const std::string plain = image({});
+    EXPECT_EQ(image({"--order", "depth", "--antialiasing", "scene", "--low-pass", "0.3"}), plain);
+    EXPECT_NE(image({"--order", "distance"}), plain);
+    EXPECT_NE(image({"--low-pass", "0.1"}), plain);
+    EXPECT_NE(image({"--antialiasing", "on"}), plain);
+    const auto report = nlohmann::json::parse(read_file(folder / "o/render.json"));
+    EXPECT_EQ(report["workload"]["antialiasing"], "on");
+    expect_mistake(degs({"render", "--scene", kScene, "--order", "colour"}), "--order");
+}
+
+} // namespace
+} // namespace degs::sim_test
