@@ -17,6 +17,8 @@ find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
 # Codecs of compressed scenes; Debian ships them with pkg-config files.
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+pkg_check_modules(ZIP REQUIRED IMPORTED_TARGET libzip)
+pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 find_package(TinyGLTF CONFIG REQUIRED)
 find_package(yaml-cpp CONFIG REQUIRED)
 

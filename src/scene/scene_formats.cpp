@@ -9,7 +9,10 @@
 #include "scene/gltf/gltf.hpp"
 #include "scene/gltf/gltf_source.hpp"
 #include "scene/input_file.hpp"
+#include "scene/npz/npz.hpp"
+#include "scene/npz/npz_cameras.hpp"
 #include "scene/ply/ply.hpp"
+#include "scene/sog/sog.hpp"
 #include "scene/splat_file/splat_file.hpp"
 #include "scene/spz/spz.hpp"
 
@@ -18,6 +21,21 @@ namespace {
 
 bool starts_with(std::string_view head, std::string_view signature) {
     return head.substr(0, signature.size()) == signature;
+}
+
+/// A zip archive whose first file is called `one` or ends like it, or `other`.
+bool is_zip_of(std::string_view head, std::string_view one, std::string_view other) {
+    constexpr std::size_t kNameAt = 30; // of the first local header
+    constexpr std::size_t kLengthAt = 26;
+    if (!starts_with(head, "PK\x03\x04") || head.size() < kNameAt) {
+        return false;
+    }
+    const auto length = static_cast<unsigned char>(head[kLengthAt]);
+    const std::string_view name = head.substr(kNameAt, length);
+    const auto ends_with = [name](std::string_view end) {
+        return name.size() >= end.size() && name.substr(name.size() - end.size()) == end;
+    };
+    return ends_with(one) || ends_with(other);
 }
 
 std::string extension_of(const std::string& path) {
@@ -78,6 +96,15 @@ const std::vector<SceneFormat>& scene_formats() {
          },
          read_spz},
         {"glTF", {".glb", ".gltf"}, is_gltf, read_gltf, read_gltf_cameras, gltf_external_files},
+        {"SOG",
+         {".sog"},
+         [](std::string_view head) { return is_zip_of(head, ".webp", "meta.json"); },
+         read_sog},
+        {"NPZ",
+         {".npz"},
+         [](std::string_view head) { return is_zip_of(head, ".npy", ".npy"); },
+         read_npz,
+         read_npz_cameras},
         {".splat", {".splat"}, [](std::string_view) { return false; }, read_splat_file},
     };
     return formats;

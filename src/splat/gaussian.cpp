@@ -7,11 +7,12 @@
 #include <cstring>
 
 #include "config/grouped_number.hpp"
+#include "splat/frame/parallel.hpp"
 
 namespace degs {
 namespace {
 
-enum class Defect { None, NonFinite, ZeroRotation, BadScale, BadOpacity };
+enum class Defect : std::uint8_t { None, NonFinite, ZeroRotation, BadScale, BadOpacity };
 
 /// By exponent bits, because a branch-free loop over 48 coefficients vectorises.
 bool all_finite(const float* values, std::size_t count) {
@@ -85,21 +86,30 @@ void truncate(GaussianCloud& cloud, std::size_t size) {
 } // namespace
 
 SanitizeReport sanitize(GaussianCloud& cloud) {
+    std::vector<Defect> defects(cloud.size());
+    parallel_ranges(cloud.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            defects[i] = find_defect(cloud, i);
+            if (defects[i] == Defect::None) {
+                cloud.rotations[i] = unit_rotation(cloud.rotations[i]);
+            }
+        }
+    });
     SanitizeReport report;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-        const Defect defect = find_defect(cloud, i);
-        if (defect != Defect::None) {
-            count(defect, report);
+        if (defects[i] != Defect::None) {
+            count(defects[i], report);
             continue;
         }
         if (kept != i) {
             move_gaussian(cloud, i, kept);
         }
-        cloud.rotations[kept] = unit_rotation(cloud.rotations[kept]);
         ++kept;
     }
-    truncate(cloud, kept);
+    if (kept < cloud.size()) {
+        truncate(cloud, kept);
+    }
     return report;
 }
 

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/npz/npz_cameras.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/input_file.hpp"
+#include "scene/npz/npy_array.hpp"
+
+namespace degs {
+namespace {
+
+constexpr std::uint64_t kMaxCameraBytes = 1 << 26; ///< of one array
+constexpr double kMaxCameraSide = 65536;           ///< px
+
+NpyArray camera_array(const ZipArchive& archive, const std::string& name) {
+    return parse_npy(archive.path(), name, archive.read(name + ".npy", kMaxCameraBytes));
+}
+
+NpyArray square_matrices(const ZipArchive& archive, const std::string& name, std::uint64_t side) {
+    NpyArray array = camera_array(archive, name);
+    if (array.shape.size() != 3 || array.shape[1] != side || array.shape[2] != side) {
+        const std::string n = std::to_string(side);
+        fail_file(archive.path(), "its array '" + name + "' has the shape " + array.shape_words() +
+                                      ", but (C, " + n + ", " + n + ") is needed.");
+    }
+    return array;
+}
+
+/// The same for all cameras, or one for each.
+int side_of(const ZipArchive& archive, const NpyArray& array, const std::string& name,
+            std::uint64_t camera) {
+    const double side = array.size() == 0 ? 0 : array.at(array.size() > camera ? camera : 0);
+    if (!(side >= 1 && side <= kMaxCameraSide) || side != std::floor(side)) {
+        fail_file(archive.path(),
+                  "its array '" + name + "' must hold whole numbers from 1 to 65536.");
+    }
+    return static_cast<int>(side);
+}
+
+void place(const ZipArchive& archive, const NpyArray& viewmats, std::uint64_t index,
+           Camera& camera) {
+    glm::dmat3 world_to_camera(1.0);
+    glm::dvec3 shift(0.0);
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            world_to_camera[column][row] = viewmats.at(16 * index + 4 * row + column);
+        }
+        shift[row] = viewmats.at(16 * index + 4 * row + 3);
+    }
+    const glm::dmat3 product = world_to_camera * glm::transpose(world_to_camera);
+    double worst = 0;
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            const double off = std::abs(product[column][row] - (row == column ? 1 : 0));
+            worst = off <= worst ? worst : off; // NaN stays
+        }
+    }
+    constexpr double kTolerance = 1e-3;
+    if (!(worst <= kTolerance) || !std::isfinite(glm::dot(shift, shift))) {
+        fail_file(archive.path(), "matrix " + std::to_string(index) +
+                                      " of its array 'viewmats' is no rotation and translation.");
+    }
+    camera.camera_to_world = glm::transpose(world_to_camera);
+    camera.position = -(camera.camera_to_world * shift);
+}
+
+} // namespace
+
+std::vector<Camera> read_npz_cameras(const ZipArchive& archive, std::vector<std::string>& notes) {
+    std::vector<Camera> cameras;
+    if (!archive.has("viewmats.npy")) {
+        return cameras;
+    }
+    const NpyArray viewmats = square_matrices(archive, "viewmats", 4);
+    const NpyArray intrinsics = square_matrices(archive, "Ks", 3);
+    const NpyArray width = camera_array(archive, "width"), height = camera_array(archive, "height");
+    if (intrinsics.shape[0] != viewmats.shape[0]) {
+        fail_file(archive.path(), "it has " + std::to_string(viewmats.shape[0]) +
+                                      " matrices 'viewmats', but " +
+                                      std::to_string(intrinsics.shape[0]) + " 'Ks'.");
+    }
+    double worst = 0;
+    for (std::uint64_t i = 0; i < viewmats.shape[0]; ++i) {
+        Camera camera;
+        camera.id = static_cast<int>(i);
+        camera.name = "view " + std::to_string(i);
+        camera.width = side_of(archive, width, "width", i);
+        camera.height = side_of(archive, height, "height", i);
+        camera.fx = intrinsics.at(9 * i);
+        camera.fy = intrinsics.at(9 * i + 4);
+        if (!(camera.fx > 0 && camera.fy > 0 && std::isfinite(camera.fx + camera.fy))) {
+            fail_file(archive.path(), "matrix " + std::to_string(i) +
+                                          " of its array 'Ks' has no positive focal lengths.");
+        }
+        worst = std::max({worst, std::abs(intrinsics.at(9 * i + 2) - camera.width / 2.0),
+                          std::abs(intrinsics.at(9 * i + 5) - camera.height / 2.0)});
+        place(archive, viewmats, i, camera);
+        cameras.push_back(std::move(camera));
+    }
+    if (worst > 0.5) {
+        notes.push_back("Principal points lie up to " + std::to_string(worst) +
+                        " pixels from the centre of the image, where they were put.");
+    }
+    return cameras;
+}
+
+std::vector<Camera> read_npz_cameras(const std::string& path) {
+    std::vector<std::string> notes;
+    return read_npz_cameras(ZipArchive(path), notes);
+}
+
+} // namespace degs
