@@ -15,7 +15,8 @@ Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const 
            RenderJob& job, const BuildOptions& options)
     : RenderEngine(name), config_(config), time_(time), job_(job), options_(options) {
     if (draws_ahead()) {
-        drawing_ = std::make_unique<TileDrawing>(job_, !config_.span.parsing);
+        drawing_ = make_tile_drawing(
+            job_, {!config_.span.parsing, config_.slicing.rows, config_.slicing.modules()});
     }
     build_front_end();
     build_fetchers();

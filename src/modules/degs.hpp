@@ -13,7 +13,7 @@
 #include "modules/front_end/tile_grants.hpp"
 #include "modules/memory_streams.hpp"
 #include "modules/span_engine/parameter_release.hpp"
-#include "modules/tile_drawing.hpp"
+#include "modules/drawing/tile_drawing.hpp"
 
 namespace degs {
 

@@ -209,8 +209,11 @@ const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y
     const int pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
     pixels_.resize(tile.width);
     bytes_.resize(pixels_.size() * pixel_bytes);
-    const int context = drawing_ != nullptr ? drawing_->canvas(number) : context_of(number);
-    job_.path->read_row(context, y, tile.width, pixels_.data());
+    if (drawing_ != nullptr) {
+        drawing_->read_row(number, y, tile.width, pixels_.data());
+    } else {
+        job_.path->read_row(context_of(number), y, tile.width, pixels_.data());
+    }
     unsigned char* out = bytes_.data();
     std::size_t i = image.at(tile.x, tile.y + y);
     for (const PixelValue& pixel : pixels_) {

@@ -7,8 +7,8 @@
 
 #include "config/config.hpp"
 #include "config/statistics.hpp"
+#include "modules/drawing/tile_drawing.hpp"
 #include "modules/render_job.hpp"
-#include "modules/tile_drawing.hpp"
 #include "modules/traffic.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"

@@ -268,14 +268,11 @@ void GaussianSlicingUnit::see_ended_regions(TileNumber number) {
 
 // The host's memory then answers for all splats of the chunk at once.
 void GaussianSlicingUnit::expect_splats() const {
-    for (std::uint32_t i = 0; i < chunk_.count; ++i) {
-        job_.path->expect(splat_of(i));
+    if (drawing_ != nullptr) {
+        drawing_->expect(chunk_);
+    } else {
+        expect_listed(job_, chunk_);
     }
-}
-
-std::uint32_t GaussianSlicingUnit::splat_of(std::uint32_t place) const {
-    const JobTile& tile = job_.tiles[chunk_.tile];
-    return job_.first_splat[tile.frame] + job_.frame_of(tile).tile_splats[chunk_.first + place];
 }
 
 // The segments of a row that the splat's box covers inside the tile.
@@ -292,23 +289,23 @@ std::uint64_t GaussianSlicingUnit::segments_below(const JobTile& tile, std::uint
 
 void GaussianSlicingUnit::begin(TileNumber number, Slice& slice) {
     const JobTile& tile = job_.tiles[number];
-    slice.splat = splat_of(dealt_++);
+    const auto place = static_cast<std::uint32_t>(chunk_.first + dealt_ - tile.first);
+    ++dealt_;
+    slice.splat = listed_splat(job_, tile, place);
     slice.chunk = open_chunks_.latest();
-    const PixelRange met =
-        config_.rows == SlicedRows::Tile
-            ? job_.path->rows_in_columns(slice.splat, tile.x, tile.x + tile.width)
-            : job_.path->rows(slice.splat);
-    const PixelRange rows = met.within(tile.rows()).relative_to(tile.y);
+    const PixelRange rows = drawing_ != nullptr
+                                ? drawing_->rows(number, place)
+                                : sliced_rows(job_, tile, slice.splat, config_.rows);
     // The first one of ours.
     slice.row = rows.first + (index_ - rows.first % modules_ + modules_) % modules_;
     slice.last = rows.last;
     slice.below = config_.skip_dead_rows ? segments_below(tile, slice.splat) : ~std::uint64_t{0};
     stats_.splats++;
-    draw(number, slice);
+    draw(number, place, slice);
 }
 
 // Splats begin in depth order, whatever unit of the module they are in.
-void GaussianSlicingUnit::draw(TileNumber number, Slice& slice) {
+void GaussianSlicingUnit::draw(TileNumber number, std::uint32_t place, Slice& slice) {
     if (free_sheets_.empty()) {
         free_sheets_.push_back(sheets_.size());
         sheets_.emplace_back(drawing_ == nullptr ? 0 : job_.tile_size);
@@ -316,8 +313,8 @@ void GaussianSlicingUnit::draw(TileNumber number, Slice& slice) {
     slice.sheet = free_sheets_.back();
     free_sheets_.pop_back();
     slice.drawn = sheets_[slice.sheet].data();
-    if (drawing_ != nullptr && !slice.done()) {
-        drawing_->draw(number, slice.splat, {slice.row, slice.last}, modules_,
+    if (drawing_ != nullptr) {
+        drawing_->take(number, place, {slice.row, slice.last}, modules_,
                        sheets_[slice.sheet].data());
     }
 }

@@ -7,17 +7,13 @@
 
 #include "config/config.hpp"
 #include "config/statistics.hpp"
+#include "modules/drawing/tile_drawing.hpp"
 #include "modules/render_job.hpp"
 #include "modules/span_engine/open_chunks.hpp"
 #include "modules/sram_ports.hpp"
-#include "modules/tile_drawing.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
-
-/// The scanlines into which a splat is cut: all that its ellipse meets, or those that it meets
-/// inside the tile's columns.
-enum class SlicedRows { Splat, Tile };
 
 /// What the units share. `Broadcast`: every unit sees every splat, spends a cycle on it at least and
 /// takes the rows whose index is its own modulo the number of units. `BroadcastSkip`: the same, but
@@ -126,11 +122,10 @@ private:
     void work(TileNumber number);
     bool cancelled(TileNumber number);
     [[gnu::noinline]] void see_ended_regions(TileNumber number);
-    [[gnu::noinline]] void expect_splats() const;
-    std::uint32_t splat_of(std::uint32_t place) const;
+    void expect_splats() const;
     bool add_slice(TileNumber number);
     void begin(TileNumber number, Slice& slice);
-    void draw(TileNumber number, Slice& slice);
+    void draw(TileNumber number, std::uint32_t place, Slice& slice);
     [[gnu::noinline]] std::uint64_t segments_below(const JobTile& tile, std::uint32_t splat) const;
     void send_rows(TileNumber number, Slice& slice, int before);
     bool takes_row_port(std::size_t lane);
