@@ -19,7 +19,8 @@ BEGIN, END = "<!-- benchmarks -->", "<!-- end of benchmarks -->"
 MOST_BYTES = 6 << 30
 SILENT_S = 8  # the program shows the progress of a step that takes more than two seconds
 # Counters that are shown beside ratio and limit, and what they mean.
-DETAILS = {"ns/fragment": "{:.1f} ns per fragment", "M requests/s": "{:.2f} M requests/s",
+DETAILS = {"ns/fragment": "{:.1f} ns per fragment", "both processors": "{:.3g} with the drawing's processor",
+           "M requests/s": "{:.2f} M requests/s",
            "M lines/s": "{:.0f} M lines/s copied", "first s": "{:.2f} s", "second s": "{:.3f} s the second time"}
 
 

@@ -6,7 +6,6 @@
 
 #include "config/ratio.hpp"
 #include "modules/accelerator_energy.hpp"
-#include "sim/stopwatch.hpp"
 
 namespace degs::sim {
 namespace {
@@ -77,9 +76,9 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     result.elaborate_s = elaborate.seconds();
 
     result.sim_start = std::chrono::steady_clock::now();
-    const CpuStopwatch run;
+    const SimulationClock run;
     run_kernel(*engine, time.clock, job.tiles.size(), progress);
-    result.sim_s = run.seconds();
+    run.stop(result);
     result.activations = activations;
 
     result.name = config.name;
@@ -89,6 +88,7 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
     result.tiles_listed = job.tiles.size();
     result.stopped = time.clock.ceil(sc_core::sc_time_stamp());
     engine->collect(result);
+    result.sim_s += result.waited_s;
     result.energy = energy_of(config, result, pixels_of(frames));
     if (job.recorder != nullptr) {
         collect_recording(result, job, timeline ? &*timeline : nullptr);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "modules/render_engine.hpp"
+#include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
 
 namespace degs::sim {
@@ -22,6 +24,20 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
                                   const std::vector<const FrameWorkload*>& frames,
                                   Fidelity fidelity, const BuildOptions& options,
                                   const Recording& recording, Progress& progress);
+
+/// Measures a simulation from its construction on.
+class SimulationClock {
+public:
+    /// Sets sim_s, without the waits for the drawing, and drawing_s.
+    void stop(AcceleratorResult& result) const {
+        result.sim_s = own_.seconds();
+        result.drawing_s = std::max(0.0, all_.seconds() - result.sim_s);
+    }
+
+private:
+    CpuStopwatch all_;
+    CpuStopwatch own_ = CpuStopwatch::of_this_thread();
+};
 
 /// Throws std::logic_error unless all tiles are done (else the model is deadlocked), every
 /// invariant holds and the slots fill PEs x window.

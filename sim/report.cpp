@@ -85,9 +85,12 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
            "From the start of the command to that of the simulation proper: scene, frames, model, "
            "and the "
            "reference image where it is rendered before.");
-    v.real("sim_s", host.sim_s, "s", "The simulation proper, on one processor.");
+    v.real("sim_s", host.sim_s, "s",
+           "The simulation proper: its processor's time, and its waits for the thread that draws.");
+    v.real("drawing_s", host.drawing_s, "s",
+           "What other threads computed meanwhile, on another processor if there is one: drawing.");
     v.real("run_s", host.run_s, "s",
-           "Everything between the projected frames and their results, on one processor: the "
+           "Everything between the projected frames and their results, of all threads: the "
            "expected work of the tiles, building, simulation, and a sample that came to nothing.");
     v.real("render_s", host.render_s, "s",
            "The reference image, on one processor; null with --no-reference.");

@@ -161,6 +161,7 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
     result.host.fidelity = sampled ? "sampled" : name_of(request.fidelity);
     result.host.elaborate_s = result.accelerator.elaborate_s;
     result.host.sim_s = result.accelerator.sim_s;
+    result.host.drawing_s = result.accelerator.drawing_s;
     result.host.activations = result.accelerator.activations;
     result.host.run_s = lost_s + clock.seconds();
     result.host.peak_rss_bytes = peak_rss_bytes();

@@ -18,6 +18,7 @@
 
 #include "sim/process/interruption.hpp"
 #include "sim/process/stopping_signals.hpp"
+#include "splat/frame/parallel.hpp"
 
 namespace degs::sim {
 namespace {
@@ -57,7 +58,7 @@ std::string message_of(const ChildJob& job) {
 /// A forked child and the end of the pipe from which its message comes. Killed when destroyed.
 class ChildPool::Child {
 public:
-    Child(std::size_t index, const ChildJob& job, const StoppingSignals& signals);
+    Child(std::size_t index, const ChildJob& job, int threads, const StoppingSignals& signals);
     ~Child();
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
@@ -70,7 +71,7 @@ public:
     ChildOutcome outcome();
 
 private:
-    [[noreturn]] static void run(const ChildJob& job, int write_end, pid_t parent,
+    [[noreturn]] static void run(const ChildJob& job, int threads, int write_end, pid_t parent,
                                  const StoppingSignals& signals);
     ChildOutcome failed(const std::string& sentence) const {
         return {{}, child_failure(kInternalError, name_, sentence)};
@@ -83,7 +84,8 @@ private:
     std::string message_;
 };
 
-ChildPool::Child::Child(std::size_t index, const ChildJob& job, const StoppingSignals& signals)
+ChildPool::Child::Child(std::size_t index, const ChildJob& job, int threads,
+                        const StoppingSignals& signals)
     : index_(index), name_(job.name) {
     std::array<int, 2> ends{-1, -1};
     const pid_t parent = ::getpid();
@@ -103,7 +105,7 @@ ChildPool::Child::Child(std::size_t index, const ChildJob& job, const StoppingSi
     }
     if (pid_ == 0) {
         ::close(ends[0]);
-        run(job, ends[1], parent, signals);
+        run(job, threads, ends[1], parent, signals);
     }
     ::close(ends[1]);
     read_end_ = ends[0];
@@ -120,8 +122,9 @@ ChildPool::Child::~Child() {
     }
 }
 
-void ChildPool::Child::run(const ChildJob& job, int write_end, pid_t parent,
+void ChildPool::Child::run(const ChildJob& job, int threads, int write_end, pid_t parent,
                            const StoppingSignals& signals) {
+    limit_host_threads(threads);
     keep_interruption_quiet();
     signals.restore();
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -183,7 +186,9 @@ bool ChildPool::start(const ChildJob& job) {
     }
     const std::size_t index = started_++;
     try {
-        running_.push_back(std::make_unique<Child>(index, job, signals));
+        // Processes that run beside each other share the processors.
+        const int threads = host_threads() / static_cast<int>(at_once_);
+        running_.push_back(std::make_unique<Child>(index, job, threads, signals));
     } catch (const FailureError& error) {
         ++ended_;
         watcher_.ended(index, {{}, error.failure()});

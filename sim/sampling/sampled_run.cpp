@@ -313,9 +313,10 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     const double elaborate_s = elaborate.seconds();
 
     const auto sim_start = std::chrono::steady_clock::now();
-    const CpuStopwatch clock;
+    const SimulationClock clock;
     sampler.begin();
     Verdict verdict = Verdict::More;
+    double waited_s = 0;
     while (verdict == Verdict::More) {
         sampler.simulate_group();
         progress.done(std::min(1.0, ratio_of(sampler.measured(), work.size()) / kMostShare));
@@ -326,6 +327,7 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     } else {
         const AcceleratorResult raw = sampler.end();
         check_result(raw);
+        waited_s = raw.waited_s;
         sampled.result = estimate.whole_frame(facts.tiles);
         facts.reached = estimate.relative_half_width(request.measure);
         facts.intervals = estimate.intervals();
@@ -335,7 +337,8 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     facts.simulated = run.simulated();
     facts.groups = sampler.groups();
     sampled.result.elaborate_s = elaborate_s;
-    sampled.result.sim_s = clock.seconds();
+    clock.stop(sampled.result);
+    sampled.result.sim_s += waited_s;
     sampled.result.activations = activations;
     sampled.result.sim_start = sim_start;
     return sampled;

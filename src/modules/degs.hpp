@@ -8,12 +8,12 @@
 
 #include "modules/collect.hpp"
 #include "modules/degs_config.hpp"
+#include "modules/drawing/tile_drawing.hpp"
 #include "modules/front_end/frame_ends.hpp"
 #include "modules/front_end/tile_front_end.hpp"
 #include "modules/front_end/tile_grants.hpp"
 #include "modules/memory_streams.hpp"
 #include "modules/span_engine/parameter_release.hpp"
-#include "modules/drawing/tile_drawing.hpp"
 
 namespace degs {
 

@@ -92,6 +92,7 @@ void Degs::collect_laws(AcceleratorResult& result) const {
     const std::uint64_t dropped = sum_of(banks_, &B::tasks_dropped);
     const std::uint64_t packed = sum_of(packing_, &PackingUnit::Stats::tasks);
     const SlotAccount& s = result.slots;
+    result.waited_s = drawing_ ? drawing_->waited_s() : 0;
     if (drawing_ && drawing_->fragments() != s.useful) {
         throw std::logic_error("the model is broken, pixels drawn = useful tasks executed: " +
                                std::to_string(drawing_->fragments()) + " is not " +

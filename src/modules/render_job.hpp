@@ -71,8 +71,9 @@ struct RenderJob {
     std::vector<MemoryBases> bases;
     /// Set if slots are recorded with their dates and tiles.
     std::unique_ptr<SlotRecorder> recorder;
-    /// Set while more frames may join; notified when one has.
+    /// Set while more frames, or tiles of them, may join; notified when one has.
     std::unique_ptr<sc_core::sc_event> joined;
+    bool frames_join = false; ///< not tiles of the frames alone
 
     std::uint64_t pairs_before(std::uint32_t frame, std::uint32_t visible_rank) const {
         return pair_prefix[frame][visible_rank];

@@ -64,6 +64,7 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
     job_.record_order = config_->record_order();
     job_.path = make_data_path(config_->data_path(), job_.tile_size, config_->tile_contexts());
     job_.joined = std::make_unique<sc_core::sc_event>();
+    job_.frames_join = true;
     if (options.timeline != nullptr) {
         job_.recorder = std::make_unique<SlotRecorder>(options.timeline);
     }

@@ -2,6 +2,7 @@
 #include "modules/drawing/drawing_thread.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 namespace degs {
 namespace {
@@ -25,8 +26,10 @@ std::uint64_t demand_for(TileNumber number, std::uint32_t sheet) {
 } // namespace
 
 DrawingThread::DrawingThread(RenderJob& job, const DrawingOptions& options)
-    : job_(job), options_(options), canvases_(job, options.tests), tiles_(job.tiles.size()),
-      passed_(job.tiles.size()), thread_([this] { run(); }) {}
+    : job_(job), options_(options), canvases_(job, options.tests) {
+    hand_over_joined();
+    thread_ = std::thread([this] { run(); });
+}
 
 DrawingThread::~DrawingThread() {
     {
@@ -39,7 +42,18 @@ DrawingThread::~DrawingThread() {
 
 // The simulation's side: it reads what is published, and says what it has taken and what it waits for.
 
+void DrawingThread::hand_over_joined() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    while (slots_.size() < job_.tiles.size()) {
+        joined_.push_back(&slots_.emplace_back(job_.tiles[slots_.size()]));
+    }
+    wanted_.notify_one();
+}
+
 PixelRange DrawingThread::rows(TileNumber number, std::uint32_t place) {
+    if (number >= slots_.size()) {
+        hand_over_joined();
+    }
     return sheet(number, place).splats[place % kSplats].rows;
 }
 
@@ -52,7 +66,7 @@ void DrawingThread::take(TileNumber number, std::uint32_t place, const PixelRang
         count(*drawn);
     }
     if (--from.takes == 0) {
-        tiles_[number].load()->sheets[place / kSplats] = nullptr;
+        tile(number)->sheets[place / kSplats] = nullptr;
         const std::lock_guard<std::mutex> lock(mutex_);
         taken_sheets_.push_back(&from);
         wake_if_useful();
@@ -61,16 +75,15 @@ void DrawingThread::take(TileNumber number, std::uint32_t place, const PixelRang
 
 void DrawingThread::read_row(TileNumber number, int row, int count, PixelValue* pixels) {
     await(number, kWholeTile, [this, number] {
-        const Tile* tile = tiles_[number].load();
-        return tile != nullptr && tile->final.load();
+        const Tile* drawn = tile(number);
+        return drawn != nullptr && drawn->final.load();
     });
-    const Tile& tile = *tiles_[number].load();
-    std::copy_n(tile.pixels.begin() + std::ptrdiff_t{row} * tile.job->width, count, pixels);
+    const Tile& drawn = *tile(number);
+    std::copy_n(drawn.pixels.begin() + std::ptrdiff_t{row} * drawn.job.width, count, pixels);
 }
 
 void DrawingThread::clear_row(TileNumber number, int /*row*/) {
-    Tile* tile = tiles_[number].load();
-    if (++tile->cleared == job_.tile_size) {
+    if (++tile(number)->cleared == job_.tile_size) {
         const std::lock_guard<std::mutex> lock(mutex_);
         cleared_tiles_.push_back(number);
         wake_if_useful();
@@ -80,10 +93,10 @@ void DrawingThread::clear_row(TileNumber number, int /*row*/) {
 DrawingThread::Sheet& DrawingThread::sheet(TileNumber number, std::uint32_t place) {
     const std::uint32_t index = place / kSplats;
     await(number, index, [this, number, index] {
-        const Tile* tile = tiles_[number].load();
-        return tile != nullptr && tile->ready.load() > index;
+        const Tile* drawn = tile(number);
+        return drawn != nullptr && drawn->ready.load() > index;
     });
-    return *tiles_[number].load()->sheets[index];
+    return *tile(number)->sheets[index];
 }
 
 // A demand is taken back when it is met, because the tile may then be closed at any time.
@@ -101,10 +114,13 @@ void DrawingThread::await(TileNumber number, std::uint32_t sheet, const Ready& r
         relax();
     }
     if (!ready()) {
+        const auto since = std::chrono::steady_clock::now();
         std::unique_lock<std::mutex> lock(mutex_);
         simulation_sleeps_ = true;
         published_.wait(lock, [&] { return failure_ != nullptr || ready(); });
         simulation_sleeps_ = false;
+        waited_s_ +=
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
         if (failure_ != nullptr) {
             std::rethrow_exception(failure_);
         }
@@ -142,6 +158,8 @@ bool DrawingThread::receive() {
         const std::lock_guard<std::mutex> lock(mutex_);
         received_sheets_.swap(taken_sheets_);
         received_tiles_.swap(cleared_tiles_);
+        known_.insert(known_.end(), joined_.begin(), joined_.end());
+        joined_.clear();
         if (stop_) {
             return false;
         }
@@ -163,7 +181,11 @@ bool DrawingThread::serve_demand() {
     if (demand == kNoDemand) {
         return false;
     }
-    Tile& tile = open(static_cast<TileNumber>(demand >> 32U));
+    const auto number = static_cast<TileNumber>(demand >> 32U);
+    if (number >= known_.size()) {
+        return true; // it has joined since receive()
+    }
+    Tile& tile = open(number);
     const auto sheet = static_cast<std::uint32_t>(demand);
     const bool met = sheet == kWholeTile ? tile.final.load() : tile.ready.load() > sheet;
     if (!met) {
@@ -176,8 +198,8 @@ bool DrawingThread::draw_ahead() {
     if (bytes_ >= kMostBytes || open_tiles_ >= kMostTiles) {
         return false;
     }
-    for (; next_ < tiles_.size(); ++next_) {
-        if (passed_[next_]) {
+    for (; next_ < known_.size(); ++next_) {
+        if (known_[next_]->passed) {
             continue;
         }
         Tile& tile = open(next_);
@@ -194,13 +216,14 @@ void DrawingThread::rest() {
     thread_sleeps_ = true;
     wanted_.wait(lock, [this] {
         return stop_ || demand_ != kNoDemand || taken_sheets_.size() >= kWakingSheets ||
-               cleared_tiles_.size() >= kWakingTiles;
+               cleared_tiles_.size() >= kWakingTiles || !joined_.empty();
     });
     thread_sleeps_ = false;
 }
 
 DrawingThread::Tile& DrawingThread::open(TileNumber number) {
-    if (Tile* tile = tiles_[number].load()) {
+    Slot& slot = *known_[number];
+    if (Tile* tile = slot.open.load()) {
         return *tile;
     }
     if (free_tiles_.empty()) {
@@ -208,22 +231,23 @@ DrawingThread::Tile& DrawingThread::open(TileNumber number) {
     }
     Tile& tile = *free_tiles_.back();
     free_tiles_.pop_back();
-    tile.job = &job_.tiles[number];
+    tile.job = slot.job;
     tile.canvas = canvases_.open();
-    tile.live = std::int64_t{1} * tile.job->width * tile.job->height;
+    tile.live = std::int64_t{1} * tile.job.width * tile.job.height;
     tile.sheets_after_end = 0;
-    tile.sheets.assign((tile.job->count + kSplats - 1) / kSplats, nullptr);
+    tile.sheets.assign((tile.job.count + kSplats - 1) / kSplats, nullptr);
     tile.ready = 0;
     tile.final = false;
     tile.cleared = 0;
     ++open_tiles_;
-    publish(tiles_[number], &tile);
+    publish(slot.open, &tile);
     return tile;
 }
 
 void DrawingThread::close(TileNumber number) {
-    Tile& tile = *tiles_[number].exchange(nullptr);
-    passed_[number] = true;
+    Slot& slot = *known_[number];
+    Tile& tile = *slot.open.exchange(nullptr);
+    slot.passed = true;
     for (Sheet* sheet : tile.sheets) {
         if (sheet != nullptr) {
             recycle(*sheet);
@@ -243,19 +267,19 @@ void DrawingThread::draw_sheet(Tile& tile) {
     const std::uint32_t index = tile.ready;
     const std::uint32_t first = index * kSplats;
     const auto count =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(kSplats, tile.job->count - first));
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(kSplats, tile.job.count - first));
     for (std::uint32_t i = 0; i < count; ++i) {
-        job_.path->expect(listed_splat(job_, *tile.job, first + i));
+        job_.path->expect(listed_splat(job_, tile.job, first + i));
     }
     Sheet& sheet = blank_sheet();
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t splat = listed_splat(job_, *tile.job, first + i);
-        const PixelRange rows = sliced_rows(job_, *tile.job, splat, options_.rows);
+        const std::uint32_t splat = listed_splat(job_, tile.job, first + i);
+        const PixelRange rows = sliced_rows(job_, tile.job, splat, options_.rows);
         const std::size_t drawn = sheet.drawn.size();
         sheet.splats[i] = {rows, drawn};
         if (!rows.empty()) {
             sheet.drawn.resize(drawn + rows.size());
-            canvases_.draw(tile.canvas, *tile.job, splat, rows, 1, &sheet.drawn[drawn]);
+            canvases_.draw(tile.canvas, tile.job, splat, rows, 1, &sheet.drawn[drawn]);
         }
     }
     sheet.takes = count * options_.modules;
@@ -272,7 +296,7 @@ void DrawingThread::draw_sheet(Tile& tile) {
 }
 
 void DrawingThread::fix_pixels(Tile& tile) {
-    const JobTile& job = *tile.job;
+    const JobTile& job = tile.job;
     tile.pixels.resize(std::size_t{1} * job.width * job.height);
     for (int row = 0; row < job.height; ++row) {
         canvases_.read_row(tile.canvas, row, job.width,

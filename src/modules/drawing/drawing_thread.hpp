@@ -5,6 +5,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -25,7 +26,7 @@ namespace degs {
 /// which hold the rows of some neighbouring splats of a list, and the pixels of tiles that will not change.
 class DrawingThread final : public TileDrawing {
 public:
-    /// No tile may join the job any more.
+    /// Tiles may join the job, frames may not: their splats would move under the thread.
     DrawingThread(RenderJob& job, const DrawingOptions& options);
     ~DrawingThread() override;
 
@@ -34,6 +35,7 @@ public:
               DrawnRow* drawn) override;
     void read_row(TileNumber number, int row, int count, PixelValue* pixels) override;
     void clear_row(TileNumber number, int row) override;
+    double waited_s() const override { return waited_s_; }
 
 private:
     static constexpr std::uint32_t kSplats = 32; // of a sheet
@@ -55,8 +57,9 @@ private:
         std::uint32_t takes = 0; // by the simulation, that are left
         std::size_t bytes() const { return sizeof(Sheet) + drawn.size() * sizeof(DrawnRow); }
     };
+    /// A tile that is drawn.
     struct Tile {
-        const JobTile* job = nullptr;
+        JobTile job;
         int canvas = 0;
         std::int64_t live = 0;               // pixels that have not ended
         int sheets_after_end = 0;            // with the one in which the tile ended
@@ -69,7 +72,17 @@ private:
         std::size_t pixel_bytes() const { return pixels.size() * sizeof(PixelValue); }
     };
 
+    /// A tile of the job, whether it is drawn or not.
+    struct Slot {
+        explicit Slot(const JobTile& listed) : job(listed) {}
+        JobTile job;
+        std::atomic<Tile*> open{nullptr}; // nullptr: not drawn yet, or closed
+        bool passed = false;              // has been closed; for the thread alone
+    };
+
     // The simulation's side.
+    void hand_over_joined();
+    Tile* tile(TileNumber number) { return slots_[number].open.load(); }
     Sheet& sheet(TileNumber number, std::uint32_t place);
     template <class Ready>
     void await(TileNumber number, std::uint32_t sheet, const Ready& ready);
@@ -92,9 +105,11 @@ private:
 
     RenderJob& job_;
     DrawingOptions options_;
+    std::deque<Slot> slots_; // by tile; the simulation adds some
+    double waited_s_ = 0;
+
     TileCanvases canvases_;
-    std::vector<std::atomic<Tile*>> tiles_; // nullptr: not open
-    std::vector<bool> passed_;              // tiles that have been closed
+    std::vector<Slot*> known_; // by tile
     std::vector<std::unique_ptr<Tile>> all_tiles_;
     std::vector<std::unique_ptr<Sheet>> all_sheets_;
     std::vector<Tile*> free_tiles_;
@@ -110,6 +125,7 @@ private:
     std::condition_variable published_, wanted_;
     std::vector<Sheet*> taken_sheets_;
     std::vector<TileNumber> cleared_tiles_;
+    std::vector<Slot*> joined_;
     std::exception_ptr failure_;
     bool stop_ = false;
     std::thread thread_; // starts when everything else is there

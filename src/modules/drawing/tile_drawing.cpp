@@ -75,7 +75,7 @@ private:
 } // namespace
 
 std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options) {
-    if (host_threads() > 1 && job.joined == nullptr) {
+    if (host_threads() > 1 && !job.frames_join) {
         return std::make_unique<DrawingThread>(job, options);
     }
     return std::make_unique<DrawingOnDemand>(job, options);

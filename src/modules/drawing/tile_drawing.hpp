@@ -38,6 +38,8 @@ public:
     /// The row has been read out. A row may be outside of the image.
     virtual void clear_row(TileNumber number, int row) = 0;
 
+    /// Host seconds that the simulation has slept until something was drawn.
+    virtual double waited_s() const { return 0; }
     /// Pixels updated in the rows that were taken.
     std::uint64_t fragments() const { return fragments_; }
 
@@ -55,8 +57,8 @@ struct DrawingOptions {
     int modules = 1; ///< that share a tile and take rows
 };
 
-/// Draws on a thread of its own, ahead of the simulation, if the host may use another processor and no frames
-/// join the job later; otherwise each splat when it is taken. Results are the same. `job` must outlive it.
+/// Draws on a thread of its own, ahead of the simulation, if the host may use another processor and no frame
+/// joins the job later; otherwise each splat when it is taken. Results are the same. `job` must outlive it.
 std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options);
 
 } // namespace degs
