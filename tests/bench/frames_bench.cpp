@@ -16,7 +16,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 struct Times {
     double sim_s = kNever, render_s = kNever;
     double all_s = kNever; ///< of the simulation and of the thread that draws
-    double fragments = 0; ///< of the design
+    double fragments = 0;  ///< of the design
 
     void add(const nlohmann::json& report) {
         const nlohmann::json& host = report["host"];
