@@ -59,9 +59,6 @@ std::string cell_of(const HardResult& result, const std::string& set) {
 }
 
 std::string verdict_of(const HardResult& result) {
-    if (!result.hard->not_applicable.empty()) {
-        return "not applicable yet: " + result.hard->not_applicable;
-    }
     return result.failures().empty() ? "yes" : "no";
 }
 
@@ -137,12 +134,7 @@ nlohmann::ordered_json hard_case_json(const std::vector<HardResult>& results) {
         json["case"] = result.hard->id;
         json["what"] = result.hard->what;
         json["expectation"] = result.hard->expectation;
-        json["holds"] = result.hard->not_applicable.empty()
-                            ? nlohmann::ordered_json(result.failures().empty())
-                            : nullptr;
-        json["not_applicable"] = result.hard->not_applicable.empty()
-                                     ? nullptr
-                                     : nlohmann::ordered_json(result.hard->not_applicable);
+        json["holds"] = result.failures().empty();
         json["problems"] = result.problems;
         json["notes"] = result.notes;
         json["measures"] = nlohmann::ordered_json::array();

@@ -68,22 +68,31 @@ std::vector<HardScene> make_threshold_case(int width, int height);    // H12
 std::vector<HardScene> make_saturating_case(int width, int height);   // H13
 std::vector<HardScene> make_equal_depth_case(int width, int height);  // H14
 std::vector<HardScene> make_depth_range_case(int width, int height);  // H15
+std::vector<HardScene> make_order_case(int width, int height);        // H16
 std::vector<HardScene> make_subpixel_case(int width, int height);     // H17
+std::vector<HardScene> make_antialiased_case(int width, int height);  // H18
 std::vector<HardScene> make_corner_case(int width, int height);       // H19
 std::vector<HardScene> make_image_size_case(int width, int height);   // H20
 std::vector<HardScene> make_empty_case(int width, int height);        // H21
 std::vector<HardScene> make_colour_case(int width, int height);       // H22
 std::vector<HardScene> make_offset_case(int width, int height);       // H23
 std::vector<HardScene> make_fp16_range_case(int width, int height);   // H24
+std::vector<HardScene> make_transform_case(int width, int height);    // H25
 std::vector<HardScene> make_two_meshes_case(int width, int height);   // H26
+std::vector<HardScene> make_quantised_case(int width, int height);    // H27
 std::vector<HardScene> make_long_tail_case(int width, int height);    // H30
 std::vector<HardScene> make_one_pixel_case(int width, int height);    // H31
 std::vector<HardScene> make_row_case(int width, int height);          // H32
 
-std::string check_far_mean(const HardScene& scene, const FrameWorkload& workload);   // H6
-std::string check_giants(const HardScene& scene, const FrameWorkload& workload);     // H7
-std::string check_quaternion(const HardScene& scene, const FrameWorkload& workload); // H9
-std::string check_offset(const HardScene& scene, const FrameWorkload& workload);     // H23
-std::string refuse_broken_files(const std::string& folder);                          // H28
+std::string check_far_mean(const HardScene& scene, const FrameWorkload& workload);    // H6
+std::string check_giants(const HardScene& scene, const FrameWorkload& workload);      // H7
+std::string check_quaternion(const HardScene& scene, const FrameWorkload& workload);  // H9
+std::string check_order_case(const HardScene& scene, const FrameWorkload& workload);  // H16
+std::string check_antialiased(const HardScene& scene, const FrameWorkload& workload); // H18
+std::string check_offset(const HardScene& scene, const FrameWorkload& workload);      // H23
+std::string check_quantised(const HardScene& scene, const FrameWorkload& workload);   // H27
+std::string refuse_node_transforms(const std::string& folder);                        // H25
+std::string refuse_broken_files(const std::string& folder);                           // H28
+std::string refuse_broken_glb(const std::string& folder);                             // H29
 
 } // namespace degs

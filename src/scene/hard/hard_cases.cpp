@@ -20,14 +20,6 @@ HardCase drawn(const char* id, const char* what, const char* expectation,
     return out;
 }
 
-HardCase absent(const char* id, const char* what, const char* reason) {
-    HardCase out;
-    out.id = id;
-    out.what = what;
-    out.not_applicable = reason;
-    return out;
-}
-
 HardCase needles() {
     HardCase out =
         drawn("H1", "needles up to 10 000 px long, aspect 100 to 10^5, six angles",
@@ -36,12 +28,21 @@ HardCase needles() {
     return out;
 }
 
-HardCase broken_files_case() {
+HardCase refused(const char* id, const char* what, std::string (*refuse)(const std::string&)) {
     HardCase out;
-    out.id = "H28";
-    out.what = "truncated PLY, wrong count, missing properties, plain points, colours alone";
+    out.id = id;
+    out.what = what;
     out.expectation = "a sentence that names the file";
-    out.refuse = refuse_broken_files;
+    out.refuse = refuse;
+    return out;
+}
+
+HardCase node_transforms() {
+    HardCase out =
+        drawn("H25", "glTF nodes that turn, scale unevenly, mirror, shear and flatten",
+              "M Sigma M^T, colours of the local frame, same pixels; the last three refused",
+              make_transform_case);
+    out.refuse = refuse_node_transforms;
     return out;
 }
 
@@ -76,9 +77,12 @@ std::vector<HardCase> make_cases() {
               "order of depth, then of index", make_equal_depth_case),
         drawn("H15", "depths from 0.21 to 10^7", "order of depth; same pixels",
               make_depth_range_case),
-        absent("H16", "order by distance instead of z", "no key: the order is that of z"),
+        drawn("H16", "a wide view, turned in place, in the order of z and in that of distance",
+              "the order of the rule; same pixels", make_order_case, check_order_case),
         drawn("H17", "10^6 splats of 0.001 to 0.1 px", kPixels, make_subpixel_case),
-        absent("H18", "files trained with anti-aliasing", "no SPZ or glTF input that says so"),
+        drawn("H18", "splats of 0.05 to 17 px of SPZ files, trained with anti-aliasing or not",
+              "the file decides; compensated splats keep their weight; same pixels",
+              make_antialiased_case, check_antialiased),
         drawn("H19", "centres on tile corners, ellipses through pixels", kPixels, make_corner_case),
         drawn("H20", "images of 1 x 1, 1 x N, N x 1 and odd sizes", kPixels, make_image_size_case),
         drawn("H21", "no Gaussian, none visible, one, all in one tile",
@@ -89,11 +93,16 @@ std::vector<HardCase> make_cases() {
               check_offset),
         drawn("H24", "sigma of 100 to 4096 px, pixels 255 px and more from the mean", kPixels,
               make_fp16_range_case),
-        absent("H25", "node transforms", "no glTF input"),
+        node_transforms(),
         drawn("H26", "two meshes interleaved in depth", "one order for both", make_two_meshes_case),
-        absent("H27", "quantised inputs", "no SPZ input"),
-        broken_files_case(),
-        absent("H29", "malformed GLB", "no glTF input"),
+        drawn("H27", "positions to the ends of SPZ, opacity bytes 0 and 255, rotations of bytes",
+              "half a step, 0 and 1 exactly, length 1; same pixels", make_quantised_case,
+              check_quantised),
+        refused("H28",
+                "truncated PLY, wrong count, missing properties, plain points, colours alone",
+                refuse_broken_files),
+        refused("H29", "GLB files whose indices, counts, types and chunks are wrong",
+                refuse_broken_glb),
         drawn("H30", "a pixel with 10^4 splats in a tile that is full at once", kPixels,
               make_long_tail_case),
         drawn("H31", "1500 splats of one pixel, one after the other", "same pixels and updates",

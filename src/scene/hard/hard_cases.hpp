@@ -33,11 +33,9 @@ struct HardCase {
     /// Checks a scene and its workload further. Returns a sentence if a condition fails, else nothing.
     std::string (*check)(const HardScene& scene, const FrameWorkload& workload) = nullptr;
     /// For cases about files: writes broken files to the folder. Returns a sentence if one of them
-    /// is not refused with a clear message, else nothing.
+    /// is not refused with a clear message, or a right one is misread, else nothing.
     std::string (*refuse)(const std::string& folder) = nullptr;
     bool spans = false; ///< compare the spans of fp32 with those of fp64
-    /// Set instead of all of the above: the input or key that this version does not have.
-    std::string not_applicable;
 };
 
 /// H1 .. H32, in order. Scenes are the same on every platform.
