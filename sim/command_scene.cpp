@@ -12,6 +12,7 @@
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
+#include "sim/scene/scene_cameras.hpp"
 #include "sim/text/scene_words.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/view_options.hpp"
@@ -46,11 +47,7 @@ void write_scene(const Scene& scene, const std::string& file) {
         print(visible(cameras) + ": exists already and stays as it is\n");
         return;
     }
-    nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Camera& camera : scene.cameras) {
-        list.push_back(camera_json(camera));
-    }
-    folder.write_json("cameras.json", list);
+    folder.write_json("cameras.json", cameras_json(scene));
     print(visible(cameras) + ": " + std::to_string(scene.cameras.size()) + " camera(s)\n");
 }
 
@@ -145,6 +142,7 @@ void add_scene_command(CLI::App& program) {
     CLI::App* scene = program.add_subcommand("scene", "measure, make or convert a scene");
     scene->require_subcommand(1);
     add_info(*scene);
+    add_scene_cameras(*scene);
     add_generate(*scene);
     add_convert(*scene);
 }

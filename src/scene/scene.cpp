@@ -2,6 +2,7 @@
 #include "scene/scene.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <utility>
 
@@ -42,6 +43,21 @@ void sanitize_scene(Scene& scene) {
                                     " a negative scale and " + std::to_string(d.bad_opacity) +
                                     " an opacity outside 0 to 1.");
     }
+}
+
+std::string point_text(const glm::dvec3& point) {
+    char text[80];
+    std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g)", point.x, point.y, point.z);
+    return text;
+}
+
+std::string generated_view_note(const OrbitView& view) {
+    const glm::dvec2 angles = field_of_view(view.camera);
+    char degrees[40];
+    std::snprintf(degrees, sizeof degrees, "%.3g x %.3g degrees", angles.x, angles.y);
+    return "The scene has no cameras; the generated view is at " +
+           point_text(view.camera.position) + ", looks at " + point_text(view.target) +
+           " and sees " + degrees + ".";
 }
 
 SyntheticSpec synthetic_of(const SceneSpec& spec) {
@@ -95,7 +111,9 @@ Scene load_scene(const std::string& text, const std::string& cameras_path) {
         scene.notes.insert(scene.notes.end(), file.notes.begin(), file.notes.end());
     }
     if (scene.cameras.empty()) {
-        scene.cameras.push_back(orbit_camera(scene.cloud));
+        const OrbitView view = orbit_view(scene.cloud);
+        scene.cameras.push_back(view.camera);
+        scene.notes.push_back(generated_view_note(view));
     }
     return scene;
 }

@@ -57,6 +57,8 @@ TEST(SceneLoading, InventsAViewWhereThereIsNone) {
     EXPECT_EQ(scene.name, "Bonsai");
     ASSERT_EQ(scene.cameras.size(), 1U);
     EXPECT_EQ(scene.cameras[0].name, "orbit");
+    ASSERT_EQ(scene.notes.size(), 1U);
+    EXPECT_THAT(scene.notes[0], IsSentenceWith("sees 50 x 29.4 degrees"));
 }
 
 TEST(SceneLoading, MakesSyntheticScenes) {

@@ -78,6 +78,25 @@ TEST(OrbitCamera, ShowsTheMiddleOfTheSceneDespiteOutliers) {
     }
 }
 
+/// A pole: most Gaussians are at its foot, and its top is as far away as an object reaches.
+TEST(OrbitCamera, FramesAllOfAnElongatedObject) {
+    GaussianCloud cloud = cluster(1, {0, 0, 0}, 0);
+    for (std::size_t i = 0; i < 150; ++i) {
+        cloud.means[i] = {0, -1.0 * static_cast<double>(i) / 150, 0};
+    }
+    const Camera camera = orbit_camera(cloud);
+    int seen = 0;
+    double highest = camera.height;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        ProjectedSplat splat;
+        seen += static_cast<int>(project(cloud, i, camera, {}, splat) == Cull::None);
+        highest = std::min(highest, splat.mu_y);
+    }
+    EXPECT_EQ(seen, 1000);
+    EXPECT_GT(highest, 0);                    // nothing is cut off,
+    EXPECT_LT(highest, 0.18 * camera.height); // and little room is wasted
+}
+
 TEST(OrbitCamera, FramesASingleGaussian) {
     GaussianCloud cloud = cluster(1, {0, 0, 0}, 0);
     cloud.means.resize(1);
@@ -104,7 +123,11 @@ TEST(OrbitCamera, ObeysItsOptions) {
     options.distance = 2;
     const Camera above = orbit_camera(cloud, options);
     EXPECT_LT(above.position.y, -0.1); // up is -y
-    EXPECT_NEAR(glm::length(above.position), 2 * glm::length(front.position), 1e-9);
+    options.distance = 1;
+    const double once = glm::length(orbit_camera(cloud, options).position);
+    EXPECT_NEAR(glm::length(above.position), 2 * once, 1e-9);
+    EXPECT_NEAR(field_of_view(front).x, 90, 1e-9);
+    EXPECT_NEAR(field_of_view(front).y, 73.7398, 1e-4); // 2 atan(0.75)
 }
 
 } // namespace

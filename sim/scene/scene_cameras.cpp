@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/scene/scene_cameras.hpp"
+
+#include <filesystem>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "config/visible_text.hpp"
+#include "scene/cameras/orbit_camera.hpp"
+#include "sim/output_folder.hpp"
+#include "sim/report.hpp"
+#include "sim/text/standard_output.hpp"
+#include "sim/text/terminal.hpp"
+#include "sim/text/words.hpp"
+#include "sim/view_options.hpp"
+#include "sim/warnings.hpp"
+
+namespace degs::sim {
+namespace {
+
+std::string triple_words(const glm::dvec3& v) {
+    return "(" + three_digits(v.x) + ", " + three_digits(v.y) + ", " + three_digits(v.z) + ")";
+}
+
+void list_cameras(const ViewRequest& view, const std::string& out) {
+    check_view(view);
+    const Scene scene = load_scene(view.scene, view.camera_file);
+    print_warnings(scene.notes);
+    print(cameras_text(scene));
+    if (!out.empty()) {
+        const std::filesystem::path file(out);
+        const std::string folder = file.parent_path().string();
+        const OutputFolder target(folder.empty() ? "." : folder, {file.filename().string()});
+        target.write_json(file.filename().string(), cameras_json(scene));
+        print(visible(out) + ": " + std::to_string(scene.cameras.size()) + " camera(s)\n");
+    }
+}
+
+} // namespace
+
+nlohmann::ordered_json cameras_json(const Scene& scene) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Camera& camera : scene.cameras) {
+        list.push_back(camera_json(camera));
+    }
+    return list;
+}
+
+std::string cameras_text(const Scene& scene) {
+    Block block;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        const Camera& camera = scene.cameras[i];
+        const glm::dvec2 angles = field_of_view(camera);
+        block.emplace_back("camera " + std::to_string(i),
+                           size_words(camera) + " " + camera.name + " · at " +
+                               triple_words(camera.position) + " · looks along " +
+                               triple_words(camera.camera_to_world[2]) + " · sees " +
+                               three_digits(angles.x) + "° × " + three_digits(angles.y) + "°");
+    }
+    return layout(block);
+}
+
+void add_scene_cameras(CLI::App& scene) {
+    struct Options {
+        ViewRequest view;
+        std::string out;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command = scene.add_subcommand(
+        "cameras", "list the views of a scene, and write them as cameras.json");
+    command->add_option("scene", options->view.scene, "scene file, or synthetic:NAME[,...]")
+        ->type_name("SCENE")
+        ->required();
+    add_camera_file_option(*command, options->view.camera_file);
+    command->add_option("--out", options->out, "file to write, for --camera-file")
+        ->type_name("FILE");
+    command->callback([options] { list_cameras(options->view, options->out); });
+}
+
+} // namespace degs::sim

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs scene cameras: the views of a scene, as text and as cameras.json.
+#pragma once
+
+#include <string>
+
+#include <CLI/App.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include "scene/scene.hpp"
+
+namespace degs::sim {
+
+void add_scene_cameras(CLI::App& scene);
+
+/// cameras.json with all cameras of the scene.
+nlohmann::ordered_json cameras_json(const Scene& scene);
+
+/// A line for each camera: size, where it is, where it looks and how much it sees.
+std::string cameras_text(const Scene& scene);
+
+} // namespace degs::sim
