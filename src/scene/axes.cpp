@@ -10,14 +10,6 @@ namespace {
 
 constexpr std::string_view kPositive = "RDF";
 constexpr std::string_view kNegative = "LUB";
-constexpr int kCoefficients = 16;
-
-/// Signs of the SH basis functions Y_k(s * dir) against Y_k(dir), from the powers of x, y and z in
-/// each (l = 1: y z x; l = 2: xy yz 2zz-xx-yy xz xx-yy; l = 3: y xyz y z x z x).
-std::array<float, kCoefficients> basis_signs(const glm::vec3& s) {
-    return {1,   s.y, s.z, s.x, s.x * s.y, s.y * s.z, 1, s.x * s.z, 1, s.y, s.x * s.y * s.z,
-            s.y, s.z, s.x, s.z, s.x};
-}
 
 } // namespace
 
@@ -45,6 +37,14 @@ std::optional<Axes> parse_axes(std::string_view letters) {
     return axes;
 }
 
+/// Y_k(s * dir) against Y_k(dir), from the powers of x, y and z in each (l = 1: y z x; l = 2: xy yz
+/// 2zz-xx-yy xz xx-yy; l = 3: y xyz y z x z x).
+std::array<float, 16> sh_signs(const Axes& from, const Axes& to) {
+    const glm::vec3 s(from.signs * to.signs);
+    return {1,   s.y, s.z, s.x, s.x * s.y, s.y * s.z, 1, s.x * s.z, 1, s.y, s.x * s.y * s.z,
+            s.y, s.z, s.x, s.z, s.x};
+}
+
 void convert_axes(GaussianCloud& cloud, const Axes& from, const Axes& to) {
     if (from == to) {
         return;
@@ -52,7 +52,7 @@ void convert_axes(GaussianCloud& cloud, const Axes& from, const Axes& to) {
     const glm::dvec3 s = from.signs * to.signs;
     const glm::vec3 f(s);
     const glm::vec4 turn(1, f.y * f.z, f.x * f.z, f.x * f.y); // S R S of the same reflection S
-    const std::array<float, kCoefficients> basis = basis_signs(f);
+    const std::array<float, 16> basis = sh_signs(from, to);
     const int coefficients = cloud.sh_coefficients();
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         cloud.means[i] *= s;

@@ -2,6 +2,7 @@
 // Axis conventions of scene files, and the mirrorings between them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,6 +29,9 @@ struct Axes {
 
 /// One of R L, one of D U, one of F B, in this order and either case; nothing for other texts.
 std::optional<Axes> parse_axes(std::string_view letters);
+
+/// +1 or -1 for each spherical harmonic Y_k, k < 16: what becomes of its coefficient.
+std::array<float, 16> sh_signs(const Axes& from, const Axes& to);
 
 /// Rewrites a cloud of world `from` for world `to`. Exact: only signs change. An odd number of
 /// opposite axes gives the mirror image in coordinates, which is the same scene in the world.

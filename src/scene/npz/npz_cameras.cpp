@@ -49,15 +49,15 @@ void place(const ZipArchive& archive, const NpyArray& viewmats, std::uint64_t in
         shift[row] = viewmats.at(16 * index + 4 * row + 3);
     }
     const glm::dmat3 product = world_to_camera * glm::transpose(world_to_camera);
-    double worst = 0;
+    bool orthonormal = std::isfinite(glm::dot(shift, shift));
     for (int column = 0; column < 3; ++column) {
         for (int row = 0; row < 3; ++row) {
-            const double off = std::abs(product[column][row] - (row == column ? 1 : 0));
-            worst = off <= worst ? worst : off; // NaN stays
+            constexpr double kTolerance = 1e-3;
+            orthonormal = orthonormal && std::abs(product[column][row] - (row == column ? 1 : 0)) <=
+                                             kTolerance; // false for NaN
         }
     }
-    constexpr double kTolerance = 1e-3;
-    if (!(worst <= kTolerance) || !std::isfinite(glm::dot(shift, shift))) {
+    if (!orthonormal) {
         fail_file(archive.path(), "matrix " + std::to_string(index) +
                                       " of its array 'viewmats' is no rotation and translation.");
     }

@@ -2,7 +2,10 @@
 // degs run with a cache: the same results as without, whatever has become of its entries.
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 
+#include "scene/ply/ply.hpp"
+#include "scene/synthetic/synthetic.hpp"
 #include "sim/cache/cached_view.hpp"
 #include "tests/sim/child.hpp"
 
@@ -63,6 +66,23 @@ TEST(CachedRun, GivesWhatAFreshRunGives) {
         ::setenv("DEGS_CACHE", (folder / "cache").c_str(), 1);
         EXPECT_EQ(run_to(folder / "a", kLarge, other), cached) << other[0];
     }
+}
+
+TEST(CachedRun, RepeatsWhatTheReaderOfTheSceneSaid) {
+    const Folder folder;
+    const std::string plain = folder / "plain.ply", file = folder / "said.ply";
+    write_ply(make_synthetic({"outdoor", 100000, 1}).cloud, plain);
+    std::string bytes = read_file(plain);
+    bytes.insert(bytes.find("element"), "comment Vertical axis: z\n");
+    std::ofstream(file, std::ios::binary) << bytes;
+    const UsersCache cache(folder / "cache");
+    for (const char* const out : {"first", "second"}) {
+        run_to(folder / out, file, {"--no-reference"});
+        const auto warnings = report_in(folder / out).at("warnings");
+        ASSERT_EQ(warnings.size(), 1U) << out;
+        EXPECT_NE(warnings[0].get<std::string>().find("'Vertical axis: z'"), std::string::npos);
+    }
+    EXPECT_GE(entries_of(folder / "cache").size(), 2U); // the scene was kept
 }
 
 TEST(CachedRun, SurvivesDamage) {
