@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// degs scene info | generate | convert
-#include <filesystem>
+// degs scene info | cameras | generate | convert | tile
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
-#include "config/error.hpp"
-#include "config/visible_text.hpp"
-#include "scene/ply/ply.hpp"
+#include "scene/scene_formats.hpp"
 #include "scene/synthetic/synthetic.hpp"
 #include "sim/commands.hpp"
 #include "sim/output_folder.hpp"
-#include "sim/report.hpp"
+#include "sim/scene/command_tile.hpp"
 #include "sim/scene/scene_cameras.hpp"
+#include "sim/scene/scene_output.hpp"
 #include "sim/text/scene_words.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/view_options.hpp"
@@ -21,40 +19,12 @@
 namespace degs::sim {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// The folder of a file that is going to be written; "." if it has none.
-std::string folder_of(const std::string& file) {
-    const std::string folder = fs::path(file).parent_path().string();
-    return folder.empty() ? "." : folder;
-}
-
-void check_ply(const std::string& file) {
-    if (fs::path(file).extension() != ".ply") {
-        throw InputError("The scene file '" + file +
-                         "' cannot be written: its name must end in "
-                         ".ply.");
-    }
-}
-
-/// Writes the scene and, unless there is one, cameras.json beside it.
-void write_scene(const Scene& scene, const std::string& file) {
-    const OutputFolder folder(folder_of(file), {fs::path(file).filename().string()});
-    write_ply(scene.cloud, file);
-    print(visible(file) + ": " + visible(scene_words(facts_of(scene))) + "\n");
-    const std::string cameras = folder.path("cameras.json");
-    if (fs::exists(cameras)) {
-        print(visible(cameras) + ": exists already and stays as it is\n");
-        return;
-    }
-    folder.write_json("cameras.json", cameras_json(scene));
-    print(visible(cameras) + ": " + std::to_string(scene.cameras.size()) + " camera(s)\n");
-}
-
 void add_info(CLI::App& scene) {
     struct Options {
         ViewRequest view;
         CLI::Option* camera = nullptr;
+        std::string preview;
+        bool json = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App* command =
@@ -74,11 +44,29 @@ void add_info(CLI::App& scene) {
         command->add_option("--width", view.width, "image width of the view in pixels")
             ->needs(options->camera);
     add_resolution_option(*command, view.resolution)->needs(options->camera)->excludes(width);
+    command
+        ->add_option("--preview", options->preview,
+                     "draw the view (the first camera's without --camera) with the reference "
+                     "renderer, in double precision")
+        ->type_name("FILE.png");
+    command->add_flag("--json", options->json, "print JSON");
     command->callback([options] {
         const View loaded = load_view(options->view);
+        const bool with_view = options->camera->count() != 0;
         print_warnings(loaded.scene.notes);
+        if (!options->preview.empty()) {
+            write_preview(loaded.scene, loaded.camera, options->preview);
+        }
+        if (options->json) {
+            nlohmann::ordered_json json = scene_info_json(loaded.scene);
+            if (with_view) {
+                json["view"] = view_info_json(loaded.scene, loaded.camera);
+            }
+            print(json_text(json));
+            return;
+        }
         print(scene_info(loaded.scene));
-        if (options->camera->count() != 0) {
+        if (with_view) {
             print(view_info(loaded.scene, loaded.camera));
         }
     });
@@ -89,7 +77,7 @@ void add_generate(CLI::App& scene) {
         std::string profile, gaussians, seed = "1", out;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = scene.add_subcommand("generate", "write a synthetic scene as PLY");
+    CLI::App* command = scene.add_subcommand("generate", "write a synthetic scene as a file");
     std::string names;
     for (const SyntheticProfile& profile : synthetic_profiles()) {
         names += (names.empty() ? "" : "; ") + profile.name + ": " + profile.meaning;
@@ -102,11 +90,12 @@ void add_generate(CLI::App& scene) {
     command->add_option("--seed", options->seed, "seed of the random numbers")
         ->type_name("INT")
         ->capture_default_str();
-    command->add_option("--out", options->out, "file to write (.ply)")
+    command
+        ->add_option("--out", options->out, "file to write (" + writable_scene_extensions() + ")")
         ->type_name("FILE")
         ->required();
     command->callback([options] {
-        check_ply(options->out);
+        check_scene_writable(options->out);
         std::string spec = "synthetic:" + options->profile + ",seed=" + options->seed;
         if (!options->gaussians.empty()) {
             spec += ",gaussians=" + options->gaussians;
@@ -121,15 +110,16 @@ void add_convert(CLI::App& scene) {
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = scene.add_subcommand(
-        "convert", "write a scene as PLY, without the Gaussians that cannot be drawn");
+        "convert", "write a scene in another format, without the Gaussians that cannot be drawn");
     command->add_option("scene", options->in, "scene file, or synthetic:NAME[,...]")
         ->type_name("SCENE")
         ->required();
-    command->add_option("--out", options->out, "file to write (.ply)")
+    command
+        ->add_option("--out", options->out, "file to write (" + writable_scene_extensions() + ")")
         ->type_name("FILE")
         ->required();
     command->callback([options] {
-        check_ply(options->out);
+        check_scene_writable(options->out);
         const Scene loaded = load_scene(options->in);
         print_warnings(loaded.notes);
         write_scene(loaded, options->out);
@@ -145,6 +135,7 @@ void add_scene_command(CLI::App& program) {
     add_scene_cameras(*scene);
     add_generate(*scene);
     add_convert(*scene);
+    add_scene_tile(*scene);
 }
 
 } // namespace degs::sim

@@ -88,14 +88,29 @@ const SceneFormat& format_of(const std::string& path) {
 
 const std::vector<SceneFormat>& scene_formats() {
     static const std::vector<SceneFormat> formats{
-        {"PLY", {".ply"}, [](std::string_view head) { return starts_with(head, "ply"); }, read_ply},
+        {"PLY",
+         {".ply"},
+         [](std::string_view head) { return starts_with(head, "ply"); },
+         read_ply,
+         nullptr,
+         nullptr,
+         [](const GaussianCloud& cloud, const std::vector<Camera>&, const std::string& path) {
+             write_ply(cloud, path);
+         }},
         {"SPZ",
          {".spz"},
          [](std::string_view head) {
              return starts_with(head, "\x1f\x8b") || starts_with(head, "NGSP");
          },
          read_spz},
-        {"glTF", {".glb", ".gltf"}, is_gltf, read_gltf, read_gltf_cameras, gltf_external_files},
+        {"glTF",
+         {".glb", ".gltf"},
+         is_gltf,
+         read_gltf,
+         read_gltf_cameras,
+         gltf_external_files,
+         [](const GaussianCloud& cloud, const std::vector<Camera>& cameras,
+            const std::string& path) { write_glb(cloud, cameras, {}, path); }},
         {"SOG",
          {".sog"},
          [](std::string_view head) { return is_zip_of(head, ".webp", "meta.json"); },
@@ -118,6 +133,21 @@ std::vector<std::string> scene_extensions() {
     return extensions;
 }
 
+namespace {
+
+/// nullptr if no format of the extension is written.
+const SceneFormat* writer_of(const std::string& path) {
+    const std::string extension = extension_of(path);
+    for (const SceneFormat& format : scene_formats()) {
+        if (format.write != nullptr && extension == format.extensions.front()) {
+            return &format;
+        }
+    }
+    return nullptr;
+}
+
+} // namespace
+
 SceneContent read_scene_file(const std::string& path) {
     return format_of(path).read(path);
 }
@@ -135,6 +165,30 @@ std::vector<std::string> scene_external_files(const std::string& path) {
     } catch (const InputError&) {
         return {}; // reading the scene says what is wrong
     }
+}
+
+std::string writable_scene_extensions() {
+    std::string list;
+    for (const SceneFormat& format : scene_formats()) {
+        if (format.write != nullptr) {
+            list += (list.empty() ? "" : ", ") + std::string(format.extensions.front());
+        }
+    }
+    return list;
+}
+
+void check_scene_writable(const std::string& path) {
+    if (writer_of(path) == nullptr) {
+        throw InputError("The scene file '" + path +
+                         "' cannot be written: its name must end in one of " +
+                         writable_scene_extensions() + ".");
+    }
+}
+
+void write_scene_file(const GaussianCloud& cloud, const std::vector<Camera>& cameras,
+                      const std::string& path) {
+    check_scene_writable(path);
+    writer_of(path)->write(cloud, cameras, path);
 }
 
 } // namespace degs

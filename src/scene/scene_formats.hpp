@@ -19,6 +19,9 @@ struct SceneFormat {
     std::vector<Camera> (*read_cameras)(const std::string& path) = nullptr;
     /// Files that `read` reads in addition; nullptr: none.
     std::vector<std::string> (*external_files)(const std::string& path) = nullptr;
+    /// Writes a file of the format's first extension; nullptr: such files are not written.
+    void (*write)(const GaussianCloud& cloud, const std::vector<Camera>& cameras,
+                  const std::string& path) = nullptr;
 };
 
 /// Bytes of a file that decide about its format (fewer if the file is shorter).
@@ -38,5 +41,16 @@ std::vector<Camera> read_scene_cameras(const std::string& path);
 
 /// Files that read_scene_file() reads in addition to `path`; none if it would fail.
 std::vector<std::string> scene_external_files(const std::string& path);
+
+/// ".ply, .glb" and so on: the files that write_scene_file() writes.
+std::string writable_scene_extensions();
+
+/// InputError unless write_scene_file() writes files of this name.
+void check_scene_writable(const std::string& path);
+
+/// Writes a cloud in the axes of PLY; the extension chooses the format. Cameras go into the file if the format has
+/// any. InputError if no format of the extension is written, or the place cannot be.
+void write_scene_file(const GaussianCloud& cloud, const std::vector<Camera>& cameras,
+                      const std::string& path);
 
 } // namespace degs

@@ -107,7 +107,8 @@ TEST(BashCompletion, KnowsCommandsOptionsAndValues) {
     using Words = std::vector<std::string>;
     EXPECT_EQ(completions({"degs", "re"}), Words{"render"});
     EXPECT_EQ(completions({"degs", "co"}), (Words{"compare", "config"}));
-    EXPECT_EQ(completions({"degs", "scene", ""}), (Words{"convert", "generate", "info"}));
+    EXPECT_EQ(completions({"degs", "scene", ""}),
+              (Words{"cameras", "convert", "generate", "info", "tile"}));
     EXPECT_EQ(completions({"degs", "run", "--came"}),
               (Words{"--camera", "--camera-file", "--cameras"}));
     EXPECT_EQ(completions({"degs", "run", "--fidelity", ""}),
@@ -165,7 +166,8 @@ TEST(ZshCompletion, HasTheOptionsAndCommandsOfTheHelp) {
                                                    {"help"},
                                                    {"scene", "info"},
                                                    {"scene", "generate"},
-                                                   {"scene", "convert"}}) {
+                                                   {"scene", "convert"},
+                                                   {"scene", "tile"}}) {
         Words words{"help"};
         std::string name = "degs";
         for (const std::string& word : command) {

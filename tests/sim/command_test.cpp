@@ -23,8 +23,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          ::testing::Values(Words{}, Words{"run"}, Words{"compare"}, Words{"render"},
                                            Words{"scene"}, Words{"scene", "info"},
                                            Words{"scene", "generate"}, Words{"scene", "convert"},
-                                           Words{"memory"}, Words{"soc"}, Words{"config"},
-                                           Words{"accuracy"}));
+                                           Words{"scene", "tile"}, Words{"memory"}, Words{"soc"},
+                                           Words{"config"}, Words{"accuracy"}));
 
 TEST(Version, IsOneLine) {
     const Outcome outcome = degs({"--version"});
@@ -88,6 +88,47 @@ TEST(SceneCommand, ConvertsWithoutTheUndrawable) {
     expect_success(degs({"scene", "convert", folder / "in.ply", "--out", folder / "out.ply"}));
     const Outcome info = degs({"scene", "info", folder / "out.ply"});
     EXPECT_NE(info.out.find("1 Gaussian,"), std::string::npos) << info.out;
+}
+
+TEST(SceneCommand, ConvertsToGlbAndBack) {
+    const Folder folder;
+    const std::string ply = folder / "a/scene.ply";
+    expect_success(degs({"scene", "generate", "object", "--gaussians", "300", "--out", ply}));
+    expect_success(degs({"scene", "convert", ply, "--out", folder / "b/scene.glb"}));
+    expect_success(
+        degs({"scene", "convert", folder / "b/scene.glb", "--out", folder / "c/scene.ply"}));
+    EXPECT_EQ(read_file(folder / "b/cameras.json"), read_file(folder / "a/cameras.json"));
+    for (const char* const name : {"a/scene.ply", "b/scene.glb"}) {
+        expect_success(degs({"scene", "info", folder / name, "--camera", "0", "--width", "160",
+                             "--preview", folder / (std::string(name) + ".png")}));
+    }
+    EXPECT_EQ(read_file(folder / "a/scene.ply.png"), read_file(folder / "b/scene.glb.png"));
+    const Outcome wrong = degs({"scene", "convert", ply, "--out", folder / "scene.obj"});
+    EXPECT_NE(wrong.code, 0);
+    EXPECT_NE(wrong.err.find("must end in one of .ply, .glb"), std::string::npos) << wrong.err;
+}
+
+TEST(SceneCommand, TilesAScene) {
+    const Folder folder;
+    const std::string file = folder / "tiled.glb";
+    const std::string scene = "synthetic:object,gaussians=300";
+    expect_success(degs({"scene", "tile", scene, "--copies", "3x2x2", "--out", file}));
+    const Outcome info = degs({"scene", "info", file, "--json", "--camera", "0"});
+    expect_success(info);
+    const auto json = nlohmann::json::parse(info.out);
+    EXPECT_EQ(json["scene"]["gaussians"], 3600);
+    EXPECT_EQ(json["cameras"].size(), 3U);
+    EXPECT_EQ(json["cameras"][2]["width"], 1920);
+    EXPECT_GT(json["view"]["visible"], 3000);
+    expect_success(degs({"scene", "tile", scene, "--gaussians", "1000", "--out", file}));
+    EXPECT_EQ(
+        nlohmann::json::parse(degs({"scene", "info", file, "--json"}).out)["scene"]["gaussians"],
+        1200);
+    EXPECT_NE(degs({"scene", "tile", scene, "--out", file}).err.find("needs --copies"),
+              std::string::npos);
+    EXPECT_NE(degs({"scene", "tile", scene, "--copies", "2x2", "--out", folder / "a.ply"})
+                  .err.find("only .glb can"),
+              std::string::npos);
 }
 
 TEST(RenderCommand, CountsDoNotDependOnTheTileSize) {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs scene tile: a large scene of many copies.
+#include "sim/scene/command_tile.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "config/error.hpp"
+#include "scene/tiling/scene_tiling.hpp"
+#include "sim/scene/scene_output.hpp"
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct TileOptions {
+    std::string scene, copies, out;
+    std::uint64_t gaussians = 0;
+};
+
+void run_tile(const TileOptions& options) {
+    if (std::filesystem::path(options.out).extension() != ".glb") {
+        throw InputError("The scene file '" + options.out +
+                         "' cannot be written: a tiled scene shows one mesh many times, which only "
+                         ".glb can.");
+    }
+    if (options.copies.empty() && options.gaussians == 0) {
+        throw InputError("A tiled scene needs --copies, e.g. 4x3, or --gaussians, a number.");
+    }
+    if (!options.copies.empty()) {
+        parse_tiling(options.copies); // before the scene is loaded
+    }
+    const Scene scene = load_scene(options.scene);
+    const TilingCounts counts = options.copies.empty()
+                                    ? tiling_for(options.gaussians, scene.cloud.size())
+                                    : parse_tiling(options.copies);
+    const SceneTiling tiling = tile_scene(scene.cloud, counts);
+    const std::string words = scene.name + " · " + grouped(counts.copies) + " copies of " +
+                              grouped(scene.cloud.size()) +
+                              " Gaussians = " + grouped(counts.copies * scene.cloud.size()) + ", " +
+                              three_digits(tiling.spacing.x) + " units apart, SH " +
+                              std::to_string(scene.cloud.sh_degree);
+    write_scene(options.out, words, tiling.cameras,
+                [&] { write_glb(scene.cloud, tiling.cameras, tiling.instances, options.out); });
+}
+
+} // namespace
+
+void add_scene_tile(CLI::App& scene) {
+    auto options = std::make_shared<TileOptions>();
+    CLI::App* command = scene.add_subcommand(
+        "tile", "write a large scene: copies of one, side by side on the ground");
+    command->add_option("scene", options->scene, "scene file, or synthetic:NAME[,...]")
+        ->type_name("SCENE")
+        ->required();
+    CLI::Option* copies = command
+                              ->add_option("--copies", options->copies,
+                                           "copies along x and z, e.g. 4x3, and layers, e.g. 4x3x2")
+                              ->type_name("NxM[xK]");
+    command
+        ->add_option("--gaussians", options->gaussians,
+                     "as many copies as it takes to have this number, in a square")
+        ->excludes(copies);
+    command->add_option("--out", options->out, "file to write (.glb)")
+        ->type_name("FILE")
+        ->required();
+    command->callback([options] { run_tile(*options); });
+}
+
+} // namespace degs::sim
