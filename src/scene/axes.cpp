@@ -5,6 +5,8 @@
 #include <array>
 #include <cctype>
 
+#include "splat/frame/parallel.hpp"
+
 namespace degs {
 namespace {
 
@@ -54,16 +56,18 @@ void convert_axes(GaussianCloud& cloud, const Axes& from, const Axes& to) {
     const glm::vec4 turn(1, f.y * f.z, f.x * f.z, f.x * f.y); // S R S of the same reflection S
     const std::array<float, 16> basis = sh_signs(from, to);
     const int coefficients = cloud.sh_coefficients();
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-        cloud.means[i] *= s;
-        cloud.rotations[i] *= turn;
-        float* const sh = cloud.sh.data() + i * coefficients * 3;
-        for (int k = 1; k < coefficients; ++k) {
-            for (int channel = 0; channel < 3; ++channel) {
-                sh[k * 3 + channel] *= basis[k];
+    parallel_ranges(cloud.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            cloud.means[i] *= s;
+            cloud.rotations[i] *= turn;
+            float* const sh = cloud.sh.data() + i * coefficients * 3;
+            for (int k = 1; k < coefficients; ++k) {
+                for (int channel = 0; channel < 3; ++channel) {
+                    sh[k * 3 + channel] *= basis[k];
+                }
             }
         }
-    }
+    });
 }
 
 void convert_axes(std::vector<Camera>& cameras, const Axes& from, const Axes& to) {
