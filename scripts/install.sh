@@ -9,8 +9,8 @@ packages=(
     libsystemc-dev libglm-dev libopenexr-dev libpng-dev zlib1g-dev libzstd-dev libzip-dev libwebp-dev
     libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libstb-dev libtinygltf-dev libxxhash-dev
 )
-test_packages=(chromium libgtest-dev libgmock-dev libbenchmark-dev clang-format clang-tidy ccache mandoc
-    mkdocs-material munge python3 slurm-wlm zsh)
+test_packages=(chromium libgtest-dev libgmock-dev libbenchmark-dev clang clang-format clang-tidy libclang-rt-14-dev
+    ccache mandoc mkdocs-material munge python3 slurm-wlm zsh)
 [[ ${1:-} != --tests ]] || packages+=("${test_packages[@]}")
 
 missing=()

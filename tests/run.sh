@@ -22,5 +22,12 @@ cmake --build --preset asan -j "$jobs"
 step "hostile inputs and small runs under the sanitizers"
 ctest --preset asan -j "$jobs" --no-tests=error
 
+if command -v clang++ >/dev/null; then
+    step "fuzz targets of the readers (preset fuzz)"
+    cmake --preset fuzz
+    cmake --build --preset fuzz -j "$jobs"
+    ctest --preset fuzz -j "$jobs" --no-tests=error
+fi
+
 step "all tests, house rules, formatting"
 ctest --preset release -j "$jobs" --no-tests=error -LE lint

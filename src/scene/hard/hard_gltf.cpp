@@ -19,7 +19,7 @@ namespace degs {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using HardJson = nlohmann::json;
 
 constexpr std::size_t kJsonAt = 20; ///< behind the header and the head of the first chunk
 
@@ -33,7 +33,7 @@ std::string number_of_four_bytes(std::uint64_t value) {
 
 /// The two chunks of a GLB.
 struct HardGlb {
-    Json json;
+    HardJson json;
     std::string bin; ///< chunk, with its head
 
     static HardGlb of(const GaussianCloud& cloud, const std::string& path) {
@@ -46,7 +46,7 @@ struct HardGlb {
         for (int i = 3; i >= 0; --i) {
             length = length << 8 | static_cast<unsigned char>(bytes[12 + i]);
         }
-        return {Json::parse(bytes.substr(kJsonAt, length)), bytes.substr(kJsonAt + length)};
+        return {HardJson::parse(bytes.substr(kJsonAt, length)), bytes.substr(kJsonAt + length)};
     }
     std::string bytes() const {
         std::string text = json.dump();
@@ -180,7 +180,7 @@ struct GlbDamage {
 };
 
 std::vector<GlbDamage> json_damages() {
-    const auto attributes = [](HardGlb& g) -> Json& {
+    const auto attributes = [](HardGlb& g) -> HardJson& {
         return g.json["meshes"][0]["primitives"][0]["attributes"];
     };
     return {
@@ -200,12 +200,12 @@ std::vector<GlbDamage> json_damages() {
              g.json["accessors"][0]["sparse"] = {{"count", -7}};
          }},
         {"version", [](HardGlb& g) { g.json["asset"]["version"] = "9.9"; }},
-        {"extension", [](HardGlb& g) { g.json["extensionsRequired"] = Json::array({"X_y"}); }},
-        {"cycle", [](HardGlb& g) { g.json["nodes"][0]["children"] = Json::array({0}); }},
-        {"child", [](HardGlb& g) { g.json["nodes"][0]["children"] = Json::array({55}); }},
+        {"extension", [](HardGlb& g) { g.json["extensionsRequired"] = HardJson::array({"X_y"}); }},
+        {"cycle", [](HardGlb& g) { g.json["nodes"][0]["children"] = HardJson::array({0}); }},
+        {"child", [](HardGlb& g) { g.json["nodes"][0]["children"] = HardJson::array({55}); }},
         {"matrix",
          [](HardGlb& g) {
-             g.json["nodes"][0]["matrix"] = Json::array({1, 2, 3});
+             g.json["nodes"][0]["matrix"] = HardJson::array({1, 2, 3});
          }},
         {"no_splats",
          [](HardGlb& g) {
@@ -259,7 +259,7 @@ std::string refuse_node_transforms(const std::string& folder) {
     const fs::path path = fs::path(folder) / "nodes.glb";
     for (const NodeMap& node : node_maps()) {
         HardGlb glb = HardGlb::of(local, path.string());
-        Json matrix = Json::array();
+        HardJson matrix = HardJson::array();
         for (int column = 0; column < 4; ++column) {
             const glm::dvec3 v = column < 3 ? node.map.linear[column] : node.map.translation;
             matrix.insert(matrix.end(), {v.x, v.y, v.z, column < 3 ? 0.0 : 1.0});

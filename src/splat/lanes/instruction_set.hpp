@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#if defined(__x86_64__)
+// The pragmas that compile a kernel for an instruction set are those of g++; with other compilers there
+// are lanes for the instruction set of the build alone, which give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define DEGS_HAS_WIDE_LANES 1
 #endif
 
