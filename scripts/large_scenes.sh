@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# large_scenes.sh [FOLDER]: makes a tiled scene of a million Gaussians and prints, as Markdown tables, the PE utilization
+# large_scenes.sh [FOLDER]: makes a tiled scene of a million Gaussians and prints, as a Markdown table, the PE utilization
 # and the time of a frame of DeGS, GSCore and GBU with 64 and 256 PEs on it, in fp32 and in the numbers of the paper.
 # Complete accelerators, without reference images. Scene and comparisons stay in FOLDER, and what is there already is
 # not made again. Takes a few minutes of one core.
