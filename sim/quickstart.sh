@@ -10,7 +10,7 @@ echo "== 2/3 build"
 cmake --preset release -DDEGS_BUILD_TESTS=OFF
 cmake --build --preset release --target degs_program
 echo "== 3/3 run"
-build/release/sim/degs run configs/degs-64.yaml --scene synthetic:object,gaussians=20000 --out out/quickstart
+build/release/sim/degs run configs/degs-64.yaml --scene synthetic:lighthouse --out out/quickstart
 
 for file in image.png image.exr report.json; do
     [[ -s out/quickstart/$file ]] || { echo "quickstart: the run left no out/quickstart/$file" >&2; exit 1; }

@@ -86,7 +86,7 @@ TEST(HostileScene, EveryMistakeHasItsSentence) {
         {"/dev/null", "not a regular file"},
         {"", "there is no such file"},
         {"synthetic:", "There is no synthetic scene ''"},
-        {"synthetic:moon", "there are object, outdoor, landscape, dense, uniform, single, needles"},
+        {"synthetic:moon", "there are object, outdoor, landscape, lighthouse, dense, uniform, single, needles"},
         {"synthetic:object,gaussians=0", "allowed are integers from 1 to"},
         {"synthetic:object,gaussians=99999999999", "allowed are integers from 1 to"},
         {"synthetic:object,gaussians=1e5", "Key 'gaussians'"},

@@ -46,6 +46,31 @@ TEST(SyntheticStatistics, AnotherSeedIsAnotherSceneOfTheSameKind) {
     expect_within(test::kOutdoorBands, measure_all(load_scene("synthetic:outdoor,seed=77")));
 }
 
+// It shows a whole world, so that counts per pixel are compared over covered pixels.
+TEST(SyntheticStatistics, LighthouseHasTheGaussiansOfFlowersAndSeal) {
+    const Scene scene = load_scene("synthetic:lighthouse");
+    const std::vector<Measured> measured = measure_all(scene);
+    std::vector<Band> bands;
+    std::vector<Measured> of_gaussians;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        const std::string& name = measured[i].name;
+        const bool of_a_view = name.find("view.") != std::string::npos || name.find("near.") == 0 ||
+                               name.find("closeup.") == 0;
+        if (!of_a_view || name == "overview.footprint.p50" || name == "overview.footprint.p90") {
+            bands.push_back(test::kOutdoorBands.at(i));
+            of_gaussians.push_back(measured[i]);
+        }
+    }
+    EXPECT_EQ(bands.size(), 15U);
+    expect_within(bands, of_gaussians);
+    for (const Camera& camera : scene.cameras) {
+        const ViewStatistics view = measure_view(scene.cloud, camera);
+        EXPECT_GT(view.covered_share, 0.99) << camera.name;                            // no hole
+        EXPECT_GT(view.fragments_per_pixel, 13.3 / 0.335 / kTolerance) << camera.name; // flowers
+        EXPECT_LT(view.fragments_per_pixel, 17.4 / 0.293 * kTolerance) << camera.name; // seal
+    }
+}
+
 TEST(SyntheticStatistics, DenseHasLongListsInEveryView) {
     const Scene scene = load_scene("synthetic:dense");
     for (const Camera& camera : scene.cameras) {
@@ -150,10 +175,10 @@ std::uint64_t hash_of(const SyntheticScene& scene) {
 
 TEST(SyntheticScenes, AreTheSameBytesEverywhereForTheSameSeed) {
     const std::pair<const char*, std::uint64_t> cases[] = {
-        {"object", 13741044480860578786U},    {"outdoor", 17380716987280325155U},
-        {"dense", 4119865183429384593U},      {"uniform", 12115836439097393135U},
-        {"single", 7600221013485271156U},     {"needles", 16138066585785423009U},
-        {"landscape", 10835531268469331271U},
+        {"object", 13741044480860578786U},  {"outdoor", 17380716987280325155U},
+        {"dense", 4119865183429384593U},    {"uniform", 12115836439097393135U},
+        {"single", 7600221013485271156U},   {"lighthouse", 493963313419857757U},
+        {"needles", 16138066585785423009U}, {"landscape", 10835531268469331271U},
     };
     for (const auto& [profile, hash] : cases) {
         const SyntheticSpec spec = parse_synthetic(profile);

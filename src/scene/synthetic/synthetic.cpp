@@ -21,13 +21,15 @@ struct Profile {
     std::uint64_t most;
     void (*make)(const SyntheticSpec& spec, SyntheticScene& scene);
 };
-constexpr std::array<Profile, 7> kProfiles{{
+constexpr std::array<Profile, 8> kProfiles{{
     {"object", "a captured object, surface covered with discs, few floaters, empty background",
      100000, kMostGaussians, make_object},
     {"outdoor", "ground with grass, objects in the middle, haze of big splats around", 150000,
      kMostGaussians, make_outdoor},
     {"landscape", "a whole outdoor capture: an object, ground to the horizon, trees, sky", 3000000,
      kMostGaussians, make_landscape},
+    {"lighthouse", "a picture: a lighthouse on a headland, house, fence, trees, sea and sky",
+     300000, kMostGaussians, make_lighthouse},
     {"dense", "a volume of faint splats: long lists, late termination", 100000, kMostGaussians,
      make_dense},
     {"uniform", "round blobs spread evenly in a box", 10000, kMostGaussians, make_uniform},

@@ -53,6 +53,7 @@ std::vector<Camera> synthetic_cameras(const std::array<SyntheticView, 3>& views)
 void make_object(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_outdoor(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_landscape(const SyntheticSpec& spec, SyntheticScene& scene);
+void make_lighthouse(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_dense(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_uniform(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_single(const SyntheticSpec& spec, SyntheticScene& scene);
