@@ -38,14 +38,18 @@ flags=$(PKG_CONFIG_PATH=$pc pkg-config --cflags --libs degs)
 
 cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
 sources=$(cached CMAKE_HOME_DIRECTORY)
-mkdir "$work/systemc" "$work/no_pkg_config"
+mkdir "$work/systemc" "$work/without_systemc"
+IFS=: read -ra places <<<"$(pkg-config --variable pc_path pkg-config)"
+for place in "${places[@]}"; do
+    [[ ! -d $place ]] || find "$place" -name '*.pc' ! -name 'systemc*' -exec ln -sf -t "$work/without_systemc" {} +
+done
 cat >"$work/systemc/SystemCLanguageConfig.cmake" <<END
 add_library(SystemC::systemc UNKNOWN IMPORTED)
 set_target_properties(SystemC::systemc PROPERTIES
     IMPORTED_LOCATION "$(cached pkgcfg_lib_SYSTEMC_systemc)"
     INTERFACE_INCLUDE_DIRECTORIES "$(cached SYSTEMC_INCLUDE_DIRS)")
 END
-PKG_CONFIG_LIBDIR=$work/no_pkg_config cmake -S "$here/embedded" -B "$embedded" -G "$(cached CMAKE_GENERATOR)" \
+PKG_CONFIG_LIBDIR=$work/without_systemc cmake -S "$here/embedded" -B "$embedded" -G "$(cached CMAKE_GENERATOR)" \
     -DDEGS_SOURCE="$sources" -DSystemCLanguage_DIR="$work/systemc" -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_BUILD_TYPE="$(cached CMAKE_BUILD_TYPE)" -DDEGS_ARCH="$(cached DEGS_ARCH)" \
     -DDEGS_WARNINGS_AS_ERRORS="$(cached DEGS_WARNINGS_AS_ERRORS)" -DDEGS_FAT_ARCHIVES="$(cached DEGS_FAT_ARCHIVES)" \
