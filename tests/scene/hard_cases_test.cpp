@@ -62,7 +62,8 @@ TEST(HardCases, SplatsAreWhereTheyAreSaidToBe) {
     EXPECT_NEAR(splat.opacity, 0.6, 1e-7);
 }
 
-TEST(HardCases, BrokenFilesAreRefused) {
+// Under the sanitizers, too.
+TEST(HostileHardCases, BrokenFilesAreRefused) {
     const auto folder = std::filesystem::temp_directory_path() / "degs-broken-files";
     std::filesystem::create_directories(folder);
     for (const auto refuse : {refuse_broken_files, refuse_node_transforms, refuse_broken_glb}) {
