@@ -15,6 +15,7 @@
 #include "sim/text/scene_words.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/text/words.hpp"
+#include "sim/warnings.hpp"
 #include "splat/reference_renderer.hpp"
 
 namespace degs::sim {
@@ -57,8 +58,9 @@ void write_scene(const std::string& file, const std::string& words,
 }
 
 void write_scene(const Scene& scene, const std::string& file) {
-    write_scene(file, scene_words(facts_of(scene)), scene.cameras,
-                [&] { write_scene_file(scene.cloud, scene.cameras, file); });
+    write_scene(file, scene_words(facts_of(scene)), scene.cameras, [&] {
+        print_warnings(write_scene_file(scene.cloud, scene.cameras, scene.traits, file));
+    });
 }
 
 SceneJson scene_info_json(const Scene& scene) {

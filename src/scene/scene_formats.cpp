@@ -15,6 +15,7 @@
 #include "scene/sog/sog.hpp"
 #include "scene/splat_file/splat_file.hpp"
 #include "scene/spz/spz.hpp"
+#include "scene/spz/spz_write.hpp"
 
 namespace degs {
 namespace {
@@ -86,6 +87,17 @@ const SceneFormat& format_of(const std::string& path) {
 
 } // namespace
 
+namespace {
+
+std::vector<std::string> lost_traits(const SceneTraits& traits, const std::string& format) {
+    return traits.antialiased ? std::vector<std::string>{"The scene was trained with antialiasing, "
+                                                         "which a " +
+                                                         format + " file cannot say."}
+                              : std::vector<std::string>{};
+}
+
+} // namespace
+
 const std::vector<SceneFormat>& scene_formats() {
     static const std::vector<SceneFormat> formats{
         {"PLY",
@@ -94,15 +106,23 @@ const std::vector<SceneFormat>& scene_formats() {
          read_ply,
          nullptr,
          nullptr,
-         [](const GaussianCloud& cloud, const std::vector<Camera>&, const std::string& path) {
+         [](const GaussianCloud& cloud, const std::vector<Camera>&, const SceneTraits& traits,
+            const std::string& path) {
              write_ply(cloud, path);
+             return lost_traits(traits, "PLY");
          }},
         {"SPZ",
          {".spz"},
          [](std::string_view head) {
              return starts_with(head, "\x1f\x8b") || starts_with(head, "NGSP");
          },
-         read_spz},
+         read_spz,
+         nullptr,
+         nullptr,
+         [](const GaussianCloud& cloud, const std::vector<Camera>&, const SceneTraits& traits,
+            const std::string& path) {
+             return write_spz(cloud, path, {3, traits.antialiased});
+         }},
         {"glTF",
          {".glb", ".gltf"},
          is_gltf,
@@ -110,7 +130,10 @@ const std::vector<SceneFormat>& scene_formats() {
          read_gltf_cameras,
          gltf_external_files,
          [](const GaussianCloud& cloud, const std::vector<Camera>& cameras,
-            const std::string& path) { write_glb(cloud, cameras, {}, path); }},
+            const SceneTraits& traits, const std::string& path) {
+             write_glb(cloud, cameras, {}, path);
+             return lost_traits(traits, "glTF");
+         }},
         {"SOG",
          {".sog"},
          [](std::string_view head) { return is_zip_of(head, ".webp", "meta.json"); },
@@ -185,10 +208,11 @@ void check_scene_writable(const std::string& path) {
     }
 }
 
-void write_scene_file(const GaussianCloud& cloud, const std::vector<Camera>& cameras,
-                      const std::string& path) {
+std::vector<std::string> write_scene_file(const GaussianCloud& cloud,
+                                          const std::vector<Camera>& cameras,
+                                          const SceneTraits& traits, const std::string& path) {
     check_scene_writable(path);
-    writer_of(path)->write(cloud, cameras, path);
+    return writer_of(path)->write(cloud, cameras, traits, path);
 }
 
 } // namespace degs

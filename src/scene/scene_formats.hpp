@@ -19,9 +19,11 @@ struct SceneFormat {
     std::vector<Camera> (*read_cameras)(const std::string& path) = nullptr;
     /// Files that `read` reads in addition; nullptr: none.
     std::vector<std::string> (*external_files)(const std::string& path) = nullptr;
-    /// Writes a file of the format's first extension; nullptr: such files are not written.
-    void (*write)(const GaussianCloud& cloud, const std::vector<Camera>& cameras,
-                  const std::string& path) = nullptr;
+    /// Writes a file of the format's first extension and returns a sentence for everything that it cannot
+    /// hold; nullptr: such files are not written.
+    std::vector<std::string> (*write)(const GaussianCloud& cloud,
+                                      const std::vector<Camera>& cameras, const SceneTraits& traits,
+                                      const std::string& path) = nullptr;
 };
 
 /// Bytes of a file that decide about its format (fewer if the file is shorter).
@@ -48,9 +50,11 @@ std::string writable_scene_extensions();
 /// InputError unless write_scene_file() writes files of this name.
 void check_scene_writable(const std::string& path);
 
-/// Writes a cloud in the axes of PLY; the extension chooses the format. Cameras go into the file if the format has
-/// any. InputError if no format of the extension is written, or the place cannot be.
-void write_scene_file(const GaussianCloud& cloud, const std::vector<Camera>& cameras,
-                      const std::string& path);
+/// Writes a cloud in the axes of PLY; the extension chooses the format. Cameras and traits go into the
+/// file if the format has any. Returns a sentence for everything that the file cannot hold. InputError if
+/// no format of the extension is written, or the place cannot be.
+std::vector<std::string> write_scene_file(const GaussianCloud& cloud,
+                                          const std::vector<Camera>& cameras,
+                                          const SceneTraits& traits, const std::string& path);
 
 } // namespace degs

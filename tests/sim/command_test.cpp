@@ -105,7 +105,8 @@ TEST(SceneCommand, ConvertsToGlbAndBack) {
     EXPECT_EQ(read_file(folder / "a/scene.ply.png"), read_file(folder / "b/scene.glb.png"));
     const Outcome wrong = degs({"scene", "convert", ply, "--out", folder / "scene.obj"});
     EXPECT_NE(wrong.code, 0);
-    EXPECT_NE(wrong.err.find("must end in one of .ply, .glb"), std::string::npos) << wrong.err;
+    EXPECT_NE(wrong.err.find("must end in one of .ply, .spz, .glb"), std::string::npos)
+        << wrong.err;
 }
 
 TEST(SceneCommand, TilesAScene) {
