@@ -2,6 +2,7 @@
 #include "modules/drawing/tile_drawing.hpp"
 
 #include <algorithm>
+#include <system_error>
 #include <vector>
 
 #include "modules/drawing/drawing_thread.hpp"
@@ -76,7 +77,11 @@ private:
 
 std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options) {
     if (host_threads() > 1 && !job.frames_join) {
-        return std::make_unique<DrawingThread>(job, options);
+        try {
+            return std::make_unique<DrawingThread>(job, options);
+        } catch (const std::system_error&) {
+            // The system gives no thread: it is only slower without.
+        }
     }
     return std::make_unique<DrawingOnDemand>(job, options);
 }
