@@ -16,6 +16,7 @@
 #include "sim/text/standard_output.hpp"
 #include "sim/text/words.hpp"
 #include "sim/warnings.hpp"
+#include "splat/frame/rendering_rules.hpp"
 #include "splat/reference_renderer.hpp"
 
 namespace degs::sim {
@@ -89,7 +90,8 @@ SceneJson scene_info_json(const Scene& scene) {
 
 SceneJson view_info_json(const Scene& scene, const Camera& camera) {
     const Progress progress("measuring the view");
-    const ViewStatistics v = measure_view(scene.cloud, camera);
+    const ViewStatistics v =
+        measure_view(scene.cloud, camera, RenderingRules().options(scene.traits.antialiased));
     return {{"camera", camera_json(camera)},
             {"visible", v.visible},
             {"tile_pairs", v.tile_pairs},
@@ -106,9 +108,11 @@ void write_preview(const Scene& scene, const Camera& camera, const std::string& 
     constexpr int kTileSide = 16;
     const Progress progress("rendering the preview");
     ReferenceCounts counts;
-    write_png(render_reference(make_frame_workload(scene.cloud, camera, kTileSide, TileMode::Exact),
-                               counts),
-              file);
+    write_png(
+        render_reference(make_frame_workload(scene.cloud, camera, kTileSide, TileMode::Exact,
+                                             RenderingRules().options(scene.traits.antialiased)),
+                         counts),
+        file);
 }
 
 } // namespace degs::sim

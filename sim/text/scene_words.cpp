@@ -4,6 +4,7 @@
 #include "config/ratio.hpp"
 #include "scene/scene_statistics.hpp"
 #include "sim/text/words.hpp"
+#include "splat/frame/rendering_rules.hpp"
 
 namespace degs::sim {
 namespace {
@@ -43,6 +44,9 @@ std::string scene_info(const Scene& scene) {
         {"elongation", quantile_words(s.elongation) + "  (largest / middle axis)"},
         {"opacity", quantile_words(s.opacity)},
     };
+    if (scene.traits.antialiased) {
+        block.emplace_back("opacities", "trained with anti-aliasing, as the file says");
+    }
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const Camera& camera = scene.cameras[i];
         block.emplace_back("camera " + std::to_string(i), size_words(camera) + " " + camera.name);
@@ -52,7 +56,8 @@ std::string scene_info(const Scene& scene) {
 
 std::string view_info(const Scene& scene, const Camera& camera) {
     const Progress progress("measuring the view");
-    const ViewStatistics v = measure_view(scene.cloud, camera);
+    const ViewStatistics v =
+        measure_view(scene.cloud, camera, RenderingRules().options(scene.traits.antialiased));
     const auto per_splat = [&v](std::uint64_t count) {
         return v.visible > 0 ? three_digits(ratio_of(count, v.visible)) : "-";
     };

@@ -149,9 +149,10 @@ SceneStatistics measure_scene(const GaussianCloud& cloud, const SanitizeReport& 
     return out;
 }
 
-ViewStatistics measure_view(const GaussianCloud& cloud, const Camera& camera) {
+ViewStatistics measure_view(const GaussianCloud& cloud, const Camera& camera,
+                            const ProjectionOptions& options) {
     constexpr int kTile = 16;
-    const FrameWorkload work = make_frame_workload(cloud, camera, kTile, TileMode::Exact);
+    const FrameWorkload work = make_frame_workload(cloud, camera, kTile, TileMode::Exact, options);
     ReferenceCounts counts;
     const Image image = render_reference(work, counts);
     const std::size_t pixels = image.pixels();

@@ -9,6 +9,7 @@
 
 #include "splat/camera.hpp"
 #include "splat/gaussian.hpp"
+#include "splat/projection.hpp"
 
 namespace degs {
 
@@ -56,6 +57,7 @@ struct ViewStatistics {
 };
 
 /// Renders the view once with the reference renderer.
-ViewStatistics measure_view(const GaussianCloud& cloud, const Camera& camera);
+ViewStatistics measure_view(const GaussianCloud& cloud, const Camera& camera,
+                            const ProjectionOptions& options = {});
 
 } // namespace degs

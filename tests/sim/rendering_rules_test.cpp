@@ -122,5 +122,35 @@ TEST(RulesOfRender, TheCommandHasThem) {
     expect_mistake(degs({"render", "--scene", kScene, "--order", "colour"}), "--order");
 }
 
+// A file that was trained with anti-aliasing is drawn so, unless the configuration overrules it.
+TEST(RulesOfFile, DecideByDefault) {
+    const Folder folder;
+    const std::string plain = folder / "plain.ply";
+    expect_success(degs({"scene", "generate", "object", "--gaussians", "2000", "--out", plain}));
+    std::string bytes = read_file(plain);
+    bytes.insert(bytes.find("element vertex"), "comment antialiased 1\n");
+    const std::string flagged = folder / "flagged.ply";
+    std::ofstream(flagged, std::ios::binary) << bytes;
+    const auto run = [&folder](const std::string& scene, const Words& more) {
+        Words arguments{"run",   config("gscore-16"), "--scene", scene, "--width", "160",
+                        "--out", folder / "o"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expect_success(degs(arguments));
+        return read_file(folder / "o/image.exr");
+    };
+    const Words on{"--set", "pipeline.rules.antialiasing=on"};
+    const Words off{"--set", "pipeline.rules.antialiasing=off"};
+    const std::string faithful = run(flagged, {});
+    EXPECT_TRUE(report_in(folder / "o")["scene"]["antialiased"]);
+    EXPECT_EQ(report_in(folder / "o")["workload"]["antialiasing"], "on");
+    EXPECT_EQ(run(plain, on), faithful);
+    EXPECT_NE(run(plain, {}), faithful);
+    const std::string overruled = run(flagged, off);
+    EXPECT_EQ(run(plain, {}), overruled);
+    EXPECT_FALSE(report_in(folder / "o")["scene"]["antialiased"]);
+    const Outcome info = degs({"scene", "info", flagged});
+    EXPECT_NE(info.out.find("trained with anti-aliasing"), std::string::npos) << info.out;
+}
+
 } // namespace
 } // namespace degs::sim_test
