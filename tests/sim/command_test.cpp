@@ -85,6 +85,7 @@ TEST(SceneCommand, ConvertsWithoutTheUndrawable) {
     Splat bad;
     bad.rotation = {0, 0, 0, 0};
     write_ply(folder / "in.ply", {Splat{}, bad});
+    write_camera(folder / "cameras.json", {0, 0, -3});
     expect_success(degs({"scene", "convert", folder / "in.ply", "--out", folder / "out.ply"}));
     const Outcome info = degs({"scene", "info", folder / "out.ply"});
     EXPECT_NE(info.out.find("1 Gaussian,"), std::string::npos) << info.out;
