@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs scene info | cameras | generate | convert | tile
+#include <filesystem>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "scene/dynamic/spacetime_ply.hpp"
+#include "scene/dynamic/synthetic_dynamic.hpp"
 #include "scene/scene_formats.hpp"
 #include "scene/synthetic/synthetic.hpp"
 #include "sim/commands.hpp"
@@ -101,6 +104,12 @@ void add_generate(CLI::App& scene) {
             spec += ",gaussians=" + options->gaussians;
         }
         write_scene(load_scene(spec), options->out);
+        // A PLY file has all times, other formats the first alone.
+        if (options->profile == kSyntheticDynamic &&
+            std::filesystem::path(options->out).extension() == ".ply") {
+            write_spacetime_ply(make_spacetime(parse_synthetic(spec.substr(spec.find(':') + 1))),
+                                options->out);
+        }
     });
 }
 

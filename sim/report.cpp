@@ -146,6 +146,16 @@ ordered_json sampling_json(const SamplingFacts& sampling) {
     return json;
 }
 
+ordered_json changes_json(const FrameChanges& changes) {
+    const auto or_null = [](const std::optional<double>& value) {
+        return value ? ordered_json(*value) : ordered_json();
+    };
+    return {{"active_overlap", or_null(changes.active_overlap)},
+            {"tile_churn", or_null(changes.tile_churn)},
+            {"p99_tile_candidates", changes.p99_tile_candidates},
+            {"footprint_gini", changes.footprint_gini}};
+}
+
 ordered_json laws_json(const AcceleratorResult& run) {
     ordered_json json = ordered_json::array();
     for (const Conservation& c : run.conservation) {
@@ -225,6 +235,9 @@ ordered_json report(const RunResult& result) {
     json["conservation"] = laws_json(result.accelerator);
     json.update(statistics_json(
         list_statistics([&](StatsVisitor& visitor) { describe_outcome(result, visitor); })));
+    if (result.changes) {
+        json["changes"] = changes_json(*result.changes);
+    }
     if (result.sampling) {
         json["sampling"] = sampling_json(*result.sampling);
     }

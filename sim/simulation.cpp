@@ -6,6 +6,7 @@
 
 #include <sys/resource.h>
 
+#include "config/error.hpp"
 #include "sim/process/reserve.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/text/loss_keys.hpp"
@@ -57,6 +58,22 @@ std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const Scen
             make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode(), options));
     }
     seconds += clock.seconds();
+    return workloads;
+}
+
+std::vector<FrameWorkload> make_workloads(const DynamicScene& scene, const SceneTraits& traits,
+                                          const std::vector<Camera>& cameras,
+                                          const AcceleratorConfig& config, double& seconds) {
+    if (static_cast<int>(cameras.size()) > scene.frames()) {
+        throw InputError("The scene has " + std::to_string(scene.frames()) + " frames, and " +
+                         std::to_string(cameras.size()) + " were asked for (--frames).");
+    }
+    std::vector<FrameWorkload> workloads;
+    for (std::size_t k = 0; k < cameras.size(); ++k) {
+        const GaussianCloud cloud = scene.frame(static_cast<int>(k));
+        workloads.push_back(
+            std::move(make_workloads(cloud, traits, {cameras[k]}, config, seconds).front()));
+    }
     return workloads;
 }
 
@@ -134,6 +151,9 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
     result.camera = frames.front()->camera;
     result.workload = facts_of(*frames.front());
     result.warnings = request.config.warnings;
+    if (frames.size() > 1) {
+        result.changes = frame_changes(frames);
+    }
     for (std::string& sentence :
          saturation_warnings(request.config.accelerator().data_path(), *frames.front())) {
         result.warnings.push_back(std::move(sentence));

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "scene/dynamic/dynamic_scene.hpp"
 #include "sim/accelerator_run.hpp"
+#include "sim/dynamic/frame_changes.hpp"
 #include "sim/run_config.hpp"
 #include "sim/sampling/sampled_run.hpp"
 #include "sim/view.hpp"
@@ -64,6 +66,7 @@ struct RunResult {
     std::vector<std::string> movable_keys; ///< see LossKeys::movable; asked before the simulation
     std::vector<std::string> warnings;     ///< sentences; see warnings.hpp
     std::optional<ImageError> error;       ///< first frame against the reference
+    std::optional<FrameChanges> changes;   ///< of a run of several frames
     std::optional<SamplingFacts> sampling; ///< if the numbers are estimates from a sample
     HostFacts host;
 };
@@ -85,6 +88,11 @@ std::uint64_t peak_rss_bytes();
 /// The frames of `cameras` with the tiles of the accelerator, projected in its numbers and by its
 /// rules; adds the host seconds to `seconds`.
 std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const SceneTraits& traits,
+                                          const std::vector<Camera>& cameras,
+                                          const AcceleratorConfig& config, double& seconds);
+/// The same of a scene that changes: frame k of it, seen by camera k. InputError for more cameras than
+/// the scene has frames.
+std::vector<FrameWorkload> make_workloads(const DynamicScene& scene, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds);
 Reference make_reference(const FrameWorkload& workload);

@@ -59,9 +59,10 @@ void add_view_options(CLI::App& command, ViewRequest& request) {
 void add_path_options(CLI::App& command, PathRequest& request) {
     CLI::Option* frames =
         command
-            .add_option("--frames", request.frames,
-                        "frames of a camera path that starts at the view; from 2 on, throughput is "
-                        "measured, too")
+            .add_option(
+                "--frames", request.frames,
+                "frames of a camera path that starts at the view, or of a scene that changes; "
+                "from 2 on, throughput is measured, too")
             ->check(CLI::Range(1, kMostFrames))
             ->capture_default_str();
     command

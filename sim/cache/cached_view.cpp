@@ -18,6 +18,10 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
     : request_(request), cache_(std::move(cache)) {
     check_view(request_);
     const Stopwatch clock;
+    if (std::unique_ptr<DynamicScene> dynamic = open_dynamic_scene(request_.scene)) {
+        cache_ = FrameCache(); // it keeps frames of one cloud
+        dynamic_ = path.frames > 1 ? std::move(dynamic) : nullptr;
+    }
     key_ = cache_.scene_key(request_.scene, request_.camera_file);
     if (std::optional<SceneCard> card = cache_.scene(key_)) {
         facts_ = card->facts;
@@ -31,8 +35,9 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
     }
     const Camera camera = camera_of(request_, scene_);
     load_s_ += load_s_ > 0 ? 0 : clock.seconds();
-    cameras_ = path.frames == 1 ? std::vector<Camera>{camera}
-                                : camera_path(cloud(), camera, path.frames, path.step_degrees);
+    cameras_ = path.frames == 1 || dynamic_
+                   ? std::vector<Camera>(path.frames, camera)
+                   : camera_path(cloud(), camera, path.frames, path.step_degrees);
 }
 
 const GaussianCloud& CachedView::cloud() {
@@ -64,7 +69,8 @@ std::vector<FrameWorkload> CachedView::frames(const AcceleratorConfig& config) {
     }
     if (frames.size() < cameras_.size()) {
         double seconds = 0;
-        frames = make_workloads(cloud(), facts_.traits, cameras_, config, seconds);
+        frames = dynamic_ ? make_workloads(*dynamic_, facts_.traits, cameras_, config, seconds)
+                          : make_workloads(cloud(), facts_.traits, cameras_, config, seconds);
         frames_made_ = seconds > kWorthKeeping;
         workload_s_ += seconds;
     }

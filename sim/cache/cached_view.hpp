@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ public:
 
     /// Of the scene as it was loaded, also when its Gaussians are not there.
     const SceneFacts& facts() const { return facts_; }
-    /// Of the path; the view's own first.
+    /// Of the path; the view's own first. A scene that changes is seen by a camera that stands still.
     const std::vector<Camera>& cameras() const { return cameras_; }
     /// The frames with the tiles of the accelerator, projected in its numbers.
     std::vector<FrameWorkload> frames(const AcceleratorConfig& config);
@@ -40,8 +41,9 @@ private:
 
     ViewRequest request_;
     FrameCache cache_;
-    std::string key_; ///< of the scene
-    Scene scene_;     ///< its cloud may be missing
+    std::string key_;                       ///< of the scene
+    Scene scene_;                           ///< its cloud may be missing
+    std::unique_ptr<DynamicScene> dynamic_; ///< if the scene changes and several frames are wanted
     SceneFacts facts_;
     std::vector<Camera> cameras_;
     double load_s_ = 0, workload_s_ = 0;

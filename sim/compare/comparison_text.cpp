@@ -2,6 +2,7 @@
 #include "config/config_words.hpp"
 #include "config/visible_text.hpp"
 #include "sim/compare/comparison_output.hpp"
+#include "sim/dynamic/frame_changes.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
@@ -161,6 +162,19 @@ std::string heading(const ComparedView& view) {
     return folded(visible(words), output_columns(), 2) + "\n";
 }
 
+/// A line on how much the frames differ, if there are several.
+std::string changes_line(const ComparedView& view) {
+    if (!view.p99_tile_candidates) {
+        return "";
+    }
+    FrameChanges changes;
+    changes.active_overlap = view.active_overlap;
+    changes.tile_churn = view.tile_churn;
+    changes.p99_tile_candidates = *view.p99_tile_candidates;
+    changes.footprint_gini = view.footprint_gini.value_or(0);
+    return folded("frames: " + changes_words(changes), output_columns(), 2) + "\n";
+}
+
 std::string legend(const Comparison& comparison) {
     const std::string first = visible(comparison.configs.front().name);
     std::string words = "speed: 1 / latency of one frame alone; " + first + " = 1";
@@ -178,9 +192,10 @@ std::string legend(const Comparison& comparison) {
 std::string views_text(const Comparison& comparison, std::size_t begin, std::size_t end) {
     std::string text;
     for (std::size_t v = begin; v < end; ++v) {
-        text += heading(comparison.views[v]) + time_table(comparison, v) + "\n" +
-                limits_table(comparison, v) + "\n" + energy_table(comparison, comparison.rows, v) +
-                "\n" + slots_table(comparison, v) + "\n";
+        text += heading(comparison.views[v]) + changes_line(comparison.views[v]) +
+                time_table(comparison, v) + "\n" + limits_table(comparison, v) + "\n" +
+                energy_table(comparison, comparison.rows, v) + "\n" + slots_table(comparison, v) +
+                "\n";
     }
     return text;
 }

@@ -27,15 +27,22 @@ void put_measure(ordered_json& run, Measure measure, const std::optional<double>
 }
 
 ordered_json view_json(const ComparedView& view) {
-    return {{"scene", view.scene},
-            {"source", view.source},
-            {"camera", view.camera},
-            {"img_name", view.camera_name},
-            {"width", view.width},
-            {"height", view.height},
-            {"gaussians", view.gaussians},
-            {"visible", view.visible},
-            {"fragments", value_or_null(view.fragments)}};
+    ordered_json json = {{"scene", view.scene},
+                         {"source", view.source},
+                         {"camera", view.camera},
+                         {"img_name", view.camera_name},
+                         {"width", view.width},
+                         {"height", view.height},
+                         {"gaussians", view.gaussians},
+                         {"visible", view.visible},
+                         {"fragments", value_or_null(view.fragments)}};
+    if (view.p99_tile_candidates) { // of several frames
+        json["changes"] = {{"active_overlap", value_or_null(view.active_overlap)},
+                           {"tile_churn", value_or_null(view.tile_churn)},
+                           {"p99_tile_candidates", *view.p99_tile_candidates},
+                           {"footprint_gini", value_or_null(view.footprint_gini)}};
+    }
+    return json;
 }
 
 std::string csv_cell(const std::string& text) {

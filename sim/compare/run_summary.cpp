@@ -26,6 +26,10 @@ void each_field(Fields& fields, Summary& summary) {
     fields("view.gaussians", summary.view.gaussians);
     fields("view.visible", summary.view.visible);
     fields("view.fragments", summary.view.fragments);
+    fields("view.active_overlap", summary.view.active_overlap);
+    fields("view.tile_churn", summary.view.tile_churn);
+    fields("view.p99_tile_candidates", summary.view.p99_tile_candidates);
+    fields("view.footprint_gini", summary.view.footprint_gini);
     for_each_measure([&](Measure m) { fields("measure." + name_of(m), summary.measures[m]); });
     fields("first_task_ms", summary.first_task_ms);
     fields("last_task_ms", summary.last_task_ms);

@@ -19,6 +19,8 @@ struct ComparedView {
     int width = 0, height = 0;
     std::size_t gaussians = 0, visible = 0;
     std::optional<std::size_t> fragments; ///< of the reference
+    /// The next four of all frames, if there are several; see FrameChanges.
+    std::optional<double> active_overlap{}, tile_churn{}, p99_tile_candidates{}, footprint_gini{};
 };
 
 /// One configuration on one view.
@@ -41,7 +43,7 @@ struct RunSummary {
 RunSummary summary_of(const RunResult& result, int camera);
 
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 6;
+constexpr int kSummaryVersion = 7;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

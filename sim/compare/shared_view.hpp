@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -15,7 +16,8 @@ struct SharedView {
     int camera = 0;
     SceneFacts scene;
     const GaussianCloud* cloud = nullptr;
-    std::vector<Camera> cameras; ///< of the path, the view's own first
+    std::unique_ptr<DynamicScene> dynamic; ///< if the scene changes and several frames are wanted
+    std::vector<Camera> cameras;           ///< of the path, the view's own first
     double load_s = 0, workload_s = 0;
     std::vector<FrameWorkload> frames;  ///< of the present group
     std::optional<Reference> reference; ///< of `reference_kind`

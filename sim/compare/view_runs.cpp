@@ -134,8 +134,12 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
         shared.camera = place.camera;
         shared.scene = facts_of(scene);
         shared.cloud = &scene.cloud;
-        shared.cameras =
-            camera_path(scene.cloud, first, request_.path.frames, request_.path.step_degrees);
+        if (request_.path.frames > 1) {
+            shared.dynamic = open_dynamic_scene(request_.scenes[place.scene]);
+        }
+        shared.cameras = shared.dynamic ? std::vector<Camera>(request_.path.frames, first)
+                                        : camera_path(scene.cloud, first, request_.path.frames,
+                                                      request_.path.step_degrees);
         shared.load_s = load_s;
         for (const auto& [kind, members] : groups_of(request_.configs, configs, scene.traits)) {
             if (!interrupted_) {
@@ -157,8 +161,10 @@ void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs
     const AcceleratorConfig& wish = request_.configs[configs.front()].config.accelerator();
     shared.frames.clear(); // before the next are made; children have copies of their own
     shared.workload_s = 0;
-    shared.frames =
-        make_workloads(*shared.cloud, shared.scene.traits, shared.cameras, wish, shared.workload_s);
+    shared.frames = shared.dynamic ? make_workloads(*shared.dynamic, shared.scene.traits,
+                                                    shared.cameras, wish, shared.workload_s)
+                                   : make_workloads(*shared.cloud, shared.scene.traits,
+                                                    shared.cameras, wish, shared.workload_s);
     if (request_.reference && !request_.sampling) {
         shared.render_reference(wish.tile_mode());
     }

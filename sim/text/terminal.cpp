@@ -216,6 +216,9 @@ std::string summary(const RunResult& result, const std::string& image_path) {
                 {"memory", memory_line(run)},
                 {"energy", energy_line(run)},
                 {"image", image_line(result, image_path)}};
+    if (result.changes) {
+        block.push_back({"changes", changes_words(*result.changes)});
+    }
     if (result.sampling) {
         block.push_back({"sample", sample_line(*result.sampling)});
     }

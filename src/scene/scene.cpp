@@ -9,6 +9,8 @@
 #include "config/error.hpp"
 #include "scene/cameras/camera_file.hpp"
 #include "scene/cameras/orbit_camera.hpp"
+#include "scene/dynamic/dynamic_scene.hpp"
+#include "scene/dynamic/spacetime_ply.hpp"
 #include "scene/input_file.hpp"
 #include "scene/scene_formats.hpp"
 #include "scene/scene_spec.hpp"
@@ -64,6 +66,32 @@ SyntheticSpec synthetic_of(const SceneSpec& spec) {
     return parse_synthetic(spec.path.substr(spec.path.find(':') + 1));
 }
 
+/// The file that is read: the first one of a sequence.
+std::string file_of(const SceneSpec& spec) {
+    const std::vector<std::string> files = sequence_files(spec.path);
+    return files.empty() ? spec.path : files.front();
+}
+
+/// A file at the time that the user names, else at its beginning.
+SceneContent content_of(const SceneSpec& spec) {
+    const std::string file = file_of(spec);
+    if (!is_spacetime_ply(file)) {
+        if (spec.time) {
+            fail_file(spec.path, "this scene is not a function of time; '?time=' is for files of "
+                                 "SpacetimeGaussians.");
+        }
+        return read_scene_file(file);
+    }
+    SpacetimeCloud scene = read_spacetime_ply(file);
+    SceneContent content;
+    if (const std::uint64_t dropped = sanitize(scene); dropped > 0) {
+        content.notes.push_back(std::to_string(dropped) +
+                                " Gaussians hold NaN or infinity and are left out at all times.");
+    }
+    content.cloud = at_time(scene, spec.time.value_or(0));
+    return content;
+}
+
 /// Turns everything to RDF, the axes of cameras.json.
 void turn(SceneContent& content, const std::optional<Axes>& told) {
     if (content.axes_assumed && !told) {
@@ -82,7 +110,12 @@ void turn(SceneContent& content, const std::optional<Axes>& told) {
 
 std::string scene_name(const std::string& text) {
     const SceneSpec spec = parse_scene_spec(text);
-    return spec.synthetic ? synthetic_of(spec).profile : name_of(spec.path);
+    if (spec.synthetic) {
+        return synthetic_of(spec).profile;
+    }
+    const std::vector<std::string> files = sequence_files(spec.path);
+    return files.empty() ? name_of(spec.path)
+                         : fs::absolute(files.front()).parent_path().filename().string();
 }
 
 Scene load_scene(const std::string& text, const std::string& cameras_path) {
@@ -95,13 +128,13 @@ Scene load_scene(const std::string& text, const std::string& cameras_path) {
         scene.cloud = std::move(made.cloud);
         scene.cameras = std::move(made.cameras);
     } else {
-        SceneContent content = read_scene_file(spec.path);
+        SceneContent content = content_of(spec);
         turn(content, spec.axes);
         scene.cloud = std::move(content.cloud);
         scene.cameras = std::move(content.cameras);
         scene.traits = content.traits;
         scene.notes = std::move(content.notes);
-        cameras = cameras.empty() ? cameras_beside(spec.path) : cameras;
+        cameras = cameras.empty() ? cameras_beside(file_of(spec)) : cameras;
     }
     scene.name = scene_name(text);
     sanitize_scene(scene);
@@ -125,11 +158,11 @@ std::size_t camera_count(const std::string& text, const std::string& cameras_pat
         return load_scene(text).cameras.size();
     }
     if (!spec.synthetic) {
-        const InputFile exists(spec.path);
-        cameras = cameras.empty() ? cameras_beside(spec.path) : cameras;
+        const InputFile exists(file_of(spec));
+        cameras = cameras.empty() ? cameras_beside(file_of(spec)) : cameras;
     }
     const std::vector<Camera> found =
-        cameras.empty() ? read_scene_cameras(spec.path) : read_camera_file(cameras).cameras;
+        cameras.empty() ? read_scene_cameras(file_of(spec)) : read_camera_file(cameras).cameras;
     return std::max<std::size_t>(found.size(), 1);
 }
 

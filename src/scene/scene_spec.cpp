@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/error.hpp"
+#include "scene/synthetic/synthetic.hpp"
 
 namespace degs {
 namespace {
@@ -33,8 +34,13 @@ std::string take_axes(SceneSpec& spec, const std::string& value) {
                            "back), e.g. rdf.";
 }
 
+std::string take_time(SceneSpec& spec, const std::string& value) {
+    spec.time = parse_scene_time(value);
+    return spec.time ? "" : "time is '" + value + "', but must be a number from 0 to 1.";
+}
+
 const std::vector<SpecKey>& spec_keys() {
-    static const std::vector<SpecKey> keys{{"axes", take_axes}};
+    static const std::vector<SpecKey> keys{{"axes", take_axes}, {"time", take_time}};
     return keys;
 }
 

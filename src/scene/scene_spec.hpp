@@ -10,9 +10,10 @@ namespace degs {
 
 /// What a user writes to name a scene: "PATH", "PATH?key=value,key=value" or "synthetic:NAME,...".
 struct SceneSpec {
-    std::string path;         ///< of the file; of synthetic scenes all that was written
-    bool synthetic = false;   ///< no file
-    std::optional<Axes> axes; ///< of the file, whatever it says itself
+    std::string path;           ///< of the file; of synthetic scenes all that was written
+    bool synthetic = false;     ///< no file
+    std::optional<Axes> axes;   ///< of the file, whatever it says itself
+    std::optional<double> time; ///< of a scene that changes, 0..1
 };
 
 /// A file whose name is exactly `text` wins over options. InputError that lists what is allowed for

@@ -75,10 +75,11 @@ TEST(SceneLoading, MakesSyntheticScenes) {
 TEST(HostileScene, EveryMistakeHasItsSentence) {
     const SceneFolder folder;
     folder.put_scene("good.ply");
+    folder.write("sub/notes.txt", "x");
     const std::pair<std::string, const char*> cases[] = {
         {folder.path("absent.ply"), "there is no such file"},
         {folder.path("absent.xyz"), "there is no such file"},
-        {folder.path(""), "this is a folder"},
+        {folder.path("sub"), "this is a folder without scene files"},
         {folder.write("empty.ply", ""), "the file is empty"},
         {folder.write("scene.obj", "x"), "the extension '.obj' is not that of a scene file"},
         {folder.write("scene", "x"), "the extension ''"},

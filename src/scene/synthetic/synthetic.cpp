@@ -36,6 +36,8 @@ constexpr std::array<Profile, 8> kProfiles{{
     {"single", "one big splat in the centre of every view", 1, 1, make_single},
     {"needles", "needles of aspect 100 to 100 000 at all angles", 1000, kMostGaussians,
      make_needles},
+    {"dynamic", "a table scene that changes: a ball flies, a column sways, steam comes and goes",
+     100000, kMostGaussians, make_dynamic},
 }};
 
 const Profile& profile_named(const std::string& name) {
@@ -70,10 +72,16 @@ void parse_setting(const std::string& setting, const Profile& profile, Synthetic
         spec.gaussians = parse_count(key, value, 1, profile.most);
     } else if (key == "seed") {
         spec.seed = parse_count(key, value, 0, UINT64_MAX);
+    } else if (key == "time" && spec.profile == "dynamic") {
+        spec.time = parse_scene_time(value);
+        if (!spec.time) {
+            throw InputError("Key 'time' of a synthetic scene is '" + value +
+                             "'; allowed are numbers from 0 to 1.");
+        }
     } else {
         throw InputError("'" + setting +
                          "' is no setting of a synthetic scene; allowed are "
-                         "gaussians=N and seed=N.");
+                         "gaussians=N and seed=N, and time=T of 'dynamic'.");
     }
 }
 
@@ -86,6 +94,14 @@ std::vector<SyntheticProfile> synthetic_profiles() {
         out.push_back({profile.name, profile.meaning, profile.default_gaussians});
     }
     return out;
+}
+
+std::optional<double> parse_scene_time(const std::string& text) {
+    double time = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, time);
+    const bool good = error == std::errc() && stop == end && time >= 0 && time <= 1;
+    return good ? std::optional<double>(time) : std::nullopt;
 }
 
 SyntheticSpec parse_synthetic(const std::string& text) {

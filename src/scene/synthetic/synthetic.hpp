@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct SyntheticSpec {
     std::string profile;
     std::uint64_t gaussians = 0;
     std::uint64_t seed = 1;
+    std::optional<double> time{}; ///< 0..1, of the profile that changes over time
 };
 
 struct SyntheticScene {
@@ -30,7 +32,10 @@ struct SyntheticProfile {
 };
 std::vector<SyntheticProfile> synthetic_profiles();
 
-/// Parses "NAME[,gaussians=N][,seed=N]". InputError names the profiles, keys and ranges.
+/// A time within a scene, a number from 0 to 1; nothing for any other text.
+std::optional<double> parse_scene_time(const std::string& text);
+
+/// Parses "NAME[,gaussians=N][,seed=N][,time=T]". InputError names the profiles, keys and ranges.
 SyntheticSpec parse_synthetic(const std::string& text);
 
 /// The same spec gives the same bytes on every platform with IEEE arithmetic (nothing

@@ -58,5 +58,6 @@ void make_dense(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_uniform(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_single(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_needles(const SyntheticSpec& spec, SyntheticScene& scene);
+void make_dynamic(const SyntheticSpec& spec, SyntheticScene& scene); ///< at its time
 
 } // namespace degs

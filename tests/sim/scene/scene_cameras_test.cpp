@@ -35,8 +35,8 @@ TEST(SceneCameras, HaveOneLineEach) {
     camera.fx = camera.fy = 320;
     scene.cameras = {camera};
     const std::string text = cameras_text(scene);
-    EXPECT_THAT(text, testing::StartsWith("camera 0  640×480 front · at (0, 0, -6)"));
-    EXPECT_THAT(text, testing::HasSubstr("looks along (0, 0, 1)"));
+    EXPECT_THAT(text, testing::StartsWith("camera 0  640×480 front · at (0, 0, -6.00)"));
+    EXPECT_THAT(text, testing::HasSubstr("looks along (0, 0, 1.00)"));
     EXPECT_THAT(text, testing::HasSubstr("90.0° × 73.7°"));
 }
 

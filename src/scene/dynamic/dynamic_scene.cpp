@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/dynamic/dynamic_scene.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "scene/dynamic/spacetime_ply.hpp"
+#include "scene/dynamic/synthetic_dynamic.hpp"
+#include "scene/input_file.hpp"
+#include "scene/scene.hpp"
+#include "scene/scene_formats.hpp"
+#include "scene/scene_spec.hpp"
+
+namespace degs {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileSequence : public DynamicScene {
+public:
+    /// `options` are those behind the name, with the '?'.
+    FileSequence(std::vector<std::string> files, std::string options)
+        : files_(std::move(files)), options_(std::move(options)) {}
+
+    int frames() const override { return static_cast<int>(files_.size()); }
+    GaussianCloud frame(int k) const override {
+        return std::move(load_scene(files_[k] + options_).cloud);
+    }
+
+private:
+    std::vector<std::string> files_;
+    std::string options_;
+};
+
+class SpacetimeScene : public DynamicScene {
+public:
+    explicit SpacetimeScene(SpacetimeCloud cloud) : cloud_(std::move(cloud)) { sanitize(cloud_); }
+
+    int frames() const override { return kFramesOfScene; }
+    GaussianCloud frame(int k) const override {
+        GaussianCloud cloud = at_time(cloud_, static_cast<double>(k) / kFramesOfScene);
+        degs::sanitize(cloud);
+        return cloud;
+    }
+
+private:
+    SpacetimeCloud cloud_;
+};
+
+bool is_digit(char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+/// Numbers by value, everything else by character.
+bool natural_less(const std::string& a, const std::string& b) {
+    std::size_t i = 0;
+    std::size_t j = 0;
+    while (i < a.size() && j < b.size()) {
+        if (!is_digit(a[i]) || !is_digit(b[j])) {
+            if (a[i] != b[j]) {
+                return a[i] < b[j];
+            }
+            ++i;
+            ++j;
+            continue;
+        }
+        const auto number_at = [](const std::string& text, std::size_t& at) {
+            while (at + 1 < text.size() && text[at] == '0' && is_digit(text[at + 1])) {
+                ++at;
+            }
+            const std::size_t begin = at;
+            while (at < text.size() && is_digit(text[at])) {
+                ++at;
+            }
+            return text.substr(begin, at - begin);
+        };
+        const std::string x = number_at(a, i);
+        const std::string y = number_at(b, j);
+        if (x.size() != y.size() || x != y) {
+            return x.size() != y.size() ? x.size() < y.size() : x < y;
+        }
+    }
+    return a.size() - i != b.size() - j ? a.size() - i < b.size() - j : a < b;
+}
+
+/// '*' stands for any characters; every other character for itself.
+bool matches_pattern(std::string_view name, std::string_view pattern) {
+    const std::size_t star = pattern.find('*');
+    if (star == std::string_view::npos) {
+        return name == pattern;
+    }
+    if (name.substr(0, star) != pattern.substr(0, star)) {
+        return false;
+    }
+    const std::string_view rest = pattern.substr(star + 1);
+    for (std::size_t at = std::min(star, name.size()); at <= name.size(); ++at) {
+        if (matches_pattern(name.substr(at), rest)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool has_scene_extension(const fs::path& file) {
+    const std::vector<std::string> all = scene_extensions();
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(all.begin(), all.end(), extension) != all.end();
+}
+
+} // namespace
+
+std::vector<std::string> sequence_files(const std::string& path) {
+    std::error_code error;
+    const bool folder = fs::is_directory(path, error);
+    const std::string pattern = folder ? "" : fs::path(path).filename().string();
+    if (!folder && (pattern.find('*') == std::string::npos || fs::exists(path, error))) {
+        return {};
+    }
+    const fs::path home = folder ? fs::path(path) : fs::path(path).parent_path();
+    std::vector<std::string> files;
+    for (const fs::directory_entry& entry :
+         fs::directory_iterator(home.empty() ? fs::path(".") : home, error)) {
+        const std::string name = entry.path().filename().string();
+        if (entry.is_regular_file(error) &&
+            (folder ? has_scene_extension(entry.path()) : matches_pattern(name, pattern))) {
+            files.push_back((home / name).string());
+        }
+    }
+    if (files.empty()) {
+        fail_file(path, folder ? "this is a folder without scene files; a file, a folder of frames "
+                                 "or a pattern like 'folder/*.ply' is needed."
+                               : "no file matches this pattern.");
+    }
+    std::sort(files.begin(), files.end(), natural_less);
+    return files;
+}
+
+std::unique_ptr<DynamicScene> open_dynamic_scene(const std::string& text) {
+    const SceneSpec spec = parse_scene_spec(text);
+    if (spec.synthetic) {
+        const SyntheticSpec made = parse_synthetic(spec.path.substr(spec.path.find(':') + 1));
+        return made.profile == kSyntheticDynamic && !made.time
+                   ? std::make_unique<SpacetimeScene>(make_spacetime(made))
+                   : nullptr;
+    }
+    std::vector<std::string> files = sequence_files(spec.path);
+    if (!files.empty()) {
+        return std::make_unique<FileSequence>(std::move(files), text.substr(spec.path.size()));
+    }
+    return !spec.time && is_spacetime_ply(spec.path)
+               ? std::make_unique<SpacetimeScene>(read_spacetime_ply(spec.path))
+               : nullptr;
+}
+
+} // namespace degs
