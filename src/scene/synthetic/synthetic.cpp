@@ -21,7 +21,7 @@ struct Profile {
     std::uint64_t most;
     void (*make)(const SyntheticSpec& spec, SyntheticScene& scene);
 };
-constexpr std::array<Profile, 8> kProfiles{{
+constexpr std::array<Profile, 9> kProfiles{{
     {"object", "a captured object, surface covered with discs, few floaters, empty background",
      100000, kMostGaussians, make_object},
     {"outdoor", "ground with grass, objects in the middle, haze of big splats around", 150000,
