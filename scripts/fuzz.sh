@@ -30,8 +30,8 @@ for target in "${targets[@]}"; do
     if nice "$bin/degs_fuzz_$target" "${limits[@]}" -max_total_time="$seconds" -print_final_stats=1 \
         -artifact_prefix="$findings/" "build/fuzz/corpus/$target" >"$findings/log" 2>&1; then
         runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$findings/log")
-        covered=$(grep -o 'cov: [0-9]*' "$findings/log" | tail -1)
-        echo "$target: nothing found in $runs inputs of $seconds s, ${covered#cov: } branches covered"
+        covered=$(grep -a -o 'cov: [0-9]*' "$findings/log" | tail -1)
+        echo "$target: nothing found in $runs inputs of $seconds s, ${covered#cov: } edges covered"
     else
         echo "$target: a finding; see $findings"
         code=1
