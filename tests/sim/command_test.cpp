@@ -117,11 +117,11 @@ TEST(SceneCommand, TilesAScene) {
     expect_success(degs({"scene", "tile", scene, "--copies", "3x2x2", "--out", file}));
     const Outcome info = degs({"scene", "info", file, "--json", "--camera", "0"});
     expect_success(info);
-    const auto json = nlohmann::json::parse(info.out);
-    EXPECT_EQ(json["scene"]["gaussians"], 3600);
-    EXPECT_EQ(json["cameras"].size(), 3U);
-    EXPECT_EQ(json["cameras"][2]["width"], 1920);
-    EXPECT_GT(json["view"]["visible"], 3000);
+    const auto told = nlohmann::json::parse(info.out);
+    EXPECT_EQ(told["scene"]["gaussians"], 3600);
+    EXPECT_EQ(told["cameras"].size(), 3U);
+    EXPECT_EQ(told["cameras"][2]["width"], 1920);
+    EXPECT_GT(told["view"]["visible"], 3000);
     expect_success(degs({"scene", "tile", scene, "--gaussians", "1000", "--out", file}));
     EXPECT_EQ(
         nlohmann::json::parse(degs({"scene", "info", file, "--json"}).out)["scene"]["gaussians"],
