@@ -65,7 +65,7 @@ expect() {
 
 expect 'degs re' 'render'
 expect 'degs co' 'compare config'
-expect 'degs scene ' 'convert generate info'
+expect 'degs scene ' 'cameras convert generate info tile'
 expect 'degs run --came' '--camera --camera-file --cameras'
 expect 'degs run --fidelity ' 'analytic exact strict'
 expect 'degs scene info x.ply --wi' '--width'
