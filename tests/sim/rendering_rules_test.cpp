@@ -9,12 +9,12 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-const char* const kScene = "synthetic:object,gaussians=3000";
+const char* const kRuledScene = "synthetic:object,gaussians=3000";
 
 nlohmann::json run_in(const std::string& out, const std::string& design, const Words& rules,
                       const Words& more) {
     Words arguments{"run",      config(design),
-                    "--scene",  kScene,
+                    "--scene",  kRuledScene,
                     "--width",  "160",
                     "--camera", "1",
                     "--out",    out,
@@ -69,7 +69,7 @@ TEST(RulesOfEstimates, SampledAndAnalyticSeeThem) {
     const Words distance{"--set", "pipeline.rules.order=distance", "--set",
                          "pipeline.rules.antialiasing=on"};
     for (const Words& fidelity : {Words{"--fidelity", "analytic"}, Words{"--within", "20%"}}) {
-        Words arguments{"run", config("degs-16"), "--scene",   kScene, "--width",
+        Words arguments{"run", config("degs-16"), "--scene",   kRuledScene, "--width",
                         "640", "--out",           folder / "o"};
         arguments.insert(arguments.end(), fidelity.begin(), fidelity.end());
         arguments.insert(arguments.end(), distance.begin(), distance.end());
@@ -86,7 +86,7 @@ TEST(RulesOfComparison, EachDesignHasItsReference) {
     const Folder folder;
     const std::string file = config("degs-16");
     const Outcome outcome =
-        degs({"compare", "plain=" + file, "far=" + file, "--scene", kScene, "--width", "160",
+        degs({"compare", "plain=" + file, "far=" + file, "--scene", kRuledScene, "--width", "160",
               "--set", "pipeline.numbers=fp64", "--set", "pipeline.span_ends=exact", "--set",
               "far:pipeline.rules.order=distance", "--out", folder / "o"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -107,7 +107,7 @@ TEST(RulesOfComparison, EachDesignHasItsReference) {
 TEST(RulesOfRender, TheCommandHasThem) {
     const Folder folder;
     const auto image = [&folder](const Words& rules) {
-        Words arguments{"render", "--scene", kScene, "--width", "160", "--out", folder / "o"};
+        Words arguments{"render", "--scene", kRuledScene, "--width", "160", "--out", folder / "o"};
         arguments.insert(arguments.end(), rules.begin(), rules.end());
         expect_success(degs(arguments));
         return read_file(folder / "o/image.exr");
@@ -119,7 +119,7 @@ TEST(RulesOfRender, TheCommandHasThem) {
     EXPECT_NE(image({"--antialiasing", "on"}), plain);
     const auto report = nlohmann::json::parse(read_file(folder / "o/render.json"));
     EXPECT_EQ(report["workload"]["antialiasing"], "on");
-    expect_mistake(degs({"render", "--scene", kScene, "--order", "colour"}), "--order");
+    expect_mistake(degs({"render", "--scene", kRuledScene, "--order", "colour"}), "--order");
 }
 
 // A file that was trained with anti-aliasing is drawn so, unless the configuration overrules it.

@@ -17,7 +17,7 @@ namespace {
 using GlbJson = nlohmann::ordered_json;
 
 constexpr int kFloatType = 5126, kPointsMode = 0;
-constexpr double kNearPlane = 0.01; // a required member; nothing here depends on it
+constexpr double kRequiredNear = 0.01; // a required member; nothing here depends on it
 
 /// An attribute: `get` puts the components of Gaussian i to `to`.
 struct GlbColumn {
@@ -108,7 +108,7 @@ void add_cameras(const std::vector<Camera>& cameras, GlbJson& json) {
              {"perspective",
               {{"yfov", 2 * std::atan(camera.height / (2 * camera.fy))},
                {"aspectRatio", camera.width * camera.fy / (camera.height * camera.fx)},
-               {"znear", kNearPlane}}},
+               {"znear", kRequiredNear}}},
              {"extras", {{"width", camera.width}, {"height", camera.height}}}});
         const glm::dvec3& right = camera.camera_to_world[0];
         const glm::dvec3 up = -camera.camera_to_world[1];

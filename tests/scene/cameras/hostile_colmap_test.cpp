@@ -15,7 +15,7 @@ using test::ColmapImage;
 using test::ColmapLens;
 using test::IsSentenceWith;
 
-const double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 std::string complaint_about_model(const std::string& cameras, const std::string& images,
                                   const std::string& extension) {
@@ -51,7 +51,7 @@ TEST(HostileColmap, EveryMistakeOfACameraHasItsSentence) {
         {[](ColmapLens& c) { c.width = ~std::uint64_t{0}; }, "a width of 1.84467441e+19"},
         {[](ColmapLens& c) { c.parameters[0] = 0; }, "a focal length fx of 0"},
         {[](ColmapLens& c) { c.parameters[1] = -2; }, "a focal length fy of -2"},
-        {[](ColmapLens& c) { c.parameters[2] = kNan; },
+        {[](ColmapLens& c) { c.parameters[2] = kNotANumber; },
          "a parameter of its camera model that is not finite"},
         {[](ColmapLens& c) { c.id = 2; },
          "image 0 names the camera 1, which the file of cameras does not have"},
@@ -72,8 +72,9 @@ TEST(HostileColmap, EveryMistakeOfAnImageHasItsSentence) {
         {[](ColmapImage& i) { i.rotation[0] = 1.01; },
          "image 0 has a rotation whose quaternion is not of length 1"},
         {[](ColmapImage& i) { i.rotation[0] = 0; }, "not of length 1"},
-        {[](ColmapImage& i) { i.rotation[3] = kNan; }, "not of length 1"},
-        {[](ColmapImage& i) { i.translation[1] = kNan; }, "a translation that is not finite"},
+        {[](ColmapImage& i) { i.rotation[3] = kNotANumber; }, "not of length 1"},
+        {[](ColmapImage& i) { i.translation[1] = kNotANumber; },
+         "a translation that is not finite"},
         {[](ColmapImage& i) { i.camera = 4; }, "names the camera 4"},
         {[](ColmapImage& i) { i.id = 1U << 31U; }, "the id 2147483648"},
         {[](ColmapImage& i) { i.name = std::string(5000, 'a'); }, "a name of more than 4096 bytes"},
