@@ -29,7 +29,9 @@ std::string npy(const std::string& type, const std::string& shape, const std::st
 template <class Value>
 std::string raw(const std::vector<Value>& values) {
     std::string bytes(values.size() * sizeof(Value), '\0');
-    std::memcpy(bytes.data(), values.data(), bytes.size());
+    if (!values.empty()) {
+        std::memcpy(bytes.data(), values.data(), bytes.size());
+    }
     return bytes;
 }
 
