@@ -108,35 +108,35 @@ void turn(SceneContent& content, const std::optional<Axes>& told) {
 
 } // namespace
 
-std::string scene_name(const std::string& text) {
-    const SceneSpec spec = parse_scene_spec(text);
-    if (spec.synthetic) {
-        return synthetic_of(spec).profile;
+std::string scene_name(const std::string& spec) {
+    const SceneSpec asked = parse_scene_spec(spec);
+    if (asked.synthetic) {
+        return synthetic_of(asked).profile;
     }
-    const std::vector<std::string> files = sequence_files(spec.path);
-    return files.empty() ? name_of(spec.path)
+    const std::vector<std::string> files = sequence_files(asked.path);
+    return files.empty() ? name_of(asked.path)
                          : fs::absolute(files.front()).parent_path().filename().string();
 }
 
-Scene load_scene(const std::string& text, const std::string& cameras_path) {
-    const SceneSpec spec = parse_scene_spec(text);
+Scene load_scene(const std::string& spec, const std::string& cameras_path) {
+    const SceneSpec asked = parse_scene_spec(spec);
     Scene scene;
-    scene.source = text;
+    scene.source = spec;
     std::string cameras = cameras_path;
-    if (spec.synthetic) {
-        SyntheticScene made = make_synthetic(synthetic_of(spec));
+    if (asked.synthetic) {
+        SyntheticScene made = make_synthetic(synthetic_of(asked));
         scene.cloud = std::move(made.cloud);
         scene.cameras = std::move(made.cameras);
     } else {
-        SceneContent content = content_of(spec);
-        turn(content, spec.axes);
+        SceneContent content = content_of(asked);
+        turn(content, asked.axes);
         scene.cloud = std::move(content.cloud);
         scene.cameras = std::move(content.cameras);
         scene.traits = content.traits;
         scene.notes = std::move(content.notes);
-        cameras = cameras.empty() ? cameras_beside(file_of(spec)) : cameras;
+        cameras = cameras.empty() ? cameras_beside(file_of(asked)) : cameras;
     }
-    scene.name = scene_name(text);
+    scene.name = scene_name(spec);
     sanitize_scene(scene);
     if (!cameras.empty()) {
         CameraFile file = read_camera_file(cameras);
@@ -151,18 +151,18 @@ Scene load_scene(const std::string& text, const std::string& cameras_path) {
     return scene;
 }
 
-std::size_t camera_count(const std::string& text, const std::string& cameras_path) {
-    const SceneSpec spec = parse_scene_spec(text);
+std::size_t camera_count(const std::string& spec, const std::string& cameras_path) {
+    const SceneSpec asked = parse_scene_spec(spec);
     std::string cameras = cameras_path;
-    if (cameras.empty() && spec.synthetic) {
-        return load_scene(text).cameras.size();
+    if (cameras.empty() && asked.synthetic) {
+        return load_scene(spec).cameras.size();
     }
-    if (!spec.synthetic) {
-        const InputFile exists(file_of(spec));
-        cameras = cameras.empty() ? cameras_beside(file_of(spec)) : cameras;
+    if (!asked.synthetic) {
+        const InputFile exists(file_of(asked));
+        cameras = cameras.empty() ? cameras_beside(file_of(asked)) : cameras;
     }
     const std::vector<Camera> found =
-        cameras.empty() ? read_scene_cameras(file_of(spec)) : read_camera_file(cameras).cameras;
+        cameras.empty() ? read_scene_cameras(file_of(asked)) : read_camera_file(cameras).cameras;
     return std::max<std::size_t>(found.size(), 1);
 }
 

@@ -140,20 +140,20 @@ std::vector<std::string> sequence_files(const std::string& path) {
     return files;
 }
 
-std::unique_ptr<DynamicScene> open_dynamic_scene(const std::string& text) {
-    const SceneSpec spec = parse_scene_spec(text);
-    if (spec.synthetic) {
-        const SyntheticSpec made = parse_synthetic(spec.path.substr(spec.path.find(':') + 1));
+std::unique_ptr<DynamicScene> open_dynamic_scene(const std::string& spec) {
+    const SceneSpec asked = parse_scene_spec(spec);
+    if (asked.synthetic) {
+        const SyntheticSpec made = parse_synthetic(asked.path.substr(asked.path.find(':') + 1));
         return made.profile == kSyntheticDynamic && !made.time
                    ? std::make_unique<SpacetimeScene>(make_spacetime(made))
                    : nullptr;
     }
-    std::vector<std::string> files = sequence_files(spec.path);
+    std::vector<std::string> files = sequence_files(asked.path);
     if (!files.empty()) {
-        return std::make_unique<FileSequence>(std::move(files), text.substr(spec.path.size()));
+        return std::make_unique<FileSequence>(std::move(files), spec.substr(asked.path.size()));
     }
-    return !spec.time && is_spacetime_ply(spec.path)
-               ? std::make_unique<SpacetimeScene>(read_spacetime_ply(spec.path))
+    return !asked.time && is_spacetime_ply(asked.path)
+               ? std::make_unique<SpacetimeScene>(read_spacetime_ply(asked.path))
                : nullptr;
 }
 

@@ -85,7 +85,8 @@ GaussianCloud local_cloud() {
     GaussianCloud& cloud = builder.scene.cloud;
     cloud.sh_degree = 2;
     for (int i = 0; i < 30; ++i) {
-        builder.add_world({0.3 * (i % 6) - 0.75, 0.3 * (i / 6) - 0.6, 0.05 * (i % 7)},
+        const int row = i / 6;
+        builder.add_world({0.3 * (i % 6) - 0.75, 0.3 * row - 0.6, 0.05 * (i % 7)},
                           {0.02 + 0.01 * (i % 5), 0.1, 0.03},
                           {1, 0.1 * (i % 4), -0.2, 0.05 * (i % 9)}, 0.6,
                           {0.1 * (i % 10), 0.5, 0.3});

@@ -95,8 +95,9 @@ HardScene through_spz(HardBuilder& builder, bool antialiased) {
 void add_thin(HardBuilder& builder) {
     for (int i = 0; i < 120; ++i) {
         const double size = 0.05 * std::pow(1.05, i); // px, to 17
+        const int row = i / 15;
         builder.add({builder.middle_x() + 4 * (i % 15) - 28,
-                     builder.middle_y() + 5 * (i / 15) - 20,
+                     builder.middle_y() + 5 * row - 20,
                      size,
                      size * (0.3 + 0.1 * (i % 7)),
                      0.3 * i,
@@ -113,7 +114,8 @@ void add_coarse(HardBuilder& builder) {
         const double opacity = i % 9 == 0 ? 0 : i % 9 == 1 ? 1 : 0.1 * (i % 9);
         const double z = 8 + 0.02 * i;
         const double px = z / builder.scene.camera.fx;
-        builder.add_world({(8 * (i % 10) - 36) * px, (8 * (i / 10) - 32) * px, z},
+        const int row = i / 10;
+        builder.add_world({(8 * (i % 10) - 36) * px, (8 * row - 32) * px, z},
                           {9 * px, 4 * px, 2 * px},
                           {0.2 * (i % 3), std::cos(angle), std::sin(angle), 0.9}, opacity,
                           {0.1 * (i % 10), 0.3, 0.6});

@@ -226,6 +226,7 @@ private:
         PlyRows rows = rows_of(element);
         const int rest = cloud_.sh_coefficients() - 1;
         std::vector<PlyColumn> columns;
+        columns.reserve(std::size_t{3} * rest);
         for (int i = 0; i < 3 * rest; ++i) {
             columns.push_back(rows.column("f_rest_" + std::to_string(i)));
         }

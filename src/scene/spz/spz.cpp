@@ -285,8 +285,8 @@ private:
 
     void note_flags_and_degree() {
         if (header_.sh_degree > 3) {
-            content_.notes.push_back("The spherical harmonics of degree 4 were dropped, because "
-                                     "images are drawn with degree 3 at most.");
+            content_.notes.emplace_back("The spherical harmonics of degree 4 were dropped, because "
+                                        "images are drawn with degree 3 at most.");
         }
         if ((header_.flags & ~(kSpzAntialiased | kSpzHasRecords)) != 0) {
             content_.notes.push_back("The header has flags that are unknown here (the flags are " +
