@@ -37,7 +37,7 @@ CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* 
 void add_view_options(CLI::App& command, ViewRequest& request) {
     command
         .add_option("--scene", request.scene,
-                    "scene file (.ply), or synthetic:NAME[,gaussians=N][,seed=N]")
+                    "scene file, or synthetic:NAME[,gaussians=N][,seed=N]")
         ->type_name("SCENE")
         ->required();
     add_camera_file_option(command, request.camera_file);

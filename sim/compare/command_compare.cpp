@@ -76,7 +76,7 @@ void add_what_options(CLI::App& command, CompareOptions& options) {
         ->required();
     command
         .add_option("--scene", options.scenes,
-                    "scene file (.ply), or synthetic:NAME[,gaussians=N][,seed=N]; may be repeated")
+                    "scene file, or synthetic:NAME[,gaussians=N][,seed=N]; may be repeated")
         ->type_name("SCENE")
         ->required()
         ->take_all()

@@ -17,7 +17,7 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
     add_addressed_overrides_option(command, options.overrides);
     command
         .add_option("--scene", options.scenes,
-                    "scenes in place of the study's: a file (.ply), or "
+                    "scenes in place of the study's: a file, or "
                     "synthetic:NAME[,gaussians=N][,seed=N]; may be repeated")
         ->type_name("SCENE")
         ->take_all()

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a scene file may cost: memory in proportion to its size, whole or damaged, and little time.
 // Not a Hostile suite, because the address sanitizer keeps what has been freed.
-#include <malloc.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cstdio>
 #include <random>
 
@@ -13,6 +8,7 @@
 #include "scene/scene.hpp"
 #include "scene/spz/spz_write.hpp"
 #include "scene/synthetic/synthetic.hpp"
+#include "tests/scene/reading_cost.hpp"
 #include "tests/scene/scene_fixture.hpp"
 
 namespace degs {
@@ -20,52 +16,10 @@ namespace {
 
 constexpr double kMega = 1e6;
 
-/// What loading a file takes in a process of its own, whose peak begins at what this one has.
-struct Cost {
-    bool ended = false; ///< without a signal
-    long bytes = 0;     ///< grown
-    double seconds =
-        0; ///< of all processors together, which other programs on the machine hardly change
-};
-
-double processor_seconds() {
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& time) {
-        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
+using Cost = test::ReadingCost;
 
 Cost cost_of(const std::string& path) {
-    ::malloc_trim(0); // what this process has freed must not be at hand for the child
-    int ends[2] = {-1, -1};
-    EXPECT_EQ(::pipe(ends), 0);
-    const pid_t child = ::fork();
-    if (child == 0) {
-        const auto peak = [] {
-            rusage usage{};
-            ::getrusage(RUSAGE_SELF, &usage);
-            return usage.ru_maxrss * 1024;
-        };
-        Cost cost;
-        const long before = peak();
-        try {
-            load_scene(path);
-        } catch (const InputError&) {
-        }
-        cost = {true, peak() - before, processor_seconds()};
-        ::_exit(::write(ends[1], &cost, sizeof cost) == sizeof cost ? 0 : 1);
-    }
-    ::close(ends[1]);
-    Cost cost;
-    if (::read(ends[0], &cost, sizeof cost) != sizeof cost) {
-        cost.ended = false;
-    }
-    ::close(ends[0]);
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return cost;
+    return test::cost_of_reading([&] { load_scene(path); });
 }
 
 /// 8 files each with a bit flipped in the header, a bit anywhere, and the end missing.

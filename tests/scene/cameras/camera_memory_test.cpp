@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a camera file may cost: memory in proportion to its size. Not a Hostile suite, because the
 // address sanitizer keeps what has been freed.
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include "tests/scene/cameras/camera_builder.hpp"
+#include "tests/scene/reading_cost.hpp"
 
 namespace degs {
 namespace {
@@ -32,33 +29,11 @@ std::string many_keys() {
     return text + "\"x\":1}]";
 }
 
-long peak_bytes() {
-    rusage usage{};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss * 1024;
-}
-
-/// Bytes of memory per byte of the file that reading it takes, accepted or refused; in a process of
-/// its own, whose peak begins at what this one has.
+/// Bytes of memory per byte of the file that reading it takes.
 double memory_per_byte(const std::string& path) {
-    int ends[2] = {-1, -1};
-    EXPECT_EQ(::pipe(ends), 0);
-    const pid_t child = ::fork();
-    if (child == 0) {
-        const long before = peak_bytes();
-        try {
-            test::read_cameras_of(path);
-        } catch (const InputError&) {
-        }
-        const long grown = peak_bytes() - before;
-        ::_exit(::write(ends[1], &grown, sizeof grown) == sizeof grown ? 0 : 1);
-    }
-    ::close(ends[1]);
-    long grown = -1;
-    EXPECT_EQ(::read(ends[0], &grown, sizeof grown), long{sizeof grown});
-    ::close(ends[0]);
-    ::waitpid(child, nullptr, 0);
-    return static_cast<double>(grown) / kFileBytes;
+    const test::ReadingCost cost = test::cost_of_reading([&] { test::read_cameras_of(path); });
+    EXPECT_TRUE(cost.ended) << path;
+    return static_cast<double>(cost.bytes) / kFileBytes;
 }
 
 TEST(CameraMemory, IsAtMostTwelveTimesTheFile) {

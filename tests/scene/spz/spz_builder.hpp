@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <zlib.h>
 #include <zstd.h>
+
+#include "tests/scene/zlib_packed.hpp"
 
 namespace degs::test {
 
@@ -46,19 +47,7 @@ struct SpzBuilder {
     static std::string record(std::uint32_t type, const std::string& payload) {
         return u32(type) + u32(static_cast<std::uint32_t>(payload.size())) + payload;
     }
-    static std::string gzip(const std::string& plain) {
-        z_stream state{};
-        deflateInit2(&state, 9, Z_DEFLATED, 16 + MAX_WBITS, 9, Z_DEFAULT_STRATEGY);
-        std::string packed(deflateBound(&state, plain.size()), '\0');
-        state.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(plain.data()));
-        state.avail_in = static_cast<uInt>(plain.size());
-        state.next_out = reinterpret_cast<Bytef*>(packed.data());
-        state.avail_out = static_cast<uInt>(packed.size());
-        deflate(&state, Z_FINISH);
-        packed.resize(state.total_out);
-        deflateEnd(&state);
-        return packed;
-    }
+    static std::string gzip(const std::string& plain) { return zlib_packed(plain, 16 + MAX_WBITS); }
     static std::string zstd(const std::string& plain) {
         std::string packed(ZSTD_compressBound(plain.size()), '\0');
         packed.resize(ZSTD_compress(packed.data(), packed.size(), plain.data(), plain.size(), 12));
