@@ -9,7 +9,7 @@
 namespace degs {
 namespace {
 
-// Bytes that every reader may keep (docs/scene-formats.md), and the pages of code that a child touches first: 4 MB here.
+// Bytes that every reader may keep (docs/scene-formats.md), and the pages of code that a child touches first.
 constexpr double kBuffers = 8e6;
 
 /// Bytes of memory that reading the file takes.
