@@ -63,7 +63,8 @@ tlm::tlm_response_status Accelerator::write(std::uint32_t offset, std::uint32_t 
         command(value, delay);
     } else {
         const bool clears = info->access == Access::WriteOneToClear;
-        registers_.set_word(offset, clears ? registers_.word(offset) & ~value : value);
+        registers_.set_word(offset,
+                            clears ? registers_.word(offset) & ~value : value & info->bits());
         irq_changed_.notify(delay);
     }
     return tlm::TLM_OK_RESPONSE;
@@ -109,7 +110,7 @@ unsigned int Accelerator::debug(Payload& payload) {
         if (!payload.is_write() || info == nullptr || info->access != Access::ReadWrite) {
             break;
         }
-        registers_.set_word(offset, word_from(payload.get_data_ptr() + done));
+        registers_.set_word(offset, word_from(payload.get_data_ptr() + done) & info->bits());
         irq_changed_.notify(sc_core::SC_ZERO_TIME);
     }
     return done;

@@ -5,46 +5,136 @@
 
 namespace degs {
 
-const std::vector<RegisterInfo>& register_map() {
-    using R = Register;
-    static const std::vector<RegisterInfo> map{
-        {R::Id, 1, "ID", Access::Read},
-        {R::Version, 1, "VERSION", Access::Read},
-        {R::Control, 1, "CONTROL", Access::Command},
-        {R::Status, 1, "STATUS", Access::Read},
-        {R::IrqEnable, 1, "IRQ_ENABLE", Access::ReadWrite},
-        {R::IrqStatus, 1, "IRQ_STATUS", Access::WriteOneToClear},
-        {R::ErrorCode, 1, "ERROR_CODE", Access::Read},
-        {R::ErrorDetail, 1, "ERROR_DETAIL", Access::Read},
-        {R::Geometry, 2, "GEOMETRY", Access::ReadWrite},
-        {R::Sh, 2, "SH", Access::ReadWrite},
-        {R::Count, 1, "COUNT", Access::ReadWrite},
-        {R::ShDegree, 1, "SH_DEGREE", Access::ReadWrite},
-        {R::Workspace, 2, "WORKSPACE", Access::ReadWrite},
-        {R::WorkspaceBytes, 2, "WORKSPACE_BYTES", Access::ReadWrite},
-        {R::FrameBuffer, 2, "FRAME_BUFFER", Access::ReadWrite},
-        {R::Format, 1, "FORMAT", Access::ReadWrite},
-        {R::Width, 1, "WIDTH", Access::ReadWrite},
-        {R::Height, 1, "HEIGHT", Access::ReadWrite},
-        {R::FocalX, 2, "FOCAL_X", Access::ReadWrite},
-        {R::FocalY, 2, "FOCAL_Y", Access::ReadWrite},
-        {R::Axes, 18, "AXES", Access::ReadWrite},
-        {R::Position, 6, "POSITION", Access::ReadWrite},
-        {R::Cycles, 2, "CYCLES", Access::Read},
-        {R::LoadCycles, 2, "LOAD_CYCLES", Access::Read},
-        {R::BytesRead, 2, "BYTES_READ", Access::Read},
-        {R::BytesWritten, 2, "BYTES_WRITTEN", Access::Read},
-        {R::Fragments, 2, "FRAGMENTS", Access::Read},
-        {R::WorkspaceNeeded, 2, "WORKSPACE_NEEDED", Access::Read},
-        {R::Frames, 1, "FRAMES", Access::Read},
-        {R::Dropped, 1, "DROPPED", Access::Read},
+namespace {
+
+std::uint32_t bit_of(std::uint32_t mask) {
+    std::uint32_t bit = 0;
+    for (; (mask >> bit & 1U) == 0; ++bit) {
+    }
+    return bit;
+}
+
+std::vector<RegisterField> interrupts() {
+    return {{"DONE", bit_of(kIrqDone), "a frame is done"},
+            {"ERROR", bit_of(kIrqError), "a frame ended with an error"}};
+}
+
+std::vector<RegisterValue> formats() {
+    return {{"RGBA8", static_cast<std::uint32_t>(FrameFormat::Rgba8), "4 B per pixel"},
+            {"RGBA16F", static_cast<std::uint32_t>(FrameFormat::Rgba16F), "8 B per pixel"}};
+}
+
+RegisterValue error(const char* name, AcceleratorError which, const char* meaning) {
+    return {name, static_cast<std::uint32_t>(which), meaning};
+}
+
+std::vector<RegisterValue> errors() {
+    using E = AcceleratorError;
+    return {
+        error("NONE", E::None, "no error"),
+        error("BAD_SIZE", E::BadSize, "width or height is 0 or too large"),
+        error("BAD_COUNT", E::BadCount, "no Gaussians, or too many"),
+        error("BAD_DEGREE", E::BadDegree, "SH degree over 3"),
+        error("BAD_FORMAT", E::BadFormat, "unknown format"),
+        error("MISALIGNED", E::Misaligned, "a base is not a multiple of 64"),
+        error("OVERLAP", E::Overlap, "a region overlaps another, or passes the last address"),
+        error("BAD_CAMERA", E::BadCamera, "the camera is not finite, or its axes no rotation"),
+        error("SMALL_WORKSPACE", E::SmallWorkspace, "the workspace is too small"),
+        error("LOAD_ERROR", E::LoadError, "memory refused a read of the scene"),
+        error("BUS_ERROR", E::BusError, "memory refused an access of the frame"),
+        error("SCENE_CHANGED", E::SceneChanged, "the scene was written during the frame"),
+        error("OUT_OF_MEMORY", E::OutOfMemory, "the host that simulates has too little memory"),
     };
+}
+
+// What a driver sets, then what the accelerator answers.
+std::vector<RegisterInfo> rows() {
+    using R = Register;
+    constexpr Access r = Access::Read;
+    constexpr Access rw = Access::ReadWrite;
+    return {
+        {R::Id, 1, "ID", r, "the bytes \"DeGS\"", {}, {}, kAcceleratorId},
+        {R::Version, 1, "VERSION", r, "major and minor, 16 bits each", {}, {}, kAcceleratorVersion},
+        {R::Control,
+         1,
+         "CONTROL",
+         Access::Command,
+         "commands",
+         {{"START", bit_of(kControlStart), "start a frame"},
+          {"CLEAR_ERROR", bit_of(kControlClearError),
+           "clear the error and the start-ignored flag"}}},
+        {R::Status,
+         1,
+         "STATUS",
+         r,
+         "state",
+         {{"BUSY", bit_of(kStatusBusy), "a frame is being rendered"},
+          {"DONE", bit_of(kStatusDone), "the last frame is done"},
+          {"ERROR", bit_of(kStatusError), "the last frame ended with an error"},
+          {"START_IGNORED", bit_of(kStatusStartIgnored),
+           "a start was ignored because the accelerator was busy"}}},
+        {R::IrqEnable, 1, "IRQ_ENABLE", rw, "interrupts that reach `irq`", interrupts()},
+        {R::IrqStatus, 1, "IRQ_STATUS", Access::WriteOneToClear,
+         "pending interrupts; writing 1 clears; `irq` is high while an enabled bit is set",
+         interrupts()},
+        {R::ErrorCode, 1, "ERROR_CODE", r, "see errors; 0 after a start", {}, errors()},
+        {R::ErrorDetail, 1, "ERROR_DETAIL", r,
+         "offset of the register that is wrong, or the answer of the bus"},
+        {R::Geometry, 2, "GEOMETRY", rw, "address of the geometry records"},
+        {R::Sh, 2, "SH", rw, "address of the SH coefficients"},
+        {R::Count, 1, "COUNT", rw, "Gaussians, 1 to 2^24 (an option of the model)"},
+        {R::ShDegree, 1, "SH_DEGREE", rw, "0 to 3"},
+        {R::Workspace, 2, "WORKSPACE", rw, "address of memory for splat records and lists"},
+        {R::WorkspaceBytes, 2, "WORKSPACE_BYTES", rw, "its size"},
+        {R::FrameBuffer, 2, "FRAME_BUFFER", rw, "address of the frame buffer"},
+        {R::Format, 1, "FORMAT", rw, "format of a pixel", {}, formats()},
+        {R::Width, 1, "WIDTH", rw, "pixels, 1 to 65536"},
+        {R::Height, 1, "HEIGHT", rw,
+         "pixels, 1 to 65536; at most 2^26 pixels in all (an option of the model)"},
+        {R::FocalX, 2, "FOCAL_X", rw, "double, focal length in pixels of the width"},
+        {R::FocalY, 2, "FOCAL_Y", rw, "double, focal length in pixels of the height"},
+        {R::Axes, 18, "AXES", rw,
+         "9 doubles: view axes x (right), y (down), z (forward) in world space"},
+        {R::Position, 6, "POSITION", rw, "3 doubles: camera centre in world space"},
+        {R::Cycles, 2, "CYCLES", r, "of the last frame: scene loaded to last pixel in memory"},
+        {R::LoadCycles, 2, "LOAD_CYCLES", r,
+         "of the last frame: reading the scene; 0 if the memory has debug transport"},
+        {R::BytesRead, 2, "BYTES_READ", r, "of the last frame, in `CYCLES`"},
+        {R::BytesWritten, 2, "BYTES_WRITTEN", r, "of the last frame"},
+        {R::Fragments, 2, "FRAGMENTS", r,
+         "of the last frame: pixel updates; with outward span ends more than its useful PE slots"},
+        {R::WorkspaceNeeded, 2, "WORKSPACE_NEEDED", r,
+         "of the last frame whose scene could be loaded"},
+        {R::Frames, 1, "FRAMES", r,
+         "frames rendered so far, those with a bus error or a changed scene included"},
+        {R::Dropped, 1, "DROPPED", r, "of the last frame: Gaussians that no renderer can draw"},
+    };
+}
+
+} // namespace
+
+std::uint32_t RegisterInfo::bits() const {
+    if (fields.empty()) {
+        return ~std::uint32_t{0};
+    }
+    std::uint32_t bits = 0;
+    for (const RegisterField& field : fields) {
+        bits |= 1U << field.bit;
+    }
+    return bits;
+}
+
+const std::vector<RegisterInfo>& register_map() {
+    static const std::vector<RegisterInfo> map = rows();
     return map;
 }
 
 AcceleratorRegisters::AcceleratorRegisters() {
-    set(Register::Id, kAcceleratorId);
-    set(Register::Version, kAcceleratorVersion);
+    for (const RegisterInfo& info : register_map()) {
+        for (std::uint32_t i = 0; i < info.words; ++i) {
+            set_word(offset_of(info.offset) + 4 * i, info.reset);
+        }
+    }
 }
 
 std::uint64_t AcceleratorRegisters::get_pair(Register which, std::uint32_t index) const {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The register map of degs::Accelerator; docs/accelerator.md shows the same table, and a test
-// compares the two.
+// The register map of degs::Accelerator. `degs registers` prints it in the formats of its readers:
+// docs/accelerator.md has the table, src/driver the header for programs in C and the XML of tools.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace degs {
@@ -48,12 +49,34 @@ constexpr std::uint32_t kAcceleratorVersion = 0x00010000;
 
 enum class Access { Read, ReadWrite, WriteOneToClear, Command };
 
-/// One row of the map.
+/// One bit with a meaning of its own. The bits that no field names are reserved: they read as 0, and
+/// what is written to them is lost.
+struct RegisterField {
+    const char* name;
+    std::uint32_t bit;
+    std::string meaning;
+};
+/// One value of a word with a name.
+struct RegisterValue {
+    const char* name;
+    std::uint32_t value;
+    std::string meaning;
+};
+
+/// One row of the map. Without fields, all bits of a register are one number; `values` names some of
+/// them.
 struct RegisterInfo {
     Register offset;
     std::uint32_t words;
     const char* name;
     Access access;
+    std::string meaning; ///< half a sentence, in the words of docs/accelerator.md
+    std::vector<RegisterField> fields{};
+    std::vector<RegisterValue> values{};
+    std::uint32_t reset = 0; ///< value of each word before anything is written
+
+    /// The bits that exist.
+    std::uint32_t bits() const;
 };
 /// Ascending. Offsets in between are reserved: they read as 0, and writing them is an error.
 const std::vector<RegisterInfo>& register_map();
