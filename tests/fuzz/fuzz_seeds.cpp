@@ -93,7 +93,7 @@ void add_ply(Seeds& seeds) {
 }
 
 void add_spz(Seeds& seeds) {
-    for (const unsigned version : {2U, 3U, 4U}) {
+    for (const unsigned version : {1U, 2U, 3U, 4U}) {
         for (const int degree : {0, 1, 3}) {
             test::SpzBuilder spz = test::SpzBuilder::scene(version, 3, degree);
             spz.flags = degree == 1 ? 3 : 0;

@@ -3,11 +3,11 @@
 
 #include <cctype>
 #include <charconv>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "config/visible_text.hpp"
+#include "scene/half_float.hpp"
 #include "scene/input_file.hpp"
 #include "scene/ply/ply_values.hpp"
 
@@ -16,15 +16,6 @@ namespace {
 
 constexpr std::size_t kMaxNpyHeader = 1 << 16;
 constexpr std::size_t kMaxDimensions = 8;
-
-double half_value(std::uint16_t bits) {
-    const int exponent = bits >> 10 & 31;
-    const double fraction = (bits & 1023) / 1024.0;
-    const double magnitude = exponent == 31  ? (fraction == 0 ? INFINITY : NAN)
-                             : exponent == 0 ? std::ldexp(fraction, -14)
-                                             : std::ldexp(1 + fraction, exponent - 15);
-    return (bits >> 15) != 0 ? -magnitude : magnitude;
-}
 
 /// The text behind `'key':` in the Python dictionary of the header.
 std::string_view value_of(std::string_view header, const std::string& key) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/half_float.hpp"
 #include "scene/input_file.hpp"
 #include "scene/spz/spz_header.hpp"
 #include "scene/spz/spz_streams.hpp"
@@ -46,6 +47,10 @@ const ByteTables& tables() {
 double fixed_point(Bytes bytes, double step) {
     const std::uint32_t bits = bytes[0] | bytes[1] << 8 | std::uint32_t{bytes[2]} << 16;
     return static_cast<double>(static_cast<std::int32_t>(bits << 8) >> 8) * step;
+}
+
+double half_at(Bytes bytes) {
+    return half_value(static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8));
 }
 
 glm::vec4 first_three(Bytes b) {
@@ -229,6 +234,12 @@ private:
     void decode_means(Bytes b, std::size_t first, std::size_t count) {
         std::vector<glm::dvec3>& means = content_.cloud.means;
         grow(means, first + count);
+        if (header_.version == 1) {
+            for (std::size_t i = first; i < first + count; ++i, b += 6) {
+                means[i] = {half_at(b), half_at(b + 2), half_at(b + 4)};
+            }
+            return;
+        }
         const double step = std::ldexp(1.0, -header_.fractional_bits);
         for (std::size_t i = first; i < first + count; ++i, b += 9) {
             means[i] = {fixed_point(b, step), fixed_point(b + 3, step), fixed_point(b + 6, step)};

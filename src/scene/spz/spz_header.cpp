@@ -52,8 +52,8 @@ std::uint64_t load_u64(const char* bytes) {
 }
 
 std::array<std::uint64_t, 6> SpzHeader::attribute_bytes() const {
-    const std::uint64_t rotation = version >= 3 ? 4 : 3;
-    return {9, 1, 3, 3, rotation, 3 * sh_rest()};
+    const std::uint64_t position = version == 1 ? 6 : 9, rotation = version >= 3 ? 4 : 3;
+    return {position, 1, 3, 3, rotation, 3 * sh_rest()};
 }
 
 std::uint64_t SpzHeader::body_bytes() const {
@@ -72,13 +72,9 @@ SpzHeader parse_spz_header(const std::string& where, const char* bytes) {
                   "of another format must be decompressed first.");
     }
     header.version = load_u32(bytes + 4);
-    if (header.version == 1) {
-        fail_file(where, "SPZ version 1 was never released and is not supported; convert the scene "
-                         "to version 2 or later.");
-    }
     if (header.version < 1 || header.version > 4) {
         fail_file(where, "SPZ version " + std::to_string(header.version) +
-                             " is not supported; supported are 2, 3 and 4.");
+                             " is not supported; supported are 1 to 4.");
     }
     header.count = load_u32(bytes + 8);
     header.sh_degree = static_cast<unsigned char>(bytes[12]);

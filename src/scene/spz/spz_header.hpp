@@ -23,7 +23,7 @@ struct SpzHeader {
     std::uint32_t version = 0;
     std::uint32_t count = 0; ///< Gaussians
     int sh_degree = 0;       ///< 0..4
-    int fractional_bits = 0; ///< of positions, 0..31
+    int fractional_bits = 0; ///< of positions, 0..31; version 1 has none
     std::uint8_t flags = 0;
 
     /// Coefficients per channel without the one of degree 0.

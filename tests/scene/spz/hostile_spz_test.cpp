@@ -18,7 +18,7 @@ std::string complaint_about_spz(const std::string& bytes) {
 }
 
 TEST(HostileSpz, TruncatedAnywhereIsOneSentence) {
-    for (const std::uint32_t version : {2U, 3U, 4U}) {
+    for (const std::uint32_t version : {1U, 2U, 3U, 4U}) {
         const std::string file = SpzBuilder::scene(version, 5, 1).file();
         for (std::size_t size = 0; size < file.size(); ++size) {
             ASSERT_THAT(complaint_about_spz(file.substr(0, size)), IsSentenceWith("bad.spz: "))
@@ -32,13 +32,13 @@ TEST(HostileSpz, HeadersThatLie) {
     SpzBuilder bad = good;
     bad.magic = 0x12345678;
     EXPECT_THAT(complaint_about_spz(bad.file()), IsSentenceWith("'NGSP'"));
-    for (const std::uint32_t version : {0U, 1U, 5U, 0xffffffffU}) {
+    for (const std::uint32_t version : {0U, 5U, 0xffffffffU}) {
         bad = good;
         bad.version = version;
         EXPECT_THAT(complaint_about_spz(bad.file()),
                     IsSentenceWith("SPZ version " + std::to_string(version)));
     }
-    for (const std::uint32_t version : {3U, 4U}) {
+    for (const std::uint32_t version : {1U, 3U, 4U}) {
         for (const std::uint32_t count : {0U, 2147483648U, 4294967295U}) {
             bad = SpzBuilder::scene(version, 5, 1);
             bad.count = count;
@@ -58,6 +58,18 @@ TEST(HostileSpz, HeadersThatLie) {
         bad.fractional_bits = 32;
         EXPECT_THAT(complaint_about_spz(bad.file()), IsSentenceWith("32 fractional bits"));
     }
+}
+
+/// A position has 6 bytes in version 1 and 9 in version 2.
+TEST(HostileSpz, VersionsThatLieAreOfAnotherLength) {
+    SpzBuilder bad = SpzBuilder::scene(2, 5, 1);
+    bad.version = 1;
+    EXPECT_THAT(complaint_about_spz(bad.file()), IsSentenceWith("holds more bytes"));
+    bad = SpzBuilder::scene(1, 5, 1);
+    bad.version = 2;
+    EXPECT_THAT(complaint_about_spz(bad.file()), IsSentenceWith("holds fewer bytes"));
+    bad.version = 1;
+    EXPECT_THAT(complaint_about_spz(bad.inflated()), IsSentenceWith("SPZ version 1 must be"));
 }
 
 TEST(HostileSpz, RecordsThatLie) {
@@ -111,7 +123,7 @@ TEST(HostileSpz, FlippedBitsLoadOrComplain) {
         sentence.empty() ? ++loaded : ++refused;
         ASSERT_TRUE(sentence.empty() || testing::Value(sentence, IsSentenceWith("flip.spz: ")));
     };
-    for (const std::uint32_t version : {2U, 3U, 4U}) {
+    for (const std::uint32_t version : {1U, 2U, 3U, 4U}) {
         const SpzBuilder spz = SpzBuilder::scene(version, 5, 2);
         const std::string file = spz.file();
         for (std::size_t bit = 0; bit < file.size() * 8; ++bit) {

@@ -27,7 +27,7 @@ struct SpzBuilder {
         spz.count = count;
         spz.degree = degree;
         const std::size_t rest = std::size_t{3} * degree * (degree + 2);
-        const std::size_t each[] = {9, 1, 3, 3, version >= 3 ? 4U : 3U, rest};
+        const std::size_t each[] = {version == 1 ? 6U : 9U, 1, 3, 3, version >= 3 ? 4U : 3U, rest};
         for (int i = 0; i < 6; ++i) {
             for (std::size_t b = 0; b < each[i] * count; ++b) {
                 spz.attributes[i] += static_cast<char>(b * 37 + i);

@@ -15,7 +15,9 @@ using test::SpzBuilder;
 
 SpzBuilder one(std::uint32_t version = 3) {
     SpzBuilder spz = SpzBuilder::scene(version, 1, 0);
-    spz.attributes = {std::string("\x00\x10\x00\xff\xff\xff\x00\x00\x80", 9),
+    // 1, -1/4096 and -2048
+    spz.attributes = {version == 1 ? std::string("\x00\x3c\x00\x8c\x00\xe8", 6)
+                                   : std::string("\x00\x10\x00\xff\xff\xff\x00\x00\x80", 9),
                       "\x80",
                       std::string("\x00\x80\xff", 3),
                       std::string("\x00\xa0\xff", 3),
@@ -29,7 +31,7 @@ SceneContent decoded(const SpzBuilder& spz) {
 }
 
 TEST(Spz, DecodesEveryAttribute) {
-    for (const std::uint32_t version : {2U, 3U, 4U}) {
+    for (const std::uint32_t version : {1U, 2U, 3U, 4U}) {
         const SceneContent content = decoded(one(version));
         ASSERT_EQ(content.cloud.size(), 1U);
         EXPECT_EQ(content.cloud.means[0], glm::dvec3(1, -1.0 / 4096, -2048));
@@ -47,11 +49,39 @@ TEST(Spz, DecodesEveryAttribute) {
     }
 }
 
-TEST(Spz, RotationsOfVersion2HoldThreeComponents) {
-    const glm::vec4 q = decoded(one(2)).cloud.rotations[0];
-    EXPECT_EQ(q.y, 1); // x
-    EXPECT_NEAR(q.z, 128 / 127.5 - 1, 1e-7);
-    EXPECT_FLOAT_EQ(q.x, 0); // beyond the unit sphere: w is 0, not NaN
+TEST(Spz, RotationsOfVersions1And2HoldThreeComponents) {
+    for (const std::uint32_t version : {1U, 2U}) {
+        const glm::vec4 q = decoded(one(version)).cloud.rotations[0];
+        EXPECT_EQ(q.y, 1); // x
+        EXPECT_NEAR(q.z, 128 / 127.5 - 1, 1e-7);
+        EXPECT_FLOAT_EQ(q.x, 0); // beyond the unit sphere: w is 0, not NaN
+    }
+}
+
+/// Half floats: subnormal, largest and negative ones; the fractional bits of the header mean nothing.
+TEST(Spz, PositionsOfVersion1AreHalfFloats) {
+    SpzBuilder spz = SpzBuilder::scene(1, 2, 1);
+    spz.fractional_bits = 0;
+    spz.attributes[0] = std::string("\x01\x00\xff\x03\x00\x04\xff\x7b\x55\xb5\x00\x80", 12);
+    const SceneContent content = decoded(spz);
+    ASSERT_EQ(content.cloud.size(), 2U);
+    EXPECT_EQ(content.cloud.means[0],
+              glm::dvec3(std::ldexp(1, -24), std::ldexp(1023, -24), std::ldexp(1, -14)));
+    EXPECT_EQ(content.cloud.means[1], glm::dvec3(65504, -1365 / 4096.0, 0));
+    EXPECT_EQ(content.cloud.sh_degree, 1); // what follows is found at its place
+    EXPECT_EQ(content.cloud.opacities[0], static_cast<float>(1 / 255.0));
+}
+
+/// Version 1 has positions that no other version can hold: they go, and the file loads.
+TEST(Spz, PositionsOfVersion1ThatAreNotFiniteAreDropped) {
+    SpzBuilder spz = SpzBuilder::scene(1, 3, 0);
+    spz.attributes[0].assign(
+        "\x00\x3c\x00\x3c\x00\x3c\x00\x7c\x00\x3c\x00\x3c\x00\x3c\x01\xfe\x00\x3c", 18);
+    const test::Folder folder;
+    const Scene scene = load_scene(folder.write("v1.spz", spz.file()));
+    ASSERT_EQ(scene.cloud.size(), 1U);
+    EXPECT_EQ(scene.cloud.means[0], glm::dvec3(1, -1, -1)); // RUB to RDF
+    EXPECT_EQ(scene.dropped.non_finite, 2U);
 }
 
 TEST(Spz, RotationsOfVersion3HoldTheThreeSmallest) {
@@ -79,7 +109,7 @@ TEST(Spz, RotationsOfVersion3HoldTheThreeSmallest) {
 
 TEST(Spz, HarmonicsAreCoefficientMajor) {
     for (const int degree : {1, 2, 3}) {
-        for (const std::uint32_t version : {2U, 3U, 4U}) {
+        for (const std::uint32_t version : {1U, 2U, 3U, 4U}) {
             const SpzBuilder spz = SpzBuilder::scene(version, 3, degree);
             const GaussianCloud cloud = decoded(spz).cloud;
             ASSERT_EQ(cloud.sh_degree, degree);
