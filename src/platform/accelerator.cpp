@@ -119,8 +119,8 @@ AcceleratorFault Accelerator::prepare() {
                                    Register::BytesWritten, Register::Fragments}) {
         registers_.set_pair(counter, 0);
     }
-    if (const auto fault = AcceleratorRequest::read(registers_, options_.limits, request_)) {
-        return fault;
+    if (request_fault_) {
+        return request_fault_;
     }
     try {
         const sc_core::sc_time start = sc_core::sc_time_stamp();

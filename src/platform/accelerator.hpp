@@ -18,8 +18,9 @@ namespace degs {
 /// Any accelerator of the project as a module of a platform, with registers, a memory socket and an
 /// interrupt. docs/accelerator.md has the register map and the memory layout.
 ///
-/// A frame: `Start` samples the registers. Values come from a copy of the scene that is read first,
-/// by debug transport in no time, or by transactions where the memory has no debug transport. The
+/// A frame: the access that starts it samples the registers, whatever delay it is annotated with.
+/// Values come from a copy of the scene that is read first, by debug transport in no time, or by
+/// transactions where the memory has no debug transport. The
 /// model then reads the same bytes again when its blocks do, and writes real pixels. Bytes that
 /// differ by then are an error, and so are refused accesses and bad registers. A frame always ends
 /// with Done or Error and, if enabled, the interrupt. Nothing throws.
@@ -80,7 +81,8 @@ private:
     Options options_;
     Timebase time_;
     AcceleratorRegisters registers_;
-    AcceleratorRequest request_; // of the present frame
+    AcceleratorRequest request_;     // of the present frame
+    AcceleratorFault request_fault_; // likewise: why it cannot be served, if so
     SceneCopy scene_;
     bool scene_changed_ = false;
     std::deque<FrameWorkload> workloads_;

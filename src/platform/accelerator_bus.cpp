@@ -70,6 +70,8 @@ tlm::tlm_response_status Accelerator::write(std::uint32_t offset, std::uint32_t 
     return tlm::TLM_OK_RESPONSE;
 }
 
+// A start samples the registers here and not at its date: a decoupled processor may write those of the
+// next frame in the same quantum.
 void Accelerator::command(std::uint32_t bits, const sc_core::sc_time& delay) {
     const bool busy = (registers_.get(Register::Status) & kStatusBusy) != 0;
     if ((bits & kControlClearError) != 0) {
@@ -89,6 +91,7 @@ void Accelerator::command(std::uint32_t bits, const sc_core::sc_time& delay) {
     set_status(kStatusBusy, kStatusDone | kStatusError);
     registers_.set(Register::ErrorCode, 0);
     registers_.set(Register::ErrorDetail, 0);
+    request_fault_ = AcceleratorRequest::read(registers_, options_.limits, request_);
     start_.notify(delay);
 }
 
