@@ -21,6 +21,7 @@ Accelerator::Options accelerator_options(const Scene& scene, Timeline* timeline)
     Accelerator::Options options;
     options.antialiased = scene.traits.antialiased;
     options.timeline = timeline;
+    options.memory.pacing = Pacing::Annotated; // the memory sorts by date
     return options;
 }
 

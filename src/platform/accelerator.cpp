@@ -52,7 +52,7 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
       options_(options), time_{ClockDomain(config_->clock_ghz), options.fidelity, options.timeline},
       self_(time_),
       finished_("finished", time_, kFinishedDepth, config_->frame_end.gate_latency_cycles),
-      gateway_("gateway", options.memory) {
+      gateway_("gateway", options.memory, time_.clock) {
     registers.register_b_transport(this, &Accelerator::transport);
     registers.register_transport_dbg(this, &Accelerator::debug);
     gateway_.out.bind(mem);

@@ -10,8 +10,10 @@ namespace degs {
 MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name)
     : MemoryGateway(name, Options()) {}
 
-MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options& options)
-    : sc_core::sc_module(name), out("out"), in_("in"), options_(options) {
+MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options& options,
+                             const ClockDomain& clock)
+    : sc_core::sc_module(name), out("out"), in_("in"), options_(options),
+      pacer_(options.pacing, clock) {
     if (options.transport == Transport::At) {
         requester_ = std::make_unique<AtRequester>("requester", out, options.outstanding);
         out.register_nb_transport_bw(this, &MemoryGateway::backward);
@@ -47,7 +49,10 @@ void MemoryGateway::transport(tlm::tlm_generic_payload& payload, sc_core::sc_tim
 }
 
 void MemoryGateway::serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-    access(static_cast<unsigned>(port), payload, cut(payload), delay);
+    const auto rank = static_cast<unsigned>(port);
+    pacer_.await_turn(rank, delay);
+    access(rank, payload, cut(payload), delay);
+    pacer_.settle(delay);
     MemoryTraffic& traffic = traffic_[port];
     (payload.is_read() ? traffic.reads : traffic.writes)++;
     (payload.is_read() ? traffic.bytes_read : traffic.bytes_written) += payload.get_data_length();

@@ -12,6 +12,7 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include "modules/main_memory.hpp"
+#include "platform/access_pacer.hpp"
 #include "platform/at_requester.hpp"
 
 namespace degs {
@@ -34,13 +35,15 @@ public:
         /// AT: accesses are split at multiples of this and the pieces overlap; 0 disables
         /// splitting.
         std::uint64_t piece_bytes = 0;
+        Pacing pacing = Pacing::Exact;
     };
 
     tlm_utils::simple_initiator_socket<MemoryGateway> out;
 
     explicit MemoryGateway(const sc_core::sc_module_name& name);
-    /// Throws std::invalid_argument if no transaction may be outstanding.
-    MemoryGateway(const sc_core::sc_module_name& name, const Options& options);
+    /// `clock` is that of the streams. Throws std::invalid_argument if no transaction may be outstanding.
+    MemoryGateway(const sc_core::sc_module_name& name, const Options& options,
+                  const ClockDomain& clock = ClockDomain(1.0));
 
     /// Is called with the bytes that streams of the scene read, see
     /// MemoryPort::observe_reads(). Set it before connect().
@@ -85,6 +88,7 @@ private:
 
     sc_core::sc_vector<tlm_utils::simple_target_socket_tagged<MemoryGateway>> in_;
     Options options_;
+    AccessPacer pacer_;
     std::unique_ptr<AtRequester> requester_;
     std::vector<MemoryTraffic> traffic_;
     Observer scene_;
