@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/report.hpp"
 
+#include <cstdio>
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "config/config_document.hpp"
 #include "config/statistics_document.hpp"
+#include "scene/image_io.hpp"
 #include "sim/text/losses.hpp"
 
 namespace degs::sim {
@@ -52,7 +54,17 @@ void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, S
     v.end_section();
 }
 
-void describe_image(const std::optional<ImageError>& error, StatsVisitor& v) {
+StatValue checksum(const std::vector<Image>& images) {
+    if (images.empty()) {
+        return {};
+    }
+    char digits[9] = {};
+    std::snprintf(digits, sizeof digits, "%08x", pixel_crc32(images.front()));
+    return std::string(digits);
+}
+
+void describe_image(const RunResult& result, StatsVisitor& v) {
+    const std::optional<ImageError>& error = result.error;
     const auto of_error = [&error](double ImageError::*number) {
         return error ? std::optional<double>((*error).*number) : std::nullopt;
     };
@@ -63,9 +75,13 @@ void describe_image(const std::optional<ImageError>& error, StatsVisitor& v) {
            "Gaussian window of 11 x 11 pixels, sigma 1.5, mean over channels.");
     v.real("max_abs_error", of_error(&ImageError::max_abs_error), "",
            "Largest difference of a channel.");
+    v.statistic({"crc32", "",
+                 "CRC-32 of the pixels of image.png, red, green and blue from the top left, in "
+                 "hexadecimal."},
+                checksum(result.accelerator.images));
     if (v.wants(!error)) {
         v.text("why", "the run was asked not to render the reference (--no-reference)",
-               "Only with --no-reference, when the others are null.");
+               "Only with --no-reference, when the first three are null.");
     }
     v.end_section();
 }
@@ -110,7 +126,7 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
 void describe_outcome(const RunResult& result, StatsVisitor& v) {
     v.section("energy", result.accelerator.energy, "Energy of the accelerator and its memory.");
     v.section("area", result.config.accelerator().bill(), "What the design costs.");
-    describe_image(result.error, v);
+    describe_image(result, v);
 }
 
 /// Intervals at the places that their numbers have in the report.

@@ -8,25 +8,6 @@
 
 namespace degs::sim {
 
-RunConfig::RunConfig() : model_(accelerator_kinds().front().make()) {}
-
-std::string RunConfig::kind() const {
-    return accelerator_kinds()[kind_].name;
-}
-
-void RunConfig::describe(ConfigVisitor& visitor) {
-    std::vector<const char*> names;
-    for (const AcceleratorKind& kind : accelerator_kinds()) {
-        names.push_back(kind.name);
-    }
-    const int before = kind_;
-    visitor.choice("accelerator", kind_, names, "which accelerator the other keys mean");
-    if (kind_ != before) {
-        model_ = accelerator_kinds()[kind_].make();
-    }
-    model_->describe(visitor);
-}
-
 namespace {
 
 /// The section of `key` in `parent`, which is created if it does not exist.

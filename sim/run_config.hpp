@@ -1,47 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
+#include "baselines/design.hpp"
 #include "config/config_source.hpp"
-#include "modules/render_engine.hpp"
 
 namespace degs::sim {
 
-/// A configuration file: the kind of accelerator, then the keys of that kind.
-class RunConfig {
-public:
-    /// The first of accelerator_kinds() with its defaults.
-    RunConfig();
-    RunConfig(const RunConfig& other)
-        : warnings(other.warnings), kind_(other.kind_), model_(other.model_->clone()) {}
-    RunConfig& operator=(const RunConfig& other) {
-        warnings = other.warnings;
-        kind_ = other.kind_;
-        model_ = other.model_->clone();
-        return *this;
-    }
-    ~RunConfig() = default;
-
-    /// One sentence for each key that was set and has no effect.
-    std::vector<std::string> warnings;
-
-    const AcceleratorConfig& accelerator() const { return *model_; }
-    /// See AcceleratorConfig::scale_to.
-    void scale_to(int pes) { model_->scale_to(pes); }
-    /// The name of this kind of accelerator in a file, e.g. "degs".
-    std::string kind() const;
-
-    void describe(ConfigVisitor& visitor);
-    /// See AcceleratorConfig::problem.
-    std::string problem() const { return model_->problem(); }
-
-private:
-    int kind_ = 0; // into accelerator_kinds()
-    std::unique_ptr<AcceleratorConfig> model_;
-};
+using RunConfig = Design;
 
 /// Reads and checks a file with `--set` overrides, on the LPDDR5 memory of another file if one is
 /// named. Throws InputError.

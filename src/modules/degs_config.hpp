@@ -25,8 +25,9 @@ namespace degs {
 /// taken by a Slicing Unit, or once the spans of all its splats have been made.
 enum class ParameterLife { Sliced, Spans };
 
-/// A complete DeGS accelerator; defaults are the paper's 64-PE design (Tables I and II), read
-/// literally. Capacities are in bytes; the depths of rings follow from record sizes.
+/// A complete DeGS accelerator; defaults are the structure of the paper's 64-PE design (Tables I and
+/// II), computing in fp32. configs/degs-64.yaml is that design with the paper's formats, too.
+/// Capacities are in bytes; the depths of rings follow from record sizes.
 struct DegsConfig : AcceleratorConfig {
     struct Pipeline : PipelineConfig {
         SpanEnds span_ends = SpanEnds::Outward;

@@ -15,6 +15,7 @@
 #include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <png.h>
+#include <zlib.h>
 
 #include "config/error.hpp"
 #include "scene/input_file.hpp"
@@ -172,10 +173,19 @@ Image read_exr(const std::string& path) {
     }
 }
 
-void write_png(const Image& image, const std::string& path) {
-    check_not_empty(image.width, image.height, path);
+namespace {
+
+std::vector<png_byte> bytes_of(const Image& image) {
     std::vector<png_byte> bytes(image.rgb.size());
     std::transform(image.rgb.begin(), image.rgb.end(), bytes.begin(), to_byte);
+    return bytes;
+}
+
+} // namespace
+
+void write_png(const Image& image, const std::string& path) {
+    check_not_empty(image.width, image.height, path);
+    const std::vector<png_byte> bytes = bytes_of(image);
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     png.width = image.width;
@@ -187,6 +197,11 @@ void write_png(const Image& image, const std::string& path) {
             fail_file(path, std::string("the image could not be written (") + png.message + ").");
         }
     });
+}
+
+std::uint32_t pixel_crc32(const Image& image) {
+    const std::vector<png_byte> bytes = bytes_of(image);
+    return bytes.empty() ? 0 : static_cast<std::uint32_t>(crc32_z(0, bytes.data(), bytes.size()));
 }
 
 } // namespace degs

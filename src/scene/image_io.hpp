@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -32,5 +33,9 @@ Image read_exr(const std::string& path);
 /// Writes 8 bits per channel: clamp(value, 0, 1) * 255 + 0.5, truncated; NaN is 0. No gamma: the
 /// values are display-referred already.
 void write_png(const Image& image, const std::string& path);
+
+/// CRC-32 (that of zlib and PNG) of the bytes that write_png() stores: rows from the top, red, green, blue. 0 if the
+/// image has no pixels.
+std::uint32_t pixel_crc32(const Image& image);
 
 } // namespace degs
