@@ -3,12 +3,20 @@
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
 
-# Debian ships SystemC with a pkg-config file only; a source build installs a CMake package.
-pkg_check_modules(SYSTEMC IMPORTED_TARGET systemc)
-if(NOT SYSTEMC_FOUND)
-    find_package(SystemCLanguage CONFIG REQUIRED)
-    add_library(PkgConfig::SYSTEMC ALIAS SystemC::systemc)
+include(DegsSystemC)
+degs_find_systemc()
+if(DEGS_SYSTEMC_PROBLEM)
+    message(FATAL_ERROR "${DEGS_SYSTEMC_PROBLEM}")
 endif()
+message(STATUS "degs: SystemC ${DEGS_SYSTEMC_VERSION} (${DEGS_SYSTEMC_FROM}), ${DEGS_SYSTEMC_LIBRARY}")
+foreach(fact INCLUDE LIBRARY VERSION FROM)
+    set(DEGS_SYSTEMC_${fact} "${DEGS_SYSTEMC_${fact}}" CACHE INTERNAL "of the SystemC that was found") # for the tests
+endforeach()
+# By its files: an imported target is not known to a project that embeds this one.
+add_library(degs_systemc INTERFACE)
+add_library(degs::systemc ALIAS degs_systemc)
+target_include_directories(degs_systemc SYSTEM INTERFACE $<BUILD_INTERFACE:${DEGS_SYSTEMC_INCLUDE}>)
+target_link_libraries(degs_systemc INTERFACE $<BUILD_INTERFACE:${DEGS_SYSTEMC_LIBRARY}>)
 
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING) # Debian's Imath complains of Python bindings that nobody needs
 find_package(OpenEXR CONFIG REQUIRED)

@@ -7,6 +7,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/degs)
 
 set_target_properties(degs_glm PROPERTIES EXPORT_NAME glm_headers)
+set_target_properties(degs_systemc PROPERTIES EXPORT_NAME systemc)
 foreach(room config cost splat scene tlm dram modules baselines platform)
     set_target_properties(degs_${room} PROPERTIES EXPORT_NAME ${room})
     install(TARGETS degs_${room} EXPORT degsTargets COMPONENT degs)
@@ -15,7 +16,19 @@ foreach(room config cost splat scene tlm dram modules baselines platform)
                 FILES_MATCHING PATTERN "*.hpp")
     endif()
 endforeach()
-install(TARGETS degs degs_glm EXPORT degsTargets COMPONENT degs)
+# Machine code only: another compiler could not read the rest, and this one would optimise the whole model once more for
+# every program that links it, which takes most of a minute.
+if(DEGS_HAS_IPO AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    install(CODE "
+        file(GLOB archives \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/libdegs_*.a\")
+        foreach(archive IN LISTS archives)
+            execute_process(COMMAND \"${CMAKE_OBJCOPY}\" --wildcard --remove-section=.gnu.lto_*
+                            --remove-section=.gnu.debuglto_* --strip-symbol=__gnu_lto_* \"\${archive}\"
+                            COMMAND_ERROR_IS_FATAL ANY)
+        endforeach()
+    " COMPONENT degs)
+endif()
+install(TARGETS degs degs_glm degs_systemc EXPORT degsTargets COMPONENT degs)
 install(EXPORT degsTargets NAMESPACE degs:: DESTINATION ${package_dir} COMPONENT degs)
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT degs)
 
@@ -25,12 +38,30 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/degsConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/degsConfig.cmake ${PROJECT_BINARY_DIR}/degsConfigVersion.cmake
         DESTINATION ${package_dir} COMPONENT degs)
-# At install time, because only then the prefix is known.
-install(CODE "
-    set(PROJECT_DESCRIPTION \"${PROJECT_DESCRIPTION}\")
-    set(PROJECT_VERSION \"${PROJECT_VERSION}\")
-    set(CMAKE_INSTALL_LIBDIR \"${CMAKE_INSTALL_LIBDIR}\")
-    set(CMAKE_INSTALL_INCLUDEDIR \"${CMAKE_INSTALL_INCLUDEDIR}\")
-    configure_file(\"${PROJECT_SOURCE_DIR}/cmake/degs.pc.in\"
-                   \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/pkgconfig/degs.pc\" @ONLY)
-" COMPONENT degs)
+
+# Paths in it are relative to the file, so that the package can be moved.
+set(pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH PC_PREFIX /${pc_dir} /)
+string(REGEX REPLACE "/$" "" PC_PREFIX "${PC_PREFIX}")
+# The SystemC of the system by its name, any other by its files: pkg-config would find another one.
+set(PC_SYSTEMC_REQUIRED "")
+set(PC_SYSTEMC_CFLAGS "")
+set(PC_SYSTEMC_LIBS "")
+if(DEGS_SYSTEMC_FROM STREQUAL "pkg-config")
+    pkg_get_variable(systemc_pc systemc pcfiledir)
+    pkg_get_variable(pc_path pkg-config pc_path)
+    if(":${pc_path}:" MATCHES ":${systemc_pc}:")
+        set(PC_SYSTEMC_REQUIRED "systemc ")
+    endif()
+endif()
+if(NOT PC_SYSTEMC_REQUIRED)
+    get_filename_component(systemc_dir "${DEGS_SYSTEMC_LIBRARY}" DIRECTORY)
+    set(PC_SYSTEMC_CFLAGS " -isystem ${DEGS_SYSTEMC_INCLUDE}")
+    set(PC_SYSTEMC_LIBS " ${DEGS_SYSTEMC_LIBRARY} -pthread")
+    if(DEGS_SYSTEMC_LIBRARY MATCHES "\\.so")
+        string(APPEND PC_SYSTEMC_LIBS " -Wl,-rpath,${systemc_dir}")
+    endif()
+endif()
+configure_file(cmake/degs.pc.in ${PROJECT_BINARY_DIR}/degs.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/degs.pc DESTINATION ${pc_dir} COMPONENT degs)
+install(FILES cmake/DegsSystemC.cmake DESTINATION ${package_dir} COMPONENT degs)

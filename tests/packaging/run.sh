@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD COMPILER: the three ways in which another project uses DeGS.
-# 1. find_package: installs a build into a folder of its own and builds and runs outside/, which knows nothing but
-#    the prefix. The libraries must have been built.
+# run.sh BUILD COMPILER: the ways in which another project uses DeGS.
+# 1. find_package: installs a build into a folder of its own, moves it elsewhere, and builds and runs outside/, which
+#    knows nothing but the prefix, with COMPILER and with clang++. The libraries must have been built.
 # 2. pkg-config: compiles and links embedded/main.cpp with what degs.pc says.
-# 3. add_subdirectory: builds and runs embedded/, with SystemC as a package for CMake, as a source build installs
-#    it. Compiles a few rooms once more, with the flags of BUILD, so that ccache knows the objects.
+# 3. add_subdirectory: builds and runs embedded/ with a SystemC of its own: headers and library under a prefix, which
+#    must be taken in place of the SystemC of the system. Compiles a few rooms once more, with the flags of BUILD.
+# 4. The same with SystemC as a package for CMake, configured only; degs.pc and degsConfig.cmake must name it.
 set -euo pipefail
 
 build=$1
@@ -14,52 +15,94 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
 embedded=$(mktemp -d "$build-embedded.XXXXXX") # beside BUILD, so that relative paths are those of its objects, too
 trap 'rm -rf "$work" "$embedded"' EXIT
+cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
+sources=$(cached CMAKE_HOME_DIRECTORY)
 
-cmake --install "$build" --prefix "$work/prefix" --component degs >"$work/install.log"
-cmake -S "$here/outside" -B "$work/outside" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release \
-    -DCMAKE_CXX_COMPILER="$compiler" >"$work/configure.log" || { cat "$work/configure.log"; exit 1; }
-cmake --build "$work/outside"
-"$work/outside/outside"
+# quietly LOG COMMAND...: shows what the command says only if it fails.
+quietly() { "${@:2}" >"$work/$1.log" 2>&1 || { cat "$work/$1.log"; return 1; }; }
+# seconds LIMIT COMMAND...: runs it, and fails if it takes more processor time.
+seconds() {
+    local TIMEFORMAT='%U %S' taken
+    taken=$({ time "${@:2}" >&2; } 2>&1 | awk 'END { print $1 + $2 }')
+    awk -v t="$taken" -v l="$1" 'BEGIN { exit !(t <= l) }' || { echo "took $taken s of a processor: $2"; return 1; }
+    echo "$taken"
+}
+
+quietly install cmake --install "$build" --prefix "$work/first" --component degs
+mv "$work/first" "$work/prefix"
+compilers=("$compiler")
+if command -v clang++ >/dev/null; then
+    compilers+=(clang++)
+else
+    echo "clang++ is not there, so the package is tried with one compiler"
+fi
+for each in "${compilers[@]}"; do
+    name=$(basename "$each")
+    quietly configure cmake -S "$here/outside" -B "$work/$name" -DCMAKE_PREFIX_PATH="$work/prefix" \
+        -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$each"
+    quietly compile cmake --build "$work/$name"
+    rm "$work/$name/outside"
+    echo "$name links the package in $(seconds 10 cmake --build "$work/$name") s"
+    "$work/$name/outside"
+done
 
 for file in share/degs/configs/degs-64.yaml include/degs/platform/accelerator.hpp; do
     [[ -f $work/prefix/$file ]] || { echo "$file was not installed"; exit 1; }
 done
-if grep -rl "$build" "$work/prefix" --include='*.cmake' --include='*.pc'; then
-    echo "these files name the build folder"
+if grep -rlE "$build|$work" "$work/prefix" --include='*.cmake' --include='*.pc'; then
+    echo "these files name the build folder, or where the package was first"
     exit 1
 fi
 pc=$(dirname "$(find "$work/prefix" -name degs.pc)")
 PKG_CONFIG_PATH=$pc pkg-config --exists --print-errors degs
-[[ $(PKG_CONFIG_PATH=$pc pkg-config --cflags degs) == *"$work/prefix/include/degs"* ]]
 flags=$(PKG_CONFIG_PATH=$pc pkg-config --cflags --libs degs)
 # shellcheck disable=SC2086 # words of the command line
-"$compiler" "$here/embedded/main.cpp" -O2 -Wno-psabi $flags -o "$work/by_pkg_config"
+"$compiler" "$here/embedded/main.cpp" -O2 $flags -o "$work/by_pkg_config"
 "$work/by_pkg_config"
 
-cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
-sources=$(cached CMAKE_HOME_DIRECTORY)
-mkdir "$work/systemc" "$work/without_systemc"
-IFS=: read -ra places <<<"$(pkg-config --variable pc_path pkg-config)"
-for place in "${places[@]}"; do
-    [[ ! -d $place ]] || find "$place" -name '*.pc' ! -name 'systemc*' -exec ln -sf -t "$work/without_systemc" {} +
-done
-cat >"$work/systemc/SystemCLanguageConfig.cmake" <<END
-add_library(SystemC::systemc UNKNOWN IMPORTED)
-set_target_properties(SystemC::systemc PROPERTIES
-    IMPORTED_LOCATION "$(cached pkgcfg_lib_SYSTEMC_systemc)"
-    INTERFACE_INCLUDE_DIRECTORIES "$(cached SYSTEMC_INCLUDE_DIRS)")
-END
-PKG_CONFIG_LIBDIR=$work/without_systemc cmake -S "$here/embedded" -B "$embedded" -G "$(cached CMAKE_GENERATOR)" \
-    -DDEGS_SOURCE="$sources" -DSystemCLanguage_DIR="$work/systemc" -DCMAKE_CXX_COMPILER="$compiler" \
+# A second SystemC. Its library is another file, so that the program tells which one it uses.
+second=$work/systemc
+mkdir -p "$second/include" "$second/lib" "$second/cmake"
+include=$(cached DEGS_SYSTEMC_INCLUDE)
+library=$(realpath "$(cached DEGS_SYSTEMC_LIBRARY)")
+ln -s "$include"/{systemc,systemc.h,sysc,tlm,tlm.h,tlm_core,tlm_utils} "$second/include"
+cp "$library" "$second/lib/libsystemc.${library##*.}"
+if [[ $library == *.so ]]; then
+    cp "$library" "$second/lib/$(basename "$library")" # the name that programs ask for
+fi
+version=$(cached DEGS_SYSTEMC_VERSION)
+quietly embedded cmake -S "$here/embedded" -B "$embedded" -G "$(cached CMAKE_GENERATOR)" \
+    -DDEGS_SOURCE="$sources" -DSYSTEMC_HOME="$second" -DCMAKE_CXX_COMPILER="$compiler" \
     -DCMAKE_BUILD_TYPE="$(cached CMAKE_BUILD_TYPE)" -DDEGS_ARCH="$(cached DEGS_ARCH)" \
-    -DDEGS_WARNINGS_AS_ERRORS="$(cached DEGS_WARNINGS_AS_ERRORS)" -DDEGS_FAT_ARCHIVES="$(cached DEGS_FAT_ARCHIVES)" \
+    -DDEGS_WARNINGS_AS_ERRORS="$(cached DEGS_WARNINGS_AS_ERRORS)" \
     -DCMAKE_UNITY_BUILD="$(cached CMAKE_UNITY_BUILD)" \
     -DCMAKE_UNITY_BUILD_BATCH_SIZE="$(cached CMAKE_UNITY_BUILD_BATCH_SIZE)" \
-    -DCMAKE_CXX_COMPILER_LAUNCHER="$(cached DEGS_CCACHE)" >"$work/embedded.log" ||
-    { cat "$work/embedded.log"; exit 1; }
-if grep -q '^SYSTEMC_FOUND:INTERNAL=1' "$embedded/CMakeCache.txt"; then
-    echo "SystemC was found with pkg-config, so this was no test of the package"
+    -DCMAKE_CXX_COMPILER_LAUNCHER="$(cached DEGS_CCACHE)"
+grep -q "SystemC $version (prefix), $second/lib/" "$work/embedded.log" || { cat "$work/embedded.log"; exit 1; }
+quietly embedded_build cmake --build "$embedded" --target embedded
+"$embedded/embedded"
+used=$(ldd "$embedded/embedded")
+if [[ $library == *.so && $used != *" => $second/lib/"* ]]; then
+    echo "the program uses another SystemC than that of the prefix: $used"
     exit 1
 fi
-cmake --build "$embedded" --target embedded
-"$embedded/embedded"
+
+cat >"$second/cmake/SystemCLanguageConfig.cmake" <<END
+add_library(SystemC::systemc UNKNOWN IMPORTED)
+set_target_properties(SystemC::systemc PROPERTIES
+    IMPORTED_LOCATION "$second/lib/libsystemc.${library##*.}"
+    INTERFACE_INCLUDE_DIRECTORIES "$second/include")
+END
+mkdir "$second/lib/cmake"
+mv "$second/cmake" "$second/lib/cmake/SystemCLanguage"
+quietly package cmake -S "$sources" -B "$work/package" -G "$(cached CMAKE_GENERATOR)" -DCMAKE_PREFIX_PATH="$second" \
+    -DCMAKE_CXX_COMPILER="$compiler" -DDEGS_BUILD_TESTS=OFF -DDEGS_BUILD_SIM=OFF
+grep -q "SystemC $version (package), $second/lib/" "$work/package.log" || { cat "$work/package.log"; exit 1; }
+[[ $(PKG_CONFIG_PATH=$work/package pkg-config --libs degs) == *"$second/lib/libsystemc"* ]]
+[[ $(PKG_CONFIG_PATH=$work/package pkg-config --cflags degs) == *"-isystem"*"$second/include"* ]]
+grep -q "\"$second/lib/libsystemc" "$work/package/degsConfig.cmake"
+if SYSTEMC_HOME=/nowhere cmake -S "$sources" -B "$work/nowhere" >"$work/nowhere.log" 2>&1; then
+    echo "a SYSTEMC_HOME without SystemC is no error"
+    exit 1
+fi
+grep -q "SYSTEMC_HOME names '/nowhere'" "$work/nowhere.log"
