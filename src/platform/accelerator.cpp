@@ -47,9 +47,10 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
 
 Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
                          const Options& options)
-    : sc_core::sc_module(name), registers("registers"), mem("mem"), irq("irq"),
-      config_(checked(config)),
-      options_(options), time_{ClockDomain(config_->clock_ghz), options.fidelity, options.timeline},
+    : sc_core::sc_module(name), registers("registers"), mem("mem"), irq("irq"), reset_n("reset_n"),
+      config_(checked(config)), options_(options),
+      mapping_(ClockDomain(config_->clock_ghz).period()), time_{ClockDomain(mapping_),
+                                                                options.fidelity, options.timeline},
       self_(time_),
       finished_("finished", time_, kFinishedDepth, config_->frame_end.gate_latency_cycles),
       gateway_("gateway", options.memory, time_.clock) {
@@ -76,6 +77,8 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
     SC_THREAD(run);
     SC_METHOD(drive_irq);
     sensitive << irq_changed_;
+    SC_METHOD(begin_stop);
+    sensitive << stop_requested_ << reset_n;
 }
 
 void Accelerator::end_of_elaboration() {
@@ -89,7 +92,10 @@ void Accelerator::complete_timeline() {
 }
 
 void Accelerator::drive_irq() {
-    irq.write((registers_.get(Register::IrqEnable) & registers_.get(Register::IrqStatus)) != 0);
+    if (irq.size() != 0) {
+        irq->write((registers_.get(Register::IrqEnable) & registers_.get(Register::IrqStatus)) !=
+                   0);
+    }
 }
 
 void Accelerator::set_status(std::uint32_t set, std::uint32_t clear) {
@@ -98,11 +104,23 @@ void Accelerator::set_status(std::uint32_t set, std::uint32_t clear) {
 
 void Accelerator::run() {
     for (;;) {
-        sc_core::wait(start_);
-        AcceleratorFault fault = prepare();
-        fault = fault ? fault : render();
-        end_frame(fault);
+        while (!started_ && stop_ == Stop::None) {
+            sc_core::wait(work_);
+        }
+        const AcceleratorFault fault = stop_ == Stop::None ? serve() : AcceleratorFault{};
+        started_ = false;
+        if (stop_ == Stop::None) {
+            end_frame(fault);
+        } else {
+            end_stop();
+        }
     }
+}
+
+// A stop while the scene is loaded leaves a copy that is of no use.
+AcceleratorFault Accelerator::serve() {
+    const AcceleratorFault fault = prepare();
+    return fault || stop_ != Stop::None ? fault : render();
 }
 
 void Accelerator::end_frame(const AcceleratorFault& fault) {
@@ -126,7 +144,10 @@ AcceleratorFault Accelerator::prepare() {
         const sc_core::sc_time start = sc_core::sc_time_stamp();
         const auto answer = scene_.load(gateway_, request_.scene);
         registers_.set_pair(Register::LoadCycles,
-                            time_.clock.ceil(sc_core::sc_time_stamp() - start));
+                            time_.clock.cycles_of(sc_core::sc_time_stamp() - start));
+        if (stop_ != Stop::None) {
+            return {};
+        }
         if (answer != tlm::TLM_OK_RESPONSE) {
             return {AcceleratorError::LoadError, detail_of(answer)};
         }
@@ -166,6 +187,10 @@ AcceleratorFault Accelerator::render() {
     job_.joined->notify(sc_core::SC_ZERO_TIME);
     finished_.get(self_);
     self_.sync();
+    if (stop_ != Stop::None) {
+        job_.images.back() = Image(0, 0);
+        return {};
+    }
     count_frame(started, before);
     if (gateway_.errors() != 0) {
         return {AcceleratorError::BusError, detail_of(gateway_.first_error())};

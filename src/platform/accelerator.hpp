@@ -23,11 +23,14 @@ namespace degs {
 /// transactions where the memory has no debug transport. The
 /// model then reads the same bytes again when its blocks do, and writes real pixels. Bytes that
 /// differ by then are an error, and so are refused accesses and bad registers. A frame always ends
-/// with Done or Error and, if enabled, the interrupt. Nothing throws.
+/// with Done, Error or Aborted and, if enabled, the interrupt. Nothing throws.
 ///
-/// Not modelled: an abort of a running frame, power states, and the values of splat records and
-/// lists, which are written to the workspace as bytes without meaning. The host memory of a frame
-/// (about 200 B per visible splat) is kept until the end of the simulation.
+/// A reset or an abort cuts the blocks off the bus and lets them hurry through the rest of the frame:
+/// no block knows of it, and all are then where they are between frames.
+///
+/// Not modelled: power states, and the values of splat records and lists, which are written to the
+/// workspace as bytes without meaning. The host memory of a frame (about 200 B per visible splat) is
+/// kept until the end of the simulation.
 class Accelerator : public sc_core::sc_module {
 public:
     struct Options {
@@ -42,7 +45,13 @@ public:
     tlm_utils::simple_target_socket<Accelerator> registers;
     /// Any LT target, or, with Options::memory.transport = At, any AT target.
     tlm::tlm_initiator_socket<> mem;
-    sc_core::sc_out<bool> irq; ///< high while an enabled interrupt is pending
+    /// Ports that may stay unbound.
+    template <class Interface>
+    using OptionalPort = sc_core::sc_port<Interface, 1, sc_core::SC_ZERO_OR_MORE_BOUND>;
+    /// High while an enabled interrupt is pending.
+    OptionalPort<sc_core::sc_signal_inout_if<bool>> irq;
+    /// Low: reset. Takes effect at once, whatever the clock does.
+    OptionalPort<sc_core::sc_signal_in_if<bool>> reset_n;
 
     /// Copies `config` and makes the copy read scenes of floats. Throws
     /// std::invalid_argument if it has a problem().
@@ -68,7 +77,16 @@ private:
                                    const sc_core::sc_time& delay);
     void command(std::uint32_t bits, const sc_core::sc_time& delay);
 
+    /// Why the present frame, if there is one, is given up.
+    enum class Stop { None, Abort, Reset };
+    void request_stop(Stop why);
+    void begin_stop();
+    void end_stop();
+    void await_rest();
+    bool held_in_reset() const { return reset_n.size() != 0 && !reset_n->read(); }
+
     void run();
+    AcceleratorFault serve();
     void drive_irq();
     AcceleratorFault prepare();
     AcceleratorFault make_workload();
@@ -79,6 +97,7 @@ private:
 
     std::unique_ptr<AcceleratorConfig> config_;
     Options options_;
+    ClockMapping mapping_;
     Timebase time_;
     AcceleratorRegisters registers_;
     AcceleratorRequest request_;     // of the present frame
@@ -91,7 +110,10 @@ private:
     DatedFifo<std::uint32_t> finished_;
     MemoryGateway gateway_;
     std::unique_ptr<RenderEngine> engine_;
-    sc_core::sc_event start_, irq_changed_;
+    bool started_ = false; // a start waits for its date, or is being served
+    Stop stop_ = Stop::None;
+    sc_core::sc_event work_; // of run(), at the date of a start or a stop
+    sc_core::sc_event stop_requested_, irq_changed_;
 };
 
 } // namespace degs

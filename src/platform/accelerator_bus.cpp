@@ -59,6 +59,9 @@ tlm::tlm_response_status Accelerator::write(std::uint32_t offset, std::uint32_t 
     if (info == nullptr || info->access == Access::Read) {
         return tlm::TLM_COMMAND_ERROR_RESPONSE;
     }
+    if (held_in_reset()) {
+        return tlm::TLM_OK_RESPONSE;
+    }
     if (info->access == Access::Command) {
         command(value, delay);
     } else {
@@ -73,9 +76,20 @@ tlm::tlm_response_status Accelerator::write(std::uint32_t offset, std::uint32_t 
 // A start samples the registers here and not at its date: a decoupled processor may write those of the
 // next frame in the same quantum.
 void Accelerator::command(std::uint32_t bits, const sc_core::sc_time& delay) {
-    const bool busy = (registers_.get(Register::Status) & kStatusBusy) != 0;
+    if ((bits & kControlReset) != 0) {
+        request_stop(Stop::Reset);
+        stop_requested_.notify(delay);
+        irq_changed_.notify(delay);
+        return;
+    }
+    const std::uint32_t status = registers_.get(Register::Status);
+    const bool busy = (status & (kStatusBusy | kStatusInReset)) != 0;
+    if ((bits & kControlAbort) != 0 && (status & kStatusBusy) != 0) {
+        request_stop(Stop::Abort);
+        stop_requested_.notify(delay);
+    }
     if ((bits & kControlClearError) != 0) {
-        set_status(0, kStatusError | kStatusStartIgnored);
+        set_status(0, kStatusError | kStatusStartIgnored | kStatusAborted);
         if (!busy) {
             registers_.set(Register::ErrorCode, 0);
             registers_.set(Register::ErrorDetail, 0);
@@ -88,18 +102,19 @@ void Accelerator::command(std::uint32_t bits, const sc_core::sc_time& delay) {
         set_status(kStatusStartIgnored, 0);
         return;
     }
-    set_status(kStatusBusy, kStatusDone | kStatusError);
+    set_status(kStatusBusy, kStatusDone | kStatusError | kStatusAborted);
     registers_.set(Register::ErrorCode, 0);
     registers_.set(Register::ErrorDetail, 0);
     request_fault_ = AcceleratorRequest::read(registers_, options_.limits, request_);
-    start_.notify(delay);
+    started_ = true;
+    work_.notify(delay);
 }
 
 // Moves whole words. Reads every register, and writes those that start nothing.
 unsigned int Accelerator::debug(Payload& payload) {
     const std::uint64_t first = payload.get_address();
     const unsigned int bytes = payload.get_data_length();
-    if (first % 4 != 0 || bytes % 4 != 0) {
+    if (first % 4 != 0 || bytes % 4 != 0 || (payload.is_write() && held_in_reset())) {
         return 0;
     }
     unsigned int done = 0;

@@ -16,7 +16,8 @@ std::uint32_t bit_of(std::uint32_t mask) {
 
 std::vector<RegisterField> interrupts() {
     return {{"DONE", bit_of(kIrqDone), "a frame is done"},
-            {"ERROR", bit_of(kIrqError), "a frame ended with an error"}};
+            {"ERROR", bit_of(kIrqError), "a frame ended with an error"},
+            {"ABORTED", bit_of(kIrqAborted), "a frame has been given up"}};
 }
 
 std::vector<RegisterValue> formats() {
@@ -62,7 +63,9 @@ std::vector<RegisterInfo> rows() {
          "commands",
          {{"START", bit_of(kControlStart), "start a frame"},
           {"CLEAR_ERROR", bit_of(kControlClearError),
-           "clear the error and the start-ignored flag"}}},
+           "clear the error and the flags \"aborted\" and \"start ignored\""},
+          {"RESET", bit_of(kControlReset), "reset; the other bits are ignored"},
+          {"ABORT", bit_of(kControlAbort), "give up the present frame"}}},
         {R::Status,
          1,
          "STATUS",
@@ -72,7 +75,9 @@ std::vector<RegisterInfo> rows() {
           {"DONE", bit_of(kStatusDone), "the last frame is done"},
           {"ERROR", bit_of(kStatusError), "the last frame ended with an error"},
           {"START_IGNORED", bit_of(kStatusStartIgnored),
-           "a start was ignored because the accelerator was busy"}}},
+           "a start was ignored because the accelerator was busy"},
+          {"IN_RESET", bit_of(kStatusInReset), "a reset has not ended yet"},
+          {"ABORTED", bit_of(kStatusAborted), "the last frame has been given up"}}},
         {R::IrqEnable, 1, "IRQ_ENABLE", rw, "interrupts that reach `irq`", interrupts()},
         {R::IrqStatus, 1, "IRQ_STATUS", Access::WriteOneToClear,
          "pending interrupts; writing 1 clears; `irq` is high while an enabled bit is set",

@@ -14,14 +14,14 @@ bool AccessPacer::exact() const {
 }
 
 void AccessPacer::await_turn(unsigned rank, sc_core::sc_time& delay) {
-    if (pacing_ == Pacing::Annotated) {
+    if (pacing_ == Pacing::Annotated || open_) {
         return;
     }
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     if (!exact()) {
         // As tlm_utils::tlm_quantumkeeper: who reaches the next multiple of the quantum waits for its date.
         if (delay >= tlm::tlm_global_quantum::instance().compute_local_quantum()) {
-            sc_core::wait(delay);
+            sc_core::wait(delay, opens_);
             delay = sc_core::SC_ZERO_TIME;
         }
         return;
@@ -29,12 +29,18 @@ void AccessPacer::await_turn(unsigned rank, sc_core::sc_time& delay) {
     const sc_core::sc_time due = std::max(clock_.half_after(clock_.floor(now + delay)), now);
     const Place place(*this, {due.value(), rank, numbers_++});
     if (due > now) {
-        sc_core::wait(due - now);
+        sc_core::wait(due - now, opens_);
     }
-    while (!place.first()) {
+    while (!place.first() && !open_) {
         sc_core::wait(next_turn_);
     }
     delay = sc_core::SC_ZERO_TIME;
+}
+
+void AccessPacer::open() {
+    open_ = true;
+    opens_.notify(sc_core::SC_ZERO_TIME);
+    next_turn_.notify(sc_core::SC_ZERO_TIME);
 }
 
 AccessPacer::Place::~Place() {
@@ -46,7 +52,7 @@ AccessPacer::Place::~Place() {
 
 void AccessPacer::settle(sc_core::sc_time& delay) const {
     if (exact()) {
-        delay -= std::min(delay, clock_.half_after(0));
+        delay -= std::min(delay, sc_core::sc_time::from_value(clock_.period().value() / 2));
     }
 }
 

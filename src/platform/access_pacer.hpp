@@ -33,6 +33,9 @@ public:
     void await_turn(unsigned rank, sc_core::sc_time& delay);
     /// Turns the delay to an answer into what the stream sees, after await_turn().
     void settle(sc_core::sc_time& delay) const;
+    /// Nobody waits any more, until close().
+    void open();
+    void close() { open_ = false; }
 
 private:
     using Turn = std::tuple<std::uint64_t, unsigned, std::uint64_t>; // date, rank, number
@@ -56,7 +59,8 @@ private:
     ClockDomain clock_;
     std::set<Turn> turns_;
     std::uint64_t numbers_ = 0;
-    sc_core::sc_event next_turn_;
+    bool open_ = false;
+    sc_core::sc_event next_turn_, opens_;
 };
 
 } // namespace degs

@@ -39,8 +39,12 @@ bool AtRequester::later(const Transaction* a, const Transaction* b) {
 void AtRequester::transport(unsigned rank, Payload& access, const std::vector<Piece>& pieces,
                             sc_core::sc_time& delay) {
     if (delay != sc_core::SC_ZERO_TIME) {
-        sc_core::wait(delay);
+        sc_core::wait(delay, detaches_);
         delay = sc_core::SC_ZERO_TIME;
+    }
+    if (detached_) {
+        access.set_response_status(tlm::TLM_OK_RESPONSE);
+        return;
     }
     if (idle_.empty()) {
         idle_.push_back(std::make_unique<Access>());
@@ -100,6 +104,22 @@ void AtRequester::free(Payload* payload) {
     payload->set_extension<TimingOnly>(nullptr); // the port's
     payload->reset();
     free_.push_back(static_cast<Transaction*>(payload));
+}
+
+void AtRequester::end_part(Transaction& transaction) {
+    if (--transaction.access->left == 0) {
+        transaction.access->done.notify(sc_core::SC_ZERO_TIME);
+    }
+}
+
+void AtRequester::detach() {
+    detached_ = true;
+    detaches_.notify(sc_core::SC_ZERO_TIME);
+    for (Transaction* const transaction : waiting_) {
+        transaction->set_response_status(tlm::TLM_OK_RESPONSE);
+        end_part(*transaction);
+    }
+    waiting_.clear();
 }
 
 void AtRequester::send() {
@@ -176,9 +196,7 @@ void AtRequester::finish() {
             out_->nb_transport_fw(*transaction, phase, delay);
         }
         --under_way_;
-        if (--transaction->access->left == 0) {
-            transaction->access->done.notify(sc_core::SC_ZERO_TIME);
-        }
+        end_part(*transaction);
         transaction->release();
     }
     send();

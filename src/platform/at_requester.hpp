@@ -40,6 +40,11 @@ public:
                    sc_core::sc_time& delay);
     tlm::tlm_sync_enum backward(Payload& payload, tlm::tlm_phase& phase, sc_core::sc_time& delay);
 
+    /// Accesses end now, without the transactions of theirs that are not on the bus yet, and the
+    /// others when these are answered; attach() ends this.
+    void detach();
+    void attach() { detached_ = false; }
+
     std::uint64_t transactions() const { return sequence_; }
     /// Largest number of transactions in flight at a time so far.
     unsigned most_under_way() const { return most_under_way_; }
@@ -60,6 +65,7 @@ private:
     static bool later(const Transaction* a, const Transaction* b);
     Transaction& make(const Payload& access, const Piece& piece);
     void free(Payload* payload) override;
+    static void end_part(Transaction& transaction);
     void send();
     void request(Transaction& transaction);
     void take(Transaction& transaction, const tlm::tlm_phase& phase, const sc_core::sc_time& delay);
@@ -70,6 +76,8 @@ private:
 
     tlm::tlm_initiator_socket<>& out_;
     unsigned outstanding_;
+    bool detached_ = false;
+    sc_core::sc_event detaches_;
     unsigned under_way_ = 0, most_under_way_ = 0;
     std::uint64_t sequence_ = 0;
     std::vector<Transaction*> waiting_; // a heap, the first to go on top

@@ -64,12 +64,37 @@ void MemoryGateway::serve(int port, tlm::tlm_generic_payload& payload, sc_core::
 
 void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload, const Pieces& pieces,
                            sc_core::sc_time& delay) {
+    if (detached_) {
+        payload.set_response_status(tlm::TLM_OK_RESPONSE);
+        return;
+    }
+    ++under_way_;
     if (requester_) {
         requester_->transport(rank, payload, pieces, delay);
     } else if (payload.get_extension<Scattered>() == nullptr) {
         out->b_transport(payload, delay);
     } else {
         access_pieces(payload, pieces, delay);
+    }
+    if (--under_way_ == 0 && detached_) {
+        became_idle_.notify(sc_core::SC_ZERO_TIME);
+    }
+    last_answer_ = std::max(last_answer_, sc_core::sc_time_stamp() + delay);
+}
+
+void MemoryGateway::detach() {
+    detached_ = true;
+    pacer_.open();
+    if (requester_) {
+        requester_->detach();
+    }
+}
+
+void MemoryGateway::attach() {
+    detached_ = false;
+    pacer_.close();
+    if (requester_) {
+        requester_->attach();
     }
 }
 
@@ -103,6 +128,9 @@ void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Piece
     sc_core::sc_time done = date;
     tlm::tlm_response_status status = tlm::TLM_OK_RESPONSE;
     for (const AtRequester::Piece& piece : pieces) {
+        if (detached_) { // while the last piece was on the bus
+            break;
+        }
         const sc_core::sc_time now = sc_core::sc_time_stamp();
         sc_core::sc_time wait = date > now ? date - now : sc_core::SC_ZERO_TIME;
         payload.set_address(piece.address);

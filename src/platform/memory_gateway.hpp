@@ -74,6 +74,18 @@ public:
         first_error_ = tlm::TLM_OK_RESPONSE;
     }
 
+    /// Stops touching the platform's memory. Transactions that are on the bus end in their own time;
+    /// every other access is answered at once, as if it had been done, until attach().
+    void detach();
+    void attach();
+    bool detached() const { return detached_; }
+    /// No access of a process is under way.
+    bool idle() const { return under_way_ == 0; }
+    /// Notified when idle() becomes true while detached.
+    const sc_core::sc_event& became_idle() const { return became_idle_; }
+    /// The latest date at which a transaction has ended, by its answer and its annotated delay.
+    const sc_core::sc_time& last_answer() const { return last_answer_; }
+
 private:
     using Pieces = std::vector<AtRequester::Piece>;
     void serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
@@ -92,6 +104,10 @@ private:
     std::unique_ptr<AtRequester> requester_;
     std::vector<MemoryTraffic> traffic_;
     Observer scene_;
+    bool detached_ = false;
+    unsigned under_way_ = 0;
+    sc_core::sc_event became_idle_;
+    sc_core::sc_time last_answer_;
     std::uint64_t errors_ = 0;
     tlm::tlm_response_status first_error_ = tlm::TLM_OK_RESPONSE;
 };

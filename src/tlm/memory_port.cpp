@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tlm/memory_port.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -60,7 +61,7 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
     // A memory that waits for its answer has moved the kernel on; a process must not stay more than
     // a cycle behind.
     process.advance_to(std::max<Cycle>(clock_->floor(sc_core::sc_time_stamp()), 1) - 1);
-    const Cycle complete = clock_->ceil(sc_core::sc_time_stamp() + delay);
+    const Cycle complete = std::max(asked, clock_->ceil(sc_core::sc_time_stamp() + delay));
     if (watcher_) {
         watcher_(asked, complete);
     }

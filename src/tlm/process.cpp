@@ -16,6 +16,12 @@ constexpr int kProofDepth = 3;
 } // namespace
 
 void Process::sync() {
+    if (clock_->mapping() != nullptr) {
+        while (clock_->at(local_) > sc_core::sc_time_stamp()) {
+            doze_until(clock_->at(local_));
+        }
+        return;
+    }
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     const sc_core::sc_time target = clock_->at(local_);
     if (target > now) {
@@ -55,7 +61,9 @@ void Process::doze_until(const sc_core::sc_time& date) {
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     if (date > now) {
         timeout_.notify(date - now);
+        to_date_ = true;
         sc_core::wait(wake_or_timeout_);
+        to_date_ = false;
         count_activation(activations_);
     }
 }
@@ -171,8 +179,9 @@ Cycle Process::bound(int depth) const {
 // Reads of cycle t may be decided as late as half a cycle after t, so they are certain at t + 1.
 bool Process::gains_room(FifoBase& output) {
     const Cycle release = output.release_latency();
-    const sc_core::sc_time certain = clock_->at(local_ < release ? 0 : local_ - release + 1);
+    const Cycle after = local_ < release ? 0 : local_ - release + 1;
     while (output.full()) {
+        const sc_core::sc_time certain = clock_->at(after);
         if (strict_ || output.room_horizon(kProofDepth) > local_ ||
             sc_core::sc_time_stamp() >= certain) {
             return false;

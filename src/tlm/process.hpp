@@ -59,6 +59,9 @@ public:
           alarm_(no_alarm()) {
         wake_or_timeout_ |= wake_;
         wake_or_timeout_ |= timeout_;
+        if (clock_->mapping() != nullptr) {
+            clock_->mapping()->join(*this);
+        }
     }
     Process(const Process&) = delete;
     Process& operator=(const Process&) = delete;
@@ -101,6 +104,15 @@ public:
     void sync();
     /// No more items will ever come from this process.
     void finish();
+
+    // For ClockMapping.
+    bool sleeps_to_date() const { return to_date_; }
+    /// The date to which the process sleeps lies at another time now.
+    void sleep_anew() {
+        if (to_date_) {
+            wake_.notify(sc_core::SC_ZERO_TIME);
+        }
+    }
 
     /// The first date >= `from` at which one of `inputs` has an item, but no later than `limit`.
     /// The answer is certain: nothing dated up to it can still arrive. Does not move the local
@@ -167,6 +179,7 @@ private:
     std::uint64_t* activations_; // of all threads together, see Timebase
     Cycle memory_cycles_ = 0;    // waited for the memory
     Pumped* body_ = nullptr;
+    bool to_date_ = false; // asleep until kernel time has reached a date
     sc_core::sc_event wake_;
     sc_core::sc_event timeout_; // stays announced when the process is woken, see doze_until()
     sc_core::sc_event_or_list wake_or_timeout_;

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reset and abort of degs::Accelerator.
+//
+// The blocks are threads with state of their own. None of them knows how to give up a frame, so they
+// finish it, at no cost to the platform: the gateway stops touching the bus, and the clock hurries.
+#include "platform/accelerator.hpp"
+
+namespace degs {
+namespace {
+
+// Time between two looks at whether the blocks have come to rest, in units of kernel time.
+constexpr std::uint64_t kRestInterval = 128;
+
+} // namespace
+
+// Registers show it at once; the rest follows at its date, see begin_stop().
+void Accelerator::request_stop(Stop why) {
+    if (why == Stop::Reset) {
+        registers_ = AcceleratorRegisters();
+        set_status(kStatusInReset, 0);
+    }
+    stop_ = stop_ == Stop::Reset ? stop_ : why;
+}
+
+void Accelerator::begin_stop() {
+    if (held_in_reset()) {
+        request_stop(Stop::Reset);
+        irq_changed_.notify(sc_core::SC_ZERO_TIME);
+    }
+    if (stop_ == Stop::None || gateway_.detached()) { // it has been done, or is under way
+        return;
+    }
+    gateway_.detach();
+    mapping_.hurry();
+    work_.notify(sc_core::SC_ZERO_TIME);
+}
+
+// The last word that the platform may see of the frame is the answer to the last transaction.
+void Accelerator::await_rest() {
+    while (!gateway_.idle()) {
+        sc_core::wait(gateway_.became_idle());
+    }
+    for (int rests = 0; rests < 2; rests = mapping_.settled() ? rests + 1 : 0) {
+        sc_core::wait(sc_core::sc_time::from_value(kRestInterval));
+    }
+    if (const sc_core::sc_time now = sc_core::sc_time_stamp(); gateway_.last_answer() > now) {
+        sc_core::wait(gateway_.last_answer() - now);
+    }
+    while (held_in_reset()) {
+        sc_core::wait(reset_n->value_changed_event());
+    }
+}
+
+void Accelerator::end_stop() {
+    do {
+        begin_stop(); // the frame may have ended before the date of the stop
+        await_rest();
+        gateway_.attach();
+        if (const sc_core::sc_time edge = mapping_.resume(); edge > sc_core::sc_time_stamp()) {
+            sc_core::wait(edge - sc_core::sc_time_stamp());
+        }
+    } while (gateway_.detached()); // once more
+    if (stop_ == Stop::Reset) {
+        set_status(0, kStatusInReset);
+    } else {
+        set_status(kStatusAborted, kStatusBusy);
+        registers_.set(Register::IrqStatus, registers_.get(Register::IrqStatus) | kIrqAborted);
+        irq_changed_.notify(sc_core::SC_ZERO_TIME);
+    }
+    stop_ = Stop::None;
+}
+
+} // namespace degs
