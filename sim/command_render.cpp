@@ -71,6 +71,16 @@ nlohmann::ordered_json render_json(const RenderResult& result, double wall_s) {
 }
 
 void add_rule_options(CLI::App& command, RenderingRules& rules) {
+    command // before the other rules, which change single ones
+        .add_option_function<std::string>(
+            "--rules",
+            [&rules](const std::string& name) {
+                rules = RenderingRules(name == "khr" ? RuleSet::Khr : RuleSet::Inria);
+            },
+            "where the rules below start: the reference code, or KHR_gaussian_splatting, i.e. "
+            "order distance and cut 9")
+        ->check(CLI::IsMember(rule_set_names()))
+        ->default_str("inria");
     command
         .add_option_function<std::string>(
             "--order",
@@ -94,6 +104,11 @@ void add_rule_options(CLI::App& command, RenderingRules& rules) {
         ->default_str("scene");
     command.add_option("--low-pass", rules.low_pass, "px^2 added to both variances of a splat")
         ->check(CLI::Range(0.0, 10.0))
+        ->capture_default_str();
+    command
+        .add_option("--cut", rules.cut,
+                    "squared Mahalanobis distance at which splats end; 12: where alpha is 1/255")
+        ->check(CLI::Range(0.0, kNoCut))
         ->capture_default_str();
 }
 

@@ -43,6 +43,8 @@ void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, S
     v.text("antialiasing", workload.projection.compensated ? "on" : "off",
            "Whether opacities make up for the low-pass filter.");
     v.real("low_pass", workload.projection.dilation, "px2", "Added to both variances of a splat.");
+    v.real("cut", workload.projection.cut, "",
+           "Squared Mahalanobis distance at which splats end; 12: where alpha is 1/255.");
     v.count("tile_size", workload.tile_size, "px", "Side of a tile.");
     v.count("tiles", workload.tiles, "tiles", "Tiles of the image.");
     v.count("empty_tiles", workload.empty_tiles, "tiles", "Tiles that list no splat.");

@@ -79,7 +79,7 @@ void put_view(BinaryWriter& out, const Camera& camera, const ProjectionOptions& 
               const std::string& format) {
     pass_camera(out, camera);
     out.pass(options.near_plane, options.dilation, options.jacobian_clamp, options.alpha_min,
-             options.order, options.compensated, format);
+             options.cut, options.order, options.compensated, format);
 }
 
 std::string frame_key(const std::string& scene, const Camera& camera, int tile_size, TileMode mode,

@@ -51,6 +51,7 @@ SpanRecord<T> derive(const ProjectedSplat& splat) {
     record.inverse_a = rounded<T>(splat.det / splat.cov_c);
     record.a = rounded<T>(splat.cov_c / splat.det);
     record.q_threshold = rounded<T>(splat.q_threshold);
+    record.limit = rounded<T>(kQLimit - splat.q_cut_off);
     record.fold = rounded<T>(2.0 * std::log(splat.opacity));
     const double reach = std::sqrt(splat.q_threshold * splat.cov_c);
     record.rows = {nearest_pixel(std::ceil(splat.mu_y - reach)),
@@ -85,7 +86,8 @@ public:
                 spans_[base + i] = derive<T>(splat);
                 columns_[base + i] = derive_columns(splat);
                 blends_[base + i] = {spans_[base + i].a, rounded<T>(splat.colour[0]),
-                                     rounded<T>(splat.colour[1]), rounded<T>(splat.colour[2])};
+                                     rounded<T>(splat.colour[1]), rounded<T>(splat.colour[2]),
+                                     spans_[base + i].limit};
             }
         });
         return static_cast<std::uint32_t>(base);
@@ -217,7 +219,7 @@ public:
                            const PixelRange& rows) const override {
         const SpanRecord<T>& s = spans_[splat];
         PixelRange found = rows_in_columns(splat, columns.first, columns.last + 1).within(rows);
-        const auto passes = [&](int y) { return lowest_q(s, below_mean(s, y)) <= kLimit; };
+        const auto passes = [&](int y) { return lowest_q(s, below_mean(s, y)) <= s.limit; };
         while (found.first > rows.first && found.first <= s.rows.first && passes(found.first - 1)) {
             --found.first;
         }
@@ -283,7 +285,7 @@ private:
     }
     static CheckedRow<T> checked_row(const SpanRecord<T>& s, int y) {
         const T dy = below_mean(s, y);
-        return {s.offset_x + s.slope * dy, lowest_q(s, dy), s.a, s.inverse_a};
+        return {s.offset_x + s.slope * dy, lowest_q(s, dy), s.a, s.inverse_a, s.limit};
     }
     // The row `below` rows below that of `test`.
     TestRow<T> test_row(const PixelTest& test, int below) {
@@ -295,8 +297,6 @@ private:
     std::size_t at(int context, int row, int column) {
         return rows_.ready(context, row, pixels_) + column;
     }
-
-    static constexpr T kLimit = CheckedRow<T>::kLimit;
 
     DataPathOptions options_;
     bool refuse_;

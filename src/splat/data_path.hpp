@@ -93,7 +93,7 @@ struct PixelTest {
 /// that ended.
 struct BlendOutcome {
     std::uint32_t useful = 0;     ///< inside the ellipse and blended
-    std::uint32_t boundary = 0;   ///< outside the ellipse (alpha < 1/255)
+    std::uint32_t boundary = 0;   ///< outside the ellipse (alpha < 1/255, or beyond the cut)
     std::uint32_t terminated = 0; ///< inside, but the pixel has ended or refuses the splat
     std::uint32_t ended = 0;      ///< pixels that ended now
 };

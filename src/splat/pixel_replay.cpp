@@ -39,7 +39,8 @@ double reference_alpha(const FrameWorkload& work, const ProjectedSplat& s, int x
     const double u = x - s.mu_x - s.cov_b / s.cov_c * dy;
     const double q = s.conic_a() * u * u + dy * dy / s.cov_c;
     const double alpha = std::min(kAlphaMax, s.opacity * std::exp(-0.5 * q));
-    return alpha < work.projection.alpha_min ? 0 : alpha;
+    const bool cut = s.q_cut_off > 0 && q > s.q_threshold;
+    return cut || alpha < work.projection.alpha_min ? 0 : alpha;
 }
 
 /// Blends alphas in double by the reference's rules; fills in all but `alpha`.
@@ -210,7 +211,7 @@ PixelReplay replay_row(const FrameWorkload& workload, int x, int y, const Quanti
         if (x < span.x0 || x > span.x1) {
             continue;
         }
-        replay.alpha[i] = row.alpha(row.q(splat.a, span.g0, span.d0, x - span.base));
+        replay.alpha[i] = row.alpha(splat, row.q(splat.a, span.g0, span.d0, x - span.base));
         QuantizedPixel next = pixel;
         row.blend(replay.alpha[i], splat.colour, next);
         const bool ends = next.transmittance < kStopTransmittance && replay.ended == list.length;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "splat/pixel_index.hpp"
@@ -58,8 +59,10 @@ public:
     ProjectorIn(const GaussianCloud& cloud, const Camera& camera, const ProjectionOptions& options,
                 Numbers numbers)
         : Projector(camera), cloud_(cloud), position_(camera.position), n_(std::move(numbers)),
-          k_(n_, camera, options), alpha_min_(options.alpha_min), order_(options.order),
-          compensated_(options.compensated) {}
+          k_(n_, camera, options), alpha_min_(options.alpha_min),
+          cut_(options.cut < kNoCut ? value_of(n_(options.cut))
+                                    : std::numeric_limits<double>::infinity()),
+          order_(options.order), compensated_(options.compensated) {}
 
     Cull project_anywhere(std::size_t index, ProjectedSplat& out) const override;
     Cull shade(std::size_t index, ProjectedSplat& out) const override;
@@ -75,6 +78,10 @@ private:
     Scalar depth_of(const Scalar& x, const Scalar& y, const Scalar& z) const;
     void set_mean(const Scalar& x, const Scalar& y, const Scalar& z, ProjectedSplat& out) const;
     void set_opacity(const Scalar& opacity, ProjectedSplat& out) const;
+    void cut_off(ProjectedSplat& out) const {
+        out.q_cut_off = std::max(0.0, out.q_threshold - cut_);
+        out.q_threshold = std::min(out.q_threshold, cut_);
+    }
     Scalar set_covariance(std::size_t index, const Scalar& x, const Scalar& y, const Scalar& z,
                           ProjectedSplat& out) const;
     Scalar limited(const Scalar& slope, const Scalar& most) const {
@@ -90,7 +97,7 @@ private:
     glm::dvec3 position_;
     Numbers n_; // before what is made of it
     ViewConstants<Numbers> k_;
-    double alpha_min_;
+    double alpha_min_, cut_;
     SplatOrder order_;
     bool compensated_;
 };
@@ -195,6 +202,7 @@ Cull ProjectorIn<Numbers>::project_anywhere(std::size_t index, ProjectedSplat& o
     if (!std::is_same_v<Scalar, double>) {
         make_consistent(out, alpha_min_);
     }
+    cut_off(out);
     return Cull::None;
 }
 

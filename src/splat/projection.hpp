@@ -15,12 +15,16 @@ namespace degs {
 /// distance of the mean to the camera (KHR_gaussian_splatting).
 enum class SplatOrder { Depth, Distance };
 
+/// A cut at this q or beyond is none: alpha is below 1/255 from q = 2 ln 255 = 11.08 on.
+constexpr double kNoCut = 12;
+
 /// Constants of the projection; the defaults are those of the original 3DGS rasteriser, in double.
 struct ProjectionOptions {
     double near_plane = 0.2;        ///< scene units; splats at or before it are dropped
     double dilation = 0.3;          ///< px^2, low-pass filter added to both variances
     double jacobian_clamp = 1.3;    ///< times tan(fov/2); limits x/z and y/z in the Jacobian only
     double alpha_min = 1.0 / 255.0; ///< support threshold (paper Eq. 7)
+    double cut = kNoCut;            ///< largest q at which a splat is drawn, the limit included
     SplatOrder order = SplatOrder::Depth;
     /// Opacities are multiplied by sqrt(max(kLeastCompensation, det before / det after dilation)), so
     /// that splats thinner than a pixel keep their weight when the low-pass filter widens them
@@ -32,7 +36,8 @@ struct ProjectionOptions {
 /// The smallest ratio of determinants that counts, as in the original code.
 constexpr double kLeastCompensation = 0.000025;
 
-/// A Gaussian on the screen, in the format that projected it; a and opacity fit b, c, det and Q_th.
+/// A Gaussian on the screen, in the format that projected it; a and opacity fit b, c, det and Q_th
+/// before the cut.
 /// q(x, y) = A dx^2 + 2 B dx dy + C dy^2 with dx = x - mu_x; pixel (i, j) is sampled at integer
 /// (i, j) (mu is shifted by -0.5 accordingly).
 struct ProjectedSplat {
@@ -40,7 +45,8 @@ struct ProjectedSplat {
     double cov_a = 0, cov_b = 0, cov_c = 0; ///< dilated covariance xx, xy, yy; px^2
     double det = 0;               ///< of the dilated covariance, by Cauchy-Binet; px^4, > 0
     double opacity = 0;           ///< 0..1, compensated if the options say so
-    double q_threshold = 0;       ///< Q_th = 2 ln(opacity / alpha_min), >= 0
+    double q_threshold = 0;       ///< Q_th = min(2 ln(opacity / alpha_min), cut), >= 0
+    double q_cut_off = 0;         ///< 2 ln(opacity / alpha_min) - Q_th: 0 unless the cut is nearer
     double colour[3] = {0, 0, 0}; ///< >= 0, not clamped above
     double depth = 0;             ///< what it is ordered by, scene units; see SplatOrder
     std::uint32_t id = 0;         ///< index in the cloud

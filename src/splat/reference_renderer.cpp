@@ -15,7 +15,7 @@
 namespace degs {
 namespace {
 
-/// Pixels this far outside Q_th need no exponential; far above the rounding of q.
+/// Where alpha decides, pixels this far outside Q_th need no exponential; far above the rounding of q.
 constexpr double kQMargin = 1e-6;
 
 struct Pixel {
@@ -31,7 +31,7 @@ struct SplatTerms {
     double conic_a, slope, inverse_c, det_over_c, q_limit;
     explicit SplatTerms(const ProjectedSplat& s)
         : conic_a(s.conic_a()), slope(s.cov_b / s.cov_c), inverse_c(1.0 / s.cov_c),
-          det_over_c(s.det / s.cov_c), q_limit(s.q_threshold + kQMargin) {}
+          det_over_c(s.det / s.cov_c), q_limit(s.q_threshold + (s.q_cut_off > 0 ? 0 : kQMargin)) {}
 };
 
 /// One tile at a time, in double precision.

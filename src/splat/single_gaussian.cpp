@@ -58,7 +58,7 @@ AlphaMap row_alpha(const ProjectedSplat& splat, WindowCorner corner, const Quant
             path.solve(record, corner.y + j, corner.x, corner.x + kAlphaWindow);
         for (int x = span.x0; x <= span.x1; ++x) {
             const double q = path.q(record.a, span.g0, span.d0, x - span.base);
-            map.at(x - corner.x, j) = path.alpha(q);
+            map.at(x - corner.x, j) = path.alpha(record, q);
         }
     }
     return map;

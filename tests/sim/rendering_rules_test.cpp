@@ -42,8 +42,9 @@ TEST_P(RulesOfRun, ReachImageReferenceAndReport) {
     };
     run_in(folder / "plain", design, {}, {});
     for (const Words& rules :
-         {Words{"order=distance"}, Words{"antialiasing=on"}, Words{"low_pass=0.1"},
-          Words{"order=distance", "antialiasing=on", "low_pass=0.1"}}) {
+         {Words{"order=distance"}, Words{"antialiasing=on"}, Words{"low_pass=0.1"}, Words{"cut=4"},
+          Words{"preset=khr"},
+          Words{"order=distance", "antialiasing=on", "low_pass=0.1", "cut=9"}}) {
         const auto exact = run_in(folder / "exact", design, rules, {});
         const auto strict = run_in(folder / "strict", design, rules, {"--fidelity", "strict"});
         EXPECT_EQ(exact, strict);
@@ -56,7 +57,9 @@ TEST_P(RulesOfRun, ReachImageReferenceAndReport) {
         const auto has = [&rules](const char* rule) {
             return std::find(rules.begin(), rules.end(), rule) != rules.end();
         };
-        EXPECT_EQ(exact["workload"]["order"], has("order=distance") ? "distance" : "depth");
+        const bool khr = has("preset=khr");
+        EXPECT_EQ(exact["workload"]["order"], khr || has("order=distance") ? "distance" : "depth");
+        EXPECT_EQ(exact["workload"]["cut"], has("cut=4") ? 4 : khr || has("cut=9") ? 9 : 12);
         EXPECT_EQ(exact["workload"]["antialiasing"], has("antialiasing=on") ? "on" : "off");
         EXPECT_EQ(exact["workload"]["low_pass"], has("low_pass=0.1") ? 0.1 : 0.3);
     }
@@ -116,10 +119,73 @@ TEST(RulesOfRender, TheCommandHasThem) {
     EXPECT_EQ(image({"--order", "depth", "--antialiasing", "scene", "--low-pass", "0.3"}), plain);
     EXPECT_NE(image({"--order", "distance"}), plain);
     EXPECT_NE(image({"--low-pass", "0.1"}), plain);
+    EXPECT_NE(image({"--cut", "9"}), plain);
+    const std::string khr = image({"--rules", "khr"});
+    EXPECT_EQ(image({"--cut", "9", "--order", "distance"}), khr);
+    EXPECT_EQ(image({"--cut", "12", "--order", "depth", "--rules", "khr"}), plain);
+    EXPECT_EQ(image({"--rules", "inria"}), plain);
     EXPECT_NE(image({"--antialiasing", "on"}), plain);
     const auto report = nlohmann::json::parse(read_file(folder / "o/render.json"));
     EXPECT_EQ(report["workload"]["antialiasing"], "on");
     expect_mistake(degs({"render", "--scene", kRuledScene, "--order", "colour"}), "--order");
+}
+
+/// A preset replaces the rules that nothing else names, wherever it stands.
+TEST(RulesOfPresets, StartTheOthers) {
+    const auto lines = [](const Words& settings) {
+        Words arguments{"config", config("degs-16")};
+        for (const std::string& setting : settings) {
+            arguments.insert(arguments.end(), {"--set", "pipeline.rules." + setting});
+        }
+        const Outcome outcome = degs(arguments);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return outcome.out;
+    };
+    const auto has = [](const std::string& text, const char* rule) {
+        return text.find(std::string("pipeline.rules.") + rule + "\n") != std::string::npos;
+    };
+    const std::string khr = lines({"preset=khr"});
+    EXPECT_TRUE(has(khr, "order = distance"));
+    EXPECT_TRUE(has(khr, "cut = 9"));
+    EXPECT_TRUE(has(khr, "low_pass = 0.3"));
+    const std::string mixed = lines({"order=depth", "preset=khr"});
+    EXPECT_TRUE(has(mixed, "order = depth"));
+    EXPECT_TRUE(has(mixed, "cut = 9"));
+    EXPECT_TRUE(has(lines({}), "cut = 12"));
+    EXPECT_EQ(lines({"preset=inria"}), lines({}));
+    expect_mistake(degs({"config", config("degs-16"), "--set", "pipeline.rules.preset=gl"}),
+                   "preset");
+}
+
+/// Number sets, whose PEs know a splat's end by its record: what a run draws is what it says, and
+/// the error stays that of the numbers.
+TEST(RulesOfNumbers, CutsHoldInEveryNumberSet) {
+    const Folder folder;
+    for (const std::string numbers : {"fp32", "fp16", "paper", "tuned"}) {
+        std::vector<double> psnr;
+        for (const char* const cut : {"12", "9"}) {
+            const Words arguments{"run",      config("degs-16"),
+                                  "--scene",  kRuledScene,
+                                  "--width",  "160",
+                                  "--camera", "1",
+                                  "--set",    "pipeline.numbers=" + numbers,
+                                  "--set",    std::string("pipeline.rules.cut=") + cut};
+            const auto report = [&](const char* fidelity) {
+                Words words = arguments;
+                words.insert(words.end(), {"--out", folder / fidelity, "--fidelity", fidelity});
+                expect_success(degs(words));
+                auto json = report_in(folder / fidelity);
+                json.erase("host");
+                return json;
+            };
+            const auto exact = report("exact");
+            EXPECT_EQ(exact, report("strict"));
+            EXPECT_EQ(read_file(folder / "exact/image.exr"),
+                      read_file(folder / "strict/image.exr"));
+            psnr.push_back(exact["image"]["psnr_db"]);
+        }
+        EXPECT_GT(psnr[1], 30) << numbers;
+    }
 }
 
 // A file that was trained with anti-aliasing is drawn so, unless the configuration overrules it.

@@ -159,19 +159,20 @@ inline std::vector<BruteSplat> brute_order(const GaussianCloud& cloud, const Cam
     return splats;
 }
 
-inline void brute_pixel(const std::vector<BruteSplat>& splats, int x, int y, double alpha_min,
-                        MaySee may_see, BruteImage& image) {
+inline void brute_pixel(const std::vector<BruteSplat>& splats, int x, int y,
+                        const ProjectionOptions& options, MaySee may_see, BruteImage& image) {
     Vector rgb(0);
     Real transmittance = 1;
     std::uint32_t fragments = 0;
     for (const BruteSplat& s : splats) {
         const Real dx = s.mu_x - x, dy = s.mu_y - y;
         const Real power = -0.5L * (s.c * dx * dx + s.a * dy * dy) / s.det + s.b * dx * dy / s.det;
-        if (power > 0 || power < -40 || (may_see != nullptr && !may_see(s, x, y))) {
+        const bool cut = options.cut < kNoCut && -2 * power > options.cut;
+        if (power > 0 || power < -40 || cut || (may_see != nullptr && !may_see(s, x, y))) {
             continue;
         }
         const Real alpha = std::min(Real(0.99), s.opacity * std::exp(power));
-        if (alpha < alpha_min) {
+        if (alpha < options.alpha_min) {
             continue;
         }
         const Real next = transmittance * (1 - alpha);
@@ -194,7 +195,7 @@ inline BruteImage brute_render(const GaussianCloud& cloud, const Camera& camera,
     BruteImage image;
     for (int y = 0; y < camera.height; ++y) {
         for (int x = 0; x < camera.width; ++x) {
-            brute_pixel(splats, x, y, options.alpha_min, may_see, image);
+            brute_pixel(splats, x, y, options, may_see, image);
         }
     }
     return image;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -30,6 +31,12 @@ inline ProjectedSplat make_splat(double x, double y, double major, double minor,
     return s;
 }
 
+/// Ends the splat at q = `at`, if it reaches further.
+inline void cut(ProjectedSplat& s, double at) {
+    s.q_cut_off = std::max(0.0, s.q_threshold - at);
+    s.q_threshold = std::min(s.q_threshold, at);
+}
+
 /// q by the completed square of b, c and det in long double: what a splat means, also for needles,
 /// whose a the other three determine better than the rounded a.
 inline long double exact_q(const ProjectedSplat& s, long double x, long double y) {
@@ -40,7 +47,7 @@ inline long double exact_q(const ProjectedSplat& s, long double x, long double y
 }
 
 /// A splat of any shape near a tile of `size` px whose corner is (x0, y0); needles of aspect up to
-/// 1e4 at every angle among them.
+/// 1e4 at every angle, and splats that are cut, among them.
 inline ProjectedSplat random_splat(std::mt19937& random, double x0, double y0, double size) {
     std::uniform_real_distribution<double> unit(0, 1);
     const bool needle = unit(random) < 0.4;
@@ -56,6 +63,9 @@ inline ProjectedSplat random_splat(std::mt19937& random, double x0, double y0, d
         const double way = minor * aspect * 2 * unit(random);
         s.mu_x += way * std::cos(angle);
         s.mu_y += way * std::sin(angle);
+    }
+    if (unit(random) < 0.2) {
+        cut(s, 9 * unit(random));
     }
     return s;
 }

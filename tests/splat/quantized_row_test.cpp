@@ -61,7 +61,7 @@ TEST(QuantizedRow, WideSetsFollowTheEllipse) {
                 const QuantizedSpan span = row.solve(record, y, 4000, 4032);
                 for (int x = span.x0; x <= span.x1; ++x) {
                     const double alpha =
-                        row.alpha(row.q(record.a, span.g0, span.d0, x - span.base));
+                        row.alpha(record, row.q(record.a, span.g0, span.d0, x - span.base));
                     ASSERT_NEAR(alpha, exact_alpha(splat, x, y), coarse ? 1e-3 : 1e-5) << name;
                 }
             }
@@ -89,7 +89,7 @@ TEST(QuantizedRow, TunedAndPaperKeepLargeSplats) {
                     if (truth > 1.05 / 255 || drawn) {
                         ASSERT_TRUE(drawn) << c.name << " " << sigma << " " << x;
                         const double alpha =
-                            row.alpha(row.q(record.a, span.g0, span.d0, x - span.base));
+                            row.alpha(record, row.q(record.a, span.g0, span.d0, x - span.base));
                         ASSERT_NEAR(alpha, truth, c.tolerance) << c.name << " " << sigma;
                     }
                 }
@@ -172,7 +172,7 @@ TEST(QuantizedRow, OutwardEndsAreTheNextPixels) {
     const QuantizedRow masked(set);
     const auto alpha = [&](int x) {
         const QuantizedSplat record = masked.record(splat);
-        return masked.alpha(masked.q(record.a, span.g0, span.d0, x - span.base));
+        return masked.alpha(record, masked.q(record.a, span.g0, span.d0, x - span.base));
     };
     EXPECT_EQ(alpha(span.x0), 0);
     EXPECT_GT(alpha(span.x0 + 1), 1.0 / 256);
@@ -264,7 +264,8 @@ TEST_P(HostileSplats, NeverLeaveTheTileOrTheNumbers) {
         ASSERT_GE(span.x0, x0);
         ASSERT_LT(span.x1, x0 + 32);
         for (int x = span.x0; x <= span.x1; ++x) {
-            const double alpha = row.alpha(row.q(record.a, span.g0, span.d0, x - span.base));
+            const double alpha =
+                row.alpha(record, row.q(record.a, span.g0, span.d0, x - span.base));
             ASSERT_TRUE(alpha >= 0 && alpha <= 0.9905) << alpha;
             ++pixels;
         }

@@ -58,7 +58,7 @@ void expect_row_is_brute_force(const DataPath& path, std::uint32_t index, const 
         const long double slack = single ? float_slack(s, row, y, reach) : kDoubleSlack;
         if (std::abs(q - s.q_threshold) > slack) {
             const long double alpha = s.opacity * std::exp(-q / 2);
-            ASSERT_EQ(covered, alpha >= 1.0L / 255)
+            ASSERT_EQ(covered, s.q_cut_off > 0 ? q <= s.q_threshold : alpha >= 1.0L / 255)
                 << "pixel " << tile.x + x << ", " << y << ", q - Q_th = " << q - s.q_threshold;
         }
         inside += covered ? 1 : 0;

@@ -5,6 +5,17 @@
 
 namespace degs {
 
+namespace {
+
+constexpr double kKhrCut = 9; ///< three standard deviations
+
+} // namespace
+
+const std::vector<const char*>& rule_set_names() {
+    static const std::vector<const char*> names{"inria", "khr"};
+    return names;
+}
+
 const std::vector<const char*>& splat_order_names() {
     static const std::vector<const char*> names{"depth", "distance"};
     return names;
@@ -19,7 +30,21 @@ const std::vector<const char*>& antialiasing_names() {
     return names;
 }
 
+RenderingRules::RenderingRules(RuleSet set) : preset(set) {
+    if (set == RuleSet::Khr) {
+        order = SplatOrder::Distance;
+        cut = kKhrCut;
+    }
+}
+
 void RenderingRules::describe(ConfigVisitor& visitor) {
+    RuleSet wanted = preset;
+    visitor.choice("preset", wanted, rule_set_names(),
+                   "where the other rules start, each of which may be set apart; inria: reference "
+                   "code; khr: KHR_gaussian_splatting, i.e. order: distance and cut: 9");
+    if (wanted != preset) {
+        *this = RenderingRules(wanted);
+    }
     visitor.choice(
         "order", order, splat_order_names(),
         "order in which splats are blended; depth: view z (reference code, paper "
@@ -32,11 +57,17 @@ void RenderingRules::describe(ConfigVisitor& visitor) {
         "low_pass", low_pass, 0, 10,
         "px^2 added to both variances of a splat; 0.3: reference code and gsplat; files of "
         "Mip-Splatting and Brush are trained with 0.1");
+    visitor.real(
+        "cut", cut, 0, kNoCut,
+        "squared Mahalanobis distance q at which every splat ends, the limit included; 12: "
+        "where alpha falls below 1/255, which is at q = 2 ln 255 = 11.08 or before "
+        "(reference code); 9: KHR_gaussian_splatting");
 }
 
 ProjectionOptions RenderingRules::options(bool antialiased, const NumberFormat& format) const {
     ProjectionOptions options;
     options.dilation = low_pass;
+    options.cut = cut;
     options.order = order;
     options.compensated =
         antialiasing == Antialiasing::On || (antialiasing == Antialiasing::Scene && antialiased);

@@ -12,19 +12,31 @@ class ConfigVisitor;
 /// Whether opacities make up for the low-pass filter: as the scene file says, never, or always.
 enum class Antialiasing { Scene, Off, On };
 
+/// Sets of rules: those of the original 3DGS rasteriser, and what KHR_gaussian_splatting asks for.
+enum class RuleSet { Inria, Khr };
+
 /// What renderers of the same Gaussians disagree about. The defaults are those of the original 3DGS
 /// rasteriser.
 struct RenderingRules {
+    RuleSet preset = RuleSet::Inria; ///< the set that the others started from
     SplatOrder order = SplatOrder::Depth;
     Antialiasing antialiasing = Antialiasing::Scene;
     double low_pass = ProjectionOptions().dilation; ///< px^2, see ProjectionOptions::dilation
+    double cut = ProjectionOptions().cut;           ///< of q, see ProjectionOptions::cut
 
+    RenderingRules() = default;
+    /// The rules of a set.
+    explicit RenderingRules(RuleSet set);
+
+    /// A preset other than the present one replaces the rules before they are visited.
     void describe(ConfigVisitor& visitor);
     /// The options that project a scene in a format; `antialiased` is what the file of the scene says
     /// (SceneTraits::antialiased).
     ProjectionOptions options(bool antialiased, const NumberFormat& format = {}) const;
 };
 
+/// "inria", "khr", in the order of RuleSet.
+const std::vector<const char*>& rule_set_names();
 /// "depth", "distance", in the order of SplatOrder.
 const std::vector<const char*>& splat_order_names();
 const char* name_of(SplatOrder order);

@@ -99,14 +99,15 @@ double pixel_tolerance(const FrameWorkload& workload, int x, int y,
         const double u = x - s.mu_x - s.cov_b / s.cov_c * dy;
         const double q = s.conic_a() * u * u + dy * dy / s.cov_c;
         const double alpha = std::min(kAlphaMax, s.opacity * std::exp(-0.5 * q));
-        if (alpha < (numbers.outward ? kNoAlpha : alpha_min - numbers.alpha)) {
+        const double least = alpha_min * std::exp(0.5 * s.q_cut_off); // at the edge
+        if (alpha < (numbers.outward ? kNoAlpha : least - numbers.alpha)) {
             continue;
         }
         brightest = std::max({brightest, s.colour[0], s.colour[1], s.colour[2]});
-        if (alpha < alpha_min + numbers.alpha) { // drawn or not
+        if (alpha < least + numbers.alpha) { // drawn or not
             sum += left * (alpha + numbers.alpha);
         }
-        if (alpha < alpha_min) {
+        if (alpha < least) {
             continue;
         }
         sum += left * numbers.alpha + numbers.update;

@@ -11,11 +11,15 @@
 
 namespace degs {
 
+/// q' = q - 2 ln o at which alpha = 1/255: 2 ln 255.
+constexpr double kQLimit = 11.082527090316852;
+
 /// The parameters that a PE fetches by G_ID (paper: Global Gaussian Parameter).
 template <class T>
 struct BlendRecord {
     T a; // quadratic coefficient A
     T r, g, b;
+    T limit = static_cast<T>(kQLimit); // largest q' inside, nearer for a splat that is cut
 };
 
 /// Pixels behind the last one that a block of lanes may touch.
@@ -71,9 +75,6 @@ struct PixelPlanes {
         live[i] = value.ended ? T(0) : T(1);
     }
 };
-
-/// q' = q - 2 ln o at which alpha = 1/255: 2 ln 255.
-constexpr double kQLimit = 11.082527090316852;
 
 /// The PE for up to 32 neighbouring pixels: q_n (paper Eq. 19), alpha (Eq. 21), recurrence
 /// (Eq. 8). `first` is the pixel of mask bit 0. `refuse`: StopRule::Refuse. Neighbouring lanes

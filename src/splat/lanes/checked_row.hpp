@@ -11,17 +11,16 @@
 namespace degs {
 
 /// One row of a splat as test_function() checks it: the pixel n columns from the splat's nearest
-/// one passes if A (n - centre)^2 + rest <= kQLimit, every operation rounded to T.
+/// one passes if A (n - centre)^2 + rest <= limit, every operation rounded to T.
 template <class T>
 struct CheckedRow {
-    static constexpr T kLimit = static_cast<T>(kQLimit);
-
     T centre, rest; ///< as in TestRow
     T a, inverse_a; ///< A and 1 / A, each rounded
+    T limit;        ///< as in BlendRecord
 
     bool passes(int n) const {
         const T u = static_cast<T>(n) - centre;
-        return a * u * u + rest <= kLimit;
+        return a * u * u + rest <= limit;
     }
 
     /// The columns of `bounds` whose pixels pass, to the last rounding. They are neighbours, because
@@ -33,7 +32,7 @@ struct CheckedRow {
     /// The other roundings (A, 1 / A, room, root, ends, u, its products) move an end by less than
     /// 8 e (|centre| + width + 1) together.
     PixelRange columns(const PixelRange& bounds) const {
-        const T room = kLimit - rest;
+        const T room = limit - rest;
         const T width = std::sqrt(room * inverse_a);
         const T left = centre - width;
         const T right = centre + width;
@@ -53,14 +52,14 @@ private:
     static constexpr T kLeastRoom = T(0x1p-6);
     /// px per px; at the same time it keeps solved ends within 2^13 px of the splat.
     static constexpr T kDoubt = T(0x1p-14);
-    static_assert(kDoubt >= 512 * std::numeric_limits<T>::epsilon() && kLimit < 16);
+    static_assert(kDoubt >= 512 * std::numeric_limits<T>::epsilon() && kQLimit < 16);
 
     /// The pixel nearest to the centre decides whether there are any; the solved ends are then moved
     /// until the check agrees.
     [[gnu::noinline]] PixelRange searched(const PixelRange& bounds, T first, T last) const {
         const int low = bounds.first;
         const int high = bounds.last;
-        if (!(rest <= kLimit) || !std::isfinite(centre) || bounds.empty()) {
+        if (!(rest <= limit) || !std::isfinite(centre) || bounds.empty()) {
             return {};
         }
         const auto column = [&](T x) { // clamped first: not every x is an int

@@ -20,6 +20,7 @@ struct alignas(64) SpanRecord {
     T inverse_a;              // 1/A = det/c
     T a;                      // A
     T q_threshold;            // Q_th
+    T limit;                  // of BlendRecord, for tests
     T fold;                   // 2 ln o, subtracted from g0 so that the PE needs exp(-q/2) alone
     PixelRange rows, columns; // of the ellipse
 };

@@ -149,7 +149,7 @@ public:
         if (!row.possible || !std::isfinite(row.centre) || x_begin >= x_end) {
             return {};
         }
-        const auto inside = [&](int x) { return row_.checked_q(s, row, x) <= row_.q_inside(); };
+        const auto inside = [&](int x) { return row_.checked_q(s, row, x) <= s.q_inside; };
         const double low = x_begin - s.pixel_x;
         const double high = x_end - 1 - s.pixel_x;
         const int nearest =

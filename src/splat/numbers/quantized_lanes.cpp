@@ -192,8 +192,7 @@ LaneNumbers::LaneNumbers(const NumberSet& set)
     if (!set.exp.argument.is_fp64()) { // else nothing is rounded to it
         argument = LaneRounding(set.exp.argument);
     }
-    q_limit = static_cast<float>(Rounder(set.q)(set.q_limit()));
-    q_mask = set.q_mask ? q_limit : std::numeric_limits<float>::infinity();
+    masked = set.q_mask;
     alpha_max = static_cast<float>(Rounder(set.alpha)(0.99));
     term_room = term.high - 4 * static_cast<float>(set.term.quantum());
     reduced = set.exp.reduction == Reduction::Binary;

@@ -24,8 +24,7 @@ struct LaneNumbers {
     LaneFamily family = LaneFamily::Any;
     LaneRounding term, q, alpha, transmittance, weight, sum;
     LaneRounding table, argument;  ///< of the exponential's table
-    float q_mask = 0;              ///< q above it draws nothing; infinite without a mask
-    float q_limit = 0;             ///< q at which alpha = 1/255: tasks beyond it are boundary
+    bool masked = false;           ///< q above the splat's limit draws nothing
     float alpha_max = 0;           ///< 0.99 in the format of alpha
     float term_room = 0;           ///< Fixed: below it, |n d0| + |A n(n-1)| do not saturate
     bool natural = false;          ///< ExpHalf: q log2(e) / 2 is formed first
@@ -56,7 +55,7 @@ struct TestedPixels {
     std::uint32_t mask = 0;
     float q[32] = {}; ///< of mask bit i
 };
-/// A PE that blends where q <= q_limit, otherwise like QuantizedBlendFunction; all else is
+/// A PE that blends where q <= the limit of the splat, otherwise like QuantizedBlendFunction; all else is
 /// boundary.
 using QuantizedTestFunction = BlendOutcome (*)(const TestedPixels& tested,
                                                const BlendRecord<float>& splat,

@@ -16,8 +16,8 @@ public:
 
     void add(const QuantizedSplat& splat) override {
         splats_.push_back({static_cast<float>(splat.a), static_cast<float>(splat.colour[0]),
-                           static_cast<float>(splat.colour[1]),
-                           static_cast<float>(splat.colour[2])});
+                           static_cast<float>(splat.colour[1]), static_cast<float>(splat.colour[2]),
+                           static_cast<float>(splat.q_inside)});
     }
     void clear(std::size_t first, std::size_t count) override { pixels_.clear(first, count); }
     BlendOutcome blend(const BlendTask& task, bool refuse, std::size_t first) override {
@@ -54,7 +54,7 @@ public:
         for (std::uint32_t left = task.mask; left != 0; left &= left - 1) {
             const int i = __builtin_ctz(left);
             const double q = row_.q(splat.a, task.g0, task.d0, task.offset + i);
-            const bool drawn = !(row_.set().q_mask && q > row_.q_inside());
+            const bool drawn = !(row_.set().q_mask && q > splat.q_inside);
             update(splat, q, drawn, refuse, first, i, outcome);
         }
         return outcome;
@@ -64,7 +64,8 @@ public:
         BlendOutcome outcome;
         for (std::uint32_t left = mask; left != 0; left &= left - 1) {
             const int i = __builtin_ctz(left);
-            update(splats_[splat], q[i], q[i] <= row_.q_inside(), refuse, first, i, outcome);
+            update(splats_[splat], q[i], q[i] <= splats_[splat].q_inside, refuse, first, i,
+                   outcome);
         }
         return outcome;
     }
@@ -80,7 +81,7 @@ private:
         if (drawn && pixels_.live[at] != 0) {
             QuantizedPixel pixel{pixels_.transmittance[at],
                                  {pixels_.r[at], pixels_.g[at], pixels_.b[at]}};
-            row_.blend(row_.alpha(q), splat.colour, pixel);
+            row_.blend(row_.alpha(splat, q), splat.colour, pixel);
             const bool ends = pixel.transmittance < 1e-4;
             blended = !(ends && refuse);
             pixels_.live[at] = ends ? 0 : 1;
@@ -93,9 +94,9 @@ private:
                 pixels_.updates[at]++;
             }
         }
-        std::uint32_t& part = !(q <= row_.q_inside()) ? outcome.boundary
-                              : blended               ? outcome.useful
-                                                      : outcome.terminated;
+        std::uint32_t& part = !(q <= splat.q_inside) ? outcome.boundary
+                              : blended              ? outcome.useful
+                                                     : outcome.terminated;
         part |= bit;
     }
 

@@ -20,7 +20,7 @@ public:
     virtual void clear(std::size_t first, std::size_t count) = 0;
     /// The tasks of a span; `first` is the pixel of mask bit 0. `refuse`: StopRule::Refuse.
     virtual BlendOutcome blend(const BlendTask& task, bool refuse, std::size_t first) = 0;
-    /// Blends the pixels of `mask` with q[i] <= QuantizedRow::q_inside(); 32 values.
+    /// Blends the pixels of `mask` with q[i] <= QuantizedSplat::q_inside; 32 values.
     virtual BlendOutcome test(std::uint32_t splat, std::uint32_t mask, const double* q, bool refuse,
                               std::size_t first) = 0;
     virtual PixelValue read(std::size_t pixel) const = 0;

@@ -25,7 +25,6 @@ QuantizedRow::QuantizedRow(NumberSet set)
       d0_(set_.d0), term_(set_.term), q_(set_.q), alpha_(set_.alpha),
       transmittance_(set_.transmittance), weight_(set_.weight), sum_(set_.sum), sqrt_(set_.sqrt),
       exp_(set_.exp) {
-    q_mask_ = q_(q_limit_);
     fold_limit_ = level_(q_limit_);
     alpha_max_ = alpha_(0.99);
     half_unit_ = 0.5 * std::ldexp(1.0, -set_.mean.fraction_bits);
@@ -40,7 +39,10 @@ QuantizedSplat QuantizedRow::record(const ProjectedSplat& splat) const {
     out.mean_x = mean_(splat.mu_x - out.pixel_x);
     out.mean_y = mean_(splat.mu_y - out.pixel_y);
     out.q_threshold = q_threshold_(unit_ * splat.q_threshold);
-    out.fold = level_(fold_limit_ - out.q_threshold);
+    const double opaque = q_threshold_(unit_ * (splat.q_threshold + splat.q_cut_off));
+    out.fold = level_(fold_limit_ - opaque);
+    out.limit = level_(q_limit_ - (opaque - out.q_threshold));
+    out.q_inside = q_(q_limit_ - (opaque - out.q_threshold));
     for (int channel = 0; channel < 3; ++channel) {
         out.colour[channel] = colour_(splat.colour[channel]);
     }
@@ -95,7 +97,7 @@ QuantizedCheck QuantizedRow::check(const QuantizedSplat& splat, int y) const {
     check.level = level(splat, row);
     // Adding A u^2 >= 0 cannot round below.
     check.possible =
-        (set_.vertical != Vertical::FromRatio || row.x <= 1) && q_(check.level) <= q_mask_;
+        (set_.vertical != Vertical::FromRatio || row.x <= 1) && q_(check.level) <= splat.q_inside;
     check.centre = centre_of(splat, row);
     return check;
 }
@@ -159,7 +161,7 @@ QuantizedRow::Ends QuantizedRow::ends(const QuantizedSplat& splat, const Row& ro
 /// C' dy^2 - 2 ln o: what a row's q' is at the vertex.
 double QuantizedRow::level(const QuantizedSplat& splat, const Row& row) const {
     if (set_.vertical == Vertical::FromRatio) {
-        return level_(fold_limit_ - level_(splat.q_threshold * ratio_(1 - row.x)));
+        return level_(splat.limit - level_(splat.q_threshold * ratio_(1 - row.x)));
     }
     const double vertical = set_.vertical == Vertical::Squared
                                 ? level_(square_(row.dy * row.dy) * splat.c_prime)
@@ -184,8 +186,8 @@ double QuantizedRow::q(double a, double g0, double d0, int n) const {
     return q_(g0 + term_(linear + quadratic));
 }
 
-double QuantizedRow::alpha(double q) const {
-    if (set_.q_mask && q > q_mask_) {
+double QuantizedRow::alpha(const QuantizedSplat& splat, double q) const {
+    if (set_.q_mask && q > splat.q_inside) {
         return 0;
     }
     return std::min(alpha_max_, alpha_(exp_(q)));

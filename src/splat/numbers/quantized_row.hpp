@@ -20,7 +20,9 @@ struct QuantizedSplat {
     double inverse_radius2 = 0;      ///< 1 / r_y^2, px^-2
     double a = 0;                    ///< A
     double q_threshold = 0;          ///< Q_th
-    double fold = 0;                 ///< -2 ln o, from Q_th
+    double fold = 0;                 ///< -2 ln o, from Q_th before the cut
+    double limit = 0;                ///< q' at q = Q_th: that of alpha = 1/255, or of the cut
+    double q_inside = 0;             ///< the same in the format of q: the largest q' inside
     double colour[3] = {0, 0, 0};
 };
 
@@ -65,12 +67,11 @@ public:
     QuantizedCheck check(const QuantizedSplat& splat, int y) const;
     /// q' of a pixel. Rounding keeps order, so q' never falls with the distance from x_c.
     double checked_q(const QuantizedSplat& splat, const QuantizedCheck& row, int x) const;
-    /// The largest q, or q', of a pixel inside: that of alpha = 1/255, rounded.
-    double q_inside() const { return q_mask_; }
     /// q_n of a pixel (Eq. 18); `a` is the record's.
     double q(double a, double g0, double d0, int n) const;
-    /// Eq. 21 with the reference's limit of 0.99; 0 where a q mask drops the pixel.
-    double alpha(double q) const;
+    /// Eq. 21 with the reference's limit of 0.99; 0 where a q mask drops the pixel, as it does
+    /// beyond the splat's `q_inside`.
+    double alpha(const QuantizedSplat& splat, double q) const;
     /// Eq. 8.
     void blend(double alpha, const double (&colour)[3], QuantizedPixel& pixel) const;
 
@@ -93,7 +94,7 @@ private:
     double times(double value, int integer) const;
 
     NumberSet set_;
-    double unit_, q_limit_, q_mask_, fold_limit_, alpha_max_;
+    double unit_, q_limit_, fold_limit_, alpha_max_;
     double half_unit_; // of the mean, px
     Rounder mean_, slope_, c_prime_, radius_, inverse_radius2_, conic_, q_threshold_, colour_;
     Rounder distance_, square_, ratio_, edge_, level_, g0_, d0_;

@@ -34,9 +34,8 @@ namespace wide_rows = narrow_rows;
 RowNumbers::RowNumbers(const NumberSet& set)
     : vertical(set.vertical), ends(set.ends), base(set.base), delta(set.delta), guard(set.guard),
       half_unit(0.5 * std::ldexp(1.0, -set.mean.fraction_bits)),
-      fold_limit(Rounder(set.level)(set.q_limit())), ratio_passes_one(set.ratio.max() > 1),
-      distance(set.distance), square(set.square), ratio(set.ratio), edge(set.edge),
-      level(set.level), g0(set.g0), d0(set.d0), sqrt(set.sqrt) {}
+      ratio_passes_one(set.ratio.max() > 1), distance(set.distance), square(set.square),
+      ratio(set.ratio), edge(set.edge), level(set.level), g0(set.g0), d0(set.d0), sqrt(set.sqrt) {}
 
 RowSpan row_span(const QuantizedSpan& span, int x_begin) {
     RowSpan row;

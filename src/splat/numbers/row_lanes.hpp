@@ -19,7 +19,6 @@ struct RowNumbers {
     Base base;
     double delta, guard;
     double half_unit;      ///< of the mean, px
-    double fold_limit;     ///< Q_limit in the format of the level
     bool ratio_passes_one; ///< the format of x has values above 1
     RoundingConstants distance, square, ratio, edge, level, g0, d0;
     LookupTable sqrt;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "splat/data_path_renderer.hpp"
 #include "splat/reference_renderer.hpp"
 #include "tests/splat/brute_force.hpp"
 
@@ -125,6 +126,33 @@ TEST(RenderingRules, CompensationHasAFloor) {
               Cull::Transparent);
 }
 
+/// The ellipse ends at the cut or where alpha is 1/255, whichever is nearer; the opacity stays.
+TEST(RenderingRules, ACutEndsWhatReachesFurther) {
+    const GaussianCloud cloud = test::random_cloud(400, 7);
+    const Camera camera = wide_camera();
+    for (const char* const format : {"fp64", "fp32", "fp16"}) {
+        ProjectionOptions plain, cut;
+        plain.format = cut.format = parse_format(format);
+        cut.cut = 9;
+        int nearer = 0, same = 0;
+        for (std::size_t i = 0; i < cloud.size(); ++i) {
+            ProjectedSplat whole, ended;
+            if (project_anywhere(cloud, i, camera, plain, whole) != Cull::None) {
+                continue;
+            }
+            ASSERT_EQ(project_anywhere(cloud, i, camera, cut, ended), Cull::None);
+            EXPECT_EQ(whole.q_cut_off, 0);
+            EXPECT_EQ(ended.q_threshold, std::min(whole.q_threshold, 9.0));
+            EXPECT_DOUBLE_EQ(ended.q_threshold + ended.q_cut_off, whole.q_threshold);
+            EXPECT_EQ(ended.opacity, whole.opacity);
+            EXPECT_EQ(ended.cov_a, whole.cov_a);
+            ++(ended.q_cut_off > 0 ? nearer : same);
+        }
+        EXPECT_GT(nearer, 50);
+        EXPECT_GT(same, 50);
+    }
+}
+
 /// Values of a format are within a few of its units of double; p bits of significand.
 void expect_follows(const std::string& format, int p) {
     const GaussianCloud cloud = test::random_cloud(300, 6);
@@ -173,6 +201,45 @@ TEST(RenderingRules, ReferenceImagesFollowThem) {
             }
         }
     }
+}
+
+/// The reference's pixels and those of data paths in double, which solve rows or test every pixel.
+TEST(RenderingRules, CutsReachEveryImage) {
+    const GaussianCloud cloud = test::random_cloud(250, 9, 1);
+    const Camera camera = wide_camera();
+    std::vector<float> plain;
+    for (const double cut : {kNoCut, 9.0, 4.0, 0.5}) {
+        ProjectionOptions options = with(SplatOrder::Distance, false);
+        options.cut = cut;
+        const FrameWorkload frame =
+            make_frame_workload(cloud, camera, 16, TileMode::Exact, options);
+        ReferenceCounts counts;
+        const Image image = render_reference(frame, counts);
+        test::expect_same_image(image, test::brute_render(cloud, camera, options));
+        plain = plain.empty() ? image.rgb : plain;
+        EXPECT_EQ(image.rgb != plain, cut != kNoCut);
+        for (const bool parsing : {true, false}) {
+            DataPathRender path;
+            path.numbers.numbers = Arithmetic::Fp64;
+            path.parsing = parsing;
+            DataPathRenderer renderer(frame, path);
+            EXPECT_EQ(renderer.render(all_tiles(frame)).fragments, image.fragments);
+            EXPECT_EQ(renderer.counts().useful, counts.fragments);
+            EXPECT_EQ(renderer.counts().boundary > 0, !parsing);
+        }
+    }
+}
+
+TEST(RenderingRules, PresetsAreSetsOfRules) {
+    const RenderingRules inria, khr(RuleSet::Khr);
+    EXPECT_EQ(inria.options(false).cut, ProjectionOptions().cut);
+    EXPECT_EQ(inria.options(false).order, SplatOrder::Depth);
+    EXPECT_EQ(khr.options(false).cut, 9);
+    EXPECT_EQ(khr.options(false).order, SplatOrder::Distance);
+    EXPECT_EQ(khr.options(false).dilation, ProjectionOptions().dilation);
+    EXPECT_FALSE(khr.options(false).compensated);
+    EXPECT_TRUE(khr.options(true).compensated);
+    EXPECT_EQ(RenderingRules(RuleSet::Inria).cut, inria.cut);
 }
 
 TEST(RenderingRules, AFileDecidesWhereTheRulesLeaveItToTheScene) {
