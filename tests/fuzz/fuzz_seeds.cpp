@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include <nlohmann/json.hpp>
 #include <webp/encode.h>
 
 #include "scene/gltf/gltf.hpp"
@@ -187,6 +188,20 @@ void add_sog(Seeds& seeds) {
     }
 }
 
+/// The JSON with four bytes more data, of which one is the index at which the last accessor takes
+/// what the first view has.
+std::string with_sparse_accessor(const std::string& text, std::size_t bytes) {
+    nlohmann::json json = nlohmann::json::parse(text);
+    json["buffers"][0]["byteLength"] = bytes + 4;
+    json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", bytes}, {"byteLength", 4}});
+    const std::size_t view = json["bufferViews"].size() - 1;
+    json["accessors"].back()["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", view}, {"componentType", 5121}}},
+        {"values", {{"bufferView", 0}}}};
+    return json.dump();
+}
+
 void add_gltf(Seeds& seeds) {
     SyntheticSpec spec = parse_synthetic("uniform,gaussians=3");
     const SyntheticScene scene = make_synthetic(spec);
@@ -199,8 +214,11 @@ void add_gltf(Seeds& seeds) {
         length = length << 8 | static_cast<unsigned char>(glb[12 + i]);
     }
     seeds.add("gltf", std::string(1, '\0') + glb);
-    seeds.add("gltf", std::string(1, '\1') + length_and(glb.substr(20, length)) +
-                          glb.substr(std::min(glb.size(), 28 + length)));
+    const std::string text = glb.substr(20, length);
+    const std::string data = glb.substr(std::min(glb.size(), 28 + length));
+    seeds.add("gltf", std::string(1, '\1') + length_and(text) + data);
+    seeds.add("gltf", std::string(1, '\1') + length_and(with_sparse_accessor(text, data.size())) +
+                          data + std::string(4, '\1'));
     seeds.add("scene", glb);
 }
 

@@ -102,6 +102,66 @@ void check_range(const GltfFile& file, const tinygltf::Accessor& accessor, const
     }
 }
 
+/// Where `count` packed items of a sparse accessor lie. tinygltf turns offsets into numbers with a
+/// sign.
+const unsigned char* packed_items(const GltfFile& file, int view_index, int offset,
+                                  std::size_t count, std::size_t item, std::size_t alignment,
+                                  const std::string& what) {
+    const GltfBytes view = gltf_view(file, view_index, what);
+    const std::size_t start = offset < 0 ? view.bytes + 1 : static_cast<std::size_t>(offset);
+    if (start > view.bytes || count > (view.bytes - start) / item) {
+        file.fail(what + " reach beyond their buffer view of " + std::to_string(view.bytes) +
+                  " bytes: they start at byte " + std::to_string(offset) + ", and " +
+                  std::to_string(count) + " of " + std::to_string(item) + " bytes are needed.");
+    }
+    if (view.stride != 0 ||
+        (file.model.bufferViews[view_index].byteOffset + start) % alignment != 0) {
+        file.fail(what + " must be packed, without a stride, and start at a multiple of " +
+                  std::to_string(alignment) + " bytes.");
+    }
+    return view.data + start;
+}
+
+std::size_t index_bytes(const GltfFile& file, int component_type, const std::string& what) {
+    switch (component_type) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return 1;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return 4;
+    default:
+        file.fail(what + " have components of type " + std::to_string(component_type) +
+                  "; allowed are unsigned byte, unsigned short, unsigned int.");
+    }
+}
+
+GltfReplacements replacements(const GltfFile& file, const tinygltf::Accessor& accessor,
+                              std::size_t element, const std::string& what) {
+    const auto& sparse = accessor.sparse;
+    if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count) {
+        file.fail(what + " is sparse and replaces " + std::to_string(sparse.count) + " of its " +
+                  std::to_string(accessor.count) + " elements; at least 1 and at most all.");
+    }
+    GltfReplacements made;
+    made.count = static_cast<std::size_t>(sparse.count);
+    const std::string indices = what + ": its sparse indices";
+    made.index_bytes = index_bytes(file, sparse.indices.componentType, indices);
+    made.indices = packed_items(file, sparse.indices.bufferView, sparse.indices.byteOffset,
+                                made.count, made.index_bytes, made.index_bytes, indices);
+    made.values =
+        packed_items(file, sparse.values.bufferView, sparse.values.byteOffset, made.count, element,
+                     element / width_of(accessor.type), what + ": its sparse values");
+    for (std::size_t i = 0; i < made.count; ++i) {
+        if (made.index(i) >= accessor.count || (i > 0 && made.index(i) <= made.index(i - 1))) {
+            file.fail(indices + " must increase and be below " + std::to_string(accessor.count) +
+                      "; number " + std::to_string(i) + " is " + std::to_string(made.index(i)) +
+                      ".");
+        }
+    }
+    return made;
+}
+
 template <class From, class To>
 void convert(const unsigned char* from, std::size_t stride, std::size_t count, int components,
              double divisor, To* to, std::size_t pitch) {
@@ -116,6 +176,14 @@ void convert(const unsigned char* from, std::size_t stride, std::size_t count, i
 }
 
 } // namespace
+
+std::size_t GltfReplacements::index(std::size_t i) const {
+    std::size_t value = 0;
+    for (std::size_t byte = index_bytes; byte > 0; --byte) { // little-endian
+        value = value << 8 | indices[i * index_bytes + byte - 1];
+    }
+    return value;
+}
 
 GltfBytes gltf_view(const GltfFile& file, int index, const std::string& what) {
     const auto& views = file.model.bufferViews;
@@ -151,14 +219,20 @@ GltfAccessor::GltfAccessor(const GltfFile& file, int index, const GltfAccessorRu
     if (placeholder) {
         return;
     }
+    const ComponentType& type = component_type(file, accessor, rule);
+    type_ = type.gltf;
+    component_bytes_ = type.bytes;
+    normalized_ = accessor.normalized;
     if (accessor.sparse.isSparse) {
-        file.fail(rule.what + " is a sparse accessor, which is not read; write all its elements.");
+        sparse_ = replacements(file, accessor, type.bytes * width_, rule.what);
     }
     if (accessor.bufferView == -1) {
-        file.fail(rule.what +
-                  " has no buffer view, and there is no compressed data to replace it.");
+        if (!accessor.sparse.isSparse || !rule.may_be_zeros) {
+            file.fail(rule.what +
+                      " has no buffer view, and there is no compressed data to replace it.");
+        }
+        return;
     }
-    const ComponentType& type = component_type(file, accessor, rule);
     const GltfBytes view = gltf_view(file, accessor.bufferView, rule.what);
     const std::size_t element = type.bytes * width_;
     stride_ = view.stride == 0 ? element : view.stride;
@@ -172,16 +246,22 @@ GltfAccessor::GltfAccessor(const GltfFile& file, int index, const GltfAccessorRu
     }
     check_range(file, accessor, view, element, stride_, rule.what);
     data_ = view.data + accessor.byteOffset;
-    type_ = type.gltf;
-    normalized_ = accessor.normalized;
 }
 
 template <class To>
 void GltfAccessor::read_as(To* to, std::size_t pitch, int components) const {
     const int used = std::min(components, width_);
     const auto convert_from = [&](auto value, double largest) {
-        convert<decltype(value)>(data_, stride_, data_ == nullptr ? 0 : count_, used,
-                                 normalized_ ? largest : 0, to, pitch);
+        const double divisor = normalized_ ? largest : 0;
+        for (std::size_t i = 0; data_ == nullptr && i < count_; ++i) {
+            std::fill_n(to + i * pitch, used, To(0));
+        }
+        convert<decltype(value)>(data_, stride_, data_ == nullptr ? 0 : count_, used, divisor, to,
+                                 pitch);
+        for (std::size_t i = 0; i < sparse_.count; ++i) {
+            convert<decltype(value)>(sparse_.values + i * component_bytes_ * width_, 0, 1, used,
+                                     divisor, to + sparse_.index(i) * pitch, pitch);
+        }
     };
     switch (type_) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:

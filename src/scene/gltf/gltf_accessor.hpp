@@ -27,19 +27,31 @@ struct GltfAccessorRule {
     std::string what; ///< who names it, for messages: "mesh 0, primitive 1: POSITION"
     int least_width = 1, most_width = 4; ///< components: 1 SCALAR .. 4 VEC4
     unsigned components = kGltfFloat;    ///< set of GltfComponents
+    /// A sparse accessor may do without a buffer view: what it does not replace is 0. Nothing in the
+    /// file then bears its count out, so that another accessor must.
+    bool may_be_zeros = false;
+};
+
+/// Elements of a sparse accessor that replace those of its buffer view, all of them checked.
+struct GltfReplacements {
+    const unsigned char* indices = nullptr; ///< strictly increasing, below the count
+    const unsigned char* values = nullptr;  ///< packed
+    std::size_t count = 0, index_bytes = 0; ///< 1, 2 or 4 bytes each
+
+    std::size_t index(std::size_t i) const;
 };
 
 /// An accessor whose every byte lies in its buffer.
 class GltfAccessor {
 public:
-    /// Checks index, type, count, alignment, stride and range; InputError names the one that is wrong.
+    /// Checks index, type, count, alignment, stride and range, and the indices of sparse ones;
+    /// InputError names the one that is wrong.
     /// `placeholder`: only index, type and count matter, and the elements cannot be read.
     GltfAccessor(const GltfFile& file, int index, const GltfAccessorRule& rule,
                  bool placeholder = false);
 
     std::size_t count() const { return count_; }
     int width() const { return width_; } ///< components of an element
-    bool has_data() const { return data_ != nullptr; }
 
     /// Component `c` of element i goes to to[i * pitch + c], for the first min(width(), components) of each.
     /// Integers: normalised ones as c / 255, max(c / 127, -1) and so on, others as they are.
@@ -50,8 +62,9 @@ private:
     template <class To>
     void read_as(To* to, std::size_t pitch, int components) const;
 
-    const unsigned char* data_ = nullptr;
-    std::size_t count_ = 0, stride_ = 0;
+    const unsigned char* data_ = nullptr; // none: zeros
+    GltfReplacements sparse_;
+    std::size_t count_ = 0, stride_ = 0, component_bytes_ = 0;
     int width_ = 0, type_ = 0;
     bool normalized_ = false;
 };

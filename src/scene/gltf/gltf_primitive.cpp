@@ -172,7 +172,8 @@ private:
             file_.fail(where_ + " has no attribute '" + name + "', which splats need.");
         }
         const std::string what = where_ + ": " + attribute;
-        const GltfAccessor made(file_, found->second, {what, least, most, components});
+        // POSITION, which comes first, says how many there are.
+        const GltfAccessor made(file_, found->second, {what, least, most, components, count_ != 0});
         if (count_ != 0 && made.count() != count_) {
             file_.fail(what + " has " + std::to_string(made.count()) +
                        " elements, and POSITION has " + std::to_string(count_) + ".");

@@ -80,7 +80,7 @@ const Damage kDamages[] = {
                                         {"indices", {{"bufferView", 77}, {"componentType", 5123}}},
                                         {"values", {{"bufferView", 88}}}};
      },
-     "POSITION is a sparse accessor, which is not read"},
+     "POSITION is sparse and replaces -7 of its 2 elements"},
     {"BufferEmpty", [](Json& j) { j["buffers"][0]["byteLength"] = 0; },
      "buffer 0 has a byteLength of 0"},
     {"BufferBeyondChunk", [](Json& j) { j["buffers"][0]["byteLength"] = 120; },
