@@ -8,6 +8,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/degs)
 
 set_target_properties(degs_glm PROPERTIES EXPORT_NAME glm_headers)
 set_target_properties(degs_systemc PROPERTIES EXPORT_NAME systemc)
+set_target_properties(degs_driver PROPERTIES EXPORT_NAME driver)
 foreach(room config cost splat scene tlm dram modules baselines platform)
     set_target_properties(degs_${room} PROPERTIES EXPORT_NAME ${room})
     install(TARGETS degs_${room} EXPORT degsTargets COMPONENT degs)
@@ -28,8 +29,12 @@ if(DEGS_HAS_IPO AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         endforeach()
     " COMPONENT degs)
 endif()
-install(TARGETS degs degs_glm degs_systemc EXPORT degsTargets COMPONENT degs)
+install(TARGETS degs degs_glm degs_systemc degs_driver EXPORT degsTargets COMPONENT degs)
 install(EXPORT degsTargets NAMESPACE degs:: DESTINATION ${package_dir} COMPONENT degs)
+install(DIRECTORY driver DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/degs COMPONENT degs FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY driver DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT degs
+        FILES_MATCHING PATTERN "*.c" PATTERN "*.svd" PATTERN "*.xml")
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT degs)
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT degs)
 
 configure_package_config_file(cmake/degsConfig.cmake.in ${PROJECT_BINARY_DIR}/degsConfig.cmake

@@ -7,10 +7,10 @@ set -euo pipefail
 packages=(
     g++ cmake ninja-build pkg-config
     libsystemc-dev libglm-dev libopenexr-dev libpng-dev zlib1g-dev libzstd-dev libzip-dev libwebp-dev
-    libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libstb-dev libtinygltf-dev libxxhash-dev
+    libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libstb-dev libtinygltf-dev libxxhash-dev libpugixml-dev
 )
 test_packages=(chromium libgtest-dev libgmock-dev libbenchmark-dev clang clang-format clang-tidy libclang-rt-14-dev
-    ccache mandoc mkdocs-material munge python3 slurm-wlm zsh)
+    ccache libxml2-utils mandoc mkdocs-material munge python3 slurm-wlm zsh)
 [[ ${1:-} != --tests ]] || packages+=("${test_packages[@]}")
 
 missing=()

@@ -19,6 +19,7 @@ void add_memory_command(CLI::App& program);
 void add_soc_command(CLI::App& program);
 void add_config_command(CLI::App& program);
 void add_accuracy_command(CLI::App& program);
+void add_registers_command(CLI::App& program);
 /// Describes what the other functions have added.
 void add_help_command(CLI::App& program);
 

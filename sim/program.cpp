@@ -68,6 +68,7 @@ void add_commands(CLI::App& program) {
     add_soc_command(program);
     add_config_command(program);
     add_accuracy_command(program);
+    add_registers_command(program);
     add_help_command(program);
     require_decimal_numbers(program);
 }

@@ -2,7 +2,6 @@
 #include "sim/soc/soc_host.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 #include <string>
 
@@ -13,8 +12,17 @@ namespace degs::sim {
 
 SocHost::SocHost(const sc_core::sc_module_name& name, std::uint64_t registers, std::uint64_t memory,
                  std::uint64_t bytes)
-    : sc_core::sc_module(name), out("out"), irq("irq"), registers_(registers), next_(memory),
-      end_(memory + bytes) {
+    : sc_core::sc_module(name), out("out"),
+      irq("irq"), device_{this,
+                          [](void* host, std::uint32_t offset) {
+                              return static_cast<SocHost*>(host)->access(tlm::TLM_READ_COMMAND,
+                                                                         offset, 0);
+                          },
+                          [](void* host, std::uint32_t offset, std::uint32_t value) {
+                              static_cast<SocHost*>(host)->access(tlm::TLM_WRITE_COMMAND, offset,
+                                                                  value);
+                          }},
+      registers_(registers), next_(memory), end_(memory + bytes) {
     SC_HAS_PROCESS(SocHost);
     SC_THREAD(run);
 }
@@ -24,7 +32,7 @@ void SocHost::run() {
     finished_ = true;
 }
 
-void SocHost::access(tlm::tlm_command command, std::uint64_t offset, std::uint32_t& value) {
+std::uint32_t SocHost::access(tlm::tlm_command command, std::uint32_t offset, std::uint32_t value) {
     std::array<unsigned char, 4> bytes{};
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         bytes[i] = value >> 8 * i & 0xFFU;
@@ -46,32 +54,7 @@ void SocHost::access(tlm::tlm_command command, std::uint64_t offset, std::uint32
     for (std::size_t i = 0; i < bytes.size(); ++i) {
         value |= std::uint32_t{bytes[i]} << 8 * i;
     }
-}
-
-void SocHost::write(Register which, std::uint32_t value, std::uint32_t word) {
-    access(tlm::TLM_WRITE_COMMAND, AcceleratorRegisters::offset_of(which) + 4 * word, value);
-}
-
-void SocHost::write_pair(Register which, std::uint64_t value, std::uint32_t pair) {
-    write(which, value & 0xFFFFFFFFU, 2 * pair);
-    write(which, static_cast<std::uint32_t>(value >> 32U), 2 * pair + 1);
-}
-
-void SocHost::write_double(Register which, double value, std::uint32_t pair) {
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    write_pair(which, bits, pair);
-}
-
-std::uint32_t SocHost::read(Register which, std::uint32_t word) {
-    std::uint32_t value = 0;
-    access(tlm::TLM_READ_COMMAND, AcceleratorRegisters::offset_of(which) + 4 * word, value);
     return value;
-}
-
-std::uint64_t SocHost::read_pair(Register which) {
-    const std::uint64_t low = read(which);
-    return low | std::uint64_t{read(which, 1)} << 32U;
 }
 
 void SocHost::debug(tlm::tlm_command command, std::uint64_t address,
@@ -110,37 +93,37 @@ void SocHost::load_scene(const GaussianCloud& cloud) {
     const std::uint64_t sh_at = reserve(sh.size());
     debug(tlm::TLM_WRITE_COMMAND, geometry_at, geometry);
     debug(tlm::TLM_WRITE_COMMAND, sh_at, sh);
-    write_pair(Register::Geometry, geometry_at);
-    write_pair(Register::Sh, sh_at);
-    write(Register::Count, static_cast<std::uint32_t>(cloud.size()));
-    write(Register::ShDegree, cloud.sh_degree);
+    const degs_scene scene{geometry_at, sh_at, static_cast<std::uint32_t>(cloud.size()),
+                           static_cast<std::uint32_t>(cloud.sh_degree)};
+    degs_set_scene(&device_, &scene);
 }
 
 void SocHost::set_camera(const Camera& camera) {
     camera_ = camera;
-    write(Register::Width, camera.width);
-    write(Register::Height, camera.height);
-    write_double(Register::FocalX, camera.fx);
-    write_double(Register::FocalY, camera.fy);
+    degs_camera view{};
+    view.width = static_cast<std::uint32_t>(camera.width);
+    view.height = static_cast<std::uint32_t>(camera.height);
+    view.focal_x = camera.fx;
+    view.focal_y = camera.fy;
     for (int axis = 0; axis < 3; ++axis) {
         for (int i = 0; i < 3; ++i) {
-            write_double(Register::Axes, camera.camera_to_world[axis][i], 3 * axis + i);
+            view.axes[3 * axis + i] = camera.camera_to_world[axis][i];
         }
-        write_double(Register::Position, camera.position[axis], axis);
+        view.position[axis] = camera.position[axis];
     }
+    degs_set_camera(&device_, &view);
 }
 
-AcceleratorError SocHost::start_and_wait() {
-    write(Register::IrqEnable, kIrqDone | kIrqError);
-    write(Register::Control, kControlStart);
+std::uint32_t SocHost::start_and_wait() {
+    degs_start(&device_, DEGS_IRQ_ENABLE_DONE | DEGS_IRQ_ENABLE_ERROR);
     while (!irq.read()) {
         sc_core::wait(irq.value_changed_event());
     }
-    write(Register::IrqStatus, read(Register::IrqStatus));
+    degs_acknowledge(&device_);
     while (irq.read()) {
         sc_core::wait(irq.value_changed_event());
     }
-    return static_cast<AcceleratorError>(read(Register::ErrorCode));
+    return degs_error(&device_);
 }
 
 // A frame without a workspace ends at once and reports the bytes that it needs.
@@ -149,34 +132,36 @@ void SocHost::reserve_memory() {
     for (std::uint64_t& buffer : frame_buffers_) {
         buffer = reserve(bytes);
     }
-    write_pair(Register::FrameBuffer, frame_buffers_[0]);
-    write_pair(Register::Workspace, next_);
-    write_pair(Register::WorkspaceBytes, 0);
-    if (const AcceleratorError error = start_and_wait();
-        error != AcceleratorError::SmallWorkspace) {
-        throw std::runtime_error("the accelerator did not ask for a workspace, error " +
-                                 std::to_string(static_cast<int>(error)));
+    if (degs_probe(&device_) == 0) {
+        throw std::runtime_error("the driver does not know these registers");
     }
-    const std::uint64_t needed = read_pair(Register::WorkspaceNeeded);
-    write_pair(Register::Workspace, reserve(needed));
-    write_pair(Register::WorkspaceBytes, needed);
+    degs_set_frame_buffer(&device_, frame_buffers_[0], DEGS_FORMAT_RGBA8);
+    degs_set_workspace(&device_, next_, 0);
+    if (const std::uint32_t error = start_and_wait(); error != DEGS_ERROR_CODE_SMALL_WORKSPACE) {
+        throw std::runtime_error("the accelerator did not ask for a workspace, error " +
+                                 std::to_string(error));
+    }
+    const std::uint64_t needed = degs_workspace_needed(&device_);
+    degs_set_workspace(&device_, reserve(needed), needed);
 }
 
 SocFrame SocHost::render() {
     SocFrame frame;
     frame.frame_buffer = frame_buffers_[frames_++ % frame_buffers_.size()];
-    write_pair(Register::FrameBuffer, frame.frame_buffer);
+    degs_set_frame_buffer(&device_, frame.frame_buffer, DEGS_FORMAT_RGBA8);
     const sc_core::sc_time start = sc_core::sc_time_stamp();
-    if (const AcceleratorError error = start_and_wait(); error != AcceleratorError::None) {
-        throw std::runtime_error("a frame ended with error " +
-                                 std::to_string(static_cast<int>(error)) + " of the accelerator");
+    if (const std::uint32_t error = start_and_wait(); error != DEGS_ERROR_CODE_NONE) {
+        throw std::runtime_error("a frame ended with error " + std::to_string(error) +
+                                 " of the accelerator");
     }
     frame.latency_ns = (sc_core::sc_time_stamp() - start).to_seconds() * 1e9;
-    frame.cycles = read_pair(Register::Cycles);
-    frame.load_cycles = read_pair(Register::LoadCycles);
-    frame.bytes_read = read_pair(Register::BytesRead);
-    frame.bytes_written = read_pair(Register::BytesWritten);
-    frame.fragments = read_pair(Register::Fragments);
+    degs_counters counters{};
+    degs_read_counters(&device_, &counters);
+    frame.cycles = counters.cycles;
+    frame.load_cycles = counters.load_cycles;
+    frame.bytes_read = counters.bytes_read;
+    frame.bytes_written = counters.bytes_written;
+    frame.fragments = counters.fragments;
     return frame;
 }
 

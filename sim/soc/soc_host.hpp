@@ -10,7 +10,7 @@
 #include <tlm>
 #include <tlm_utils/simple_initiator_socket.h>
 
-#include "platform/accelerator_registers.hpp"
+#include "driver/degs_driver.h"
 #include "splat/camera.hpp"
 #include "splat/gaussian.hpp"
 
@@ -25,9 +25,9 @@ struct SocFrame {
 };
 
 /// The processor that drives the accelerator, as a program on it would: puts a scene into memory,
-/// writes registers, sleeps until the interrupt. Scene and pixels go by debug transport, because
-/// their transfer is not measured. Throws std::runtime_error if a register access is refused or a
-/// frame ends with an error.
+/// works the registers with the driver in C, sleeps until the interrupt. Scene and pixels go by
+/// debug transport, because their transfer is not measured. Throws std::runtime_error if a register
+/// access is refused or a frame ends with an error.
 class SocHost : public sc_core::sc_module {
 public:
     tlm_utils::simple_initiator_socket<SocHost> out;
@@ -54,16 +54,12 @@ public:
 
 private:
     void run();
-    void access(tlm::tlm_command command, std::uint64_t offset, std::uint32_t& value);
-    void write(Register which, std::uint32_t value, std::uint32_t word = 0);
-    void write_pair(Register which, std::uint64_t value, std::uint32_t pair = 0);
-    void write_double(Register which, double value, std::uint32_t pair = 0);
-    std::uint32_t read(Register which, std::uint32_t word = 0);
-    std::uint64_t read_pair(Register which);
-    AcceleratorError start_and_wait();
+    std::uint32_t access(tlm::tlm_command command, std::uint32_t offset, std::uint32_t value);
+    std::uint32_t start_and_wait();
     std::uint64_t reserve(std::uint64_t bytes);
     void debug(tlm::tlm_command command, std::uint64_t address, std::vector<unsigned char>& data);
 
+    degs_device device_;
     std::uint64_t registers_, next_, end_; // next_ to end_: memory that is not reserved
     Camera camera_;
     std::array<std::uint64_t, 2> frame_buffers_{};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <new>
+#include <stdexcept>
 
 #include "config/error.hpp"
 
@@ -10,6 +11,15 @@ namespace degs {
 namespace {
 
 constexpr std::size_t kFinishedDepth = 64;
+
+std::unique_ptr<AcceleratorConfig> checked(const AcceleratorConfig& config) {
+    std::unique_ptr<AcceleratorConfig> copy = config.clone();
+    copy->read_floats();
+    if (const std::string problem = copy->problem(); !problem.empty()) {
+        throw std::invalid_argument("accelerator '" + config.name + "': " + problem);
+    }
+    return copy;
+}
 
 // The answer of a bus as a positive number: 1 address, 2 command, 3 burst, 4 byte enable error,
 // 5 generic error, 6 no answer.
@@ -38,8 +48,9 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
 Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
                          const Options& options)
     : sc_core::sc_module(name), registers("registers"), mem("mem"), irq("irq"), reset_n("reset_n"),
-      clk("clk"), config_(checked(config)), options_(checked(options)),
-      mapping_(checked_period()), time_{ClockDomain(mapping_), options.fidelity, options.timeline},
+      config_(checked(config)), options_(options),
+      mapping_(ClockDomain(config_->clock_ghz).period()), time_{ClockDomain(mapping_),
+                                                                options.fidelity, options.timeline},
       self_(time_),
       finished_("finished", time_, kFinishedDepth, config_->frame_end.gate_latency_cycles),
       gateway_("gateway", options.memory, time_.clock) {
@@ -70,6 +81,10 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
     sensitive << stop_requested_ << reset_n;
 }
 
+void Accelerator::end_of_elaboration() {
+    finished_.connect_reader(self_);
+}
+
 void Accelerator::complete_timeline() {
     if (job_.recorder != nullptr) {
         job_.recorder->close();
@@ -77,17 +92,14 @@ void Accelerator::complete_timeline() {
 }
 
 void Accelerator::drive_irq() {
-    lines_.irq = (registers_.get(Register::IrqEnable) & registers_.get(Register::IrqStatus)) != 0;
     if (irq.size() != 0) {
-        irq->write(lines_.irq);
+        irq->write((registers_.get(Register::IrqEnable) & registers_.get(Register::IrqStatus)) !=
+                   0);
     }
 }
 
 void Accelerator::set_status(std::uint32_t set, std::uint32_t clear) {
-    const std::uint32_t status = (registers_.get(Register::Status) & ~clear) | set;
-    registers_.set(Register::Status, status);
-    lines_.busy = (status & kStatusBusy) != 0;
-    lines_.in_reset = (status & kStatusInReset) != 0;
+    registers_.set(Register::Status, (registers_.get(Register::Status) & ~clear) | set);
 }
 
 void Accelerator::run() {

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# run.sh BUILD COMPILER: the ways in which another project uses DeGS.
+# run.sh BUILD COMPILER [PROGRAM]: the ways in which another project uses DeGS.
 # 1. find_package: installs a build into a folder of its own, moves it elsewhere, and builds and runs outside/, which
-#    knows nothing but the prefix, with COMPILER and with clang++. The libraries must have been built.
+#    knows nothing but the prefix, with COMPILER and with clang++. The libraries must have been built. The installed
+#    example must give the image of PROGRAM, and the snippet of docs/accelerator.md must compile.
 # 2. pkg-config: compiles and links embedded/main.cpp with what degs.pc says.
 # 3. add_subdirectory: builds and runs embedded/ with a SystemC of its own: headers and library under a prefix, which
 #    must be taken in place of the SystemC of the system. Compiles a few rooms once more, with the flags of BUILD.
@@ -11,6 +12,7 @@ set -euo pipefail
 
 build=$1
 compiler=$2
+program=${3:-}
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 work=$(mktemp -d)
 embedded=$(mktemp -d "$build-embedded.XXXXXX") # beside BUILD, so that relative paths are those of its objects, too
@@ -36,17 +38,58 @@ if command -v clang++ >/dev/null; then
 else
     echo "clang++ is not there, so the package is tried with one compiler"
 fi
+design=$work/prefix/share/degs/configs/degs-64.yaml
+if [[ $program ]]; then
+    "$program" scene generate object --gaussians 2000 --out "$work/scene.ply" >"$work/generate.log"
+    "$program" run "$design" --scene "$work/scene.ply" --no-reference --out "$work/run" >"$work/run.log"
+    image=$(sed -n 's/.*"crc32": "\([0-9a-f]*\)".*/\1/p' "$work/run/report.json")
+    [[ $image ]] || { echo "the report has no checksum"; exit 1; }
+fi
 for each in "${compilers[@]}"; do
     name=$(basename "$each")
-    quietly configure cmake -S "$here/outside" -B "$work/$name" -DCMAKE_PREFIX_PATH="$work/prefix" \
-        -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$each"
-    quietly compile cmake --build "$work/$name"
-    rm "$work/$name/outside"
-    echo "$name links the package in $(seconds 10 cmake --build "$work/$name") s"
-    "$work/$name/outside"
+    for project in "$here/outside" "$work/prefix/share/degs/examples/platform"; do
+        target=$(basename "$project")
+        quietly configure cmake -S "$project" -B "$work/$name-$target" -DCMAKE_PREFIX_PATH="$work/prefix" \
+            -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$each"
+        quietly compile cmake --build "$work/$name-$target"
+        rm "$work/$name-$target/$target"
+        taken=$(seconds 5 cmake --build "$work/$name-$target") || { echo "$name: $taken"; exit 1; }
+        echo "$name links $target in $taken s of a processor"
+    done
+    "$work/$name-outside/outside" 2>/dev/null
+    [[ $program ]] || continue
+    SYSTEMC_DISABLE_COPYRIGHT_MESSAGE=1 "$work/$name-platform/platform" "$design" "$work/scene.ply" | tee "$work/said"
+    grep -q "image $image\$" "$work/said" || { echo "degs run renders the image $image"; exit 1; }
 done
+echo 'accelerator: gpu' >"$work/wrong.yaml"
+if "$work/$name-platform/platform" "$work/wrong.yaml" none.ply >"$work/said" || ! grep -q 'wrong.yaml:1' "$work/said"; then
+    echo "the example says of a wrong design:"
+    cat "$work/said"
+    exit 1
+fi
 
-for file in share/degs/configs/degs-64.yaml include/degs/platform/accelerator.hpp; do
+# The snippet of the page, with the names that it takes for granted.
+{
+    echo '#include <tlm_utils/simple_initiator_socket.h>'
+    echo '#include <tlm_utils/simple_target_socket.h>'
+    snippet=$(awk '/^```/ { on = /^```cpp/ && !done; next } on { print } /load_design/ { done = 1 }' \
+        "$sources/docs/accelerator.md")
+    grep '^#include' <<<"$snippet"
+    echo 'struct Bus : sc_core::sc_module { tlm_utils::simple_target_socket<Bus> in{"in"};'
+    echo '    explicit Bus(const sc_core::sc_module_name& name) : sc_module(name) {} };'
+    echo 'struct Cpu : sc_core::sc_module { tlm_utils::simple_initiator_socket<Cpu> out{"out"};'
+    echo '    explicit Cpu(const sc_core::sc_module_name& name) : sc_module(name) {} };'
+    echo 'int sc_main(int, char**) { Bus bus("bus"); Cpu cpu("cpu"); sc_core::sc_signal<bool> interrupt;'
+    grep -v '^#include' <<<"$snippet"
+    echo 'return 0; }'
+} >"$work/snippet.cpp"
+grep -q 'load_design' "$work/snippet.cpp" || { echo "the page has no snippet"; exit 1; }
+snippet_flags=$(PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name degs.pc)") pkg-config --cflags degs)
+# shellcheck disable=SC2086 # words of the command line
+"$compiler" -fsyntax-only -Wall -Wextra $snippet_flags "$work/snippet.cpp"
+
+for file in share/degs/configs/degs-64.yaml include/degs/platform/accelerator.hpp include/degs/driver/degs_driver.h \
+    share/degs/driver/degs_driver.c share/degs/driver/degs.svd share/degs/driver/degs-ip-xact.xml; do
     [[ -f $work/prefix/$file ]] || { echo "$file was not installed"; exit 1; }
 done
 if grep -rlE "$build|$work" "$work/prefix" --include='*.cmake' --include='*.pc'; then

@@ -12,10 +12,7 @@ namespace {
 struct Driver : sc_core::sc_module {
     tlm_utils::simple_initiator_socket<Driver> out{"out"};
     unsigned char back = 0;
-    explicit Driver(const sc_core::sc_module_name& name) : sc_core::sc_module(name) {
-        SC_HAS_PROCESS(Driver);
-        SC_THREAD(run);
-    }
+    SC_CTOR(Driver) { SC_THREAD(run); }
     void access(tlm::tlm_command command, unsigned char& byte) {
         tlm::tlm_generic_payload p;
         p.set_command(command);

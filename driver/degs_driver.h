@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Driver of the DeGS accelerator in C11, freestanding: no library, no allocation, no interrupts of its own. The
+ * platform supplies two functions that read and write a register; degs_mmio_read and degs_mmio_write do so where the
+ * registers are mapped into memory. docs/accelerator.md explains the registers and the layout of a scene.
+ *
+ * A frame: degs_set_scene, degs_set_camera, degs_set_workspace, degs_set_frame_buffer, degs_start, then either
+ * degs_wait, or sleep until the interrupt and degs_acknowledge. A start samples all registers, so that the next frame
+ * may be described while one is being rendered. One processor at a time may use a device. */
+#ifndef DEGS_DRIVER_H
+#define DEGS_DRIVER_H
+
+#include <stdint.h>
+
+#include "degs_registers.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How to reach one accelerator. offset: bytes, of one of the registers in degs_registers.h. */
+typedef struct degs_device {
+    void *context; /* of the two functions, e.g. the address of the first register */
+    uint32_t (*read)(void *context, uint32_t offset);
+    void (*write)(void *context, uint32_t offset, uint32_t value);
+} degs_device;
+
+/* Addresses are those of the accelerator's memory socket, multiples of DEGS_BASE_ALIGNMENT. */
+typedef struct degs_scene {
+    uint64_t geometry;  /* address of 44 B per Gaussian */
+    uint64_t sh;        /* address of 12 (sh_degree + 1)^2 B per Gaussian */
+    uint32_t count;     /* Gaussians, at least 1 */
+    uint32_t sh_degree; /* 0 to 3 */
+} degs_scene;
+
+typedef struct degs_camera {
+    uint32_t width, height;  /* px, 1 to 65536 */
+    double focal_x, focal_y; /* px, positive */
+    double axes[9];          /* x (right), y (down), z (forward) of the view in world space, orthonormal */
+    double position[3];      /* in world space */
+} degs_camera;
+
+/* Of the last frame, but for `frames`. */
+typedef struct degs_counters {
+    uint64_t cycles, load_cycles;
+    uint64_t bytes_read, bytes_written;
+    uint64_t fragments;
+    uint32_t frames;  /* so far */
+    uint32_t dropped; /* Gaussians that cannot be drawn */
+} degs_counters;
+
+/* Whether there is an accelerator whose registers have the layout of this header: 1 or 0. */
+int degs_probe(const degs_device *device);
+
+void degs_set_scene(const degs_device *device, const degs_scene *scene);
+void degs_set_camera(const degs_device *device, const degs_camera *camera);
+/* Memory for splat records and lists; degs_workspace_needed says after a frame how many bytes it took. */
+void degs_set_workspace(const degs_device *device, uint64_t address, uint64_t bytes);
+/* format: DEGS_FORMAT_RGBA8 or DEGS_FORMAT_RGBA16F. */
+void degs_set_frame_buffer(const degs_device *device, uint64_t address, uint32_t format);
+
+/* Starts a frame. interrupts: bits of IRQ_ENABLE, as DEGS_IRQ_ENABLE_DONE | DEGS_IRQ_ENABLE_ERROR, or 0. Has no effect
+ * while a frame is being rendered. */
+void degs_start(const degs_device *device, uint32_t interrupts);
+/* Gives up the present frame; the accelerator is busy until it has. */
+void degs_abort(const degs_device *device);
+/* Whether a frame is being rendered: 1 or 0. */
+int degs_busy(const degs_device *device);
+/* Reads STATUS until the frame has ended; returns degs_error(). */
+uint32_t degs_wait(const degs_device *device);
+/* Takes back the pending interrupts, and returns them (bits of IRQ_STATUS). */
+uint32_t degs_acknowledge(const degs_device *device);
+/* Why the last frame was not rendered, or cannot be trusted: DEGS_ERROR_CODE_NONE (0) or another of them. */
+uint32_t degs_error(const degs_device *device);
+
+/* Bytes of workspace that the last frame needed. A frame with a workspace of 0 bytes ends at once with
+ * DEGS_ERROR_CODE_SMALL_WORKSPACE, and asks for nothing else. */
+uint64_t degs_workspace_needed(const degs_device *device);
+void degs_read_counters(const degs_device *device, degs_counters *counters);
+
+/* For registers that are mapped into memory; context: the address of the first one. */
+uint32_t degs_mmio_read(void *context, uint32_t offset);
+void degs_mmio_write(void *context, uint32_t offset, uint32_t value);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

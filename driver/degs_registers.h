@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Registers of the DeGS accelerator: offsets in bytes, bits and values. Written by
+ * degs registers --format c */
+#ifndef DEGS_REGISTERS_H
+#define DEGS_REGISTERS_H
+
+#define DEGS_REGISTER_BYTES             0x138u /* size of the register window */
+#define DEGS_ID_VALUE                   0x53476544u /* what ID holds */
+#define DEGS_VERSION_VALUE              0x00010001u /* what VERSION holds */
+#define DEGS_BASE_ALIGNMENT             64u /* of all addresses, bytes */
+
+#define DEGS_REG_ID                     0x000u /* the bytes "DeGS" */
+
+#define DEGS_REG_VERSION                0x004u /* major and minor, 16 bits each */
+
+#define DEGS_REG_CONTROL                0x008u /* commands */
+#define DEGS_CONTROL_START              (1u << 0) /* start a frame */
+#define DEGS_CONTROL_CLEAR_ERROR        (1u << 1) /* clear the error and the flags "aborted" and "start ignored" */
+#define DEGS_CONTROL_RESET              (1u << 2) /* reset; the other bits are ignored */
+#define DEGS_CONTROL_ABORT              (1u << 3) /* give up the present frame */
+
+#define DEGS_REG_STATUS                 0x00Cu /* state */
+#define DEGS_STATUS_BUSY                (1u << 0) /* a frame is being rendered */
+#define DEGS_STATUS_DONE                (1u << 1) /* the last frame is done */
+#define DEGS_STATUS_ERROR               (1u << 2) /* the last frame ended with an error */
+#define DEGS_STATUS_START_IGNORED       (1u << 3) /* a start was ignored because the accelerator was busy */
+#define DEGS_STATUS_IN_RESET            (1u << 4) /* a reset has not ended yet */
+#define DEGS_STATUS_ABORTED             (1u << 5) /* the last frame has been given up */
+
+#define DEGS_REG_IRQ_ENABLE             0x010u /* interrupts that reach irq */
+#define DEGS_IRQ_ENABLE_DONE            (1u << 0) /* a frame is done */
+#define DEGS_IRQ_ENABLE_ERROR           (1u << 1) /* a frame ended with an error */
+#define DEGS_IRQ_ENABLE_ABORTED         (1u << 2) /* a frame has been given up */
+
+#define DEGS_REG_IRQ_STATUS             0x014u /* pending interrupts; writing 1 clears; irq is high while an enabled bit is set */
+#define DEGS_IRQ_STATUS_DONE            (1u << 0) /* a frame is done */
+#define DEGS_IRQ_STATUS_ERROR           (1u << 1) /* a frame ended with an error */
+#define DEGS_IRQ_STATUS_ABORTED         (1u << 2) /* a frame has been given up */
+
+#define DEGS_REG_ERROR_CODE             0x018u /* see errors; 0 after a start */
+#define DEGS_ERROR_CODE_NONE            0u /* no error */
+#define DEGS_ERROR_CODE_BAD_SIZE        1u /* width or height is 0 or too large */
+#define DEGS_ERROR_CODE_BAD_COUNT       2u /* no Gaussians, or too many */
+#define DEGS_ERROR_CODE_BAD_DEGREE      3u /* SH degree over 3 */
+#define DEGS_ERROR_CODE_BAD_FORMAT      4u /* unknown format */
+#define DEGS_ERROR_CODE_MISALIGNED      5u /* a base is not a multiple of 64 */
+#define DEGS_ERROR_CODE_OVERLAP         6u /* a region overlaps another, or passes the last address */
+#define DEGS_ERROR_CODE_BAD_CAMERA      7u /* the camera is not finite, or its axes no rotation */
+#define DEGS_ERROR_CODE_SMALL_WORKSPACE 8u /* the workspace is too small */
+#define DEGS_ERROR_CODE_LOAD_ERROR      9u /* memory refused a read of the scene */
+#define DEGS_ERROR_CODE_BUS_ERROR       10u /* memory refused an access of the frame */
+#define DEGS_ERROR_CODE_SCENE_CHANGED   11u /* the scene was written during the frame */
+#define DEGS_ERROR_CODE_OUT_OF_MEMORY   12u /* the host that simulates has too little memory */
+
+#define DEGS_REG_ERROR_DETAIL           0x01Cu /* offset of the register that is wrong, or the answer of the bus */
+
+#define DEGS_REG_GEOMETRY               0x020u /* 2 words: address of the geometry records */
+
+#define DEGS_REG_SH                     0x028u /* 2 words: address of the SH coefficients */
+
+#define DEGS_REG_COUNT                  0x030u /* Gaussians, 1 to 2^24 (an option of the model) */
+
+#define DEGS_REG_SH_DEGREE              0x034u /* 0 to 3 */
+
+#define DEGS_REG_WORKSPACE              0x038u /* 2 words: address of memory for splat records and lists */
+
+#define DEGS_REG_WORKSPACE_BYTES        0x040u /* 2 words: its size */
+
+#define DEGS_REG_FRAME_BUFFER           0x048u /* 2 words: address of the frame buffer */
+
+#define DEGS_REG_FORMAT                 0x050u /* format of a pixel */
+#define DEGS_FORMAT_RGBA8               0u /* 4 B per pixel */
+#define DEGS_FORMAT_RGBA16F             1u /* 8 B per pixel */
+
+#define DEGS_REG_WIDTH                  0x054u /* pixels, 1 to 65536 */
+
+#define DEGS_REG_HEIGHT                 0x058u /* pixels, 1 to 65536; at most 2^26 pixels in all (an option of the model) */
+
+#define DEGS_REG_FOCAL_X                0x060u /* 2 words: double, focal length in pixels of the width */
+
+#define DEGS_REG_FOCAL_Y                0x068u /* 2 words: double, focal length in pixels of the height */
+
+#define DEGS_REG_AXES                   0x070u /* 18 words: 9 doubles: view axes x (right), y (down), z (forward) in world space */
+
+#define DEGS_REG_POSITION               0x0B8u /* 6 words: 3 doubles: camera centre in world space */
+
+#define DEGS_REG_CYCLES                 0x100u /* 2 words: of the last frame: scene loaded to last pixel in memory */
+
+#define DEGS_REG_LOAD_CYCLES            0x108u /* 2 words: of the last frame: reading the scene; 0 if the memory has debug transport */
+
+#define DEGS_REG_BYTES_READ             0x110u /* 2 words: of the last frame, in CYCLES */
+
+#define DEGS_REG_BYTES_WRITTEN          0x118u /* 2 words: of the last frame */
+
+#define DEGS_REG_FRAGMENTS              0x120u /* 2 words: of the last frame: pixel updates; with outward span ends more than its useful PE slots */
+
+#define DEGS_REG_WORKSPACE_NEEDED       0x128u /* 2 words: of the last frame whose scene could be loaded */
+
+#define DEGS_REG_FRAMES                 0x130u /* frames rendered so far, those with a bus error or a changed scene included */
+
+#define DEGS_REG_DROPPED                0x134u /* of the last frame: Gaussians that no renderer can draw */
+
+#endif

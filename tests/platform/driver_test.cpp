@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// The driver in C: its header against the model, and a frame through its two functions.
+#include "driver/degs_driver.h"
+#include "modules/degs_config.hpp"
+#include "tests/platform/accelerator_bench.hpp"
+
+namespace degs::test {
+namespace {
+
+struct Offset {
+    std::uint32_t in_header;
+    Register in_model;
+};
+
+TEST(Driver, OffsetsOfItsHeaderAreThoseOfTheModel) {
+    using R = Register;
+    const std::vector<Offset> offsets{
+        {DEGS_REG_ID, R::Id},
+        {DEGS_REG_VERSION, R::Version},
+        {DEGS_REG_CONTROL, R::Control},
+        {DEGS_REG_STATUS, R::Status},
+        {DEGS_REG_IRQ_ENABLE, R::IrqEnable},
+        {DEGS_REG_IRQ_STATUS, R::IrqStatus},
+        {DEGS_REG_ERROR_CODE, R::ErrorCode},
+        {DEGS_REG_ERROR_DETAIL, R::ErrorDetail},
+        {DEGS_REG_GEOMETRY, R::Geometry},
+        {DEGS_REG_SH, R::Sh},
+        {DEGS_REG_COUNT, R::Count},
+        {DEGS_REG_SH_DEGREE, R::ShDegree},
+        {DEGS_REG_WORKSPACE, R::Workspace},
+        {DEGS_REG_WORKSPACE_BYTES, R::WorkspaceBytes},
+        {DEGS_REG_FRAME_BUFFER, R::FrameBuffer},
+        {DEGS_REG_FORMAT, R::Format},
+        {DEGS_REG_WIDTH, R::Width},
+        {DEGS_REG_HEIGHT, R::Height},
+        {DEGS_REG_FOCAL_X, R::FocalX},
+        {DEGS_REG_FOCAL_Y, R::FocalY},
+        {DEGS_REG_AXES, R::Axes},
+        {DEGS_REG_POSITION, R::Position},
+        {DEGS_REG_CYCLES, R::Cycles},
+        {DEGS_REG_LOAD_CYCLES, R::LoadCycles},
+        {DEGS_REG_BYTES_READ, R::BytesRead},
+        {DEGS_REG_BYTES_WRITTEN, R::BytesWritten},
+        {DEGS_REG_FRAGMENTS, R::Fragments},
+        {DEGS_REG_WORKSPACE_NEEDED, R::WorkspaceNeeded},
+        {DEGS_REG_FRAMES, R::Frames},
+        {DEGS_REG_DROPPED, R::Dropped},
+    };
+    ASSERT_EQ(offsets.size(), register_map().size());
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        EXPECT_EQ(offsets[i].in_model, register_map()[i].offset) << register_map()[i].name;
+        EXPECT_EQ(offsets[i].in_header, static_cast<std::uint32_t>(offsets[i].in_model))
+            << register_map()[i].name;
+    }
+    EXPECT_EQ(DEGS_REGISTER_BYTES, kRegisterBytes);
+    EXPECT_EQ(DEGS_BASE_ALIGNMENT, kBaseAlignment);
+    EXPECT_EQ(DEGS_CONTROL_START, kControlStart);
+    EXPECT_EQ(DEGS_CONTROL_CLEAR_ERROR, kControlClearError);
+    EXPECT_EQ(DEGS_CONTROL_ABORT, kControlAbort);
+    EXPECT_EQ(DEGS_STATUS_BUSY, kStatusBusy);
+    EXPECT_EQ(DEGS_STATUS_DONE, kStatusDone);
+    EXPECT_EQ(DEGS_IRQ_STATUS_ERROR, kIrqError);
+    EXPECT_EQ(DEGS_ERROR_CODE_OUT_OF_MEMORY,
+              static_cast<std::uint32_t>(AcceleratorError::OutOfMemory));
+}
+
+degs_device device_of(Host& host) {
+    return {&host,
+            [](void* to, std::uint32_t offset) {
+                return static_cast<Host*>(to)->read(static_cast<Register>(offset));
+            },
+            [](void* to, std::uint32_t offset, std::uint32_t value) {
+                static_cast<Host*>(to)->write(static_cast<Register>(offset), value);
+            }};
+}
+
+degs_camera view_of(const Camera& camera) {
+    degs_camera view{};
+    view.width = static_cast<std::uint32_t>(camera.width);
+    view.height = static_cast<std::uint32_t>(camera.height);
+    view.focal_x = camera.fx;
+    view.focal_y = camera.fy;
+    for (int i = 0; i < 9; ++i) {
+        view.axes[i] = camera.camera_to_world[i / 3][i % 3];
+        view.position[i % 3] = camera.position[i % 3];
+    }
+    return view;
+}
+
+TEST(SmallRunDriver, RendersTheFrameOfTheRegistersAndReportsErrors) {
+    const GaussianCloud cloud = test_cloud();
+    const Camera camera = test_camera();
+    Platform driven("driven", DegsConfig(), cloud);
+    Platform written("written", DegsConfig(), cloud);
+    degs_counters counters{};
+    driven.host.script = [&](Host& host) {
+        const degs_device device = device_of(host);
+        EXPECT_EQ(degs_probe(&device), 1);
+        const degs_scene scene{0, kSh, static_cast<std::uint32_t>(cloud.size()),
+                               static_cast<std::uint32_t>(cloud.sh_degree)};
+        const degs_camera view = view_of(camera);
+        degs_set_scene(&device, &scene);
+        degs_set_camera(&device, &view);
+        degs_set_frame_buffer(&device, kFrame, DEGS_FORMAT_RGBA8);
+        degs_set_workspace(&device, kWorkspace, 0);
+        degs_start(&device, 0);
+        EXPECT_EQ(degs_wait(&device), DEGS_ERROR_CODE_SMALL_WORKSPACE);
+        EXPECT_GT(degs_workspace_needed(&device), 0U);
+        degs_set_workspace(&device, kWorkspace, degs_workspace_needed(&device));
+        degs_start(&device, 0);
+        EXPECT_EQ(degs_busy(&device), 1);
+        EXPECT_EQ(degs_wait(&device), DEGS_ERROR_CODE_NONE);
+        EXPECT_EQ(degs_acknowledge(&device), DEGS_IRQ_STATUS_DONE | DEGS_IRQ_STATUS_ERROR);
+        EXPECT_EQ(degs_acknowledge(&device), 0U);
+        degs_read_counters(&device, &counters);
+        degs_start(&device, 0);
+        degs_abort(&device);
+        degs_wait(&device);
+        EXPECT_NE(host.read(Register::Status) & kStatusAborted, 0U);
+    };
+    std::uint64_t cycles = 0;
+    written.host.script = [&](Host& host) {
+        program(host, cloud, camera);
+        EXPECT_TRUE(host.render());
+        cycles = host.read_pair(Register::Cycles);
+    };
+    sc_core::sc_start();
+    ASSERT_TRUE(driven.host.finished && written.host.finished);
+    EXPECT_EQ(driven.frame(camera), written.frame(camera));
+    EXPECT_EQ(counters.cycles, cycles);
+    EXPECT_EQ(counters.frames, 1U);
+    EXPECT_GT(counters.fragments, 0U);
+    EXPECT_EQ(counters.dropped, 0U);
+}
+
+TEST(Driver, ReachesRegistersThatAreMappedIntoMemory) {
+    std::array<std::uint32_t, kRegisterBytes / 4> words{};
+    words[0] = kAcceleratorId;
+    words[1] = kAcceleratorVersion;
+    const degs_device device{words.data(), degs_mmio_read, degs_mmio_write};
+    EXPECT_EQ(degs_probe(&device), 1);
+    degs_set_workspace(&device, 0x123456789ABCDE00, 64);
+    EXPECT_EQ(words[DEGS_REG_WORKSPACE / 4], 0x9ABCDE00U);
+    EXPECT_EQ(words[DEGS_REG_WORKSPACE / 4 + 1], 0x12345678U);
+    words[0] = 1;
+    EXPECT_EQ(degs_probe(&device), 0);
+}
+
+} // namespace
+} // namespace degs::test
