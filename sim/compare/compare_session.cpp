@@ -102,6 +102,7 @@ void CompareSession::take(const ViewRun& started, ChildOutcome&& outcome) {
         return;
     }
     RunSummary summary = summary_from(outcome.output);
+    summary.view.dynamic = started.dynamic;
     const OutputFolder folder(out_.path("reports/" + started.folder), {});
     const std::string file = std::to_string(started.config + 1) + "-" + file_name(name) +
                              (started.path ? "-path.json" : ".json");

@@ -182,4 +182,14 @@ std::string family_of(const ComparedConfig& config) {
     return family;
 }
 
+bool Comparison::has_camera_path() const {
+    return frames > 1 && std::any_of(views.begin(), views.end(),
+                                     [](const ComparedView& view) { return !view.dynamic; });
+}
+
+bool Comparison::has_dynamic_scene() const {
+    return std::any_of(views.begin(), views.end(),
+                       [](const ComparedView& view) { return view.dynamic; });
+}
+
 } // namespace degs::sim

@@ -49,9 +49,14 @@ struct Comparison {
     std::vector<ComparisonRow> rows; ///< in the order of the runs
     std::vector<FailedRun> failed;
     std::vector<ComparisonRow> means; ///< per configuration, if there are several views
-    int frames = 1;                   ///< of the camera path; 1: there is none
-    double path_step_degrees = 0;
+    int frames = 1;                   ///< of a camera path or of a scene that changes
+    double path_step_degrees = 0;     ///< of camera paths
     bool array_only = false;
+
+    /// Whether the camera moves in one of the views.
+    bool has_camera_path() const;
+    /// Whether one of the scenes changes from frame to frame, before a camera that stands still.
+    bool has_dynamic_scene() const;
 };
 
 /// `configs` in the order in which they are shown; the runs of each view follow one another. A

@@ -38,7 +38,7 @@ ordered_json comparison_json(const Comparison& comparison) {
     json["tool"] = tool_json();
     json["frames"] = comparison.frames;
     json["path_step_degrees"] =
-        comparison.frames > 1 ? ordered_json(comparison.path_step_degrees) : ordered_json();
+        comparison.has_camera_path() ? ordered_json(comparison.path_step_degrees) : ordered_json();
     json["array_only"] = comparison.array_only;
     for (const char* list : {"configs", "views", "runs", "means", "failed"}) {
         json[list] = ordered_json::array();

@@ -175,12 +175,21 @@ std::string changes_line(const ComparedView& view) {
     return folded("frames: " + changes_words(changes), output_columns(), 2) + "\n";
 }
 
+std::string frames_words(const Comparison& comparison) {
+    const std::string count = std::to_string(comparison.frames) + " frames";
+    const std::string step = config_words::number(comparison.path_step_degrees) + "° each";
+    if (!comparison.has_dynamic_scene()) {
+        return count + " of " + step;
+    }
+    const std::string changing = "the first " + count + " of a scene that changes";
+    return comparison.has_camera_path() ? changing + ", of " + step + " where none does" : changing;
+}
+
 std::string legend(const Comparison& comparison) {
     const std::string first = visible(comparison.configs.front().name);
     std::string words = "speed: 1 / latency of one frame alone; " + first + " = 1";
     if (comparison.frames > 1) {
-        words += "; path: throughput over " + std::to_string(comparison.frames) + " frames of " +
-                 config_words::number(comparison.path_step_degrees) + "° each, " + first + " = 1";
+        words += "; path: throughput over " + frames_words(comparison) + ", " + first + " = 1";
     }
     words += "; energy: frames per joule, " + first + " = 1";
     words += comparison.array_only ? "; arrays alone, without front ends and memory" : "";

@@ -21,6 +21,7 @@ struct ComparedView {
     std::optional<std::size_t> fragments; ///< of the reference
     /// The next four of all frames, if there are several; see FrameChanges.
     std::optional<double> active_overlap{}, tile_churn{}, p99_tile_candidates{}, footprint_gini{};
+    bool dynamic = false; ///< frames of a scene that changes; not part of the message
 };
 
 /// One configuration on one view.

@@ -11,11 +11,14 @@
 
 namespace degs::sim {
 
+RuleKind rule_kind(const ProjectionOptions& options) {
+    return {options.order, options.compensated, options.dilation, options.cut};
+}
+
 void SharedView::render_reference(TileMode mode) {
     const FrameWorkload& frame = frames.front();
-    const ProjectionOptions& rules = frame.projection;
     const decltype(reference_kind) kind{mode == TileMode::Exact ? 0 : frame.tile_size, mode,
-                                        rules.order, rules.compensated, rules.dilation};
+                                        rule_kind(frame.projection)};
     if (!reference || reference_kind != kind) {
         reference = make_reference(*cloud, frame, workload_s);
         reference_kind = kind;

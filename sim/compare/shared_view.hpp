@@ -11,6 +11,10 @@
 
 namespace degs::sim {
 
+/// The rules that a projection and its reference are drawn by.
+using RuleKind = std::tuple<SplatOrder, bool, double, double>;
+RuleKind rule_kind(const ProjectionOptions& options);
+
 /// One view while it is compared: what its runs have in common, made once.
 struct SharedView {
     int camera = 0;
@@ -22,7 +26,7 @@ struct SharedView {
     std::vector<FrameWorkload> frames;  ///< of the present group
     std::optional<Reference> reference; ///< of `reference_kind`
     /// What the image depends on beside the view: side and mode of tiles, and the rules.
-    std::tuple<int, TileMode, SplatOrder, bool, double> reference_kind;
+    std::tuple<int, TileMode, RuleKind> reference_kind;
 
     /// With exact tiles the image does not depend on their size.
     void render_reference(TileMode mode);

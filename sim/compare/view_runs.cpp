@@ -14,7 +14,7 @@ namespace {
 
 /// Frames depend on these: the rules, the format of the projection (empty for fp64, whose frames are
 /// the reference's and come first), the side of a tile and the tile mode.
-using FrameKind = std::tuple<SplatOrder, bool, double, std::string, int, TileMode>;
+using FrameKind = std::tuple<RuleKind, std::string, int, TileMode>;
 
 /// Configurations that want the same frames.
 std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedConfig>& all,
@@ -24,9 +24,8 @@ std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedC
     for (std::size_t c : configs) {
         const AcceleratorConfig& config = all[c].config.accelerator();
         const ProjectionOptions rules = projection_of(config.data_path(), traits.antialiased);
-        groups[{rules.order, rules.compensated, rules.dilation,
-                rules.format.is_fp64() ? "" : rules.format.name(), config.tile_size_px(),
-                config.tile_mode()}]
+        groups[{rule_kind(rules), rules.format.is_fp64() ? "" : rules.format.name(),
+                config.tile_size_px(), config.tile_mode()}]
             .push_back(c);
     }
     return groups;
@@ -140,6 +139,7 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
         shared.cameras = shared.dynamic ? std::vector<Camera>(request_.path.frames, first)
                                         : camera_path(scene.cloud, first, request_.path.frames,
                                                       request_.path.step_degrees);
+        place.dynamic = shared.dynamic != nullptr;
         shared.load_s = load_s;
         for (const auto& [kind, members] : groups_of(request_.configs, configs, scene.traits)) {
             if (!interrupted_) {

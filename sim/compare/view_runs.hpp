@@ -21,7 +21,8 @@ struct SharedView;
 struct ViewRun {
     std::size_t scene = 0, size = 0, config = 0; ///< positions in the request
     int camera = 0;                              ///< position in the scene's list
-    bool path = false;                           ///< of the camera path, else of one frame alone
+    bool path = false;                           ///< of all frames, else of the first one alone
+    bool dynamic = false;                        ///< the frames are those of a scene that changes
     std::size_t view = 0;      ///< number of the view, in the order in which they were begun
     std::string words, folder; ///< of the view: for people, and of its reports
     std::string name;          ///< of the run

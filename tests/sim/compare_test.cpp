@@ -31,6 +31,21 @@ std::size_t lines_of(const std::string& text) {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+/// The camera stands still before a scene that changes, and no angle is told.
+TEST(CompareRuns, SaysThatTheSceneChanges) {
+    const Folder folder;
+    const Outcome outcome = degs({"compare", config("degs-16"), config("gscore-16"), "--scene",
+                                  "synthetic:dynamic,gaussians=300", "--width", "64", "--frames",
+                                  "2", "--no-reference", "--out", folder / "c"});
+    expect_success(outcome);
+    EXPECT_NE(outcome.out.find("the first 2 frames of a scene that changes"), std::string::npos)
+        << outcome.out;
+    EXPECT_EQ(outcome.out.find("°"), std::string::npos) << outcome.out;
+    const nlohmann::json written = comparison_in(folder / "c");
+    EXPECT_EQ(written["frames"], 2);
+    EXPECT_TRUE(written["path_step_degrees"].is_null());
+}
+
 // Not a SmallRun: the address sanitizer warns on stderr when a forked child leaves from a stack of
 // SystemC's, and these runs must be silent there.
 TEST(CompareRuns, AgreesWithSingleRuns) {
@@ -47,6 +62,8 @@ TEST(CompareRuns, AgreesWithSingleRuns) {
     EXPECT_EQ(written["frames"], 3);
     EXPECT_EQ(written["runs"][0]["ratio"]["latency"], 1);
     EXPECT_EQ(written["runs"][0]["ratio"]["throughput"], 1);
+    EXPECT_EQ(written["path_step_degrees"], 0.5);
+    EXPECT_NE(outcome.out.find("over 3 frames of 0.5° each"), std::string::npos) << outcome.out;
     EXPECT_NE(outcome.out.find("geometric means over 2 views"), std::string::npos);
     EXPECT_EQ(lines_of(read_file(folder / "c/compare.csv")), 5U);
     EXPECT_TRUE(fs::exists(folder / "c/slots.svg"));

@@ -89,22 +89,25 @@ TEST(RulesOfComparison, EachDesignHasItsReference) {
     const Folder folder;
     const std::string file = config("degs-16");
     const Outcome outcome =
-        degs({"compare", "plain=" + file, "far=" + file, "--scene", kRuledScene, "--width", "160",
-              "--set", "pipeline.numbers=fp64", "--set", "pipeline.span_ends=exact", "--set",
-              "far:pipeline.rules.order=distance", "--out", folder / "o"});
+        degs({"compare", "plain=" + file, "far=" + file, "short=" + file, "--scene", kRuledScene,
+              "--width", "160", "--set", "pipeline.numbers=fp64", "--set",
+              "pipeline.span_ends=exact", "--set", "far:pipeline.rules.order=distance", "--set",
+              "short:pipeline.rules.cut=4", "--out", folder / "o"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     int reports = 0;
     for (const auto& entry : fs::recursive_directory_iterator(folder / "o/reports")) {
         if (entry.is_regular_file()) {
             const auto report = nlohmann::json::parse(read_file(entry.path()));
             const bool far = entry.path().filename() == "2-far.json";
+            const bool cut = entry.path().filename() == "3-short.json";
             EXPECT_EQ(report["workload"]["order"], far ? "distance" : "depth");
+            EXPECT_EQ(report["workload"]["cut"], cut ? 4 : 12);
             EXPECT_EQ(report["image"]["psnr_db"], "inf");
             EXPECT_EQ(report["workload"]["fragments"], report["slots"]["useful"]);
             ++reports;
         }
     }
-    EXPECT_EQ(reports, 2);
+    EXPECT_EQ(reports, 3);
 }
 
 TEST(RulesOfRender, TheCommandHasThem) {
