@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <new>
-#include <stdexcept>
 
 #include "config/error.hpp"
 
@@ -11,15 +10,6 @@ namespace degs {
 namespace {
 
 constexpr std::size_t kFinishedDepth = 64;
-
-std::unique_ptr<AcceleratorConfig> checked(const AcceleratorConfig& config) {
-    std::unique_ptr<AcceleratorConfig> copy = config.clone();
-    copy->read_floats();
-    if (const std::string problem = copy->problem(); !problem.empty()) {
-        throw std::invalid_argument("accelerator '" + config.name + "': " + problem);
-    }
-    return copy;
-}
 
 // The answer of a bus as a positive number: 1 address, 2 command, 3 burst, 4 byte enable error,
 // 5 generic error, 6 no answer.
@@ -48,9 +38,8 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
 Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
                          const Options& options)
     : sc_core::sc_module(name), registers("registers"), mem("mem"), irq("irq"), reset_n("reset_n"),
-      config_(checked(config)), options_(options),
-      mapping_(ClockDomain(config_->clock_ghz).period()), time_{ClockDomain(mapping_),
-                                                                options.fidelity, options.timeline},
+      clk("clk"), config_(checked(config)), options_(checked(options)),
+      mapping_(checked_period()), time_{ClockDomain(mapping_), options.fidelity, options.timeline},
       self_(time_),
       finished_("finished", time_, kFinishedDepth, config_->frame_end.gate_latency_cycles),
       gateway_("gateway", options.memory, time_.clock) {
@@ -81,10 +70,6 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
     sensitive << stop_requested_ << reset_n;
 }
 
-void Accelerator::end_of_elaboration() {
-    finished_.connect_reader(self_);
-}
-
 void Accelerator::complete_timeline() {
     if (job_.recorder != nullptr) {
         job_.recorder->close();
@@ -92,14 +77,17 @@ void Accelerator::complete_timeline() {
 }
 
 void Accelerator::drive_irq() {
+    lines_.irq = (registers_.get(Register::IrqEnable) & registers_.get(Register::IrqStatus)) != 0;
     if (irq.size() != 0) {
-        irq->write((registers_.get(Register::IrqEnable) & registers_.get(Register::IrqStatus)) !=
-                   0);
+        irq->write(lines_.irq);
     }
 }
 
 void Accelerator::set_status(std::uint32_t set, std::uint32_t clear) {
-    registers_.set(Register::Status, (registers_.get(Register::Status) & ~clear) | set);
+    const std::uint32_t status = (registers_.get(Register::Status) & ~clear) | set;
+    registers_.set(Register::Status, status);
+    lines_.busy = (status & kStatusBusy) != 0;
+    lines_.in_reset = (status & kStatusInReset) != 0;
 }
 
 void Accelerator::run() {

@@ -52,24 +52,36 @@ public:
     OptionalPort<sc_core::sc_signal_inout_if<bool>> irq;
     /// Low: reset. Takes effect at once, whatever the clock does.
     OptionalPort<sc_core::sc_signal_in_if<bool>> reset_n;
+    /// An sc_clock, whose period and rising edges take the place of `clock_ghz`. Its period must not
+    /// change, and it is not gated.
+    OptionalPort<sc_core::sc_signal_in_if<bool>> clk;
 
-    /// Copies `config` and makes the copy read scenes of floats. Throws
-    /// std::invalid_argument if it has a problem().
+    /// Copies `config` and makes the copy read scenes of floats. What is wrong with it, with the
+    /// options or with the clock is reported as accelerator_reports.hpp says, and refused.
     Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config);
     Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
                 const Options& options);
 
+    /// With the frequency of the bound clock, if any, from the end of elaboration on.
     const AcceleratorConfig& config() const { return *config_; }
     /// For test benches: state that the registers do not expose.
     const RenderEngine& engine() const { return *engine_; }
     const MemoryGateway& gateway() const { return gateway_; }
     /// When nothing is left to happen, before the timeline is read.
     void complete_timeline();
+    /// The state that registers show: busy, in_reset, irq, status, irq_enable, irq_status, error_code,
+    /// frames and the low word of cycles, below name().
+    void trace(sc_core::sc_trace_file* file) const override;
 
 private:
     using Payload = tlm::tlm_generic_payload;
 
+    std::unique_ptr<AcceleratorConfig> checked(const AcceleratorConfig& config) const;
+    const Options& checked(const Options& options) const;
+    sc_core::sc_time checked_period() const;
     void end_of_elaboration() override;
+    void start_of_simulation() override;
+    void follow_clock();
     void transport(Payload& payload, sc_core::sc_time& delay);
     unsigned int debug(Payload& payload);
     static tlm::tlm_response_status check_access(const Payload& payload);
@@ -100,6 +112,9 @@ private:
     ClockMapping mapping_;
     Timebase time_;
     AcceleratorRegisters registers_;
+    struct { // for trace()
+        bool busy = false, in_reset = false, irq = false;
+    } lines_;
     AcceleratorRequest request_;     // of the present frame
     AcceleratorFault request_fault_; // likewise: why it cannot be served, if so
     SceneCopy scene_;

@@ -124,6 +124,8 @@ public:
     void set_word(std::uint32_t offset, std::uint32_t value) { words_[offset / 4] = value; }
     std::uint32_t get(Register which) const { return word(offset_of(which)); }
     void set(Register which, std::uint32_t value) { set_word(offset_of(which), value); }
+    /// Where it is kept, for tracing.
+    const std::uint32_t& low_word(Register which) const { return words_[offset_of(which) / 4]; }
     std::uint64_t get_pair(Register which, std::uint32_t index = 0) const;
     void set_pair(Register which, std::uint64_t value);
     /// A pair that holds an IEEE 754 double.

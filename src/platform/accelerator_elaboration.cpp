@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// What degs::Accelerator checks before the simulation starts, and its tie to a clock of the platform.
+#include <cmath>
+#include <stdexcept>
+
+#include "platform/accelerator.hpp"
+#include "platform/accelerator_reports.hpp"
+
+namespace degs {
+namespace {
+
+// A larger change of the period by the resolution of time is a mistake of the platform.
+constexpr double kRounding = 0.01;
+
+void warn(const char* type, const std::string& who, const std::string& what) {
+    SC_REPORT_WARNING(type, (who + ": " + what).c_str());
+}
+
+} // namespace
+
+void refuse(const char* type, const std::string& who, const std::string& why) {
+    const std::string text = who + ": " + why;
+    SC_REPORT_ERROR(type, text.c_str());
+    throw std::invalid_argument(std::string(type) + ": " + text);
+}
+
+std::unique_ptr<AcceleratorConfig> Accelerator::checked(const AcceleratorConfig& config) const {
+    std::unique_ptr<AcceleratorConfig> copy = config.clone();
+    copy->read_floats();
+    if (const std::string problem = copy->problem(); !problem.empty()) {
+        refuse(reports::kConfig, name(), "configuration '" + config.name + "': " + problem);
+    }
+    return copy;
+}
+
+const Accelerator::Options& Accelerator::checked(const Options& options) const {
+    if (options.limits.gaussians == 0 || options.limits.pixels == 0) {
+        refuse(reports::kOptions, name(),
+               "limits of 0 Gaussians or pixels leave nothing to render");
+    }
+    if (options.memory.transport == MemoryGateway::Transport::At &&
+        options.memory.outstanding == 0) {
+        refuse(reports::kOptions, name(),
+               "memory.outstanding is 0, but an AT memory needs at least 1 transaction in flight");
+    }
+    return options;
+}
+
+// Two halves of a cycle are the least that processes need.
+sc_core::sc_time Accelerator::checked_period() const {
+    const sc_core::sc_time period = ClockDomain(config_->clock_ghz).period();
+    if (period.value() < 2) {
+        refuse(reports::kClock, name(),
+               "the time resolution " + sc_core::sc_get_time_resolution().to_string() +
+                   " is too coarse for a clock of " + std::to_string(config_->clock_ghz) + " GHz");
+    }
+    const double wanted = 1e-9 / config_->clock_ghz;
+    if (std::abs(period.to_seconds() - wanted) > kRounding * wanted) {
+        warn(reports::kClock, name(),
+             "the time resolution turns the period of " + std::to_string(config_->clock_ghz) +
+                 " GHz into " + period.to_string());
+    }
+    return period;
+}
+
+void Accelerator::end_of_elaboration() {
+    finished_.connect_reader(self_);
+    if (clk.size() != 0) {
+        follow_clock();
+    }
+}
+
+void Accelerator::follow_clock() {
+    const auto* const clock = dynamic_cast<const sc_core::sc_clock*>(clk[0]);
+    if (clock == nullptr) {
+        refuse(reports::kClock, name(),
+               "clk is bound to a channel that is not an sc_clock; leave it unbound for clock_ghz");
+    }
+    if (clock->period().value() < 2) {
+        refuse(reports::kClock, name(),
+               "the time resolution is too coarse for a clock of " + clock->period().to_string());
+    }
+    const sc_core::sc_time first = clock->posedge_first()
+                                       ? sc_core::SC_ZERO_TIME
+                                       : clock->period() * (1.0 - clock->duty_cycle());
+    mapping_.follow(clock->period(), clock->start_time() + first);
+    config_->clock_ghz = 1e-9 / clock->period().to_seconds();
+}
+
+void Accelerator::start_of_simulation() {
+    if (options_.memory.transport == MemoryGateway::Transport::Lt &&
+        options_.memory.pacing == Pacing::Quantum &&
+        tlm::tlm_global_quantum::instance().get() == sc_core::SC_ZERO_TIME) {
+        warn(reports::kOptions, name(),
+             "memory.pacing is Quantum, but there is no global quantum: accesses are exact");
+    }
+}
+
+// Booleans for reading, words for comparing with a driver's view.
+void Accelerator::trace(sc_core::sc_trace_file* file) const {
+    const std::string path = name();
+    sc_core::sc_trace(file, lines_.busy, path + ".busy");
+    sc_core::sc_trace(file, lines_.in_reset, path + ".in_reset");
+    sc_core::sc_trace(file, lines_.irq, path + ".irq");
+    const std::pair<Register, const char*> words[] = {
+        {Register::Status, ".status"},        {Register::IrqEnable, ".irq_enable"},
+        {Register::IrqStatus, ".irq_status"}, {Register::ErrorCode, ".error_code"},
+        {Register::Frames, ".frames"},        {Register::Cycles, ".cycles"}};
+    for (const auto& [which, suffix] : words) {
+        sc_core::sc_trace(file, registers_.low_word(which), path + suffix);
+    }
+}
+
+} // namespace degs

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// What degs::Accelerator reports before the simulation starts: one test per message type and cause.
+#include "platform/accelerator_reports.hpp"
+
+#include <gmock/gmock.h>
+
+#include "modules/degs_config.hpp"
+#include "tests/platform/accelerator_bench.hpp"
+
+namespace degs::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Reported {
+    std::string type, text;
+    sc_core::sc_severity severity = sc_core::SC_INFO;
+};
+
+class SmallRunReports : public ::testing::Test {
+protected:
+    SmallRunReports() {
+        reported_.clear();
+        sc_core::sc_report_handler::set_handler([](const sc_core::sc_report& report,
+                                                   const sc_core::sc_actions& actions) {
+            reported_.push_back({report.get_msg_type(), report.get_msg(), report.get_severity()});
+            sc_core::sc_report_handler::default_handler(report, actions & ~sc_core::SC_DISPLAY);
+        });
+    }
+    ~SmallRunReports() override { sc_core::sc_report_handler::set_handler(nullptr); }
+
+    /// Builds an accelerator and returns the error that this throws.
+    static Reported refusal(const AcceleratorConfig& config,
+                            const Accelerator::Options& options = {}) {
+        try {
+            const Accelerator accelerator("refused", config, options);
+        } catch (const sc_core::sc_report& report) {
+            EXPECT_EQ(reported_.size(), 1U);
+            EXPECT_EQ(reported_.back().type, report.get_msg_type());
+            EXPECT_EQ(reported_.back().severity, sc_core::SC_ERROR);
+            return reported_.back();
+        }
+        ADD_FAILURE() << "nothing was refused";
+        return {};
+    }
+    static const std::vector<Reported>& reported() { return reported_; }
+
+private:
+    inline static std::vector<Reported> reported_;
+};
+
+TEST_F(SmallRunReports, AConfigurationWithAProblem) {
+    DegsConfig config;
+    config.scheduler.banks = 0;
+    const Reported report = refusal(config);
+    EXPECT_EQ(report.type, "/DeGS/accelerator/config");
+    EXPECT_THAT(report.text, HasSubstr("refused: configuration"));
+    EXPECT_THAT(report.text, HasSubstr("scheduler.banks"));
+}
+
+TEST_F(SmallRunReports, OptionsThatLeaveNothingToDo) {
+    Accelerator::Options options;
+    options.limits.pixels = 0;
+    const Reported report = refusal(DegsConfig(), options);
+    EXPECT_EQ(report.type, "/DeGS/accelerator/options");
+    EXPECT_THAT(report.text, HasSubstr("refused: limits"));
+}
+
+TEST_F(SmallRunReports, NoTransactionInFlight) {
+    Accelerator::Options options;
+    options.memory.transport = MemoryGateway::Transport::At;
+    options.memory.outstanding = 0;
+    const Reported report = refusal(DegsConfig(), options);
+    EXPECT_EQ(report.type, "/DeGS/accelerator/options");
+    EXPECT_THAT(report.text, HasSubstr("memory.outstanding"));
+}
+
+// Whoever keeps reports from throwing gets no accelerator either.
+TEST_F(SmallRunReports, WithoutThrowingReportsARefusalIsAStandardException) {
+    sc_core::sc_report_handler::set_actions(reports::kConfig, sc_core::SC_ERROR,
+                                            sc_core::SC_DO_NOTHING);
+    DegsConfig config;
+    config.scheduler.banks = 0;
+    EXPECT_THROW(Accelerator("refused", config), std::invalid_argument);
+    EXPECT_EQ(reported().size(), 1U);
+}
+
+TEST_F(SmallRunReports, AClockPortOnASignal) {
+    Platform p("p", DegsConfig(), test_cloud());
+    sc_core::sc_signal<bool> signal("signal");
+    p.accelerator.clk.bind(signal);
+    p.host.script = [](Host&) {};
+    EXPECT_THROW(sc_core::sc_start(), sc_core::sc_report);
+    ASSERT_EQ(reported().size(), 1U);
+    EXPECT_EQ(reported().front().type, "/DeGS/accelerator/clock");
+    EXPECT_THAT(reported().front().text, HasSubstr("not an sc_clock"));
+}
+
+TEST_F(SmallRunReports, AClockThatTheResolutionOfTimeCannotShow) {
+    sc_core::sc_set_time_resolution(1, sc_core::SC_NS);
+    const Reported report = refusal(DegsConfig());
+    EXPECT_EQ(report.type, "/DeGS/accelerator/clock");
+    EXPECT_THAT(report.text, HasSubstr("too coarse"));
+}
+
+TEST_F(SmallRunReports, AClockThatTheResolutionOfTimeChanges) {
+    sc_core::sc_set_time_resolution(100, sc_core::SC_PS);
+    DegsConfig config;
+    config.clock_ghz = 0.8; // 1.25 ns
+    const Platform p("p", config, test_cloud());
+    ASSERT_EQ(reported().size(), 1U);
+    EXPECT_EQ(reported().front().severity, sc_core::SC_WARNING);
+    EXPECT_EQ(reported().front().type, "/DeGS/accelerator/clock");
+    EXPECT_THAT(reported().front().text, HasSubstr("0.800000 GHz into 1300 ps"));
+}
+
+TEST_F(SmallRunReports, AQuantumThatIsNotThere) {
+    Accelerator::Options options;
+    options.memory.pacing = Pacing::Quantum;
+    Platform p("p", DegsConfig(), test_cloud(),
+               std::make_unique<PlainMemory>("memory", kMemoryBytes, Timing::Annotated), options);
+    p.host.script = [](Host&) {};
+    sc_core::sc_start();
+    ASSERT_EQ(reported().size(), 1U);
+    EXPECT_EQ(reported().front().severity, sc_core::SC_WARNING);
+    EXPECT_EQ(reported().front().type, "/DeGS/accelerator/options");
+    EXPECT_THAT(reported().front().text, HasSubstr("no global quantum"));
+}
+
+TEST_F(SmallRunReports, NothingOfAnAcceleratorWithUnboundPorts) {
+    const GaussianCloud cloud = test_cloud();
+    Accelerator accelerator("accelerator", DegsConfig());
+    PlainMemory memory("memory", kMemoryBytes, Timing::Annotated);
+    Host host("host");
+    sc_core::sc_signal<bool> unused("unused");
+    accelerator.mem.bind(memory.in); // and neither irq, reset_n nor clk
+    host.out.bind(accelerator.registers);
+    host.irq.bind(unused);
+    std::vector<unsigned char> geometry;
+    std::vector<unsigned char> sh;
+    encode_scene(cloud, geometry, sh);
+    std::copy(geometry.begin(), geometry.end(), memory.bytes.begin());
+    std::copy(sh.begin(), sh.end(), memory.bytes.begin() + kSh);
+    host.script = [&](Host& self) {
+        program(self, cloud, test_camera());
+        self.write(Register::IrqEnable, kIrqDone);
+        self.write(Register::Control, kControlStart);
+        while ((self.read(Register::Status) & kStatusBusy) != 0) {
+            sc_core::wait(sc_core::sc_time(1, sc_core::SC_US));
+        }
+        EXPECT_EQ(self.read(Register::Status), kStatusDone);
+    };
+    sc_core::sc_start();
+    EXPECT_TRUE(host.finished);
+    EXPECT_TRUE(reported().empty());
+}
+
+} // namespace
+} // namespace degs::test
