@@ -39,6 +39,8 @@ public:
         bool antialiased = false; ///< what the files of its scenes say, see RenderingRules
         MemoryGateway::Options memory;
         Timeline* timeline = nullptr; ///< which the accelerator joins; must outlive it
+        /// All of them except the timeline, as keys.
+        void describe(ConfigVisitor& visitor);
     };
 
     /// Words of 4 B, little-endian, LT and debug. An access takes a cycle.

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "config/config_source.hpp"
 #include "modules/degs_config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
@@ -153,6 +154,20 @@ TEST_F(SmallRunReports, NothingOfAnAcceleratorWithUnboundPorts) {
     sc_core::sc_start();
     EXPECT_TRUE(host.finished);
     EXPECT_TRUE(reported().empty());
+}
+
+TEST(SmallRunAcceleratorOptions, AreKeys) {
+    Accelerator::Options options;
+    ConfigSource::from_overrides({"fidelity=strict", "limits.pixels=640", "memory.transport=at",
+                                  "memory.outstanding=3", "memory.pacing=quantum"})
+        .load(options);
+    EXPECT_EQ(options.fidelity, Fidelity::Strict);
+    EXPECT_EQ(options.limits.pixels, 640U);
+    EXPECT_EQ(options.memory.transport, MemoryGateway::Transport::At);
+    EXPECT_EQ(options.memory.outstanding, 3U);
+    EXPECT_EQ(options.memory.pacing, Pacing::Quantum);
+    EXPECT_THROW(ConfigSource::from_overrides({"limits.gaussians=0"}).load(options), InputError);
+    EXPECT_THROW(ConfigSource::from_overrides({"memory.transport=axi"}).load(options), InputError);
 }
 
 } // namespace
