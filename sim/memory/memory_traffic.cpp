@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sim/stopwatch.hpp"
+#include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
 
 namespace degs::sim {
@@ -31,7 +32,7 @@ MemoryTraffic::MemoryTraffic(const sc_core::sc_module_name& name, dram::Lpddr5& 
         out[channel].register_nb_transport_bw(this, &MemoryTraffic::backward, channel);
         out[channel].bind(memory.in[channel]);
     }
-    SC_HAS_PROCESS(MemoryTraffic);
+    DEGS_HAS_PROCESS(MemoryTraffic);
     SC_METHOD(begin);
     sensitive << begin_event_;
     dont_initialize();

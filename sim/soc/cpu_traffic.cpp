@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
 
 namespace degs::sim {
@@ -10,7 +11,7 @@ namespace degs::sim {
 CpuTraffic::CpuTraffic(const sc_core::sc_module_name& name, const Config& config)
     : sc_core::sc_module(name), out("out"), config_(config), random_(config.seed),
       done_(config.lines_in_flight), line_(kLineBytes) {
-    SC_HAS_PROCESS(CpuTraffic);
+    DEGS_HAS_PROCESS(CpuTraffic);
     SC_THREAD(run);
 }
 

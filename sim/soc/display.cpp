@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "tlm/has_process.hpp"
+
 namespace degs::sim {
 
 Display::Display(const sc_core::sc_module_name& name, const Config& config)
     : sc_core::sc_module(name), out("out"), config_(config), row_(4 * config.width) {
-    SC_HAS_PROCESS(Display);
+    DEGS_HAS_PROCESS(Display);
     SC_THREAD(run);
 }
 

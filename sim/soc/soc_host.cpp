@@ -7,6 +7,7 @@
 
 #include "config/error.hpp"
 #include "platform/scene_copy.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs::sim {
 
@@ -23,7 +24,7 @@ SocHost::SocHost(const sc_core::sc_module_name& name, std::uint64_t registers, s
                                                                   value);
                           }},
       registers_(registers), next_(memory), end_(memory + bytes) {
-    SC_HAS_PROCESS(SocHost);
+    DEGS_HAS_PROCESS(SocHost);
     SC_THREAD(run);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "splat/tested_pixels.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs {
 
@@ -46,7 +47,7 @@ LockstepArray::LockstepArray(const sc_core::sc_module_name& name, const Config& 
       contexts_(contexts), self_(time), chunks_(self_, in), grid_(job.tile_size, config.side()),
       clusters_(config.clusters), subtiles_(grid_.count()), outcomes_(config.side()),
       startable_(contexts) {
-    SC_HAS_PROCESS(LockstepArray);
+    DEGS_HAS_PROCESS(LockstepArray);
     SC_THREAD(run);
     self_.show(*this, "", config.clusters);
     recorded_ = job.recorder != nullptr;

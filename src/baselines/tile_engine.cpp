@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tlm/has_process.hpp"
+
 namespace degs {
 namespace {
 
@@ -41,7 +43,7 @@ TileEngine::TileEngine(const sc_core::sc_module_name& name, const Config& config
     for (std::size_t row = 0; row < rows_.size(); ++row) {
         pe_of_row_.push_back(row % pes_.size());
     }
-    SC_HAS_PROCESS(TileEngine);
+    DEGS_HAS_PROCESS(TileEngine);
     SC_THREAD(run);
     prepare_record();
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
 #include "tlm/scattered_records.hpp"
 
@@ -40,7 +41,7 @@ Lpddr5::Lpddr5(const sc_core::sc_module_name& name, const Config& config, const 
         in[i].register_get_direct_mem_ptr(this, &Lpddr5::direct_memory, tag);
         in[i].register_transport_dbg(this, &Lpddr5::debug, tag);
     }
-    SC_HAS_PROCESS(Lpddr5);
+    DEGS_HAS_PROCESS(Lpddr5);
     SC_METHOD(serve);
     sensitive << serve_event_;
     dont_initialize();

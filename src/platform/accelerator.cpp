@@ -5,6 +5,7 @@
 #include <new>
 
 #include "config/error.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs {
 namespace {
@@ -62,7 +63,7 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
     build.finished = &finished_;
     build.memory = &gateway_;
     engine_ = config_->build("engine", time_, job_, build);
-    SC_HAS_PROCESS(Accelerator);
+    DEGS_HAS_PROCESS(Accelerator);
     SC_THREAD(run);
     SC_METHOD(drive_irq);
     sensitive << irq_changed_;

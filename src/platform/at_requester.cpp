@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
 
 namespace degs {
@@ -16,7 +17,7 @@ AtRequester::AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator
         throw std::invalid_argument(std::string(this->name()) +
                                     ": outstanding transactions must be at least 1");
     }
-    SC_HAS_PROCESS(AtRequester);
+    DEGS_HAS_PROCESS(AtRequester);
     SC_METHOD(resume);
     sensitive << request_over_;
     dont_initialize();

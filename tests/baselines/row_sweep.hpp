@@ -4,6 +4,7 @@
 #pragma once
 
 #include "modules/array/tile_array_engine.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs::example {
 
@@ -17,7 +18,7 @@ public:
     RowSweepArray(const sc_core::sc_module_name& name, const Timebase& time, RenderJob& job,
                   std::size_t streams, int contexts)
         : sc_core::sc_module(name), in("in", streams), job_(job), contexts_(contexts), self_(time) {
-        SC_HAS_PROCESS(RowSweepArray);
+        DEGS_HAS_PROCESS(RowSweepArray);
         SC_THREAD(run);
     }
     SlotAccount slots;

@@ -12,6 +12,7 @@
 #include "dram/lpddr5.hpp"
 #include "tests/dram/fixture.hpp"
 #include "tests/tlm/memory_fixture.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs::test {
 
@@ -39,7 +40,7 @@ public:
 
     explicit AtInitiator(const sc_core::sc_module_name& name)
         : sc_core::sc_module(name), out("out") {
-        SC_HAS_PROCESS(AtInitiator);
+        DEGS_HAS_PROCESS(AtInitiator);
         out.register_nb_transport_bw(this, &AtInitiator::backward);
         SC_THREAD(send);
         SC_METHOD(end_response);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "tests/dram/bench.hpp"
+#include "tlm/has_process.hpp"
 #include "tlm/memory_port.hpp"
 
 namespace degs {
@@ -125,7 +126,7 @@ TEST(Lpddr5Lt, WorksBehindAMemoryPort) {
         std::vector<Cycle> done;
         Block(const sc_core::sc_module_name& name, const Timebase& time)
             : sc_core::sc_module(name), port("port", time), process(time) {
-            SC_HAS_PROCESS(Block);
+            DEGS_HAS_PROCESS(Block);
             SC_THREAD(run);
         }
         void run() {

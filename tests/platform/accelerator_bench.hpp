@@ -15,6 +15,7 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include "platform/accelerator.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs::test {
 
@@ -89,7 +90,7 @@ public:
 
     explicit Host(const sc_core::sc_module_name& name)
         : sc_core::sc_module(name), out("out"), irq("irq") {
-        SC_HAS_PROCESS(Host);
+        DEGS_HAS_PROCESS(Host);
         SC_THREAD(run);
     }
     tlm::tlm_response_status access(tlm::tlm_command command, std::uint64_t address, void* data,

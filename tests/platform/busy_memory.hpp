@@ -12,6 +12,8 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 
+#include "tlm/has_process.hpp"
+
 namespace degs::test {
 
 /// Serves transactions in the order of the calls, whatever their annotated dates; never waits.
@@ -63,7 +65,7 @@ public:
 
     LineReader(const sc_core::sc_module_name& name, int lines, double period_ns = 100)
         : sc_core::sc_module(name), out("out"), lines_(lines), period_(period_ns, sc_core::SC_NS) {
-        SC_HAS_PROCESS(LineReader);
+        DEGS_HAS_PROCESS(LineReader);
         SC_THREAD(run);
     }
     double worst() const {

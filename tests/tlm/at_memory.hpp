@@ -13,6 +13,8 @@
 #include <tlm>
 #include <tlm_utils/peq_with_get.h>
 
+#include "tlm/has_process.hpp"
+
 namespace degs::test {
 
 /// How a transaction ends. `Four`: END_REQ, later BEGIN_RESP. `RequestAtOnce`: END_REQ is what
@@ -45,7 +47,7 @@ public:
         : sc_core::sc_module(name), in("in"), bytes(size, 0xA5), accepted_("accepted"),
           answers_("answers") {
         in.bind(*this);
-        SC_HAS_PROCESS(AtMemory);
+        DEGS_HAS_PROCESS(AtMemory);
         SC_METHOD(end_requests);
         sensitive << accepted_.get_event();
         dont_initialize();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tlm/clock_domain.hpp"
+#include "tlm/has_process.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +71,7 @@ TEST(ClockMapping, LiesWhereTheClockOfAPlatformDoes) {
 /// Sleeps to cycle 1000, in whose first half another one hurries.
 struct Hurried : sc_core::sc_module {
     explicit Hurried(const sc_core::sc_module_name& name) : sc_core::sc_module(name) {
-        SC_HAS_PROCESS(Hurried);
+        DEGS_HAS_PROCESS(Hurried);
         SC_THREAD(sleep);
         SC_THREAD(change);
     }

@@ -6,6 +6,7 @@
 
 #include "tests/tlm/script.hpp"
 #include "tlm/dated_fifo.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs {
 namespace {
@@ -21,7 +22,7 @@ public:
     sc_core::sc_port<Interface> port;
     Foreign(const sc_core::sc_module_name& name, std::function<void(Interface&)> body)
         : sc_core::sc_module(name), port("port"), body_(std::move(body)) {
-        SC_HAS_PROCESS(Foreign);
+        DEGS_HAS_PROCESS(Foreign);
         SC_THREAD(run);
     }
 

@@ -6,6 +6,8 @@
 
 #include <systemc>
 
+#include "tlm/has_process.hpp"
+
 namespace degs::test {
 
 /// One SC_THREAD that runs a lambda: the shortest way to a process in a test.
@@ -13,7 +15,7 @@ class Script : public sc_core::sc_module {
 public:
     Script(const sc_core::sc_module_name& name, std::function<void()> body)
         : sc_core::sc_module(name), body_(std::move(body)) {
-        SC_HAS_PROCESS(Script);
+        DEGS_HAS_PROCESS(Script);
         SC_THREAD(run);
     }
 

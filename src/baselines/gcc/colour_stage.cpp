@@ -5,6 +5,7 @@
 
 #include "baselines/gcc/projection_stage.hpp"
 #include "tlm/ceil_div.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs::gcc {
 
@@ -36,7 +37,7 @@ ColourStage::ColourStage(const sc_core::sc_module_name& name, const Config& conf
       block_ended("block_ended", config.skip_ended ? 1 : 0), out("out"), sh("sh", time),
       config_(config), traffic_(traffic), job_(job), fetcher_(time), shader_(time),
       fetched_("fetched", time, groups_ahead), mask_(job.tile_size, config.block) {
-    SC_HAS_PROCESS(ColourStage);
+    DEGS_HAS_PROCESS(ColourStage);
     SC_THREAD(fetch);
     SC_THREAD(shade);
     fetcher_.show(*this, "SH");

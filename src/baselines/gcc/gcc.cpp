@@ -34,10 +34,9 @@ Engine::Engine(const sc_core::sc_module_name& name, const Config& config, const 
     } else {
         build_stages();
     }
-    sc_core::sc_vector<FifoPort<std::uint32_t>> nobody;
     frame_ends_.build(
         config_.frame_end, time_, config_.traffic.common(), job_, image_buffers_,
-        {grouping_ ? grouping_->frame_free : nobody, grouping_ ? grouping_->listed : nobody}, 1,
+        {grouping_ ? grouping_->frame_free : nobody_, grouping_ ? grouping_->listed : nobody_}, 1,
         options_);
     build_memory();
 }

@@ -68,6 +68,8 @@ private:
     std::unique_ptr<WindowArray> array_;
     PixelBuffers image_buffers_; // one
     std::unique_ptr<TileMonitor> monitor_;
+    // A member, because SystemC 3.0 calls every vector once more at the end of elaboration.
+    sc_core::sc_vector<FifoPort<std::uint32_t>> nobody_; // ports of stages that are not there
     FrameEnds frame_ends_;
     Rings<std::uint32_t> grouped_rings_;
     MemoryStreams streams_;

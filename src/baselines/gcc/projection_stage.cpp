@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tlm/ceil_div.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs::gcc {
 
@@ -41,7 +42,7 @@ ProjectionStage::ProjectionStage(const sc_core::sc_module_name& name, const Conf
       lists("lists", time), shapes("shapes", time), config_(config), traffic_(traffic), job_(job),
       loader_(time), fetcher_(time), projector_(time), loaded_("loaded", time, config.groups_ahead),
       fetched_("fetched", time, config.groups_ahead) {
-    SC_HAS_PROCESS(ProjectionStage);
+    DEGS_HAS_PROCESS(ProjectionStage);
     SC_THREAD(load);
     SC_THREAD(fetch);
     SC_THREAD(project);

@@ -6,6 +6,7 @@
 
 #include "splat/pixel_index.hpp"
 #include "tlm/ceil_div.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs::gcc {
 namespace {
@@ -39,7 +40,7 @@ WindowArray::WindowArray(const sc_core::sc_module_name& name, const Config& conf
       self_(time), footprint_(job.tile_size, config.window), traversal_(grid_),
       startable_(contexts), live_in_window_(grid_ * grid_, 0), live_in_block_(blocks_ * blocks_, 0),
       live_windows_(grid_, 0), ended_head_(live_in_window_.size(), -1) {
-    SC_HAS_PROCESS(WindowArray);
+    DEGS_HAS_PROCESS(WindowArray);
     SC_THREAD(run);
     self_.show(*this, stats_.windows);
     part_ = job.record_part(config.pes());

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "modules/row_map.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs {
 
@@ -27,7 +28,7 @@ ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config
     if (config.region_listeners != 0) {
         port_of_row_ = ports_of_rows(job.tile_size, index, slices, config.region_listeners);
     }
-    SC_HAS_PROCESS(ArraySlice);
+    DEGS_HAS_PROCESS(ArraySlice);
     if (self_.strict()) {
         SC_THREAD(run);
     }

@@ -8,6 +8,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "tlm/ceil_div.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs {
 namespace {
@@ -80,7 +81,7 @@ PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& conf
       frame_done("frame_done", gated ? 1 : 0), frame_buffer("frame_buffer", time), config_(config),
       traffic_(traffic), job_(job), contexts_(contexts), share_(share), instant_(instant),
       self_(time), in_flight_(config.writes_in_flight, 0) {
-    SC_HAS_PROCESS(PixelBuffer);
+    DEGS_HAS_PROCESS(PixelBuffer);
     SC_THREAD(run);
     self_.show(*this, stats_.readout_busy);
     if (self_.track() != nullptr) {

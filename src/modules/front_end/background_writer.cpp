@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tlm/has_process.hpp"
+
 namespace degs {
 
 BackgroundWriter::BackgroundWriter(const sc_core::sc_module_name& name,
@@ -13,7 +15,7 @@ BackgroundWriter::BackgroundWriter(const sc_core::sc_module_name& name,
       frame_done("frame_done", reports ? 1 : 0), frame_buffer("frame_buffer", time),
       traffic_(traffic), job_(job), cycles_per_write_(cycles_per_write), instant_(instant),
       self_(time) {
-    SC_HAS_PROCESS(BackgroundWriter);
+    DEGS_HAS_PROCESS(BackgroundWriter);
     SC_THREAD(run);
     self_.show(*this);
 }

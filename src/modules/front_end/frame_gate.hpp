@@ -7,6 +7,7 @@
 
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs {
 
@@ -24,7 +25,7 @@ public:
               std::size_t inputs, std::size_t listeners, std::uint64_t reports)
         : sc_core::sc_module(name), in("in", inputs), out("out", listeners), job_(job), self_(time),
           reports_(reports) {
-        SC_HAS_PROCESS(FrameGate);
+        DEGS_HAS_PROCESS(FrameGate);
         SC_THREAD(run);
         self_.show(*this);
     }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tlm/has_process.hpp"
+
 namespace degs {
 namespace {
 
@@ -41,7 +43,7 @@ HierarchicalSorter::HierarchicalSorter(const sc_core::sc_module_name& name, cons
       partitioned_("partitioned", time, 1) {
     loader.start.bind(start);
     loader.out.bind(loaded_);
-    SC_HAS_PROCESS(HierarchicalSorter);
+    DEGS_HAS_PROCESS(HierarchicalSorter);
     SC_THREAD(coarse);
     SC_THREAD(fine);
     partitioner_.show(*this, stats_.coarse_busy, 1, "coarse");

@@ -5,6 +5,7 @@
 
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs {
 
@@ -17,7 +18,7 @@ public:
 
     ListCollector(const sc_core::sc_module_name& name, const Timebase& time, const RenderJob& job)
         : sc_core::sc_module(name), in("in"), out("out"), job_(job), self_(time) {
-        SC_HAS_PROCESS(ListCollector);
+        DEGS_HAS_PROCESS(ListCollector);
         SC_THREAD(run);
         self_.show(*this);
     }

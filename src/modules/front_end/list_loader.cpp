@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/front_end/list_loader.hpp"
 
+#include "tlm/has_process.hpp"
+
 namespace degs {
 
 ListLoader::ListLoader(const sc_core::sc_module_name& name, const TrafficConfig& traffic,
@@ -8,7 +10,7 @@ ListLoader::ListLoader(const sc_core::sc_module_name& name, const TrafficConfig&
                        TileNumber stride)
     : sc_core::sc_module(name), start("start"), out("out"), lists("lists", time), traffic_(traffic),
       job_(job), first_(first), stride_(stride), self_(time) {
-    SC_HAS_PROCESS(ListLoader);
+    DEGS_HAS_PROCESS(ListLoader);
     SC_THREAD(run);
     self_.show(*this);
 }

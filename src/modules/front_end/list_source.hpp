@@ -5,6 +5,7 @@
 
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs {
 
@@ -18,7 +19,7 @@ public:
                TileNumber index, TileNumber sources)
         : sc_core::sc_module(name), sorted("sorted"), job_(job), index_(index), sources_(sources),
           self_(time) {
-        SC_HAS_PROCESS(ListSource);
+        DEGS_HAS_PROCESS(ListSource);
         SC_THREAD(run);
         self_.show(*this);
     }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tlm/has_process.hpp"
+
 namespace degs {
 
 void ProjectionUnit::Config::describe(ConfigVisitor& visitor) {
@@ -27,7 +29,7 @@ ProjectionUnit::ProjectionUnit(const sc_core::sc_module_name& name, const Config
       job_(job), index_(index), frames_in_flight_(frames_in_flight), fetcher_(time),
       projector_(time), shader_(time), fetched_("fetched", time, config.chunks_in_flight),
       projected_("projected", time, config.chunks_in_flight, config.latency_cycles) {
-    SC_HAS_PROCESS(ProjectionUnit);
+    DEGS_HAS_PROCESS(ProjectionUnit);
     SC_THREAD(fetch);
     SC_THREAD(project);
     SC_THREAD(shade);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tlm/has_process.hpp"
+
 namespace degs {
 
 void SortingUnit::Config::describe(ConfigVisitor& visitor) {
@@ -23,7 +25,7 @@ SortingUnit::SortingUnit(const sc_core::sc_module_name& name, const Config& conf
       sorter_(time), loaded_("loaded", time, 1) {
     loader.start.bind(start);
     loader.out.bind(loaded_);
-    SC_HAS_PROCESS(SortingUnit);
+    DEGS_HAS_PROCESS(SortingUnit);
     SC_THREAD(sort);
     sorter_.show(*this, stats_.sort_busy);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tlm/ceil_div.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs {
 
@@ -20,7 +21,7 @@ SplatFetcher::SplatFetcher(const sc_core::sc_module_name& name, const Config& co
       request("request", granted ? 1 : 0), released("released", config.chunks == 0 ? 0 : readers),
       records("records", time), config_(config), traffic_(traffic), job_(job), instant_(instant),
       granted_(granted), cache_(cache), self_(time), answered_(config.chunks_in_flight, 0) {
-    SC_HAS_PROCESS(SplatFetcher);
+    DEGS_HAS_PROCESS(SplatFetcher);
     SC_THREAD(run);
     self_.show(*this, stats_.busy);
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tlm/has_process.hpp"
+
 namespace degs {
 
 void TileBinner::Config::describe(ConfigVisitor& visitor) {
@@ -19,7 +21,7 @@ TileBinner::TileBinner(const sc_core::sc_module_name& name, const Config& config
     : sc_core::sc_module(name), in("in", inputs), out("out", outputs), splats("splats", time),
       lists("lists", time), config_(config), traffic_(traffic), job_(job), chunk_(chunk),
       self_(time), acknowledged_(config.writes_in_flight, 0) {
-    SC_HAS_PROCESS(TileBinner);
+    DEGS_HAS_PROCESS(TileBinner);
     SC_THREAD(run);
     self_.show(*this, stats_.busy);
 }

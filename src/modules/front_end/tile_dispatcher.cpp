@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/front_end/tile_dispatcher.hpp"
 
+#include "tlm/has_process.hpp"
+
 namespace degs {
 
 TileDispatcher::TileDispatcher(const sc_core::sc_module_name& name, const Timebase& time,
                                const RenderJob& job, std::size_t inputs, std::size_t engines)
     : sc_core::sc_module(name), in("in", inputs), request("request", engines), out("out", engines),
       job_(job), self_(time) {
-    SC_HAS_PROCESS(TileDispatcher);
+    DEGS_HAS_PROCESS(TileDispatcher);
     SC_THREAD(run);
     self_.show(*this, stats_.tiles);
 }

@@ -3,6 +3,7 @@
 #include "modules/scheduler/issue_bank.hpp"
 
 #include "modules/scheduler/drawn_bank.hpp"
+#include "tlm/has_process.hpp"
 
 #include <algorithm>
 
@@ -50,7 +51,7 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
         stream.inputs.resize(inputs);
         stream.startable = contexts;
     }
-    SC_HAS_PROCESS(IssueBank);
+    DEGS_HAS_PROCESS(IssueBank);
     SC_THREAD(run);
     self_.show(*this, stats_.busy);
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "tlm/has_process.hpp"
+
 namespace degs {
 namespace {
 
@@ -60,7 +62,7 @@ GaussianSlicingUnit::GaussianSlicingUnit(const sc_core::sc_module_name& name, co
         lane_of_row_.push_back((row % lanes) / config.modules());
     }
     slices_.reserve(std::size_t{1} * config.units_per_module() * config.splats_per_cycle);
-    SC_HAS_PROCESS(GaussianSlicingUnit);
+    DEGS_HAS_PROCESS(GaussianSlicingUnit);
     SC_THREAD(run);
     self_.show(*this, stats_.busy, config_.units_per_module());
 }

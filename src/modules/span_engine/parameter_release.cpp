@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/span_engine/parameter_release.hpp"
 
+#include "tlm/has_process.hpp"
+
 namespace degs {
 
 ParameterRelease::ParameterRelease(const sc_core::sc_module_name& name, const Timebase& time,
                                    std::size_t lanes, std::size_t fetchers)
     : sc_core::sc_module(name), sliced("sliced"), rows("rows", lanes), solved("solved", lanes),
       released("released", fetchers), self_(time) {
-    SC_HAS_PROCESS(ParameterRelease);
+    DEGS_HAS_PROCESS(ParameterRelease);
     SC_THREAD(run);
     self_.show(*this);
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "modules/row_map.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs {
 
@@ -16,7 +17,7 @@ SpanPool::SpanPool(const sc_core::sc_module_name& name, const Config& config, co
       self_(time), share_(share),
       port_of_row_(ports_of_rows(job.tile_size, share.index, share.of, share.banks)),
       streams_(share.streams), free_from_(share.units, 0) {
-    SC_HAS_PROCESS(SpanPool);
+    DEGS_HAS_PROCESS(SpanPool);
     SC_THREAD(run);
     self_.show(*this, stats_.busy, share.units);
 }

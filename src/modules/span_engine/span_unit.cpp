@@ -2,6 +2,7 @@
 #include "modules/span_engine/span_unit.hpp"
 
 #include "modules/row_map.hpp"
+#include "tlm/has_process.hpp"
 
 namespace degs {
 
@@ -9,7 +10,7 @@ SpanUnit::SpanUnit(const sc_core::sc_module_name& name, const Config& config, co
                    const RenderJob& job, int index, int banks)
     : SpanStage(name, config, job, 1, reachable(index, config.count, banks)), self_(time),
       port_of_row_(ports_of_rows(job.tile_size, index, config.count, banks)) {
-    SC_HAS_PROCESS(SpanUnit);
+    DEGS_HAS_PROCESS(SpanUnit);
     if (self_.strict()) {
         SC_THREAD(run);
     }

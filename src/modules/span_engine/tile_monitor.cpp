@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tlm/has_process.hpp"
+
 namespace degs {
 
 void TileMonitor::Config::describe(ConfigVisitor& visitor) {
@@ -21,7 +23,7 @@ TileMonitor::TileMonitor(const sc_core::sc_module_name& name, const Config& conf
                          std::size_t listeners, bool granted)
     : sc_core::sc_module(name), in("in", slices), out("out", listeners), config_(config), job_(job),
       granted_(granted), self_(time) {
-    SC_HAS_PROCESS(TileMonitor);
+    DEGS_HAS_PROCESS(TileMonitor);
     SC_THREAD(run);
     self_.show(*this);
 }

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# systemc.sh BUILD COMPILER: builds the library and the tests of the accelerator on a platform with the SystemC under
+# the prefix DEGS_OTHER_SYSTEMC, where every warning is an error, also that of a deprecated call, and runs the tests.
+# Keeps its build beside BUILD. Exits with 77 if no prefix is named.
+
+build=$1
+compiler=$2
+prefix=${DEGS_OTHER_SYSTEMC:-}
+if [[ -z $prefix ]]; then
+    echo "DEGS_OTHER_SYSTEMC names no other SystemC, so nothing has been built with one"
+    exit 77
+fi
+cached() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
+other=$build-other-systemc
+cmake -S "$(cached CMAKE_HOME_DIRECTORY)" -B "$other" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O1 -g0" \
+    -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_COMPILER_LAUNCHER="$(cached DEGS_CCACHE)" -DCMAKE_UNITY_BUILD=ON \
+    -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 -DDEGS_BUILD_SIM=OFF -DDEGS_WARNINGS_AS_ERRORS=ON -DDEGS_BUILD_TESTS=ON \
+    -DCMAKE_PREFIX_PATH="$prefix" -DDEGS_SCENES="$(cached DEGS_SCENES)" >"$other.log" || { cat "$other.log"; exit 1; }
+grep "degs: SystemC .*$prefix" "$other.log"
+cmake --build "$other" --target degs_platform_tests
+cd "$other"
+ctest -R '^platform/' --output-on-failure --no-tests=error -j "${DEGS_JOBS:-2}"
