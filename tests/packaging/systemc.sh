@@ -3,6 +3,7 @@
 # systemc.sh BUILD COMPILER: builds the library and the tests of the accelerator on a platform with the SystemC under
 # the prefix DEGS_OTHER_SYSTEMC, where every warning is an error, also that of a deprecated call, and runs the tests.
 # Keeps its build beside BUILD. Exits with 77 if no prefix is named.
+set -euo pipefail
 
 build=$1
 compiler=$2
