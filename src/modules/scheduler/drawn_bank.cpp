@@ -61,28 +61,28 @@ inline __attribute__((always_inline)) bool DrawnBank::open_span() {
         return false;
     }
     while (takes() && arrived()) {
-        const SpanItem& item = spans_.front();
-        const bool span = item.span.has_value();
-        if (span && !features_.admit(item.tile, item.span->splat, now_)) {
+        const DrawnSpans::Span& span = spans_.front();
+        const bool row = !span.end;
+        if (row && !features_.admit(span.tile, span.splat, now_)) {
             features_full_ = true;
             return false;
         }
         if (!stream_.entered) {
-            enter_tile(item.tile);
+            enter_tile(span.tile);
         }
-        if (span) {
-            const int domain = bank_.segmenter_.domain_of(item.span->y, item.span->x0);
+        if (row) {
+            const int domain = bank_.segmenter_.domain_of(span.row, span.drawn.x0);
             cut_ = tile_at(stream_.entering).first + domain;
             column_ = bank_.segmenter_.domains()[domain].column;
-            low_ = std::uint64_t{1} << (item.span->x0 - column_);
-            left_ = item.span->x0 + item.span->length - column_;
-            drawn_ = item.drawn;
+            low_ = std::uint64_t{1} << (span.drawn.x0 - column_);
+            left_ = span.drawn.x0 + span.drawn.length - column_;
+            drawn_ = span.drawn;
             bank_.stats_.spans++;
-            bank_.stats_.tasks_in += item.span->length;
+            bank_.stats_.tasks_in += span.drawn.length;
             --spans_left_;
         }
-        spans_.drop(self_);
-        if (span) {
+        spans_.drop(now_);
+        if (row) {
             return true;
         }
         ++input_.turn;

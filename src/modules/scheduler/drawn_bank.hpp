@@ -95,7 +95,7 @@ private:
     ArraySlice& slice_;
     BankStream& stream_;
     BankStream::Input& input_;
-    DatedFifo<SpanItem>& spans_;
+    DrawnSpans& spans_;
     FeatureBuffer& features_;
     Process& self_;
     int domains_, segment_length_, segments_per_cycle_, spans_per_cycle_, issue_width_;

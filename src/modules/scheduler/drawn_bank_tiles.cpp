@@ -36,7 +36,7 @@ bool DrawnBank::can_run(const IssueBank& bank) {
 
 DrawnBank::DrawnBank(IssueBank& bank)
     : bank_(bank), packing_(bank.packing_), slice_(*bank.packing_.slice_),
-      stream_(bank.streams_[0]), input_(stream_.inputs[0]), spans_(*input_.ring),
+      stream_(bank.streams_[0]), input_(stream_.inputs[0]), spans_(*bank.drawn_spans_),
       features_(bank.features_), self_(bank.self_),
       domains_(Segmenter::domains_per_tile(bank.job_.tile_size, bank.config_.segment_length,
                                            bank.config_.count)),
@@ -233,7 +233,10 @@ Cycle DrawnBank::next_date() {
     }
     std::vector<FifoBase*>& watched = bank_.watched_;
     watched.clear();
-    if (free_ != nullptr && left_ <= 0 && bank_.watch_inputs(now_)) {
+    const bool hungry = free_ != nullptr && left_ <= 0;
+    if (hungry && (spans_.empty() || (takes() && spans_.head_date() > now_))) {
+        watched.push_back(&spans_);
+    } else if (hungry && takes()) {
         limit = std::min(limit, features_full_ ? std::max(next, features_.next_free()) : next);
         if (limit == next) {
             return next;

@@ -72,8 +72,14 @@ void IssueBank::end_of_elaboration() {
     watched_.reserve(in.size() + streams_.size() + 1);
 }
 
+void IssueBank::start_of_simulation() {
+    if (unit_ != nullptr && DrawnBank::can_run(*this)) {
+        drawn_spans_ = unit_->hand_over(self_);
+    }
+}
+
 void IssueBank::run() {
-    if (DrawnBank::can_run(*this)) {
+    if (drawn_spans_ != nullptr) {
         DrawnBank(*this).run();
     } else if (stream_count_ == 1 && streams_.front().inputs.size() == 1) {
         run_cycles<true>();

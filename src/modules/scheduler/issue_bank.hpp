@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <systemc>
@@ -14,6 +15,7 @@
 #include "modules/scheduler/segment_queue.hpp"
 #include "modules/scheduler/segmenter.hpp"
 #include "modules/scheduler/termination_grain.hpp"
+#include "modules/span_engine/span_unit.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
@@ -79,6 +81,8 @@ public:
               const RenderJob& job, PackingUnit& packing, int index, std::size_t inputs,
               int contexts);
 
+    /// The only Span Unit that reaches the bank; before the simulation starts.
+    void read_from(SpanUnit& unit) { unit_ = &unit; }
     const Stats& stats() const { return stats_; }
     const FeatureBuffer& features() const { return features_; }
 
@@ -87,6 +91,7 @@ private:
     static constexpr std::uint32_t kAllPixels = ~0U;
 
     void end_of_elaboration() override;
+    void start_of_simulation() override;
     void run();
     /// `single`: one tile stream from one Span Unit, whose loop asks for no others.
     template <bool single>
@@ -172,6 +177,8 @@ private:
     bool features_full_ = false;     // a span waits for a Feature Buffer entry
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
     Stats stats_;
+    SpanUnit* unit_ = nullptr;
+    std::unique_ptr<DrawnSpans> drawn_spans_; // where a DrawnBank runs
 };
 
 } // namespace degs

@@ -30,6 +30,16 @@ void SpanUnit::end_of_elaboration() {
     connect_reports(self_);
 }
 
+std::unique_ptr<DrawnSpans> SpanUnit::hand_over(Process& bank) {
+    if (!config_.drawn || rings_.size() != 1 || config_.reports_rows) {
+        return nullptr;
+    }
+    auto spans =
+        std::make_unique<DrawnSpans>(self_, bank, *rows_, *rings_.front(), config_, stats_, job_);
+    self_.pump_with(*spans, *rows_);
+    return spans;
+}
+
 void SpanUnit::run() {
     while (!job_.over(tiles_done_)) {
         rows_->wait_for_item(self_);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "modules/span_engine/drawn_spans.hpp"
 #include "modules/span_engine/span_stage.hpp"
 
 namespace degs {
@@ -14,6 +16,10 @@ public:
     /// Unit `index` of config.count reaches the banks that share a row with it.
     SpanUnit(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
              const RenderJob& job, int index, int banks);
+
+    /// What the bank reads in place of the crossbar's ring, if rows come drawn, nobody else reads them, and nobody is told
+    /// of each; nullptr otherwise. Before the simulation starts.
+    std::unique_ptr<DrawnSpans> hand_over(Process& bank);
 
 private:
     void end_of_elaboration() override;
