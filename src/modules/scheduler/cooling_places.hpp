@@ -51,12 +51,14 @@ public:
 
 private:
     void pass(Cycle date) {
-        const Cycle first = std::max(date_, date < kDates ? 0 : date - kDates) + 1;
-        for (Cycle passed = first; passed <= date; ++passed) {
-            std::uint64_t& ended = ends_[passed % kDates];
-            cooling_ &= ~ended;
+        Cycle passed = date - date_ < kDates ? date_ : date - kDates;
+        std::uint64_t cooled = 0;
+        do {
+            std::uint64_t& ended = ends_[++passed % kDates];
+            cooled |= ended;
             ended = 0;
-        }
+        } while (passed != date);
+        cooling_ &= ~cooled;
         date_ = date;
     }
 
