@@ -53,7 +53,7 @@ public:
     const MemoryStreams& streams() const { return streams_; }
     RingUse gaussian_buffer() const { return use_of(gaussian_rings_); }
     RingUse span_buffer() const { return use_of(span_rings_); }
-    RingUse crossbar() const { return use_of(crossbar_rings_); }
+    RingUse crossbar() const;
     RingUse packing_buffer() const;
 
 private:

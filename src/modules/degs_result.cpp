@@ -47,6 +47,19 @@ void Degs::collect_stages(AcceleratorResult& result) const {
               Counters().add(slices_));
 }
 
+RingUse Degs::crossbar() const {
+    RingUse use = use_of(crossbar_rings_);
+    for (const auto& bank : banks_) {
+        if (const DrawnSpans* const spans = bank->drawn_spans()) {
+            use.items += spans->counts().items;
+            use.full_cycles += spans->counts().full_cycles;
+            use.occupied_cycles += spans->counts().occupied_cycles;
+            use.high_water = std::max(use.high_water, spans->counts().high_water);
+        }
+    }
+    return use;
+}
+
 RingUse Degs::packing_buffer() const {
     RingUse use = use_of(packing_rings_);
     for (const auto& unit : packing_) {

@@ -55,8 +55,6 @@ public:
     }
 
     const Stats& stats() const { return stats_; }
-    /// The same for a block that does the work of this FIFO, which then stays empty.
-    Stats& counts() { return stats_; }
     const char* fifo_name() const override { return sc_core::sc_object::name(); }
     Use use() const override {
         return {stats_.items, stats_.occupied_cycles, &stats_.full_cycles, &stats_.empty_cycles};

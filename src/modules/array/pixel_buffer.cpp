@@ -13,16 +13,28 @@
 namespace degs {
 namespace {
 
+void encode_half(double value, unsigned char* bytes) {
+    const std::uint16_t half = glm::packHalf1x16(static_cast<float>(value));
+    std::memcpy(bytes, &half, sizeof half);
+}
+
+// Every pixel of a frame passes here; so the limits are minima and maxima, which need no branches.
+unsigned char encode_byte(double value) {
+    return static_cast<unsigned char>(std::min(std::max(value, 0.0), 1.0) * 255.0 + 0.5);
+}
+
 void encode(const PixelValue& pixel, int pixel_bytes, unsigned char* bytes) {
-    const std::array<double, 4> values{pixel.rgb[0], pixel.rgb[1], pixel.rgb[2],
-                                       1.0 - pixel.transmittance};
-    for (std::size_t c = 0; c < values.size(); ++c) {
-        if (pixel_bytes == 8) {
-            const std::uint16_t half = glm::packHalf1x16(static_cast<float>(values[c]));
-            std::memcpy(bytes + 2 * c, &half, sizeof half);
-        } else {
-            bytes[c] = static_cast<unsigned char>(std::clamp(values[c], 0.0, 1.0) * 255.0 + 0.5);
+    const double alpha = 1.0 - pixel.transmittance;
+    if (pixel_bytes == 8) {
+        for (int c = 0; c < 3; ++c) {
+            encode_half(pixel.rgb[c], bytes + std::ptrdiff_t{2} * c);
         }
+        encode_half(alpha, bytes + 6);
+    } else {
+        for (int c = 0; c < 3; ++c) {
+            bytes[c] = encode_byte(pixel.rgb[c]);
+        }
+        bytes[3] = encode_byte(alpha);
     }
 }
 

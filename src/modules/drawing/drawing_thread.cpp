@@ -12,6 +12,8 @@ constexpr int kSpins =
 // What the simulation has given back when it is worth waking the thread that has no room.
 constexpr std::size_t kWakingSheets = 16;
 constexpr std::size_t kWakingTiles = 4;
+// A cache line's worth, times two.
+constexpr int kPrefetchedRows = 4;
 
 void relax() {
 #if defined(__x86_64__)
@@ -61,6 +63,10 @@ void DrawingThread::take(TileNumber number, std::uint32_t place, const PixelRang
                          DrawnRow* drawn) {
     Sheet& from = sheet(number, place);
     const Sheet::Splat& splat = from.splats[place % kSplats];
+    // Another processor has written the rows, and what comes next lies behind them.
+    const DrawnRow* const behind = from.drawn.data() + splat.drawn + splat.rows.size();
+    __builtin_prefetch(behind);
+    __builtin_prefetch(behind + kPrefetchedRows);
     for (int row = own.first; row <= own.last; row += step, ++drawn) {
         *drawn = from.drawn[splat.drawn + (row - splat.rows.first)];
         count(*drawn);

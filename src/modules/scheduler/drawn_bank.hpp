@@ -18,7 +18,7 @@ class DrawnBank {
 public:
     /// True if the bank has one tile stream from one Span Unit, goes round robin, compacts, and has no limited
     /// ports and no filling of Feature Buffer entries, if the domains of all tiles in flight fit in a word, and if
-    /// nobody records its tasks.
+    /// nobody records its tasks. The unit must hand its rows over, too; see DrawnSpans.
     static bool can_run(const IssueBank& bank);
 
     explicit DrawnBank(IssueBank& bank);

@@ -84,6 +84,8 @@ public:
     /// The only Span Unit that reaches the bank; before the simulation starts.
     void read_from(SpanUnit& unit) { unit_ = &unit; }
     const Stats& stats() const { return stats_; }
+    /// What passes the only input in place of its ring; nullptr if nothing does.
+    const DrawnSpans* drawn_spans() const { return drawn_spans_.get(); }
     const FeatureBuffer& features() const { return features_; }
 
 private:

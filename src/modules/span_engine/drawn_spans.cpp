@@ -7,8 +7,7 @@ DrawnSpans::DrawnSpans(Process& unit, Process& bank, DatedFifo<RowItem>& rows,
                        DatedFifo<SpanItem>& ring, const SpanStage::Config& config,
                        SpanStage::Stats& stats, const RenderJob& job)
     : FifoBase(ring.forward_latency(), ring.release_latency()), unit_(unit), rows_(rows),
-      ring_(ring), counts_(ring.counts()), stats_(stats), job_(job),
-      cycles_per_row_(config.cycles_per_row) {
+      ring_(ring), stats_(stats), job_(job), cycles_per_row_(config.cycles_per_row) {
     depth_ = ring.depth();
     std::size_t size = 1;
     while (size <= depth_) {
@@ -41,6 +40,9 @@ inline __attribute__((always_inline)) void DrawnSpans::take() {
     holding_ = true;
     if (span.end) {
         return;
+    }
+    if (solved_ != nullptr) {
+        solved_->put(unit_, {});
     }
     stats_.rows++;
     if (span.drawn.length == 0) {

@@ -26,16 +26,21 @@ public:
         bool end = false;        ///< end of the tile instead of a row
     };
 
-    /// What `unit` does with `rows` for `bank`. `ring` stays empty and has the counts.
+    /// What `unit` does with `rows` for `bank`. `ring` stays empty.
     DrawnSpans(Process& unit, Process& bank, DatedFifo<RowItem>& rows, DatedFifo<SpanItem>& ring,
                const SpanStage::Config& config, SpanStage::Stats& stats, const RenderJob& job);
 
+    /// Tells of every row that the unit has taken; before the simulation starts.
+    void report_to(DatedFifo<RowSolved>& solved) { solved_ = &solved; }
     /// The oldest one. Only if not empty().
     const Span& front() const { return cells_[taken_ & mask_]; }
     /// The bank has taken the oldest one at `now`.
     inline void drop(Cycle now);
     /// Takes rows from the lane until it is empty, or the crossbar is full and the unit holds another span.
     void pump() override;
+
+    /// To be added to those of the ring.
+    const DatedFifo<SpanItem>::Stats& counts() const { return counts_; }
 
     const char* fifo_name() const override { return ring_.fifo_name(); }
     Use use() const override { return ring_.use(); }
@@ -50,9 +55,10 @@ private:
     Process& unit_;
     DatedFifo<RowItem>& rows_;
     DatedFifo<SpanItem>& ring_;
-    DatedFifo<SpanItem>::Stats& counts_;
+    DatedFifo<SpanItem>::Stats counts_;
     SpanStage::Stats& stats_;
     const RenderJob& job_;
+    DatedFifo<RowSolved>* solved_ = nullptr;
     Cycle cycles_per_row_;
     std::vector<Span> cells_; // as many as a power of two: also the one that the unit holds
     std::size_t mask_ = 0;

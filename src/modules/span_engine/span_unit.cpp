@@ -31,11 +31,14 @@ void SpanUnit::end_of_elaboration() {
 }
 
 std::unique_ptr<DrawnSpans> SpanUnit::hand_over(Process& bank) {
-    if (!config_.drawn || rings_.size() != 1 || config_.reports_rows) {
+    if (!config_.drawn || rings_.size() != 1) {
         return nullptr;
     }
     auto spans =
         std::make_unique<DrawnSpans>(self_, bank, *rows_, *rings_.front(), config_, stats_, job_);
+    if (config_.reports_rows) {
+        spans->report_to(solved[0].ring());
+    }
     self_.pump_with(*spans, *rows_);
     return spans;
 }
