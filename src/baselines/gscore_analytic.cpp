@@ -50,7 +50,8 @@ public:
     TileCycles end(const CoarseTile& tile) override;
 
 private:
-    SubtileMask named(const CoarseTile& tile) const;
+    SubtileMask live(const CoarseTile& tile) const;
+    SubtileMask named(const CoarseTile& tile, SubtileMask among) const;
 
     const GscoreAnalytic& model_;
     const FrameWorkload& frame_;
@@ -63,30 +64,38 @@ std::unique_ptr<TileClock> GscoreAnalytic::clock(const FrameWorkload& frame) con
     return std::make_unique<GscoreClock>(*this, frame);
 }
 
-SubtileMask GscoreClock::named(const CoarseTile& tile) const {
+/// Those with a pixel that has not ended.
+SubtileMask GscoreClock::live(const CoarseTile& tile) const {
+    SubtileMask mask = 0;
+    for (int row = 0, s = 0; row < grid_.per_side(); ++row) {
+        for (int column = 0; column < grid_.per_side(); ++column, ++s) {
+            const int side = grid_.side();
+            const SubtileMask bit = SubtileMask{1} << s;
+            mask |= (inside_ & bit) != 0 && tile.cell_is_live(row * side, column * side) ? bit : 0;
+        }
+    }
+    return mask;
+}
+
+/// Those of `among` that the solved splat touches.
+SubtileMask GscoreClock::named(const CoarseTile& tile, SubtileMask among) const {
     switch (model_.config().array.subtile_skip) {
     case SubtileTest::Obb:
-        return grid_.meeting(OrientedBox(frame_.splats[tile.splat()]), tile.x(), tile.y());
+        return grid_.meeting(OrientedBox(frame_.splats[tile.splat()]), tile.x(), tile.y(), among);
     case SubtileTest::Exact: {
         SubtileMask mask = 0;
         for (const CoarseSpan& span : tile.spans()) {
             mask |= grid_.of_pixels(span.row, {span.first, span.last});
         }
-        return mask;
+        return mask & among;
     }
     default:
-        return inside_;
+        return among;
     }
 }
 
 void GscoreClock::splat(const CoarseTile& tile) {
-    const int side = grid_.side();
-    for (SubtileMask left = named(tile) & inside_; left != 0; left &= left - 1) {
-        const int s = __builtin_ctz(left);
-        if (tile.cell_is_live(s / grid_.per_side() * side, s % grid_.per_side() * side)) {
-            passes_ += 1;
-        }
-    }
+    passes_ += __builtin_popcount(named(tile, live(tile)));
 }
 
 TileCycles GscoreClock::end(const CoarseTile& tile) {

@@ -50,13 +50,14 @@ SubtileMask SubtileGrid::inside(int width, int height) const {
     return mask;
 }
 
-SubtileMask SubtileGrid::meeting(const OrientedBox& box, int x, int y) const {
+SubtileMask SubtileGrid::meeting(const OrientedBox& box, int x, int y, SubtileMask among) const {
     SubtileMask mask = 0;
-    for (int s = 0; s < count(); ++s) {
-        const int column = s % per_side_;
-        const int row = s / per_side_;
-        if (box.meets(x + column * side_, y + row * side_, side_)) {
-            mask |= SubtileMask{1} << s;
+    for (int row = 0, s = 0; row < per_side_; ++row) {
+        for (int column = 0; column < per_side_; ++column, ++s) {
+            const SubtileMask bit = SubtileMask{1} << s;
+            if ((among & bit) != 0 && box.meets(x + column * side_, y + row * side_, side_)) {
+                mask |= bit;
+            }
         }
     }
     return mask;

@@ -45,7 +45,11 @@ public:
     /// Those with a pixel inside the image, for a tile cut to width x height px by its border.
     SubtileMask inside(int width, int height) const;
     /// Those of the tile at (x, y) whose areas meet the box.
-    SubtileMask meeting(const OrientedBox& box, int x, int y) const;
+    SubtileMask meeting(const OrientedBox& box, int x, int y) const {
+        return meeting(box, x, y, ~SubtileMask{0});
+    }
+    /// The same of those in `among`.
+    SubtileMask meeting(const OrientedBox& box, int x, int y, SubtileMask among) const;
     /// Those with a pixel among `columns` of a row of the tile.
     SubtileMask of_pixels(int row, const PixelRange& columns) const;
 

@@ -127,6 +127,10 @@ void Clock::splat(const CoarseTile& tile) {
         while (span != end && span->row < (row + 1) * side_) {
             ++span;
         }
+        // The traversal crosses a side, so that a row of windows next to the box counts, too.
+        if ((row + 1) * side_ < tile.first_row() || row * side_ - 1 > tile.last_row()) {
+            continue;
+        }
         for (WindowMask left = visited(tile, row, first, span); left != 0; left &= left - 1) {
             const int column = __builtin_ctzll(left) * side_;
             windows_ += tile.cell_is_live(row * side_, column) ? 1 : 0;

@@ -104,7 +104,9 @@ bool CoarseTile::next() {
     }
     splat_ = frame_.tile_splats[entry_++];
     if (entry_ + kPrefetched < end_) {
-        __builtin_prefetch(&frame_.splats[frame_.tile_splats[entry_ + kPrefetched]]);
+        const auto* const ahead = &frame_.splats[frame_.tile_splats[entry_ + kPrefetched]];
+        __builtin_prefetch(ahead); // what is needed of it lies in two lines of the host's cache
+        __builtin_prefetch(&ahead->q_threshold);
     }
     const ProjectedSplat& s = frame_.splats[splat_];
     const double inverse_c = 1 / s.cov_c;
