@@ -103,7 +103,6 @@ RegressionEstimator::Terms RegressionEstimator::terms_of(const TileWork& work) c
 
 void RegressionEstimator::add(std::size_t block, std::size_t group, std::vector<double> measured) {
     const Terms& terms = population_[block];
-    groups_ = std::max(groups_, group + 1);
     // The residuals scatter the more, the more work a run has: weights are inverse to the work.
     sample_.push_back({terms, 1 / (0.1 + terms[1] + terms[3]), group, std::move(measured)});
 }
@@ -173,10 +172,8 @@ Estimate RegressionEstimator::total(std::size_t measure) const {
     if (all.blocks == population_.size()) {
         estimate.half_width = 0;
     } else if (all.blocks > all.terms) {
-        // Blocks of a group share the state of a pipeline, so groups count, not blocks.
-        const std::size_t freedom = std::min(all.blocks - all.terms, groups_ - 1);
-        estimate.half_width =
-            student_t(freedom) * population * std::sqrt(all.squares / n * (1 - n / population) / n);
+        estimate.half_width = student_t(all.blocks - all.terms) * population *
+                              std::sqrt(all.squares / n * (1 - n / population) / n);
     }
     return estimate;
 }

@@ -60,7 +60,6 @@ private:
     std::vector<Terms> population_;
     Terms scale_{}, sum_{};
     std::vector<Block> sample_;
-    std::size_t groups_ = 0;
 };
 
 } // namespace degs::sim

@@ -195,8 +195,8 @@ private:
     /// The first tile of those that bring the pipeline into the state in which it meets tile `first`.
     /// Where tiles take few cycles, writes of several tiles before are still under way.
     std::size_t warm_up_from(std::size_t first, std::size_t least) const {
-        constexpr double kSettled = 600; // cycles
-        constexpr std::size_t kMost = 12;
+        constexpr double kSettled = 200; // cycles
+        constexpr std::size_t kMost = 6; // more of them would be light ones only, unlike a frame
         std::size_t from = first - std::min(first, least);
         double cycles = 0;
         for (std::size_t t = from; t < first; ++t) {

@@ -26,13 +26,15 @@ SampleSizes sizes_for(int contexts, std::size_t tiles) {
     const std::size_t warm = warm_up_tiles(contexts);
     sizes.edge = 4 * warm;
     sizes.block = tiles >= 400 ? 4 : tiles >= 200 ? 2 : 1;
-    sizes.group = std::max(4 * sizes.block, std::min(6 * warm, tiles / 30));
+    // The states in which a pipeline fills and empties must be few beside the others; but the first
+    // look should not come later than a frame needs.
+    sizes.group = std::max(4 * sizes.block, std::min(10 * sizes.block, tiles / 75));
     return sizes;
 }
 
 bool can_sample(const SamplingRequest& request, int contexts, std::size_t tiles) {
     /// Of the tiles, those that may be simulated before the first look.
-    constexpr double kFirstLook = 0.6;
+    constexpr double kFirstLook = 0.4;
     const SampleSizes sizes = sizes_for(contexts, tiles);
     if (tiles < 2 * sizes.edge + 2 * kLeastGroups * sizes.group) {
         return false;

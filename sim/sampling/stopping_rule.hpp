@@ -10,7 +10,7 @@
 namespace degs::sim {
 
 /// Groups before the first look at the interval: fewer say too little about their own scatter.
-inline constexpr std::size_t kLeastGroups = 8;
+inline constexpr std::size_t kLeastGroups = 5;
 /// Above this share of the tiles an exact run takes little longer, and is exact.
 inline constexpr double kMostShare = 0.5;
 

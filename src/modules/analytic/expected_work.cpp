@@ -10,16 +10,21 @@ namespace degs {
 namespace {
 
 /// Entries of lists, and rows of splats, that are looked at: some 20 ns each.
-constexpr double kMostVisits = 1e6;
+constexpr double kMostVisits = 3e5;
+/// In a frame of so many tiles rows may lie twice as far apart as a model allows for an estimate of its
+/// own: a fit to what is simulated takes out the bias, and the tiles that the larger scatter costs
+/// are few of many (docs/sampling.md).
+constexpr std::size_t kManyTiles = 3000;
 /// Tiles that a worker takes at a time; a clock starts afresh with them.
 constexpr std::size_t kRun = 128;
 
 /// One block of rows in so many.
 int blocks_apart(const FrameWorkload& frame, const AnalyticModel::Blocks& blocks,
-                 const EntrySizes& sizes) {
+                 const EntrySizes& sizes, std::size_t tiles) {
     const auto entries = static_cast<double>(frame.tile_pairs());
+    const int most = blocks.most_apart * (tiles >= kManyTiles ? 2 : 1);
     int apart = 1;
-    while (entries * (1 + sizes.visits / apart) > kMostVisits && 2 * apart <= blocks.most_apart) {
+    while (entries * (1 + sizes.visits / apart) > kMostVisits && 2 * apart <= most) {
         apart *= 2;
     }
     return apart;
@@ -64,7 +69,7 @@ std::vector<TileWork> expected_work(const FrameWorkload& frame, const AnalyticMo
     }
     const AnalyticModel::Blocks blocks =
         model != nullptr ? model->blocks() : AnalyticModel::Blocks{1, 16, 1};
-    const int apart = blocks_apart(frame, blocks, entry_sizes(frame, blocks.step));
+    const int apart = blocks_apart(frame, blocks, entry_sizes(frame, blocks.step), listed.size());
     std::vector<TileWork> work(listed.size());
     parallel_blocks((listed.size() + kRun - 1) / kRun, [&](std::size_t run, std::size_t) {
         CoarseTile tile(frame, model != nullptr ? model->drawing() : CoarseTile::Options());
