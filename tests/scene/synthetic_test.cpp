@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "config/error.hpp"
+#include "scene/dynamic/synthetic_dynamic.hpp"
 #include "scene/synthetic/synthetic_random.hpp"
 #include "splat/frame_workload.hpp"
 #include "splat/projection.hpp"
@@ -185,6 +186,19 @@ TEST(SyntheticScenes, AreTheSameBytesEverywhereForTheSameSeed) {
         const SyntheticSpec small{profile, std::min<std::uint64_t>(spec.gaussians, 3000), 42};
         EXPECT_EQ(hash_of(make_synthetic(small)), hash) << profile;
     }
+}
+
+/// The scene that changes, all of its times at once: its Gaussians are floats without gaps.
+TEST(SyntheticScenes, DynamicOnesAreTheSameBytesEverywhere) {
+    static_assert(sizeof(SpacetimeGaussian) == 29 * sizeof(float));
+    const SpacetimeCloud scene = make_spacetime({"dynamic", 3000, 42});
+    ASSERT_EQ(scene.size(), 3000U);
+    const auto* const bytes = reinterpret_cast<const unsigned char*>(scene.data());
+    std::uint64_t hash = 14695981039346656037U;
+    for (std::size_t i = 0; i < scene.size() * sizeof scene[0]; ++i) {
+        hash = (hash ^ bytes[i]) * 1099511628211U;
+    }
+    EXPECT_EQ(hash, 11762547794756858915U);
 }
 
 TEST(SyntheticScenes, TakeEachSettingOnce) {

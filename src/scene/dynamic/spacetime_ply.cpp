@@ -54,9 +54,11 @@ const PlyElement& spacetime_vertex(const std::string& path, const PlyHeader& hea
     }
     for (const char* marker : {"f_t_0", "f_dc_3"}) {
         if (vertex->has(marker)) {
-            fail_file(path,
-                      "this is a dynamic scene of the full model of SpacetimeGaussians, whose "
-                      "colours come from a neural network; only its lite model is supported.");
+            fail_file(
+                path,
+                "this is a dynamic scene of the full model of SpacetimeGaussians, whose "
+                "colours come from a neural network; supported are its lite model and sequences "
+                "of one still PLY file per frame.");
         }
     }
     std::string missing;

@@ -17,9 +17,11 @@ struct Foreign {
     const char* sentence;
 };
 constexpr std::array<Foreign, 4> kForeign{{
-    {"trbf_center", "this is a dynamic scene (SpacetimeGaussians), which is not supported; export "
-                    "one standard PLY per frame."},
-    {"scale_t", "this is a dynamic (4D) scene, which is not supported; export one standard PLY per "
+    {"trbf_center", "this is a dynamic scene (SpacetimeGaussians), where a still one is needed; "
+                    "supported are its lite model as a scene of its own and sequences of one still "
+                    "PLY file per frame."},
+    {"scale_t", "this is a dynamic scene of native 4D Gaussians, which is not supported; supported "
+                "are the lite model of SpacetimeGaussians and sequences of one still PLY file per "
                 "frame."},
     {"f_anchor_feat_0", "this is an anchor-based scene (Scaffold-GS), which needs its neural "
                         "network to be drawn and is not supported."},
