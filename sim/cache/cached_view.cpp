@@ -19,7 +19,6 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
     check_view(request_);
     const Stopwatch clock;
     if (std::unique_ptr<DynamicScene> dynamic = open_dynamic_scene(request_.scene)) {
-        cache_ = FrameCache(); // it keeps frames of one cloud
         dynamic_ = path.frames > 1 ? std::move(dynamic) : nullptr;
     }
     key_ = cache_.scene_key(request_.scene, request_.camera_file);
@@ -40,6 +39,10 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
                    : camera_path(cloud(), camera, path.frames, path.step_degrees);
 }
 
+std::string CachedView::frame_key(std::size_t k) const {
+    return dynamic_ && !key_.empty() ? key_ + ", frame " + std::to_string(k) : key_;
+}
+
 const GaussianCloud& CachedView::cloud() {
     if (scene_.cloud.empty()) {
         const Progress progress("loading " + request_.scene);
@@ -57,10 +60,10 @@ const GaussianCloud& CachedView::cloud() {
 std::vector<FrameWorkload> CachedView::frames(const AcceleratorConfig& config) {
     std::vector<FrameWorkload> frames;
     const ProjectionOptions options = projection_of(config.data_path(), facts_.traits.antialiased);
-    for (const Camera& camera : cameras_) {
+    for (std::size_t k = 0; k < cameras_.size(); ++k) {
         const Stopwatch clock;
-        std::optional<FrameWorkload> kept =
-            cache_.frame(key_, camera, config.tile_size_px(), config.tile_mode(), options);
+        std::optional<FrameWorkload> kept = cache_.frame(
+            frame_key(k), cameras_[k], config.tile_size_px(), config.tile_mode(), options);
         if (!kept) {
             break;
         }
@@ -78,7 +81,7 @@ std::vector<FrameWorkload> CachedView::frames(const AcceleratorConfig& config) {
 }
 
 Reference CachedView::reference(const FrameWorkload& frame) {
-    if (std::optional<Reference> kept = cache_.reference(key_, frame)) {
+    if (std::optional<Reference> kept = cache_.reference(frame_key(0), frame)) {
         return std::move(*kept);
     }
     Reference made = frame.projection.format.is_fp64()
@@ -93,13 +96,11 @@ void CachedView::forget_cloud() {
 }
 
 void CachedView::keep(const std::vector<FrameWorkload>& frames, const Reference* reference) {
-    for (const FrameWorkload& frame : frames) {
-        if (frames_made_) {
-            cache_.keep(key_, frame);
-        }
+    for (std::size_t k = 0; frames_made_ && k < frames.size(); ++k) {
+        cache_.keep(frame_key(k), frames[k]);
     }
     if (reference != nullptr && reference_made_) {
-        cache_.keep(key_, frames.front(), *reference);
+        cache_.keep(frame_key(0), frames.front(), *reference);
     }
 }
 

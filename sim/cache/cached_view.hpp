@@ -38,6 +38,8 @@ public:
 private:
     /// Loads the scene if it is not there.
     const GaussianCloud& cloud();
+    /// Of the scene as frame `k` shows it.
+    std::string frame_key(std::size_t k) const;
 
     ViewRequest request_;
     FrameCache cache_;

@@ -10,6 +10,7 @@
 #include <xxhash.h>
 
 #include "scene/cameras/camera_file.hpp"
+#include "scene/dynamic/dynamic_scene.hpp"
 #include "scene/scene_formats.hpp"
 #include "scene/scene_spec.hpp"
 
@@ -47,13 +48,23 @@ void Digest::add_file(const std::string& name) {
 }
 
 void Digest::add_scene(const std::string& name) {
-    const std::string file = parse_scene_spec(name).path;
-    add(name);
-    add_file(file);
-    for (const std::string& part : scene_external_files(file)) {
-        add_file(part);
+    const SceneSpec spec = parse_scene_spec(name);
+    std::vector<std::string> files;
+    if (!spec.synthetic) {
+        files = sequence_files(spec.path);
     }
-    add_cameras(cameras_beside(file));
+    if (files.empty()) {
+        files.push_back(spec.path);
+    }
+    add(name);
+    for (const std::string& file : files) {
+        add(file);
+        add_file(file);
+        for (const std::string& part : scene_external_files(file)) {
+            add_file(part);
+        }
+    }
+    add_cameras(cameras_beside(files.front()));
 }
 
 void Digest::add_cameras(const std::string& name) {

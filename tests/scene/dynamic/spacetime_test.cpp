@@ -109,7 +109,8 @@ TEST(HostileSpacetime, EveryMistakeHasItsSentence) {
     };
     EXPECT_THAT(complain(with("omega_3", "omega_4")),
                 IsSentenceWith("needs the scalar properties 'omega_3'"));
-    EXPECT_THAT(complain(with("float nz", "float f_t_0")), IsSentenceWith("supported are its lite model and sequences"));
+    EXPECT_THAT(complain(with("float nz", "float f_t_0")),
+                IsSentenceWith("supported are its lite model and sequences"));
     EXPECT_THAT(complain(with("vertex 1\n", "vertex 2\n")), IsSentenceWith("bad.ply: "));
     EXPECT_THAT(complain(with("vertex 1\n", "vertex 99999999999\n")), IsSentenceWith("bad.ply: "));
     EXPECT_THAT(complain(with("vertex 1\n", "vertex 0\n")), IsSentenceWith("."));

@@ -59,6 +59,7 @@ TEST(CachedRun, GivesWhatAFreshRunGives) {
                                                   {"--set", "tile_size=16"},
                                                   {"--set", "pipeline.rules.order=distance"},
                                                   {"--set", "pipeline.rules.antialiasing=on"},
+                                                  {"--set", "pipeline.rules.cut=9"},
                                                   {"--frames", "2"}}) {
         const std::string cached = run_to(folder / "a", kLarge, other);
         ::setenv("DEGS_CACHE", "", 1);
@@ -66,6 +67,41 @@ TEST(CachedRun, GivesWhatAFreshRunGives) {
         ::setenv("DEGS_CACHE", (folder / "cache").c_str(), 1);
         EXPECT_EQ(run_to(folder / "a", kLarge, other), cached) << other[0];
     }
+}
+
+// Every frame of a scene that changes is kept by itself, and found only as that frame.
+TEST(CachedRun, KeepsTheFramesOfASceneThatChanges) {
+    const Folder folder;
+    const std::string scene = "synthetic:dynamic,gaussians=60000";
+    const std::vector<std::string> frames{"--frames", "3"};
+    const std::string fresh = run_to(folder / "fresh", scene, frames);
+    const UsersCache cache(folder / "cache");
+    EXPECT_EQ(run_to(folder / "first", scene, frames), fresh);
+    const auto entries = entries_of(folder / "cache");
+    ASSERT_EQ(entries.size(), 5U); // the scene, three frames and the reference
+    EXPECT_EQ(run_to(folder / "second", scene, frames), fresh);
+    EXPECT_EQ(entries_of(folder / "cache"), entries);
+}
+
+TEST(CachedRun, NoticesAChangedFileOfASequence) {
+    const Folder folder;
+    fs::create_directories(folder / "scene");
+    const auto write = [&folder](const char* name, std::uint64_t seed) {
+        write_ply(make_synthetic({"outdoor", 60000, seed}).cloud, folder / name);
+    };
+    write("scene/1.ply", 1);
+    write("scene/2.ply", 2);
+    const std::string scene = folder / "scene/*.ply";
+    const UsersCache cache(folder / "cache");
+    const std::vector<std::string> frames{"--frames", "2", "--no-reference"};
+    const std::string before = run_to(folder / "a", scene, frames);
+    EXPECT_EQ(run_to(folder / "a", scene, frames), before);
+    EXPECT_EQ(entries_of(folder / "cache").size(), 3U); // the scene and two frames
+    write("scene/2.ply", 3);
+    const std::string after = run_to(folder / "a", scene, frames);
+    EXPECT_NE(after, before);
+    ::setenv("DEGS_CACHE", "", 1);
+    EXPECT_EQ(run_to(folder / "b", scene, frames), after);
 }
 
 TEST(CachedRun, RepeatsWhatTheReaderOfTheSceneSaid) {
