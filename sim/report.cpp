@@ -115,8 +115,8 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
     v.real("sim_over_render", ratio(host.sim_s, host.render_s), "", "sim_s / render_s.");
     v.real("wall_s", host.wall_s, "s", "All of it, without writing the files.");
     v.real("fragments_per_s",
-           ratio(static_cast<double>(result.accelerator.slots.useful), host.sim_s), "pixels/s",
-           "slots.useful / sim_s.");
+           ratio(static_cast<double>(result.accelerator.fragments()), host.sim_s), "pixels/s",
+           "Pixels of splats that were blended / sim_s.");
     v.count(
         "activations", host.activations, "resumptions",
         "How often the kernel resumed a process of the model; what blocks do in one is not in it.");

@@ -26,7 +26,8 @@ constexpr std::array<MeasureRule, kMeasures> kRules{{
     {"latency_ms", "timing.latency_ms", true},
     {"fps", "timing.fps", true},
     {"throughput_fps", "timing.throughput_fps", true},
-    {nullptr, nullptr, false}, // eight classes of slots
+    {nullptr, nullptr, false}, // nine classes of slots
+    {nullptr, nullptr, false},
     {nullptr, nullptr, false},
     {nullptr, nullptr, false},
     {nullptr, nullptr, false},

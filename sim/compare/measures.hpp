@@ -20,11 +20,12 @@ enum class Measure {
     LatencyMs,
     Fps,
     ThroughputFps, ///< of the camera path
-    Useful,        ///< this and the next seven: shares of the slots, in the order of kSlotClasses
+    Useful,        ///< this and the next eight: shares of the slots, in the order of kSlotClasses
     Boundary,
     Terminated,
     Conflict,
     Ports,
+    Padding,
     Starved,
     Blocked,
     Drain,

@@ -33,7 +33,7 @@ std::string similarity(double ssim) {
 std::string scene_line(const RunResult& result) {
     const auto& reference = result.workload.reference;
     const std::uint64_t fragments =
-        reference ? reference->fragments : result.accelerator.slots.useful;
+        reference ? reference->fragments : result.accelerator.fragments();
     const std::uint64_t pixels = std::uint64_t{1} * result.camera.width * result.camera.height;
     return scene_words(result.scene) + kDot + grouped(result.workload.visible) + " visible" + kDot +
            scaled(fragments) + " fragments (" + three_digits(ratio_of(fragments, pixels)) +
@@ -170,7 +170,7 @@ std::string host_line(const RunResult& result) {
     }
     if (host.sim_s > 0) {
         line +=
-            kDot + scaled(rate_of(result.accelerator.slots.useful, host.sim_s)) + " fragments/s";
+            kDot + scaled(rate_of(result.accelerator.fragments(), host.sim_s)) + " fragments/s";
     }
     return line + kDot + scaled_bytes(host.peak_rss_bytes) + kDot + three_digits(host.wall_s) +
            " s in all";

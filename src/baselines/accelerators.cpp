@@ -4,6 +4,7 @@
 #include "baselines/gbu_config.hpp"
 #include "baselines/gcc/config.hpp"
 #include "baselines/gscore_config.hpp"
+#include "baselines/orange/config.hpp"
 #include "modules/degs_config.hpp"
 
 namespace degs {
@@ -22,6 +23,7 @@ const std::vector<AcceleratorKind>& accelerator_kinds() {
         {"gscore", &make<GscoreConfig>},
         {"gbu", &make<GbuConfig>},
         {"gcc", &make<gcc::Config>},
+        {"orange", &make<orange::Config>},
     };
     return kinds;
 }

@@ -36,7 +36,7 @@ void Gbu::collect_activity(AcceleratorResult& result) const {
     const auto bytes = [](std::uint64_t records, int record_bytes) {
         return rate_of(records, 1) * record_bytes;
     };
-    const std::uint64_t records = sum_of(fetchers_, &SplatFetcher::Stats::records);
+    const std::uint64_t records = records_fetched();
     const std::uint64_t rows = sum_of(engines_, &E::entries);
     const int splat_bytes = config_.traffic.splat_bytes;
     add_activity(result, "row_generation",
@@ -44,14 +44,14 @@ void Gbu::collect_activity(AcceleratorResult& result) const {
                      config_.cost.gbu.scheduler.units);
     add_activity(result, "row_pes", result.slots.executed());
     add_activity(result, "list_buffer",
-                 bytes(front_end_->keys_moved(), config_.traffic.list_entry_bytes));
+                 bytes(front_end().keys_moved(), config_.traffic.list_entry_bytes));
     add_activity(result, "splat_buffer", bytes(2 * records, splat_bytes));
     add_activity(
         result, "row_queues",
         bytes(2 * (rows + sum_of(engines_, &E::entries_dropped)), config_.engines.entry_bytes));
     add_activity(result, "reuse_cache",
-                 bytes(sum_of(caches_, &R::hits) + sum_of(caches_, &R::misses), splat_bytes));
-    add_pixel_activity(result, job_, config_.pixel_bytes());
+                 bytes(sum_of(caches(), &R::hits) + sum_of(caches(), &R::misses), splat_bytes));
+    add_pixel_activity(result, job(), config_.pixel_bytes());
 }
 
 } // namespace degs

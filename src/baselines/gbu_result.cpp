@@ -7,31 +7,16 @@
 
 namespace degs {
 
-/// PE-cycles of all engines: an engine knows its own from its first to its last slot.
 void Gbu::collect_slots(AcceleratorResult& result) const {
     for (const auto& engine : engines_) {
-        result.slots += engine->stats().slots;
-        result.window.include(engine->stats().window);
+        add_slots(result, engine->stats().slots, engine->stats().window);
     }
-    const std::uint64_t width = config_.engines.row_pes;
     for (const auto& engine : engines_) {
-        const ActiveWindow& own = engine->stats().window;
-        if (own.empty()) {
-            result.slots.drain += result.window.cycles() * width;
-        } else {
-            result.slots.starved += (own.first - result.window.first) * width;
-            result.slots.drain += (result.window.last - own.last) * width;
-        }
+        close_slots(result, engine->stats().window, config_.engines.row_pes);
     }
 }
 
 void Gbu::collect_stages(AcceleratorResult& result) const {
-    front_end_->collect(result);
-    const TileDispatcher::Stats& dispatched = dispatcher().stats();
-    add_stage(result, {"dispatch", "The Tile Dispatcher, a cycle for each tile."}, 1,
-              dispatched.tiles, counters_of(dispatched));
-    add_stage(result, kFetching, fetchers_.size(), sum_of(fetchers_, &SplatFetcher::Stats::busy),
-              Counters().add(fetchers_));
     Counters generation;
     Counters row_pes;
     for (const auto& engine : engines_) {
@@ -57,33 +42,25 @@ void Gbu::collect_buffers(AcceleratorResult& result) const {
     queues.count("queues", config_.pes(), "queues", "One for each Row PE.");
     queues.count("entries_per_queue", config_.engines.queue_depth, "rows",
                  "Row entries that one queue holds.");
-    if (!caches_.empty()) {
-        Counters& caches = add_buffer(result, {"reuse_cache", "Splat records that come again."},
-                                      config_.reuse_cache.bytes)
-                               .counters;
-        caches.count("records_per_engine", config_.cache_records(), "records",
-                     "Splat records that the cache of one engine holds.");
-        caches.add(caches_);
+    if (!caches().empty()) {
+        Counters& counters = add_buffer(result, {"reuse_cache", "Splat records that come again."},
+                                        config_.reuse_cache.bytes)
+                                 .counters;
+        counters.count("records_per_engine", config_.cache_records(), "records",
+                       "Splat records that the cache of one engine holds.");
+        counters.add(caches());
     }
-    add_pixel_buffer(result, config_.pixel_buffer.bytes, config_.tile_contexts(), pixel_buffers_);
+    add_pixel_buffer(result, config_.pixel_buffer.bytes, config_.tile_contexts(), pixel_buffers());
 }
 
 void Gbu::collect_laws(AcceleratorResult& result) const {
     using E = TileEngine::Stats;
-    using F = SplatFetcher::Stats;
-    std::uint64_t listed = 0;
-    for (const JobTile& tile : job_.tiles) {
-        listed += tile.count;
-    }
-    const std::uint64_t fetched = sum_of(fetchers_, &F::records);
     const std::uint64_t probes = config_.engines.end_probe ? sum_of(engines_, &E::entries) : 0;
     const SlotAccount& s = result.slots;
     result.conservation.insert(
         result.conservation.end(),
         {
-            {"splats listed = fetched + cancelled", listed,
-             fetched + sum_of(fetchers_, &F::records_cancelled)},
-            {"splats fetched = taken by Row Generation + abandoned", fetched,
+            {"splats fetched = taken by Row Generation + abandoned", records_fetched(),
              sum_of(engines_, &E::splats) + sum_of(engines_, &E::splats_abandoned)},
             {"pixels of row entries + end probes = slots executed",
              sum_of(engines_, &E::pixels) + probes, s.useful + s.boundary + s.terminated},
@@ -91,18 +68,13 @@ void Gbu::collect_laws(AcceleratorResult& result) const {
         });
 }
 
-void Gbu::collect(AcceleratorResult& result) const {
-    collect_frames(result, pixel_buffers_, frame_ends_.background());
-    result.tiles = finished_tiles();
-    result.tiles_cancelled = sum_of(monitors_, &TileMonitor::Stats::tiles_cancelled);
+void Gbu::collect_engines(AcceleratorResult& result) const {
     collect_slots(result);
     collect_stages(result);
     collect_buffers(result);
     collect_activity(result);
-    streams_.collect(result);
     collect_laws(result);
     using E = TileEngine::Stats;
-    explain_tiles(result, sum_of(fetchers_, &SplatFetcher::Stats::records_cancelled));
     result.left_out.push_back(grouped(sum_of(engines_, &E::rows_skipped)) +
                               " rows of splats were left out and " +
                               grouped(sum_of(engines_, &E::entries_dropped)) +

@@ -11,8 +11,8 @@ constexpr double kMostPower = 1e3; // W
 constexpr double kWPerMw = 1e-3;
 
 void describe_row(Row& row, ConfigVisitor& visitor) {
-    visitor.real("area_mm2", row.area_mm2, 0, kMostArea, "mm2 (paper Table I)");
-    visitor.real("power_w", row.power_w, 0, kMostPower, "W, with leakage (paper Table I)");
+    visitor.real("area_mm2", row.area_mm2, 0, kMostArea, "mm2");
+    visitor.real("power_w", row.power_w, 0, kMostPower, "W, with leakage");
 }
 
 /// A row whose leakage is more than its power would have a negative energy per operation.
@@ -99,6 +99,22 @@ void Technology::Gcc::describe(ConfigVisitor& visitor) {
     visitor.section("sram", sram, "all buffers");
 }
 
+void Technology::Orange::describe(ConfigVisitor& visitor) {
+    visitor.section("preprocessing", preprocessing,
+                    "projection and sorting: energy as in GSCore, on the area of the vector units");
+    visitor.real("sorting_share", sorting_share, 0, 1,
+                 "share of preprocessing that sorts, as in GSCore [assumed]");
+    visitor.section("array", array,
+                    "multipliers of the systolic arrays: FP16 units of 3000 um2 and 1.5 pJ "
+                    "(Horowitz, ISSCC 2014, at 45 nm), 0.39 of the area and half of the energy at "
+                    "28 nm [assumed]");
+    visitor.section("vector_unit", vector_unit,
+                    "lanes of the vector units: 1.7 and 2 times as much as a multiplier [assumed]");
+    visitor.section("sram", sram,
+                    "scratchpads and Pixel Buffer: what is left of the area, at GSCore's area and "
+                    "energy per byte [assumed]");
+}
+
 void Technology::Sram::describe(ConfigVisitor& visitor) {
     visitor.real("bank_share", bank_share, 0, 1,
                  "share of the area that follows the SRAM banks of a buffer with limited ports "
@@ -152,6 +168,8 @@ void Technology::describe(ConfigVisitor& visitor) {
     visitor.section("gscore", gscore, "rows of GSCore (paper Table I)");
     visitor.section("gbu", gbu, "rows of GBU (paper Table I)");
     visitor.section("gcc", gcc, "rows of GCC (paper Table I)");
+    visitor.section("orange", orange,
+                    "ORANGE with four cores: 13.74 mm2 in all, its only public figure");
     const auto require = [&](const char* key, const Row& row) {
         require_power(key, row, *this, visitor);
     };
@@ -175,6 +193,10 @@ void Technology::describe(ConfigVisitor& visitor) {
     require("gcc.preprocessing", gcc.preprocessing);
     require("gcc.blending", gcc.blending);
     require("gcc.sram", gcc.sram);
+    require("orange.preprocessing", orange.preprocessing);
+    require("orange.array", orange.array);
+    require("orange.vector_unit", orange.vector_unit);
+    require("orange.sram", orange.sram);
 }
 
 double Technology::leakage_w(double area_mm2) const {

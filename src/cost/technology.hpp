@@ -82,6 +82,12 @@ struct Technology {
         SramRow sram{1.01, 0.05, 190 * 1024, 2112};
         void describe(ConfigVisitor& visitor);
     };
+    struct Orange {
+        UnitRow preprocessing{0, 0.58, 4}, array{4.8, 3.1, 4096}, vector_unit{4.1, 3.0, 2048};
+        double sorting_share = 0.02; ///< of preprocessing
+        SramRow sram{4.84, 0.1, 1032 * 1024, 4096};
+        void describe(ConfigVisitor& visitor);
+    };
     struct Sram {
         double bank_share = 0.2;  ///< of the area, that follows the number of SRAM banks
         double port_share = 0.75; ///< of the area, that each port after the first adds
@@ -110,6 +116,7 @@ struct Technology {
     Gscore gscore;
     Gbu gbu;
     Gcc gcc;
+    Orange orange;
 
     void describe(ConfigVisitor& visitor);
 

@@ -74,6 +74,8 @@ struct TileRecord {
 
 /// Counters are sums over all frames of the run.
 struct AcceleratorResult {
+    /// Pixels of splats that were blended.
+    std::uint64_t fragments() const { return slots.useful / slots_per_fragment; }
     std::string name;
     int pes = 0;
     double clock_ghz = 1;
@@ -81,7 +83,8 @@ struct AcceleratorResult {
     Cycle cycles = 0; ///< start to the last pixel of the last frame in memory
     std::vector<FrameDates> frames;
     SlotAccount slots;
-    ActiveWindow window; ///< first task issued to last task retired
+    int slots_per_fragment = 1; ///< PE-cycles that a pixel of a splat takes
+    ActiveWindow window;        ///< first task issued to last task retired
     std::uint64_t hazards = 0;
     std::vector<StageUse> stages;
     std::vector<BufferUse> buffers;

@@ -28,7 +28,8 @@ void add_pixel_activity(AcceleratorResult& result, const RenderJob& job, double 
     for (const JobTile& tile : job.tiles) {
         pixels += std::uint64_t{1} * tile.width * tile.height;
     }
-    const std::uint64_t accesses = result.slots.executed() + result.slots.useful + pixels;
+    const std::uint64_t tasks = result.slots.executed() / result.slots_per_fragment;
+    const std::uint64_t accesses = tasks + result.fragments() + pixels;
     add_activity(result, "pixel_buffer", rate_of(accesses, 1) * pixel_bytes);
 }
 

@@ -72,7 +72,8 @@ class DataPathOf final : public DataPath {
 public:
     DataPathOf(const DataPathOptions& options, int tile_size, int contexts)
         : options_(options), refuse_(options.stop == StopRule::Refuse), rows_(contexts, tile_size),
-          blend_(blend_function(T{})), test_(test_function(T{})), tested_(tile_size) {}
+          blend_(blend_function(T{})), test_(test_function(T{})), tested_(tile_size),
+          products_(tile_size) {}
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
         const std::size_t base = spans_.size();
@@ -80,6 +81,7 @@ public:
         spans_.resize(base + count);
         columns_.resize(base + count);
         blends_.resize(base + count);
+        gemm_.resize(options_.gemm ? base + count : 0);
         parallel_ranges(count, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const ProjectedSplat& splat = workload.splats[i];
@@ -88,6 +90,11 @@ public:
                 blends_[base + i] = {spans_[base + i].a, rounded<T>(splat.colour[0]),
                                      rounded<T>(splat.colour[1]), rounded<T>(splat.colour[2]),
                                      spans_[base + i].limit};
+                if (options_.gemm) {
+                    const SpanRecord<T>& span = spans_[base + i];
+                    gemm_[base + i] = gemm_splat<T>(splat, span.pixel_x, span.pixel_y,
+                                                    2.0 * std::log(splat.opacity));
+                }
             }
         });
         return static_cast<std::uint32_t>(base);
@@ -200,13 +207,16 @@ public:
     void hold_contexts(int contexts) override { rows_.hold(contexts); }
 
     BlendOutcome test(const PixelTest& test) override {
-        const TestRow<T> row = test_row(test, 0);
         BlendOutcome outcome;
-        test_(&row, 1, blends_[test.splat], refuse_, pixels_, &outcome);
+        test_rows(test, 1, &outcome);
         return outcome;
     }
 
     void test_rows(const PixelTest& test, int rows, BlendOutcome* outcomes) override {
+        if (options_.gemm) {
+            product_rows(test, rows, outcomes);
+            return;
+        }
         for (int i = 0; i < rows; ++i) {
             tested_[i] = test_row(test, i);
         }
@@ -294,6 +304,16 @@ private:
         return {row.centre, row.rest, test.x - s.pixel_x, test.mask,
                 at(test.context, test.row + below, test.column)};
     }
+    void product_rows(const PixelTest& test, int rows, BlendOutcome* outcomes) {
+        const int x = gemm_origin(*options_.gemm, test.x - test.column, rows_.rows());
+        const int y = gemm_origin(*options_.gemm, test.y - test.row, rows_.rows());
+        for (int i = 0; i < rows; ++i) {
+            products_[i] = {test.x - x, test.y + i - y, test.mask,
+                            at(test.context, test.row + i, test.column)};
+        }
+        product_(products_.data(), rows, gemm_[test.splat].row(x, y), blends_[test.splat], refuse_,
+                 pixels_, outcomes);
+    }
     std::size_t at(int context, int row, int column) {
         return rows_.ready(context, row, pixels_) + column;
     }
@@ -307,6 +327,9 @@ private:
     DrawFunction draw_ = draw_function();
     std::vector<std::size_t> firsts_; // first pixels of rows for draw_
     std::vector<TestRow<T>> tested_;  // rows for test_
+    ProductFunction<T> product_ = product_function(T{});
+    std::vector<ProductRow> products_; // rows for product_
+    std::vector<GemmSplat<T>> gemm_;   // if the options ask for products
     std::vector<SpanRecord<T>> spans_;
     std::vector<ColumnRecord> columns_;
     std::vector<BlendRecord<T>> blends_;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "splat/exponent_gemm.hpp"
 #include "splat/frame/rendering_rules.hpp"
 #include "splat/frame_workload.hpp"
 #include "splat/numbers/number_set.hpp"
@@ -36,6 +37,8 @@ struct DataPathOptions {
     /// itself takes splats as they are.
     NumberFormat projection = {};
     RenderingRules rules = {}; ///< likewise
+    /// test() forms exponents so; nothing: as a completed square.
+    std::optional<ExponentGemm> gemm = std::nullopt;
 };
 
 /// The options that project a scene for a data path; `antialiased` as in RenderingRules::options().
@@ -159,13 +162,13 @@ public:
     virtual BlendOutcome blend(const BlendTask& task) = 0;
     /// Tests each pixel by itself, q' = A u^2 + C' dy^2 - 2 ln o with u = dx - m dy (paper Eq.
     /// 10), and blends the live ones with q <= Q_th; the others keep their state. For number
-    /// sets see QuantizedRow::check.
+    /// sets see QuantizedRow::check. With DataPathOptions::gemm, q' is that product instead.
     virtual BlendOutcome test(const PixelTest& test) = 0;
     /// The same for `rows` rows inside the tile, that of `test` and those below it, each with the
     /// mask of `test` and an outcome of its own.
     virtual void test_rows(const PixelTest& test, int rows, BlendOutcome* outcomes) = 0;
     /// The rows among `rows` on which test() may find a pixel of `columns` inside. May name rows too
-    /// many, never one too few.
+    /// many, never one too few. Like tested_columns() for the completed square alone.
     virtual PixelRange tested_rows(std::uint32_t splat, const PixelRange& columns,
                                    const PixelRange& rows) const = 0;
     /// The columns among [x_begin, x_end) whose pixels on image row `y` pass test()'s q <= Q_th, to

@@ -20,6 +20,7 @@ public:
 
     /// Room for as many contexts at least.
     void hold(int contexts) { place_.resize(std::max(place_.size(), contexts * rows_), kNowhere); }
+    int rows() const { return static_cast<int>(rows_); }
     std::size_t stride() const { return blocks_ * kBlock; }
     /// The row has pixels; first_pixel() may be asked.
     bool placed(int context, int row) const { return place_[index(context, row)] != kNowhere; }

@@ -16,7 +16,7 @@ enum class Idle { Conflict, Ports, Starved, Blocked };
 /// PE-cycles by class. Every PE-cycle of the blending window falls in exactly one.
 struct SlotAccount {
     std::uint64_t useful = 0, boundary = 0, terminated = 0;
-    std::uint64_t conflict = 0, ports = 0, starved = 0, blocked = 0, drain = 0;
+    std::uint64_t conflict = 0, ports = 0, padding = 0, starved = 0, blocked = 0, drain = 0;
 
     void idle(Idle cause, std::uint64_t slots) {
         (cause == Idle::Conflict  ? conflict
@@ -25,7 +25,7 @@ struct SlotAccount {
                                   : blocked) += slots;
     }
     std::uint64_t total() const {
-        return useful + boundary + terminated + conflict + ports + starved + blocked + drain;
+        return executed() + conflict + ports + padding + starved + blocked + drain;
     }
     /// PE-cycles with a task.
     std::uint64_t executed() const { return useful + boundary + terminated; }
@@ -35,6 +35,7 @@ struct SlotAccount {
         terminated += o.terminated;
         conflict += o.conflict;
         ports += o.ports;
+        padding += o.padding;
         starved += o.starved;
         blocked += o.blocked;
         drain += o.drain;
@@ -50,7 +51,7 @@ struct SlotClass {
     const char* sentence;
 };
 /// In the order of all results and pictures.
-inline constexpr std::array<SlotClass, 8> kSlotClasses{{
+inline constexpr std::array<SlotClass, 9> kSlotClasses{{
     {"useful", &SlotAccount::useful, "A task inside the ellipse was blended."},
     {"boundary", &SlotAccount::boundary,
      "The task was outside the ellipse (alpha < 1/255) or outside the image."},
@@ -60,6 +61,10 @@ inline constexpr std::array<SlotClass, 8> kSlotClasses{{
      "No task: all that waited were within the reuse distance."},
     {"ports", &SlotAccount::ports,
      "No task: the ports of an SRAM took no more in this cycle; 0 if ports are unlimited."},
+    {"padding", &SlotAccount::padding,
+     "No task: the shape of a product of matrices left the PE out, or the array filled and "
+     "drained; 0 where no matrices "
+     "are multiplied."},
     {"starved", &SlotAccount::starved,
      "No task: none waited, or the issue width let no more through."},
     {"blocked", &SlotAccount::blocked,

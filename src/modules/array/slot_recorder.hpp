@@ -16,7 +16,7 @@
 namespace degs {
 
 /// Places in kSlotClasses.
-enum class Slot { Useful, Boundary, Terminated, Conflict, Ports, Starved, Blocked, Drain };
+enum class Slot { Useful, Boundary, Terminated, Conflict, Ports, Padding, Starved, Blocked, Drain };
 inline Slot slot_of(Idle cause) {
     return cause == Idle::Conflict  ? Slot::Conflict
            : cause == Idle::Ports   ? Slot::Ports

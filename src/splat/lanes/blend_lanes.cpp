@@ -40,6 +40,10 @@ std::vector<TestFunction<float>> test_variants() {
     return runnable<TestFunction<float>>({&narrow::test_float, &wide::test_float});
 }
 
+std::vector<ProductFunction<float>> product_variants() {
+    return runnable<ProductFunction<float>>({&narrow::product_float, &wide::product_float});
+}
+
 std::vector<DrawFunction> draw_variants() {
     return runnable<DrawFunction>({&narrow::draw_float, &wide::draw_float});
 }
@@ -62,6 +66,14 @@ TestFunction<float> test_function(float /*type*/) {
 
 TestFunction<double> test_function(double /*type*/) {
     return &narrow::test_double;
+}
+
+ProductFunction<float> product_function(float /*type*/) {
+    return product_variants().back();
+}
+
+ProductFunction<double> product_function(double /*type*/) {
+    return &narrow::product_double;
 }
 
 float lane_exp(float x) {

@@ -107,6 +107,20 @@ using TestFunction = void (*)(const TestRow<T>* rows, int count, const BlendReco
 TestFunction<float> test_function(float);
 TestFunction<double> test_function(double);
 
+/// Neighbouring pixels of a row whose exponents are products of matrices (exponent_gemm.hpp).
+struct ProductRow {
+    std::int32_t x, y;  ///< pixel of mask bit 0, from the origin of the product
+    std::uint32_t mask; ///< pixels to test
+    std::size_t first;  ///< pixel of mask bit 0
+};
+/// The same as TestFunction with the exponents of gemm_product().
+template <class T>
+using ProductFunction = void (*)(const ProductRow* rows, int count, const GemmRow<T>& coefficients,
+                                 const BlendRecord<T>& splat, bool refuse, PixelPlanes<T>& pixels,
+                                 BlendOutcome* outcomes);
+ProductFunction<float> product_function(float);
+ProductFunction<double> product_function(double);
+
 /// How rows end in single precision.
 struct EndsOfRows {
     bool exact = true; ///< ceil and floor; else floor and ceil, and `delta`
@@ -124,6 +138,7 @@ DrawFunction draw_function();
 /// For tests: all variants of this build that the machine can run, narrow ones first.
 std::vector<BlendFunction<float>> blend_variants();
 std::vector<TestFunction<float>> test_variants();
+std::vector<ProductFunction<float>> product_variants();
 std::vector<DrawFunction> draw_variants();
 /// The exponential of the float lanes, x in [-80, 1]; relative error < 3e-7.
 float lane_exp(float x);

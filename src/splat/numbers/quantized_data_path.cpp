@@ -10,6 +10,7 @@
 #include "splat/draw_rows.hpp"
 #include "splat/frame/parallel.hpp"
 #include "splat/numbers/quantized_extent.hpp"
+#include "splat/numbers/quantized_gemm.hpp"
 #include "splat/numbers/quantized_pixels.hpp"
 #include "splat/numbers/row_lanes.hpp"
 #include "splat/pixel_index.hpp"
@@ -38,8 +39,8 @@ class QuantizedDataPath final : public DataPath {
 public:
     QuantizedDataPath(const NumberSet& set, const DataPathOptions& options, int tile_size,
                       int contexts)
-        : row_(with_ends(set, options)), numbers_(row_.set()), slack_(row_.set()),
-          refuse_(options.stop == StopRule::Refuse), rows_(contexts, tile_size),
+        : row_(with_ends(set, options)), gemm_(row_, options.gemm), numbers_(row_.set()),
+          slack_(row_.set()), refuse_(options.stop == StopRule::Refuse), rows_(contexts, tile_size),
           pixels_(make_quantized_pixels(row_)) {}
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
@@ -48,11 +49,13 @@ public:
         splats_.resize(base + count);
         extents_.resize(base + count);
         boxes_.resize(base + count);
+        gemm_.resize(base + count);
         parallel_ranges(count, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 splats_[base + i] = row_.record(workload.splats[i]);
                 extents_[base + i] = QuantizedExtent(row_, slack_, splats_[base + i]);
                 boxes_[base + i] = columns_of_box(workload.splats[i]);
+                gemm_.set(base + i, workload.splats[i]);
             }
         });
         for (std::size_t i = base; i < base + count; ++i) {
@@ -102,6 +105,12 @@ public:
     }
 
     BlendOutcome test(const PixelTest& test) override {
+        double q[32] = {};
+        if (gemm_.wanted()) {
+            gemm_.exponents(test, rows_.rows(), q);
+            return pixels_->test(test.splat, test.mask, q, refuse_,
+                                 at(test.context, test.row, test.column));
+        }
         const QuantizedSplat& splat = splats_[test.splat];
         const QuantizedCheck row = row_.check(splat, test.y);
         if (!row.possible) {
@@ -109,7 +118,6 @@ public:
             outcome.boundary = test.mask;
             return outcome;
         }
-        double q[32] = {};
         for (std::uint32_t left = test.mask; left != 0; left &= left - 1) {
             const int i = __builtin_ctz(left);
             q[i] = row_.checked_q(splat, row, test.x + i);
@@ -221,6 +229,7 @@ private:
     }
 
     QuantizedRow row_;
+    QuantizedGemm gemm_;
     RowNumbers numbers_;
     SolveRowsFunction solve_ = solve_rows_function();
     std::array<RowSpan, kMostRows> solved_; // of the splat that is drawn

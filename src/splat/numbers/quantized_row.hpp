@@ -67,6 +67,8 @@ public:
     QuantizedCheck check(const QuantizedSplat& splat, int y) const;
     /// q' of a pixel. Rounding keeps order, so q' never falls with the distance from x_c.
     double checked_q(const QuantizedSplat& splat, const QuantizedCheck& row, int x) const;
+    /// Units of q in a nat: 1, or log2(e) / 2.
+    double unit() const { return unit_; }
     /// q_n of a pixel (Eq. 18); `a` is the record's.
     double q(double a, double g0, double d0, int n) const;
     /// Eq. 21 with the reference's limit of 0.99; 0 where a q mask drops the pixel, as it does

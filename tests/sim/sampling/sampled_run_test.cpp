@@ -67,7 +67,7 @@ TEST_P(SmallRunSampled, AgreesWithTheExactRun) {
     // The laws of a report hold for what was estimated, too.
     double sum = 0;
     for (const char* part :
-         {"useful", "boundary", "terminated", "conflict", "ports", "starved", "blocked", "drain"}) {
+         {"useful", "boundary", "terminated", "conflict", "ports", "padding", "starved", "blocked", "drain"}) {
         sum += number(sample, std::string("slots.") + part);
     }
     EXPECT_EQ(sum, number(sample, "slots.total"));

@@ -136,7 +136,7 @@ TEST_P(TraceOf, IntegratesToTheReport) {
     const TraceRun run = traced(folder, GetParam(), {});
     const Reader reader(run.trace);
     for (const char* slot :
-         {"useful", "boundary", "terminated", "conflict", "ports", "starved", "blocked", "drain"}) {
+         {"useful", "boundary", "terminated", "conflict", "ports", "padding", "starved", "blocked", "drain"}) {
         EXPECT_EQ(reader.integral(kArray, slot), run.report["slots"][slot]) << slot;
     }
     for (const auto& [name, stream] : run.report["dram"]["streams"].items()) {

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "baselines/orange/systolic_array.hpp"
+#include "baselines/orange/vector_unit.hpp"
+#include "modules/array/pixel_buffer.hpp"
+#include "modules/front_end/hierarchical_sorter.hpp"
+#include "modules/front_end/projection_unit.hpp"
+#include "modules/front_end/splat_fetcher.hpp"
+#include "modules/front_end/tile_binner.hpp"
+#include "modules/main_memory_config.hpp"
+#include "modules/pipeline_config.hpp"
+#include "modules/render_engine.hpp"
+#include "modules/span_engine/tile_monitor.hpp"
+#include "modules/traffic.hpp"
+
+namespace degs::orange {
+
+/// ORANGE (Li et al., HPCA 2026), an NPU that blends by products of matrices, with GSCore's projection and sorting;
+/// defaults are O-4, its four cores. Most of its values are not public: those are [assumed].
+struct Config : AcceleratorConfig {
+    struct Cores {
+        int count = 4;
+        SystolicArray::Config array;
+        VectorUnit::Config vector;
+        void describe(ConfigVisitor& visitor);
+    };
+    /// The memory of a core, in batches, each of which is a chunk of the Splat Fetcher.
+    struct Scratchpad {
+        int bytes = 256 * 1024; ///< of a core
+        int splat_batches = 2, coefficient_batches = 2, product_batches = 2;
+        int value_bytes = 4; ///< of a coefficient, a colour and an exponent
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Gemm {
+        GemmOrigin origin = GemmOrigin::Tile;
+        NumberFormat operands, sums;
+        Gemm();
+        void describe(ConfigVisitor& visitor);
+    };
+
+    int tile_size = 8;
+    PipelineConfig pipeline;
+    Gemm gemm;
+    TrafficConfig traffic;
+    ProjectionUnit::Config projection;
+    TileBinner::Config binning;
+    HierarchicalSorter::Config sorting;
+    SplatFetcher::Config fetching;
+    Cores cores;
+    Scratchpad scratchpad;
+    PixelBuffer::Config pixel_buffer;
+    TileMonitor::Config monitor;
+    MainMemoryConfig memory;
+
+    Config();
+    std::unique_ptr<AcceleratorConfig> clone() const override {
+        return std::make_unique<Config>(*this);
+    }
+    void describe(ConfigVisitor& visitor) override;
+    void scale_to(int pes) override;
+    /// Multipliers of all systolic arrays.
+    int pes() const override { return cores.count * cores.array.macs(); }
+    int tile_size_px() const override { return tile_size; }
+    TileMode tile_mode() const override { return pipeline.tiles; }
+    DataPathOptions data_path() const override;
+    int tile_contexts() const override { return cores.count * contexts(); }
+    TrafficConfig records() const override { return traffic; }
+    cost::BillOfMaterials bill() const override;
+    RecordOrder record_order() const override { return memory.layout; }
+    void read_floats() override {
+        traffic.geometry_bytes = kFloatGeometryBytes;
+        traffic.sh_value_bytes = kFloatBytes;
+    }
+    std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
+                                        const BuildOptions& options) const override;
+
+    // Derived sizes.
+    int tile_area() const { return tile_size * tile_size; }
+    /// Tile contexts of one core.
+    int contexts() const { return pixel_buffer.contexts(tile_pixels()) / cores.count; }
+    /// Bytes of the state of a pixel, which need not be whole ones.
+    double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
+    /// Bytes of a batch in each of its three places.
+    std::int64_t splat_batch_bytes() const;
+    std::int64_t coefficient_batch_bytes() const;
+    std::int64_t product_batch_bytes() const;
+    /// Of a core's scratchpad, for the three.
+    std::int64_t batches_bytes() const;
+    /// Keys of lists being sorted that a sorting unit's share of what is left holds.
+    int sort_capacity() const;
+
+private:
+    PixelBuffer::TilePixels tile_pixels() const { return {tile_size, pipeline.pixel_bits()}; }
+    void require_sizes(ConfigVisitor& visitor) const;
+};
+
+} // namespace degs::orange

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "baselines/orange/config.hpp"
+#include "modules/array/tile_engine_array.hpp"
+
+namespace degs::orange {
+
+/// ORANGE with its memory:
+///
+///   Tile Front End -> List Collectors -> Tile Dispatcher -> per core: Splat Fetcher -> vector unit
+///   <-> systolic array -> Pixel Buffer -> memory
+class Orange : public TileEngineArray {
+public:
+    /// `job` supplies the work and receives the images. `config.problem()` must be empty.
+    Orange(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+           RenderJob& job, const BuildOptions& options = {});
+
+    const Config& config() const { return config_; }
+    const std::vector<std::unique_ptr<VectorUnit>>& vector_units() const { return vector_units_; }
+    const std::vector<std::unique_ptr<SystolicArray>>& arrays() const { return arrays_; }
+
+private:
+    void build_core(int index);
+    void collect_engines(AcceleratorResult& result) const override;
+    void collect_slots(AcceleratorResult& result) const;
+    void collect_stages(AcceleratorResult& result) const;
+    void collect_buffers(AcceleratorResult& result) const;
+    void collect_activity(AcceleratorResult& result) const;
+    void collect_laws(AcceleratorResult& result) const;
+
+    Config config_;
+    std::vector<std::unique_ptr<VectorUnit>> vector_units_;
+    std::vector<std::unique_ptr<SystolicArray>> arrays_;
+    Rings<GemmBatch> coefficient_rings_, product_rings_;
+};
+
+} // namespace degs::orange
