@@ -11,6 +11,7 @@
 
 #include "sim/output_folder.hpp"
 #include "sim/view.hpp"
+#include "splat/exponent_gemm.hpp"
 #include "splat/numbers/number_set.hpp"
 
 namespace degs::sim {
@@ -23,6 +24,7 @@ struct WorstPixel {
     std::string operation;      ///< empty if the replay has no error
     double explained = 0;       ///< error that the operation makes
     std::string flip;           ///< "stop rule", "span ends" or empty
+    // Products of matrices are not replayed: the last three stay empty.
 };
 
 /// One number set on one scene, or on one kind of single Gaussians. Values that a kind of
@@ -76,6 +78,7 @@ struct SceneAccuracyRequest {
     std::vector<std::string> resolutions; ///< of resolution_names(); empty: the cameras' own
     std::string span_ends;                ///< for every set; empty: each set's own
     int tile_size = 32;                   ///< px; outward ends and bases of spans depend on it
+    std::optional<ExponentGemm> gemm;     ///< exponents are products of matrices
     bool error_images = true;             ///< write test - reference as EXR
 };
 /// One row per scene, resolution and set. Throws InputError.

@@ -47,10 +47,15 @@ std::string plain(std::string name) {
     return name;
 }
 
-WorstPixel explain(Frame& frame, const ImageDifference& difference, const NumberSet& set) {
+WorstPixel explain(Frame& frame, const ImageDifference& difference, const NumberSet& set,
+                   bool replayed) {
     WorstPixel worst;
     worst.x = difference.worst_x();
     worst.y = difference.worst_y();
+    if (!replayed) {
+        worst.error = difference.max_abs_error();
+        return worst;
+    }
     const FrameWorkload& own = frame.in(set);
     const PixelBlame blame =
         &own == &frame.workload
@@ -64,7 +69,7 @@ WorstPixel explain(Frame& frame, const ImageDifference& difference, const Number
     return worst;
 }
 
-AccuracyRow compare(Frame& frame, const Image& image, const NumberSet& set) {
+AccuracyRow compare(Frame& frame, const Image& image, const NumberSet& set, bool replayed) {
     ImageDifference difference;
     difference.add(frame.reference, image);
     AccuracyRow row = frame.row;
@@ -82,7 +87,7 @@ AccuracyRow compare(Frame& frame, const Image& image, const NumberSet& set) {
         row.psnr_db = difference.psnr_db();
     }
     if (!row.identical) {
-        row.worst = explain(frame, difference, set);
+        row.worst = explain(frame, difference, set, replayed);
     }
     return row;
 }
@@ -100,9 +105,10 @@ Image render(Frame& frame, const AccuracyNumbers& numbers, const std::string& na
 void measure_frame(const SceneAccuracyRequest& request, Frame& frame, const OutputFolder& out,
                    std::vector<AccuracyRow>& rows) {
     for (const std::string& name : request.sets) {
-        const AccuracyNumbers numbers = numbers_of(name, request.span_ends);
+        AccuracyNumbers numbers = numbers_of(name, request.span_ends);
+        numbers.path.gemm = request.gemm;
         Image image = render(frame, numbers, frame.row.scene);
-        AccuracyRow row = compare(frame, image, numbers.set);
+        AccuracyRow row = compare(frame, image, numbers.set, !request.gemm);
         if (request.error_images) {
             row.error_image = "error-" + std::to_string(rows.size()) + "-" + plain(row.scene) +
                               "-" + row.resolution + "-" + plain(row.numbers) + ".exr";

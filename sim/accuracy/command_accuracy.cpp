@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "baselines/orange/config.hpp"
 #include "config/error.hpp"
 #include "config/visible_text.hpp"
 #include "scene/input_file.hpp"
@@ -29,6 +30,7 @@ struct AccuracyOptions {
     std::vector<std::string> resolutions;
     std::string span_ends;
     int tile_size = 32;
+    std::string products;
     bool no_error_images = false;
     bool single_gaussian = false;
     bool hard_cases = false;
@@ -100,6 +102,11 @@ SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
     request.resolutions = options.resolutions;
     request.span_ends = options.span_ends;
     request.tile_size = options.tile_size;
+    if (!options.products.empty()) {
+        orange::Config::Gemm gemm;
+        gemm.origin = options.products == "tile" ? GemmOrigin::Tile : GemmOrigin::Image;
+        request.gemm = gemm;
+    }
     request.error_images = !options.no_error_images;
     return request;
 }
@@ -233,6 +240,13 @@ void add_scene_options(CLI::App& command, AccuracyOptions& options) {
                     "px; outward span ends and the places where q_n starts depend on it")
         ->check(CLI::Range(1, 128))
         ->capture_default_str();
+    command
+        .add_option(
+            "--products", options.products,
+            "exponents as products of matrices, as the array of orange forms them, from the middle "
+            "of "
+            "each tile or from the corner of the image; number sets multiply FP16 and add FP32")
+        ->check(CLI::IsMember({"tile", "image"}));
     command.add_flag("--no-error-images", options.no_error_images,
                      "write no EXR of the differences, which take up to 20 B per pixel each");
 }

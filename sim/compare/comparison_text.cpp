@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "config/config_words.hpp"
 #include "config/visible_text.hpp"
 #include "sim/compare/comparison_output.hpp"
@@ -37,9 +39,9 @@ std::string megabytes(const Measures& m) {
 }
 
 /// Shares of the slots, then of the whole frame.
-std::vector<std::string> slot_cells(const Measures& m) {
+std::vector<std::string> slot_cells(const Measures& m, const std::vector<std::size_t>& classes) {
     std::vector<std::string> cells;
-    for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
+    for (const std::size_t c : classes) {
         cells.push_back(share(m[slot_measure(c)]));
     }
     cells.push_back(share(m[Measure::FrameUtilization]));
@@ -125,16 +127,33 @@ std::string energy_table(const Comparison& comparison, const std::vector<Compari
     return table.text();
 }
 
+/// Positions in kSlotClasses; a rare class only if a run has it.
+std::vector<std::size_t> slot_classes(const Comparison& comparison) {
+    std::vector<std::size_t> classes;
+    for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
+        const auto occurs = [c](const ComparisonRow& row) {
+            return row.measures[slot_measure(c)].value_or(0) > 0;
+        };
+        if (!kSlotClasses[c].rare ||
+            std::any_of(comparison.rows.begin(), comparison.rows.end(), occurs)) {
+            classes.push_back(c);
+        }
+    }
+    return classes;
+}
+
 std::string slots_table(const Comparison& comparison, std::size_t view) {
     std::vector<std::string> headings{"PE-cycles, %"};
-    for (const SlotClass& slot : kSlotClasses) {
-        headings.emplace_back(slot.name);
+    const std::vector<std::size_t> classes = slot_classes(comparison);
+    for (const std::size_t c : classes) {
+        headings.emplace_back(kSlotClasses[c].name);
     }
     headings.emplace_back("useful of the frame");
     TextTable table(headings);
     for (const ComparisonRow& row : comparison.rows) {
         if (row.view == view) {
-            table.add(joined({comparison.configs[row.config].name}, slot_cells(row.measures)));
+            table.add(
+                joined({comparison.configs[row.config].name}, slot_cells(row.measures, classes)));
         }
     }
     return table.text();

@@ -85,11 +85,24 @@ void draw_bar(Svg& svg, const Columns& columns, double y, double scale, const Sl
              {kSmallText, kGrey, "start", false});
 }
 
+bool occurs(const std::vector<SlotGroup>& groups, std::size_t slot_class) {
+    for (const SlotGroup& group : groups) {
+        for (const SlotBar& bar : group.bars) {
+            if (bar.shares[slot_class] > 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 /// Returns the y below it.
-double draw_slot_legend(Svg& svg, double y) {
+double draw_slot_legend(Svg& svg, double y, const std::vector<SlotGroup>& groups) {
     std::vector<std::pair<std::string, const char*>> entries;
     for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
-        entries.emplace_back(kSlotClasses[c].name, kSlotColours[c]);
+        if (!kSlotClasses[c].rare || occurs(groups, c)) {
+            entries.emplace_back(kSlotClasses[c].name, kSlotColours[c]);
+        }
     }
     entries.emplace_back("before the first task", kBefore);
     entries.emplace_back("after the last", kAfter);
@@ -133,7 +146,7 @@ std::string slots_svg(const std::string& title, const std::vector<SlotGroup>& gr
     const Columns columns = columns_of(groups);
     Svg svg;
     svg.text(kPlotMargin, 30, title, {16, kInk, "start", true});
-    double y = draw_slot_legend(svg, 56);
+    double y = draw_slot_legend(svg, 56, groups);
     for (const SlotGroup& group : groups) {
         svg.text(kPlotMargin, y + 22,
                  fitting(group.heading, kLabelText, kPlotWidth - 2 * kPlotMargin),

@@ -27,7 +27,8 @@ int ones(std::uint32_t mask) {
 class DataPathRenderer::TileBlender {
 public:
     TileBlender(const FrameWorkload& work, const DataPathRender& options, DataPathCounts& counts)
-        : work_(work), rows_in_columns_(options.rows_in_columns), parsing_(options.parsing),
+        : work_(work), rows_in_columns_(options.rows_in_columns),
+          parsing_(options.parsing && !options.numbers.gemm), whole_(options.numbers.gemm),
           counts_(counts), path_(make_data_path(options.numbers, work.tile_size, 1)),
           base_(path_->add_frame(work)), live_in_row_(work.tile_size), row_(work.tile_size) {}
 
@@ -40,12 +41,19 @@ private:
     void blend_splat(std::uint32_t splat);
     void blend_span(const RowSpan& span);
     std::optional<RowSpan> span_of(std::uint32_t splat, int y) const {
+        if (whole_) {
+            RowSpan row;
+            row.splat = splat;
+            row.y = inside_tile(y - box_.y0);
+            row.length = inside_tile(box_.x1 - box_.x0 + 1);
+            return row;
+        }
         return parsing_ ? path_->solve_row(splat, y, box_.x0, box_.x1 + 1, box_.y0)
                         : row_of_box(*path_, splat, y, box_.x0, box_.x1 + 1, box_.y0);
     }
 
     const FrameWorkload& work_;
-    bool rows_in_columns_, parsing_;
+    bool rows_in_columns_, parsing_, whole_;
     DataPathCounts& counts_;
     std::unique_ptr<DataPath> path_;
     std::uint32_t base_;           ///< index of the frame's first splat
@@ -76,8 +84,9 @@ bool DataPathRenderer::TileBlender::blend(int column, int row) {
 }
 
 void DataPathRenderer::TileBlender::blend_splat(std::uint32_t splat) {
-    const PixelRange met =
-        rows_in_columns_ ? path_->rows_in_columns(splat, box_.x0, box_.x1 + 1) : path_->rows(splat);
+    const PixelRange met = whole_             ? PixelRange{box_.y0, box_.y1}
+                           : rows_in_columns_ ? path_->rows_in_columns(splat, box_.x0, box_.x1 + 1)
+                                              : path_->rows(splat);
     const PixelRange rows = met.within({box_.y0, box_.y1});
     for (int y = rows.first; y <= rows.last; ++y) {
         if (live_in_row_[y - box_.y0] == 0) {

@@ -25,7 +25,7 @@ struct DataPathRender {
     /// the tile's columns (tile). The two differ for rows of pixels that are wider than the ellipse.
     bool rows_in_columns = false;
     /// Rows are solved, or as wide as the splat's bounding box, and pixels test themselves
-    /// (span.parsing).
+    /// (span.parsing). With numbers.gemm every pixel of a tile tests itself.
     bool parsing = true;
     /// Is called now and then with the share that is done, 0 .. 1.
     std::function<void(double)> progress;

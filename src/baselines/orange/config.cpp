@@ -20,7 +20,7 @@ Config::Config() {
     pixel_buffer.readout_pixels = 256;
 }
 
-Config::Gemm::Gemm() : operands(parse_format("fp16")), sums(parse_format("fp32")) {}
+Config::Gemm::Gemm() : ExponentGemm{GemmOrigin::Tile, parse_format("fp16"), parse_format("fp32")} {}
 
 void Config::Gemm::describe(ConfigVisitor& visitor) {
     visitor.choice(
@@ -78,7 +78,7 @@ void Config::describe(ConfigVisitor& visitor) {
 
 DataPathOptions Config::data_path() const {
     DataPathOptions options = pipeline.data_path();
-    options.gemm = ExponentGemm{gemm.origin, gemm.operands, gemm.sums};
+    options.gemm = gemm;
     return options;
 }
 

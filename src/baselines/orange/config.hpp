@@ -32,10 +32,8 @@ struct Config : AcceleratorConfig {
         int value_bytes = 4; ///< of a coefficient, a colour and an exponent
         void describe(ConfigVisitor& visitor);
     };
-    struct Gemm {
-        GemmOrigin origin = GemmOrigin::Tile;
-        NumberFormat operands, sums;
-        Gemm();
+    struct Gemm : ExponentGemm {
+        Gemm(); ///< FP16 operands, single-precision sums
         void describe(ConfigVisitor& visitor);
     };
 

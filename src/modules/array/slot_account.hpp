@@ -49,6 +49,7 @@ struct SlotClass {
     const char* name; ///< in results
     std::uint64_t SlotAccount::*slots;
     const char* sentence;
+    bool rare = false; ///< pictures and tables of runs without any leave it out
 };
 /// In the order of all results and pictures.
 inline constexpr std::array<SlotClass, 9> kSlotClasses{{
@@ -64,7 +65,8 @@ inline constexpr std::array<SlotClass, 9> kSlotClasses{{
     {"padding", &SlotAccount::padding,
      "No task: the shape of a product of matrices left the PE out, or the array filled and "
      "drained; 0 where no matrices "
-     "are multiplied."},
+     "are multiplied.",
+     true},
     {"starved", &SlotAccount::starved,
      "No task: none waited, or the issue width let no more through."},
     {"blocked", &SlotAccount::blocked,
