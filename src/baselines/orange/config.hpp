@@ -72,6 +72,7 @@ struct Config : AcceleratorConfig {
     }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
+    std::unique_ptr<AnalyticModel> analytic() const override;
 
     // Derived sizes.
     int tile_area() const { return tile_size * tile_size; }

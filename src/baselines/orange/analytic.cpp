@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// ORANGE without simulation: a batch takes the array a product and the vector unit its coefficients and pixels, and a
+// tile is left after the batch in which its pixels end. See docs/analytic.md.
+#include <algorithm>
+#include <cmath>
+
+#include "baselines/orange/config.hpp"
+#include "modules/analytic/front_end_load.hpp"
+
+namespace degs::orange {
+namespace {
+
+class OrangeAnalytic : public FrontEndModel {
+public:
+    explicit OrangeAnalytic(const Config& config)
+        : FrontEndModel(config, config.scratchpad.splat_batches, kMemory), config_(config) {}
+    std::vector<std::string> units() const override {
+        return {"projection", "sorting", "systolic_arrays", "vector_units", "memory"};
+    }
+    std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
+    CoarseTile::Options drawing() const override { return {config_.tile_size, config_.tile_size}; }
+    // Rows only tell when the tile has ended.
+    Blocks blocks() const override { return {1, std::max(1, config_.tile_size / 2)}; }
+    int engines() const override { return config_.cores.count; }
+    int sorters() const override { return config_.sorting.count; }
+    SortCycles sort_cycles(double entries, double) const override { // handed over as a whole
+        const double all =
+            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity).all;
+        return {all, all};
+    }
+    double latency() const override {
+        const int batch = config_.fetching.chunk;
+        return 4 * memory_latency() + config_.cores.vector.latency_cycles +
+               double(config_.cores.array.cycles(batch, config_.tile_area())) +
+               double(config_.cores.vector.blend_cycles(std::uint64_t{1} * batch *
+                                                        config_.tile_area()));
+    }
+    int pes() const override { return config_.pes(); }
+
+    enum Unit : std::size_t { kArray = kArrayUnits, kVector, kMemory };
+    const Config& config() const { return config_; }
+
+private:
+    Config config_;
+};
+
+class OrangeClock : public TileClock {
+public:
+    explicit OrangeClock(const OrangeAnalytic& model) : model_(model) {}
+    void begin(const CoarseTile&) override {}
+    void splat(const CoarseTile&) override {}
+    TileCycles end(const CoarseTile& tile) override;
+
+private:
+    const OrangeAnalytic& model_;
+};
+
+std::unique_ptr<TileClock> OrangeAnalytic::clock(const FrameWorkload&) const {
+    return std::make_unique<OrangeClock>(*this);
+}
+
+TileCycles OrangeClock::end(const CoarseTile& tile) {
+    const Config& config = model_.config();
+    const FrontEndLoad& front = model_.front();
+    const VectorUnit::Config& vector = config.cores.vector;
+    const double entries = tile.entries();
+    const double batch = config.fetching.chunk;
+    const double seen = vector.termination == Termination::None ? entries : tile.walked();
+    const double whole = std::floor(std::min(entries, std::ceil(seen / batch) * batch) / batch);
+    const double rest = std::min(entries, std::ceil(seen / batch) * batch) - whole * batch;
+    const auto both = [&](const auto& cycles) {
+        return whole * double(cycles(config.fetching.chunk)) +
+               double(cycles(int(std::lround(rest))));
+    };
+    const double array =
+        both([&](int splats) { return config.cores.array.cycles(splats, config.tile_area()); });
+    const double blending = both([&](int splats) {
+        return vector.coefficient_cycles(splats) +
+               vector.blend_cycles(std::uint64_t{1} * splats * config.tile_area());
+    });
+    const double fetched = whole * batch + rest;
+    TileCycles cycles;
+    cycles.slots = array * config.cores.array.macs();
+    cycles.fragments = tile.fragments() * kGemmDepth;
+    cycles.bytes = front.tile_bytes(entries, fetched, tile.pixels());
+    cycles.walked = fetched;
+    cycles.busy[kSortingUnits] = model_.sort_cycles(entries, fetched).all / model_.sorters();
+    cycles.busy[OrangeAnalytic::kArray] = array / model_.engines();
+    cycles.busy[OrangeAnalytic::kVector] = blending / model_.engines();
+    cycles.busy[OrangeAnalytic::kMemory] = front.memory.cycles(cycles.bytes);
+    cycles.time = std::max({array, blending, front.fetch_cycles(fetched)});
+    return cycles;
+}
+
+} // namespace
+
+std::unique_ptr<AnalyticModel> Config::analytic() const {
+    return std::make_unique<OrangeAnalytic>(*this);
+}
+
+} // namespace degs::orange
