@@ -123,11 +123,11 @@ void TileEngineArray::collect(AcceleratorResult& result) const {
               dispatched.tiles, counters_of(dispatched));
     add_stage(result, kFetching, fetchers_.size(), sum_of(fetchers_, &SplatFetcher::Stats::busy),
               Counters().add(fetchers_));
-    collect_engines(result);
     streams_.collect(result);
     explain_tiles(result, records_cancelled());
     result.conservation.push_back({"splats listed = fetched + cancelled", list_entries(),
                                    records_fetched() + records_cancelled()});
+    collect_engines(result);
 }
 
 } // namespace degs
