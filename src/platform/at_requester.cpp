@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <tuple>
+#include <utility>
 
 #include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
@@ -11,9 +11,9 @@
 namespace degs {
 
 AtRequester::AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator_socket<>& out,
-                         unsigned outstanding)
-    : sc_core::sc_module(name), out_(out), outstanding_(outstanding), answers_("answers") {
-    if (outstanding == 0) {
+                         const Limits& limits)
+    : sc_core::sc_module(name), out_(out), limits_(limits), answers_("answers") {
+    if (limits.all == 0 || limits.per_rank == 0) {
         throw std::invalid_argument(std::string(this->name()) +
                                     ": outstanding transactions must be at least 1");
     }
@@ -33,10 +33,6 @@ AtRequester::~AtRequester() {
     }
 }
 
-bool AtRequester::later(const Transaction* a, const Transaction* b) {
-    return std::tie(a->date, a->rank, a->sequence) > std::tie(b->date, b->rank, b->sequence);
-}
-
 void AtRequester::transport(unsigned rank, Payload& access, const std::vector<Piece>& pieces,
                             sc_core::sc_time& delay) {
     if (delay != sc_core::SC_ZERO_TIME) {
@@ -47,38 +43,77 @@ void AtRequester::transport(unsigned rank, Payload& access, const std::vector<Pi
         access.set_response_status(tlm::TLM_OK_RESPONSE);
         return;
     }
-    if (idle_.empty()) {
-        idle_.push_back(std::make_unique<Access>());
+    Access& waiter = take_idle();
+    enqueue(waiter, rank, access, access.get_data_ptr(), pieces);
+    while (waiter.left != 0) {
+        sc_core::wait(waiter.over);
     }
-    std::unique_ptr<Access> waiter = std::move(idle_.back());
+    access.set_response_status(release(waiter));
+    idle_.push_back(&waiter);
+}
+
+void AtRequester::start(unsigned rank, const Payload& access, const std::vector<Piece>& pieces,
+                        Done done) {
+    Access& waiter = take_idle();
+    waiter.done = std::move(done);
+    waiter.data.resize(access.get_data_length());
+    if (access.is_write() && access.get_extension<TimingOnly>() == nullptr) {
+        std::copy_n(access.get_data_ptr(), access.get_data_length(), waiter.data.begin());
+    }
+    enqueue(waiter, rank, access, waiter.data.data(), pieces);
+}
+
+AtRequester::Access& AtRequester::take_idle() {
+    if (idle_.empty()) {
+        accesses_.push_back(std::make_unique<Access>());
+        idle_.push_back(accesses_.back().get());
+    }
+    Access& access = *idle_.back();
     idle_.pop_back();
-    waiter->left = pieces.size();
-    std::vector<Transaction*> parts;
+    return access;
+}
+
+void AtRequester::enqueue(Access& waiter, unsigned rank, const Payload& access, unsigned char* data,
+                          const std::vector<Piece>& pieces) {
+    waiter.left = pieces.size();
+    if (rank >= queues_.size()) {
+        queues_.resize(rank + 1);
+    }
     for (const Piece& piece : pieces) {
-        Transaction& part = make(access, piece);
-        part.access = waiter.get();
+        Transaction& part = make(access, data, piece);
+        part.access = &waiter;
         part.date = sc_core::sc_time_stamp().value();
         part.rank = rank;
-        parts.push_back(&part);
-        waiting_.push_back(&part);
-        std::push_heap(waiting_.begin(), waiting_.end(), later);
+        waiter.parts.push_back(&part);
+        queues_[rank].waiting.push_back(&part);
     }
     send();
-    while (waiter->left != 0) {
-        sc_core::wait(waiter->done);
-    }
-    access.set_response_status(tlm::TLM_OK_RESPONSE);
-    for (Transaction* part : parts) {
-        if (access.is_response_ok()) {
-            access.set_response_status(part->get_response_status());
-        }
+}
+
+// The answer of the access: that of its first part that failed.
+tlm::tlm_response_status AtRequester::release(Access& waiter) {
+    tlm::tlm_response_status status = tlm::TLM_OK_RESPONSE;
+    for (Transaction* part : waiter.parts) {
+        status = status == tlm::TLM_OK_RESPONSE ? part->get_response_status() : status;
         part->release();
     }
-    idle_.push_back(std::move(waiter));
+    waiter.parts.clear();
+    return status;
+}
+
+void AtRequester::end(Access& waiter) {
+    if (!waiter.done) {
+        waiter.over.notify(sc_core::SC_ZERO_TIME);
+        return;
+    }
+    const tlm::tlm_response_status status = release(waiter);
+    std::exchange(waiter.done, nullptr)(status, waiter.data.data());
+    idle_.push_back(&waiter);
 }
 
 // Held by the access until its response has been read.
-AtRequester::Transaction& AtRequester::make(const Payload& access, const Piece& piece) {
+AtRequester::Transaction& AtRequester::make(const Payload& access, unsigned char* data,
+                                            const Piece& piece) {
     if (free_.empty()) {
         transactions_.push_back(std::make_unique<Transaction>());
         transactions_.back()->set_mm(this);
@@ -91,7 +126,7 @@ AtRequester::Transaction& AtRequester::make(const Payload& access, const Piece& 
     part.by_phase = part.answered = false;
     part.set_command(access.get_command());
     part.set_address(piece.address);
-    part.set_data_ptr(access.get_data_ptr() + piece.offset);
+    part.set_data_ptr(data + piece.offset);
     part.set_data_length(piece.bytes);
     part.set_streaming_width(piece.bytes);
     part.set_byte_enable_ptr(nullptr);
@@ -109,27 +144,44 @@ void AtRequester::free(Payload* payload) {
 
 void AtRequester::end_part(Transaction& transaction) {
     if (--transaction.access->left == 0) {
-        transaction.access->done.notify(sc_core::SC_ZERO_TIME);
+        end(*transaction.access);
     }
 }
 
 void AtRequester::detach() {
     detached_ = true;
     detaches_.notify(sc_core::SC_ZERO_TIME);
-    for (Transaction* const transaction : waiting_) {
-        transaction->set_response_status(tlm::TLM_OK_RESPONSE);
-        end_part(*transaction);
+    for (Queue& queue : queues_) {
+        for (Transaction* const transaction : std::exchange(queue.waiting, {})) {
+            transaction->set_response_status(tlm::TLM_OK_RESPONSE);
+            end_part(*transaction);
+        }
     }
-    waiting_.clear();
+}
+
+// The oldest date goes first, of equal ones the lowest rank. Null: nobody may.
+AtRequester::Queue* AtRequester::next_queue() {
+    Queue* next = nullptr;
+    for (Queue& queue : queues_) {
+        if (!queue.waiting.empty() && queue.under_way < limits_.per_rank &&
+            (next == nullptr || queue.waiting.front()->date < next->waiting.front()->date)) {
+            next = &queue;
+        }
+    }
+    return next;
 }
 
 void AtRequester::send() {
-    if (requesting_ != nullptr || waiting_.empty() || under_way_ == outstanding_) {
+    if (requesting_ != nullptr || under_way_ == limits_.all) {
         return;
     }
-    std::pop_heap(waiting_.begin(), waiting_.end(), later);
-    Transaction& next = *waiting_.back();
-    waiting_.pop_back();
+    Queue* const queue = next_queue();
+    if (queue == nullptr) {
+        return;
+    }
+    Transaction& next = *queue->waiting.front();
+    queue->waiting.pop_front();
+    ++queue->under_way;
     most_under_way_ = std::max(most_under_way_, ++under_way_);
     request(next);
 }
@@ -197,6 +249,7 @@ void AtRequester::finish() {
             out_->nb_transport_fw(*transaction, phase, delay);
         }
         --under_way_;
+        --queues_[transaction->rank].under_way;
         end_part(*transaction);
         transaction->release();
     }

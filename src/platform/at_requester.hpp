@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include <systemc>
 #include <tlm>
 #include <tlm_utils/peq_with_get.h>
+
+#include "platform/burst_cutter.hpp"
 
 namespace degs {
 
@@ -16,28 +20,37 @@ namespace degs {
 ///
 /// BEGIN_REQ goes out at the date of the access without annotated delay, one at a time. The next one
 /// follows when END_REQ, an answer or early completion has ended the request phase. The oldest date
-/// goes first; ties are broken by rank. At most `outstanding` transactions are in flight. Answers
+/// goes first; ties are broken by rank. At most Limits::all transactions are in flight, and of one rank
+/// at most Limits::per_rank; a rank at its limit does not hold back the others. Answers
 /// may come in any order and with any kind of ending; END_RESP is sent at the date of the answer.
 ///
 /// Not modelled: time of the phases on this side.
 class AtRequester : public sc_core::sc_module, private tlm::tlm_mm_interface {
 public:
     using Payload = tlm::tlm_generic_payload;
-    /// A part of an access; `offset` is that of its bytes in the data of the access.
-    struct Piece {
-        std::uint64_t address = 0;
-        unsigned int offset = 0, bytes = 0; ///< inside the access, as TLM counts them
+    using Piece = AccessPiece;
+
+    /// Transactions in flight at a time; at least 1.
+    struct Limits {
+        unsigned all = 64;
+        unsigned per_rank = ~0U;
     };
 
-    /// Sends through `out`, whose nb_transport_bw() must call backward(). `outstanding` > 0.
+    /// Sends through `out`, whose nb_transport_bw() must call backward(). Throws std::invalid_argument if a
+    /// limit is 0.
     AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator_socket<>& out,
-                unsigned outstanding);
+                const Limits& limits);
     ~AtRequester() override;
 
     /// Must be called from a thread, as b_transport(); returns when all pieces are answered. The
     /// response is that of the first piece that failed, in the order of the pieces, or OK.
     void transport(unsigned rank, Payload& access, const std::vector<Piece>& pieces,
                    sc_core::sc_time& delay);
+    /// The same at once, without waiting. The bytes of a write are copied, unless they mean nothing (TimingOnly).
+    /// `done` is called, outside of any thread, when all pieces are answered, with the bytes as the pieces
+    /// number them.
+    using Done = std::function<void(tlm::tlm_response_status, const unsigned char* data)>;
+    void start(unsigned rank, const Payload& access, const std::vector<Piece>& pieces, Done done);
     tlm::tlm_sync_enum backward(Payload& payload, tlm::tlm_phase& phase, sc_core::sc_time& delay);
 
     /// Accesses end now, without the transactions of theirs that are not on the bus yet, and the
@@ -50,9 +63,13 @@ public:
     unsigned most_under_way() const { return most_under_way_; }
 
 private:
-    struct Access { // of one thread; kept for the next one, because events are expensive
-        sc_core::sc_event done;
-        std::size_t left = 0;
+    struct Transaction;
+    struct Access { // kept for the next one, because events are expensive
+        sc_core::sc_event over;
+        std::vector<Transaction*> parts;
+        std::size_t left = 0;            // parts that are not answered
+        Done done;                       // of an access that nobody waits for
+        std::vector<unsigned char> data; // likewise
     };
     struct Transaction : Payload {
         Access* access = nullptr;
@@ -62,10 +79,19 @@ private:
         bool by_phase = false; // answered with BEGIN_RESP, so END_RESP is due
         bool answered = false;
     };
-    static bool later(const Transaction* a, const Transaction* b);
-    Transaction& make(const Payload& access, const Piece& piece);
+    struct Queue { // of a rank, in the order of dates
+        std::deque<Transaction*> waiting;
+        unsigned under_way = 0;
+    };
+    Queue* next_queue();
+    Access& take_idle();
+    void enqueue(Access& waiter, unsigned rank, const Payload& access, unsigned char* data,
+                 const std::vector<Piece>& pieces);
+    static tlm::tlm_response_status release(Access& waiter);
+    void end(Access& waiter);
+    Transaction& make(const Payload& access, unsigned char* data, const Piece& piece);
     void free(Payload* payload) override;
-    static void end_part(Transaction& transaction);
+    void end_part(Transaction& transaction);
     void send();
     void request(Transaction& transaction);
     void take(Transaction& transaction, const tlm::tlm_phase& phase, const sc_core::sc_time& delay);
@@ -75,18 +101,19 @@ private:
     void finish();
 
     tlm::tlm_initiator_socket<>& out_;
-    unsigned outstanding_;
+    Limits limits_;
     bool detached_ = false;
     sc_core::sc_event detaches_;
     unsigned under_way_ = 0, most_under_way_ = 0;
     std::uint64_t sequence_ = 0;
-    std::vector<Transaction*> waiting_; // a heap, the first to go on top
+    std::vector<Queue> queues_;         // by rank
     Transaction* requesting_ = nullptr; // its request phase is not over
     sc_core::sc_event request_over_;
     tlm_utils::peq_with_get<Transaction> answers_;
     std::vector<Transaction*> free_;
     std::vector<std::unique_ptr<Transaction>> transactions_; // all there are
-    std::vector<std::unique_ptr<Access>> idle_;
+    std::vector<std::unique_ptr<Access>> accesses_;          // all there are
+    std::vector<Access*> idle_;
 };
 
 } // namespace degs

@@ -2,6 +2,7 @@
 #include "platform/memory_gateway.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "tlm/scattered_records.hpp"
 
@@ -12,10 +13,17 @@ MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name)
 
 MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options& options,
                              const ClockDomain& clock)
-    : sc_core::sc_module(name), out("out"), in_("in"), options_(options),
-      pacer_(options.pacing, clock) {
+    : sc_core::sc_module(name), out("out"), in_("in"), options_(options), clock_(clock),
+      pacer_(options.transport == Transport::At ? Pacing::Exact : options.pacing, clock) {
+    const std::uint64_t burst = options.burst_bytes;
+    if (burst != 0 && (burst < 4 || (burst & (burst - 1)) != 0)) {
+        throw std::invalid_argument(std::string(this->name()) +
+                                    ": bytes of a burst must be a power of two from 4 on, or 0");
+    }
     if (options.transport == Transport::At) {
-        requester_ = std::make_unique<AtRequester>("requester", out, options.outstanding);
+        requester_ = std::make_unique<AtRequester>(
+            "requester", out,
+            AtRequester::Limits{options.outstanding, options.outstanding_per_stream});
         out.register_nb_transport_bw(this, &MemoryGateway::backward);
     }
 }
@@ -28,8 +36,12 @@ void MemoryGateway::connect(const std::vector<MemoryStream>& streams) {
         in_[tag].register_b_transport(this, &MemoryGateway::serve, tag);
         in_[tag].register_transport_dbg(this, &MemoryGateway::debug_of, tag);
         stream.port->out.bind(in_[tag++]);
-        if (scene_ && stream.kind.data == StreamData::Scene) {
+        of_scene_.push_back(scene_ && stream.kind.data == StreamData::Scene);
+        if (of_scene_.back()) {
             stream.port->observe_reads(scene_);
+        }
+        if (requester_) {
+            stream.port->accept_late_answers();
         }
     }
 }
@@ -45,24 +57,52 @@ tlm::tlm_sync_enum MemoryGateway::backward(tlm::tlm_generic_payload& payload, tl
 }
 
 void MemoryGateway::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-    access(static_cast<unsigned>(traffic_.size()), payload, cut(payload), delay);
+    access(static_cast<unsigned>(traffic_.size()), payload, delay);
 }
 
 void MemoryGateway::serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
-    const auto rank = static_cast<unsigned>(port);
-    pacer_.await_turn(rank, delay);
-    access(rank, payload, cut(payload), delay);
-    pacer_.settle(delay);
+    pacer_.await_turn(static_cast<unsigned>(port), delay);
     MemoryTraffic& traffic = traffic_[port];
     (payload.is_read() ? traffic.reads : traffic.writes)++;
     (payload.is_read() ? traffic.bytes_read : traffic.bytes_written) += payload.get_data_length();
-    if (payload.is_response_error()) {
-        first_error_ = errors_++ == 0 ? payload.get_response_status() : first_error_;
-        payload.set_response_status(tlm::TLM_OK_RESPONSE);
+    auto* const late = payload.get_extension<MayAnswerLate>();
+    if (requester_ && late != nullptr && !detached_) {
+        late->answer = start(port, payload);
+    } else {
+        access(static_cast<unsigned>(port), payload, delay);
+        pacer_.settle(delay);
+        note(payload.get_response_status());
+    }
+    payload.set_response_status(tlm::TLM_OK_RESPONSE);
+}
+
+void MemoryGateway::note(tlm::tlm_response_status status) {
+    if (status != tlm::TLM_OK_RESPONSE) {
+        first_error_ = errors_++ == 0 ? status : first_error_;
     }
 }
 
-void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload, const Pieces& pieces,
+// The stream goes on; the answer comes when the last piece is answered.
+std::shared_ptr<LateAnswer> MemoryGateway::start(int port,
+                                                 const tlm::tlm_generic_payload& payload) {
+    auto answer = std::make_shared<LateAnswer>();
+    const Pieces pieces = cut_into_bursts(payload, options_.burst_bytes);
+    ++under_way_;
+    const bool observed = payload.is_read() && of_scene_[port];
+    requester_->start(static_cast<unsigned>(port), payload, pieces,
+                      [this, answer, seen = observed ? pieces : Pieces()](
+                          tlm::tlm_response_status status, const unsigned char* data) {
+                          note(status);
+                          for (const AccessPiece& piece : seen) {
+                              scene_(piece.address, data + piece.offset, piece.bytes);
+                          }
+                          end_access(sc_core::SC_ZERO_TIME);
+                          answer->come(clock_.ceil(sc_core::sc_time_stamp()));
+                      });
+    return answer;
+}
+
+void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload,
                            sc_core::sc_time& delay) {
     if (detached_) {
         payload.set_response_status(tlm::TLM_OK_RESPONSE);
@@ -70,12 +110,16 @@ void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload, con
     }
     ++under_way_;
     if (requester_) {
-        requester_->transport(rank, payload, pieces, delay);
-    } else if (payload.get_extension<Scattered>() == nullptr) {
+        requester_->transport(rank, payload, cut_into_bursts(payload, options_.burst_bytes), delay);
+    } else if (options_.burst_bytes == 0 && payload.get_extension<Scattered>() == nullptr) {
         out->b_transport(payload, delay);
     } else {
-        access_pieces(payload, pieces, delay);
+        access_pieces(payload, cut_into_bursts(payload, options_.burst_bytes), delay);
     }
+    end_access(delay);
+}
+
+void MemoryGateway::end_access(const sc_core::sc_time& delay) {
     if (--under_way_ == 0 && detached_) {
         became_idle_.notify(sc_core::SC_ZERO_TIME);
     }
@@ -98,23 +142,6 @@ void MemoryGateway::attach() {
     }
 }
 
-// One piece per run of bytes, cut at multiples of a piece with AT.
-MemoryGateway::Pieces MemoryGateway::cut(const tlm::tlm_generic_payload& payload) const {
-    const std::uint64_t grain = options_.transport == Transport::At ? options_.piece_bytes : 0;
-    Pieces pieces;
-    unsigned int offset = 0;
-    for_each_run(payload, [&](std::uint64_t address, const unsigned char*, std::uint64_t bytes) {
-        for (const std::uint64_t end = address + bytes; address != end;) {
-            const std::uint64_t room = grain == 0 ? end - address : grain - address % grain;
-            const auto piece = static_cast<unsigned int>(std::min(room, end - address));
-            pieces.push_back({address, offset, piece});
-            address += piece;
-            offset += piece;
-        }
-    });
-    return pieces;
-}
-
 // All pieces are issued at the date of the access, which ends with the last of them; the first
 // error is the access's. Targets see ordinary transactions.
 void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Pieces& pieces,
@@ -127,7 +154,7 @@ void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Piece
     const sc_core::sc_time date = sc_core::sc_time_stamp() + delay;
     sc_core::sc_time done = date;
     tlm::tlm_response_status status = tlm::TLM_OK_RESPONSE;
-    for (const AtRequester::Piece& piece : pieces) {
+    for (const AccessPiece& piece : pieces) {
         if (detached_) { // while the last piece was on the bus
             break;
         }

@@ -14,6 +14,7 @@
 #include "modules/main_memory.hpp"
 #include "platform/access_pacer.hpp"
 #include "platform/at_requester.hpp"
+#include "platform/burst_cutter.hpp"
 
 namespace degs {
 
@@ -24,24 +25,25 @@ namespace degs {
 /// and reports the error in a register, and the simulation goes on.
 class MemoryGateway : public sc_core::sc_module, public MainMemory {
 public:
-    /// `Lt`: one b_transport() per access, whose annotated delay lets a stream have several
-    /// accesses in flight. `At`: four phases, for memories without b_transport(); a stream then
-    /// waits for each access, which makes frames several times longer (docs/accelerator.md).
+    /// `Lt`: b_transport(), whose annotated delay lets a stream have several accesses in flight.
+    /// `At`: four phases, for memories without b_transport(); as many accesses are in flight.
     enum class Transport { Lt, At };
     struct Options {
         Transport transport = Transport::Lt;
         /// AT: transactions of all streams in flight at a time; at least 1.
         unsigned outstanding = 64;
-        /// AT: accesses are split at multiples of this and the pieces overlap; 0 disables
-        /// splitting.
-        std::uint64_t piece_bytes = 0;
-        Pacing pacing = Pacing::Exact;
+        /// AT: likewise, of one stream.
+        unsigned outstanding_per_stream = ~0U;
+        /// Accesses are cut into naturally aligned transactions of a power of two up to this, see
+        /// cut_into_bursts(); a power of two from 4 on, or 0, which cuts nothing.
+        std::uint64_t burst_bytes = 0;
+        Pacing pacing = Pacing::Exact; ///< AT is exact
     };
 
     tlm_utils::simple_initiator_socket<MemoryGateway> out;
 
     explicit MemoryGateway(const sc_core::sc_module_name& name);
-    /// `clock` is that of the streams. Throws std::invalid_argument if no transaction may be outstanding.
+    /// `clock` is that of the streams. Throws std::invalid_argument if an option is out of range.
     MemoryGateway(const sc_core::sc_module_name& name, const Options& options,
                   const ClockDomain& clock = ClockDomain(1.0));
 
@@ -87,22 +89,25 @@ public:
     const sc_core::sc_time& last_answer() const { return last_answer_; }
 
 private:
-    using Pieces = std::vector<AtRequester::Piece>;
+    using Pieces = std::vector<AccessPiece>;
     void serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
-    void access(unsigned rank, tlm::tlm_generic_payload& payload, const Pieces& pieces,
-                sc_core::sc_time& delay);
+    void access(unsigned rank, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
+    std::shared_ptr<LateAnswer> start(int port, const tlm::tlm_generic_payload& payload);
+    void note(tlm::tlm_response_status status);
+    void end_access(const sc_core::sc_time& delay);
     tlm::tlm_sync_enum backward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
                                 sc_core::sc_time& delay);
     unsigned int debug_of(int port, tlm::tlm_generic_payload& payload);
-    Pieces cut(const tlm::tlm_generic_payload& payload) const;
     void access_pieces(tlm::tlm_generic_payload& payload, const Pieces& pieces,
                        sc_core::sc_time& delay);
 
     sc_core::sc_vector<tlm_utils::simple_target_socket_tagged<MemoryGateway>> in_;
     Options options_;
+    ClockDomain clock_;
     AccessPacer pacer_;
     std::unique_ptr<AtRequester> requester_;
     std::vector<MemoryTraffic> traffic_;
+    std::vector<bool> of_scene_; // by stream
     Observer scene_;
     bool detached_ = false;
     unsigned under_way_ = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <deque>
 #include <memory>
 #include <string>
 #include <utility>
@@ -47,6 +48,7 @@ public:
           end_(first_ + cells_.size()), front_(first_), tail_(first_), earlier_(first_),
           capacity_(cells_.size()) {
         depth_ = std::max<std::size_t>(depth, 1);
+        room_ = depth_;
         head_ = &front_->date;
         free_ = &tail_->date;
         if (time.timeline != nullptr) {
@@ -67,7 +69,7 @@ public:
             sum += date - cell->written;
         }
         cell = front_;
-        for (std::size_t i = 0; i < filled_; ++i, cell = next(cell)) {
+        for (std::size_t i = 0; i < filled_ + late_.size(); ++i, cell = next(cell)) {
             sum += date > cell->written ? date - cell->written : 0;
         }
         return sum;
@@ -76,7 +78,7 @@ public:
     /// Waits for a free cell and moves the writer to the date from which it is free.
     void reserve(Process& writer) {
         writer_ = &writer;
-        if (filled_ == depth_ || tail_->date > writer.local()) {
+        if (full() || tail_->date > writer.local()) {
             make_room(writer);
         }
     }
@@ -84,15 +86,24 @@ public:
     /// Process::arrived(); for FIFOs with Lb >= 1, so that what is read in cycle t makes room from
     /// t + 1 on, whoever is asked first.
     bool has_room(Process& writer) {
-        return filled_ < depth_ ? room_date() <= writer.local() : writer.gains_room(*this);
+        return full() ? writer.gains_room(*this) : room_date() <= writer.local();
     }
-    void put(Process& writer, const T& value) { put_at(writer, value, 0); }
-    /// Like put(), but the item may be read from `ready` on at the earliest (data that is on its
-    /// way).
-    void put_at(Process& writer, const T& value, Cycle ready) {
+    /// Must not follow put_at() with an answer that has not come yet.
+    void put(Process& writer, const T& value) {
         reserve(writer);
         tail_->value = value;
-        commit(writer, ready);
+        commit(writer, 0);
+    }
+    /// Like put(), but the item may be read from `ready` on at the earliest (data that is on its
+    /// way). Items stay in order: one whose answer is late holds back those behind it.
+    void put_at(Process& writer, const T& value, const Completion& ready) {
+        reserve(writer);
+        tail_->value = value;
+        if (late_.empty() && ready.known()) {
+            commit(writer, ready.date());
+        } else {
+            hold(writer, ready);
+        }
     }
     /// The cell that put_staged() hands over. The writer fills it in place after reserve().
     T& staged() { return tail_->value; }
@@ -128,7 +139,7 @@ public:
         }
         front_->read = now;
         front_->date = now + release_latency_;
-        const bool was_full = filled_-- == depth_;
+        const bool was_full = filled_-- == room_;
         front_ = next(front_);
         head_ = &front_->date;
         if (foreign_listens_) {
@@ -159,7 +170,7 @@ public:
         return true;
     }
     bool nb_can_put(tlm::tlm_tag<T>* = nullptr) const override {
-        return filled_ < depth_ && time_.clock.at(room_date()) <= sc_core::sc_time_stamp();
+        return !full() && time_.clock.at(room_date()) <= sc_core::sc_time_stamp();
     }
     const sc_core::sc_event& ok_to_put(tlm::tlm_tag<T>* = nullptr) const override {
         listen();
@@ -231,6 +242,41 @@ private:
             reader_->wake();
         }
     }
+    /// The staged item takes its cell, but cannot be read before those that are late and its own answer.
+    __attribute__((noinline)) void hold(Process& writer, const Completion& ready) {
+        tail_->written = writer.local();
+        tail_ = next(tail_);
+        free_ = &tail_->date;
+        --room_;
+        late_.push_back(ready);
+        late_from_ = late_.size() == 1 ? writer.local() + forward_latency_ : late_from_;
+        if (filled_ + late_.size() == capacity_ && capacity_ < depth_) {
+            grow();
+        }
+        ready.when_known([this](Cycle /*date*/) { settle(); });
+    }
+    void settle() {
+        const bool was_empty = filled_ == 0;
+        while (!late_.empty() && late_.front().known()) {
+            Cell& cell = late_cell();
+            cell.date = std::max(cell.written + forward_latency_, late_.front().date());
+            late_.pop_front();
+            ++room_;
+            ++filled_;
+        }
+        late_from_ = late_.empty() ? ~Cycle{0} : late_cell().written + forward_latency_;
+        if (foreign_listens_) {
+            announce();
+        }
+        if (was_empty && filled_ != 0 && reader_ != nullptr && reader_->blocked()) {
+            reader_->wake();
+        }
+    }
+    /// Of the first late item, which lies behind the last one that is not.
+    Cell& late_cell() {
+        const std::size_t place = static_cast<std::size_t>(front_ - first_) + filled_;
+        return first_[place < capacity_ ? place : place - capacity_];
+    }
     /// The cell to be written holds no item, but its last one was read later than the writer's
     /// date, or there is none.
     __attribute__((noinline)) void make_room(Process& writer) {
@@ -238,7 +284,7 @@ private:
             grow();
             return;
         }
-        while (filled_ == depth_) {
+        while (full()) {
             writer.block_on_room(*this);
         }
         writer.advance_to(tail_->date, stats_.full_cycles);
@@ -250,19 +296,20 @@ private:
     __attribute__((noinline)) void grow() {
         std::vector<Cell> cells(capacity_ <= depth_ / 2 ? 2 * capacity_ : depth_);
         const std::size_t added = cells.size() - capacity_;
+        const std::size_t used = filled_ + late_.size();
         const Cell* from = front_;
         for (std::size_t i = 0; i < capacity_; ++i, from = next(from)) {
             Cell& behind = cells[added + i];
             behind.read = from->read;
             behind.written = from->written;
-            if (added + i >= filled_ && from->read != kNever) {
+            if (added + i >= used && from->read != kNever) {
                 behind.date = from->read + release_latency_;
             }
-            if (i < filled_) {
+            if (i < used) {
                 cells[i].date = from->date;
                 cells[i].written = from->written;
                 cells[i].value = from->value;
-            } else if (i == filled_) {
+            } else if (i == used) {
                 cells[i].value = from->value; // staged, perhaps
             }
         }
@@ -272,7 +319,7 @@ private:
         first_ = cells_.data();
         end_ = first_ + capacity_;
         front_ = first_;
-        tail_ = first_ + filled_;
+        tail_ = first_ + used;
         earlier_ = stats_.high_water == 0 ? first_ : end_ - stats_.high_water;
         head_ = &front_->date;
         free_ = &tail_->date;
@@ -306,7 +353,7 @@ private:
         if (filled_ != 0) {
             notify_foreign(foreign_item_, front_->date);
         }
-        if (filled_ < depth_) {
+        if (!full()) {
             notify_foreign(foreign_room_, room_date());
         }
     }
@@ -333,6 +380,7 @@ private:
     Cell* earlier_;        // stats_.high_water places before front_, see count_fill()
     std::size_t capacity_; // cells; no more than depth_
     std::vector<std::vector<Cell>> left_; // cells that were too few
+    std::deque<Completion> late_;         // of items behind the readable ones, see hold()
     Stats stats_;
     std::unique_ptr<Process> foreign_writer_;
     std::unique_ptr<Process> foreign_reader_;

@@ -22,9 +22,9 @@ void set_access(tlm::tlm_generic_payload& payload, tlm::tlm_command command, std
 
 } // namespace
 
-Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64_t address,
-                         unsigned char* data, std::uint64_t bytes,
-                         const ScatteredRecords* records) {
+Completion MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64_t address,
+                              unsigned char* data, std::uint64_t bytes,
+                              const ScatteredRecords* records) {
     if (bytes == 0) {
         return process.local();
     }
@@ -41,12 +41,29 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
         scattered_.records = records;
         payload.set_extension(&scattered_);
     }
+    if (accepts_late_) {
+        payload.set_extension(&may_answer_late_);
+    }
     const Cycle asked = process.local();
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     const sc_core::sc_time date = clock_->at(process.local());
     sc_core::sc_time delay = date > now ? date - now : sc_core::SC_ZERO_TIME;
     out->b_transport(payload, delay);
     payload.clear_extension(&timing_only_);
+    payload.clear_extension(&may_answer_late_);
+    // A memory that waits has moved the kernel on; a process must not stay more than a cycle behind.
+    const auto catch_up = [&] {
+        process.advance_to(std::max<Cycle>(clock_->floor(sc_core::sc_time_stamp()), 1) - 1);
+    };
+    if (may_answer_late_.answer != nullptr) {
+        payload.clear_extension(&scattered_);
+        catch_up();
+        const Completion late(std::exchange(may_answer_late_.answer, nullptr));
+        if (watcher_) {
+            late.when_known([this, asked](Cycle complete) { watcher_(asked, complete); });
+        }
+        return late;
+    }
     if (payload.is_response_error()) {
         payload.clear_extension(&scattered_);
         throw std::runtime_error(std::string(name()) + ": the memory answered " +
@@ -58,9 +75,7 @@ Cycle MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64
         for_each_run(payload, observer_);
     }
     payload.clear_extension(&scattered_);
-    // A memory that waits for its answer has moved the kernel on; a process must not stay more than
-    // a cycle behind.
-    process.advance_to(std::max<Cycle>(clock_->floor(sc_core::sc_time_stamp()), 1) - 1);
+    catch_up();
     const Cycle complete = std::max(asked, clock_->ceil(sc_core::sc_time_stamp() + delay));
     if (watcher_) {
         watcher_(asked, complete);

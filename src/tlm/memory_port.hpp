@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,15 @@
 
 namespace degs {
 
+/// With this extension a port says that it does not need the date of an answer at once. A target that cannot
+/// know it may return from b_transport() before, with an answer that will come; it then has copied what it
+/// writes, and reports what it reads and errors itself.
+struct MayAnswerLate : tlm::tlm_extension<MayAnswerLate> {
+    std::shared_ptr<LateAnswer> answer; ///< the target's; null: answered as usual
+    tlm_extension_base* clone() const override { return new MayAnswerLate; }
+    void copy_from(const tlm_extension_base&) override {}
+};
+
 /// Connects one stream to memory: a TLM-2.0 initiator socket that a dated process uses, with any LT target.
 /// All accesses of the port share one payload, because b_transport() returns before the next access begins.
 class MemoryPort : public sc_core::sc_module {
@@ -25,26 +35,30 @@ public:
     MemoryPort(const sc_core::sc_module_name& name, const Timebase& time)
         : sc_core::sc_module(name), out("out"), clock_(&time.clock) {}
 
+    /// Lets the memory answer late, see MayAnswerLate; before the simulation starts.
+    void accept_late_answers() { accepts_late_ = true; }
+
     /// Reads or writes `bytes` whose values the model does not keep. The access leaves at the local
-    /// date of the process, which does not move. Returns the date at which the transfer is complete.
-    Cycle read(Process& process, std::uint64_t address, std::uint64_t bytes) {
+    /// date of the process, which does not move. Returns when the transfer is complete.
+    Completion read(Process& process, std::uint64_t address, std::uint64_t bytes) {
         return access(process, tlm::TLM_READ_COMMAND, address, nullptr, bytes);
     }
-    Cycle write(Process& process, std::uint64_t address, std::uint64_t bytes) {
+    Completion write(Process& process, std::uint64_t address, std::uint64_t bytes) {
         return access(process, tlm::TLM_WRITE_COMMAND, address, nullptr, bytes);
     }
     /// The same for scattered records, in one request. `run` is the address at which as many bytes
     /// begin for a memory that takes them as one run.
-    Cycle read(Process& process, const ScatteredRecords& records) {
+    Completion read(Process& process, const ScatteredRecords& records) {
         return access(process, tlm::TLM_READ_COMMAND, records.base, nullptr, records.total_bytes(),
                       &records);
     }
-    Cycle write(Process& process, std::uint64_t run, const ScatteredRecords& records) {
+    Completion write(Process& process, std::uint64_t run, const ScatteredRecords& records) {
         return access(process, tlm::TLM_WRITE_COMMAND, run, nullptr, records.total_bytes(),
                       &records);
     }
     /// Writes real bytes.
-    Cycle write(Process& process, std::uint64_t address, const std::vector<unsigned char>& data) {
+    Completion write(Process& process, std::uint64_t address,
+                     const std::vector<unsigned char>& data) {
         return access(process, tlm::TLM_WRITE_COMMAND, address,
                       const_cast<unsigned char*>(data.data()), data.size());
     }
@@ -64,13 +78,15 @@ public:
     void poke(std::uint64_t address, const std::vector<unsigned char>& data);
 
 private:
-    Cycle access(Process& process, tlm::tlm_command command, std::uint64_t address,
-                 unsigned char* data, std::uint64_t bytes,
-                 const ScatteredRecords* records = nullptr);
+    Completion access(Process& process, tlm::tlm_command command, std::uint64_t address,
+                      unsigned char* data, std::uint64_t bytes,
+                      const ScatteredRecords* records = nullptr);
 
     const ClockDomain* clock_;
     std::vector<unsigned char> scratch_;
     TimingOnly timing_only_;
+    MayAnswerLate may_answer_late_;
+    bool accepts_late_ = false;
     Scattered scattered_;
     Observer observer_;
     Watcher watcher_;

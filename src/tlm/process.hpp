@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tlm/clock_domain.hpp"
+#include "tlm/completion.hpp"
 #include "tlm/timeline.hpp"
 
 namespace degs {
@@ -90,8 +91,14 @@ public:
         counter += local_ - before;
     }
     void work(Cycle cycles, Cycle& busy) { advance_to(local_ + cycles, busy); }
-    /// Waits for an answer of the memory.
-    void wait_for_memory(Cycle date) { advance_to(date, memory_cycles_); }
+    /// Waits for an answer of the memory; `counter` counts the cycles.
+    void wait_for_memory(const Completion& answer) { wait_for_memory(answer, memory_cycles_); }
+    void wait_for_memory(const Completion& answer, Cycle& counter) {
+        if (!answer.known()) {
+            sleep_until_known(answer);
+        }
+        advance_to(answer.date(), counter);
+    }
     /// Shows this process in the timeline, if there is one, as `part` of `block` or as the whole
     /// block; `busy` counts the cycles in which its `units` units worked.
     void show(const sc_core::sc_object& block, const Cycle& busy, int units = 1,
@@ -165,6 +172,7 @@ private:
     /// each date.
     Cycle no_alarm() const { return strict_ ? 0 : step_end_; }
     void sleep();
+    void sleep_until_known(const Completion& answer);
     /// Sleeps until woken, at the longest until kernel time `date`. May return without either.
     void doze_until(const sc_core::sc_time& date);
     /// The work of advance_to() beyond alarm_; `counter` will count the time since `before`.
@@ -216,7 +224,7 @@ public:
     bool empty() const { return filled_ == 0; }
     /// Date from which the oldest item may be read. Only if not empty.
     Cycle head_date() const { return *head_; }
-    bool full() const { return filled_ == depth_; }
+    bool full() const { return filled_ == room_; }
     /// Date from which the next cell may be written. Only if not full.
     Cycle free_date() const { return *free_; }
     /// Names the process that writes before it first does, so that a reader can ask for its date.
@@ -228,7 +236,8 @@ public:
     Cycle release_latency() const { return release_latency_; }
     /// First date at which an item that is not in the ring yet could be read.
     Cycle horizon(int depth) const {
-        return writer_ == nullptr ? 0 : writer_->bound(depth) + forward_latency_;
+        const Cycle next = writer_ == nullptr ? 0 : writer_->bound(depth) + forward_latency_;
+        return std::min(next, late_from_);
     }
     /// First date at which a cell could be free, of a FIFO that is full as far as the host has come.
     Cycle room_horizon(int depth) const {
@@ -258,6 +267,8 @@ protected:
     Cycle release_latency_;
     std::size_t filled_ = 0;
     std::size_t depth_ = 0;
+    std::size_t room_ = 0; // depth without the cells of items whose memory has not answered yet
+    Cycle late_from_ = ~Cycle{0}; // no such item can be read before this date
     const Cycle* head_ = nullptr;
     const Cycle* free_ = nullptr;
     Process* writer_ = nullptr;

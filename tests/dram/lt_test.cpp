@@ -131,7 +131,7 @@ TEST(Lpddr5Lt, WorksBehindAMemoryPort) {
         }
         void run() {
             for (std::uint64_t i = 0; i < 20; ++i) {
-                done.push_back(port.read(process, i * 64, 64));
+                done.push_back(port.read(process, i * 64, 64).date());
                 process.advance(2);
             }
             process.finish();

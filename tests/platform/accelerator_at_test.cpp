@@ -8,9 +8,11 @@
 namespace degs::test {
 namespace {
 
-Accelerator::Options four_phases(unsigned outstanding = 64, std::uint64_t piece_bytes = 0) {
+Accelerator::Options four_phases(unsigned outstanding = 64, std::uint64_t burst_bytes = 0) {
     Accelerator::Options options;
-    options.memory = {MemoryGateway::Transport::At, outstanding, piece_bytes};
+    options.memory.transport = MemoryGateway::Transport::At;
+    options.memory.outstanding = outstanding;
+    options.memory.burst_bytes = burst_bytes;
     return options;
 }
 
@@ -52,29 +54,29 @@ protected:
     }
 };
 
-// The latency is that of the blocking memory, bandwidth is unlimited, and a port has one access
-// under way on both: the same dates, as long as a request is for one record, because a blocking memory
-// serves several one after the other. A memory that needs BEGIN_RESP to end a request, or that keeps
-// its response phase for the whole latency, serves one transaction after the other.
-TEST_P(SmallRunAtAccelerator, TakesTheTimeOfABlockingMemoryAndWritesItsBytes) {
-    config.projection.chunk = config.fetching.chunk = 1;
-    AtPlatform p("four_phases", config, cloud);
-    Platform blocking("blocking", config, cloud, Timing::Blocking);
+// Bandwidth is unlimited, and as many accesses are in flight as with an annotated memory. A request goes
+// out half a cycle after its date and an answer counts from the next cycle on, so the same dates come
+// of an annotated latency that is a cycle longer. A memory that needs BEGIN_RESP to end a request, or that
+// keeps its response phase for the whole latency, serves one transaction after the other.
+TEST_P(SmallRunAtAccelerator, TakesTheTimeOfAnAnnotatedMemoryAndWritesItsBytes) {
+    AtPlatform p("four_phases", config, cloud, four_phases(100000));
+    Platform annotated("annotated", config, cloud, Timing::Annotated);
+    annotated.memory->latency = sc_core::sc_time(51, sc_core::SC_NS);
     p.at.ending = GetParam();
     std::uint64_t at_cycles = 0;
-    std::uint64_t blocking_cycles = 0;
+    std::uint64_t annotated_cycles = 0;
     p.host.script = frame(at_cycles);
-    blocking.host.script = frame(blocking_cycles);
+    annotated.host.script = frame(annotated_cycles);
     sc_core::sc_start();
-    ASSERT_TRUE(p.host.finished && blocking.host.finished);
-    EXPECT_EQ(p.pixels(camera), blocking.frame(camera));
+    ASSERT_TRUE(p.host.finished && annotated.host.finished);
+    EXPECT_EQ(p.pixels(camera), annotated.frame(camera));
     EXPECT_GT(p.at.requests, 20U);
     EXPECT_EQ(p.at.under_way, 0U);
     const Ending ending = GetParam();
     if (ending == Ending::Four || ending == Ending::RequestAtOnce || ending == Ending::Completed) {
-        EXPECT_EQ(at_cycles, blocking_cycles);
+        EXPECT_EQ(at_cycles, annotated_cycles);
     } else {
-        EXPECT_GT(at_cycles, blocking_cycles);
+        EXPECT_GT(at_cycles, annotated_cycles);
     }
     if (ending == Ending::Four || ending == Ending::RequestAtOnce) {
         EXPECT_GT(p.at.most_under_way, 1U);

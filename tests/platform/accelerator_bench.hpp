@@ -19,7 +19,7 @@
 
 namespace degs::test {
 
-/// `Annotated`: returns at once with a delay of 50 ns. `Blocking`: waits for 50 ns itself.
+/// `Annotated`: returns at once with a delay of the latency. `Blocking`: waits for it itself.
 enum class Timing { Immediate, Annotated, Blocking };
 
 class PlainMemory : public sc_core::sc_module {
@@ -27,6 +27,7 @@ public:
     tlm_utils::simple_target_socket<PlainMemory> in;
     std::vector<unsigned char> bytes;
     std::uint64_t refused_from = ~std::uint64_t{0}; ///< accesses that reach this address fail
+    sc_core::sc_time latency{50, sc_core::SC_NS};
     std::uint64_t accesses = 0;
     std::uint64_t refused = 0;
     std::function<void(std::uint64_t access)> on_access;
@@ -65,7 +66,6 @@ private:
         if (on_range) {
             on_range(payload.get_address(), payload.get_data_length());
         }
-        const sc_core::sc_time latency(50, sc_core::SC_NS);
         if (timing_ == Timing::Blocking) {
             sc_core::wait(delay + latency);
             delay = sc_core::SC_ZERO_TIME;

@@ -18,7 +18,7 @@ Accelerator::Options options_of(Bus bus, Fidelity fidelity) {
     options.fidelity = fidelity;
     if (bus == Bus::FourPhases) {
         options.memory.transport = MemoryGateway::Transport::At;
-        options.memory.piece_bytes = 64;
+        options.memory.burst_bytes = 64;
     }
     return options;
 }

@@ -75,5 +75,49 @@ TEST(AcceleratorOnATrainedScene, RendersTheImageOfAClosedJobThroughLtAndAt) {
     EXPECT_EQ(pixels_in(at_memory.bytes, camera), expected);
 }
 
+// Eight transactions in flight per stream, each a naturally aligned power of two.
+TEST(AcceleratorOnATrainedScene, AtTakesNearlyTheTimeOfAnnotatedLt) {
+    DEGS_NEEDS_SCENE("flowers-small");
+    const Scene scene = load_scene((scenes() / "flowers-small" / "scene.ply").string());
+    Camera camera = select_camera(scene, 2);
+    camera.width = 960;
+    camera.height = 540;
+    camera.fx /= 2;
+    camera.fy /= 2;
+    const DegsConfig config;
+    Accelerator::Options four_phases;
+    four_phases.memory.transport = MemoryGateway::Transport::At;
+    four_phases.memory.outstanding = 1000;
+    four_phases.memory.outstanding_per_stream = 8;
+    four_phases.memory.burst_bytes = 256;
+    PlainMemory lt_memory("lt_memory", kSceneMemory, Timing::Annotated);
+    AtMemory at_memory("at_memory", kSceneMemory);
+    at_memory.aligned_only = true;
+    Platform lt("lt", config, scene.cloud, nullptr);
+    Platform at("at", config, scene.cloud, nullptr, four_phases);
+    lt.accelerator.mem.bind(lt_memory.in);
+    at.accelerator.mem.bind(at_memory.in);
+    put(scene.cloud, lt_memory.bytes);
+    put(scene.cloud, at_memory.bytes);
+    std::uint64_t lt_cycles = 0;
+    std::uint64_t at_cycles = 0;
+    const auto render = [&](std::uint64_t& cycles) {
+        return [&](Host& host) {
+            program(host, scene.cloud, camera, kSceneFrame);
+            host.write_pair(Register::Sh, kSceneSh);
+            host.write_pair(Register::Workspace, kSceneWorkspace);
+            host.write_pair(Register::WorkspaceBytes, kSceneFrame - kSceneWorkspace);
+            EXPECT_TRUE(host.render()) << "error " << host.read(Register::ErrorCode);
+            cycles = host.read_pair(Register::Cycles);
+        };
+    };
+    lt.host.script = render(lt_cycles);
+    at.host.script = render(at_cycles);
+    sc_core::sc_start();
+    EXPECT_EQ(pixels_in(lt_memory.bytes, camera), pixels_in(at_memory.bytes, camera));
+    EXPECT_GT(lt_cycles, 100000U);
+    EXPECT_LE(at_cycles, lt_cycles + lt_cycles * 3 / 10);
+}
+
 } // namespace
 } // namespace degs::test

@@ -36,7 +36,7 @@ protected:
             Process process(time);
             for (Cycle i = 0; i < kReads; ++i) {
                 process.advance_to(90 + 100 * i);
-                answers.push_back(port.read(process, 0, 4096));
+                answers.push_back(port.read(process, 0, 4096).date());
             }
         });
         sc_core::sc_start();

@@ -22,8 +22,9 @@ public:
     tlm_utils::simple_initiator_socket<Threads> out;
     AtRequester requester;
 
-    Threads(const sc_core::sc_module_name& name, unsigned outstanding)
-        : sc_core::sc_module(name), out("out"), requester("requester", out, outstanding) {
+    Threads(const sc_core::sc_module_name& name, unsigned outstanding, unsigned per_rank = ~0U)
+        : sc_core::sc_module(name), out("out"),
+          requester("requester", out, AtRequester::Limits{outstanding, per_rank}) {
         out.register_nb_transport_bw(this, &Threads::backward);
     }
     void start(const std::function<void()>& body) {
@@ -176,8 +177,55 @@ TEST_F(SmallRunAtRequester, PiecesOfAnAccessAreUnderWayTogether) {
     EXPECT_EQ(memory.most_under_way, 3U);
 }
 
+TEST_F(SmallRunAtRequester, ARankAtItsLimitDoesNotHoldBackOthers) {
+    Threads threads("threads", 16, 2);
+    threads.out.bind(memory.in);
+    std::vector<double> dates(2, 0);
+    for (unsigned rank = 0; rank < 2; ++rank) {
+        threads.start([&, rank] {
+            std::vector<unsigned char> data(64, 9);
+            const std::vector<Piece> pieces{{0, 0, 16}, {64, 16, 16}, {128, 32, 16}, {192, 48, 16}};
+            dates[rank] = threads.access(rank, true, pieces, data);
+        });
+    }
+    sc_core::sc_start();
+    EXPECT_EQ(dates, (std::vector<double>{100, 100})); // two at a time each
+    EXPECT_EQ(memory.most_under_way, 4U);
+}
+
+// The bytes are those of the call: who writes may use its buffer again at once.
+TEST_F(SmallRunAtRequester, AnAccessThatNobodyWaitsForIsAnsweredLater) {
+    Threads threads("threads", 8);
+    threads.out.bind(memory.in);
+    std::vector<double> dates;
+    threads.start([&] {
+        std::vector<unsigned char> data(16);
+        for (unsigned char value = 0; value < 4; ++value) {
+            std::fill(data.begin(), data.end(), value);
+            Payload payload;
+            payload.set_command(tlm::TLM_WRITE_COMMAND);
+            payload.set_data_ptr(data.data());
+            payload.set_data_length(16);
+            threads.requester.start(
+                0, payload, {{16U * value, 0, 16}},
+                [&dates](tlm::tlm_response_status status, const unsigned char* /*data*/) {
+                    EXPECT_EQ(status, tlm::TLM_OK_RESPONSE);
+                    dates.push_back(sc_core::sc_time_stamp() / sc_core::sc_time(1, sc_core::SC_NS));
+                });
+        }
+        EXPECT_EQ(sc_core::sc_time_stamp(), sc_core::SC_ZERO_TIME);
+    });
+    sc_core::sc_start();
+    EXPECT_EQ(dates, std::vector<double>(4, 50));
+    EXPECT_EQ(memory.most_under_way, 4U);
+    for (std::size_t at = 0; at < 64; ++at) {
+        EXPECT_EQ(memory.bytes[at], at / 16);
+    }
+}
+
 TEST_F(SmallRunAtRequester, NothingOutstandingIsRefused) {
     EXPECT_THROW(Threads("threads", 0), std::invalid_argument);
+    EXPECT_THROW(Threads("others", 1, 0), std::invalid_argument);
 }
 
 } // namespace

@@ -72,7 +72,7 @@ struct RecordingMemory : sc_core::sc_module {
     }
 };
 
-// Ordinary transactions at the addresses of the records, with LT and AT, cut at pieces with AT only.
+// Ordinary transactions at the addresses of the records; AT cuts them into bursts here.
 TEST(SmallRunMemoryGatewayScattered, SendsOneOrdinaryTransactionPerRun) {
     const Timebase time;
     RecordingMemory lt_memory("lt_memory");
@@ -82,7 +82,7 @@ TEST(SmallRunMemoryGatewayScattered, SendsOneOrdinaryTransactionPerRun) {
     }
     MemoryGateway::Options four_phases;
     four_phases.transport = MemoryGateway::Transport::At;
-    four_phases.piece_bytes = 32;
+    four_phases.burst_bytes = 32;
     MemoryGateway lt("lt", MemoryGateway::Options());
     MemoryGateway at("at", four_phases);
     MemoryPort lt_port("lt_port", time);
@@ -119,9 +119,10 @@ TEST(SmallRunMemoryGatewayScattered, SendsOneOrdinaryTransactionPerRun) {
     std::vector<Seen> expected = once;
     expected.insert(expected.end(), once.begin(), once.end());
     EXPECT_EQ(lt_memory.seen, expected);
-    EXPECT_EQ(at_memory.requests, 12U) << "48 B in pieces of at most 32 B, read and written";
+    EXPECT_EQ(at_memory.requests, 12U) << "48 B are a burst of 32 B and 16 B, read and written";
+    EXPECT_EQ(observed[0], (std::vector<std::uint64_t>{1984, 208, 400}));
+    EXPECT_EQ(observed[1], (std::vector<std::uint64_t>{1984, 2016, 208, 224, 400, 416}));
     for (std::size_t g = 0; g < 2; ++g) {
-        EXPECT_EQ(observed[g], (std::vector<std::uint64_t>{1984, 208, 400}));
         EXPECT_EQ(gateways[g]->total().bytes_read, 144U);
         EXPECT_EQ(gateways[g]->total().reads, 1U);
         EXPECT_EQ(gateways[g]->total().bytes_written, 144U);

@@ -40,6 +40,8 @@ public:
     sc_core::sc_time accept = sc_core::SC_ZERO_TIME; ///< BEGIN_REQ to END_REQ
     std::uint64_t refused_from = ~std::uint64_t{0};  ///< accesses that reach this address fail
     bool has_debug = true;
+    bool aligned_only =
+        false; ///< complains of accesses that are not naturally aligned powers of two
     unsigned under_way = 0, most_under_way = 0;
     std::uint64_t requests = 0, longest = 0;
 
@@ -86,6 +88,10 @@ private:
         EXPECT_TRUE(payload.has_mm());
         EXPECT_EQ(payload.get_response_status(), tlm::TLM_INCOMPLETE_RESPONSE);
         EXPECT_EQ(payload.get_streaming_width(), payload.get_data_length());
+        const std::uint64_t length = payload.get_data_length();
+        EXPECT_TRUE(!aligned_only ||
+                    ((length & (length - 1)) == 0 && payload.get_address() % length == 0))
+            << length << " bytes at " << payload.get_address();
         longest = std::max<std::uint64_t>(longest, payload.get_data_length());
         most_under_way = std::max(most_under_way, ++under_way);
         payload.acquire();

@@ -53,7 +53,7 @@ TEST(MemoryPort, RoundsUpToCyclesOfItsClock) {
     PortBench bench(0.7); // 1429 ps
     const Script script("script", [&] {
         bench.self.advance(7);
-        const Cycle done = bench.port.read(bench.self, 0, 64);
+        const Cycle done = bench.port.read(bench.self, 0, 64).date();
         EXPECT_EQ(done, (7U * 1429 + 101000 + 1428) / 1429);
     });
     sc_core::sc_start();

@@ -115,7 +115,7 @@ ColourStage::Survivors ColourStage::filter(const SplatChunk& group) {
     return left;
 }
 
-Cycle ColourStage::read_sh(const Survivors& survivors) {
+Completion ColourStage::read_sh(const Survivors& survivors) {
     const JobTile& view = job_.tiles[survivors.group.tile];
     gaussians_.clear();
     for (const SplatChunk& run : survivors.runs) {

@@ -67,7 +67,7 @@ private:
     void fetch();
     void see_ended_blocks(TileNumber view);
     Survivors filter(const SplatChunk& group);
-    Cycle read_sh(const Survivors& survivors);
+    Completion read_sh(const Survivors& survivors);
     void shade();
     Cycle sort_cycles(std::uint64_t keys) const;
     void hand_over(const Survivors& survivors);

@@ -66,7 +66,8 @@ void Grouping::fetch() {
         for (std::uint64_t first = 0; first < frame.gaussians; first += chunk) {
             const std::uint64_t count = std::min(chunk, frame.gaussians - first);
             fetched_.reserve(fetcher_);
-            const Cycle ready = means.read(fetcher_, map.means + first * record, count * record);
+            const Completion ready =
+                means.read(fetcher_, map.means + first * record, count * record);
             fetched_.put_at(fetcher_, {first, count}, ready);
             fetcher_.advance();
         }
@@ -117,7 +118,7 @@ void Grouping::regroup(std::uint32_t f) {
     const std::size_t chunk = config_.chunk;
     const std::size_t visible = frame.splats.size();
     const std::size_t pieces = (visible + chunk - 1) / chunk;
-    std::vector<Cycle> ready(config_.chunks_in_flight, 0);
+    std::vector<Completion> ready(config_.chunks_in_flight, 0);
     region_written_ = 0;
     std::size_t asked = 0;
     for (std::size_t piece = 0; piece < pieces; ++piece) {
@@ -142,12 +143,12 @@ void Grouping::write(std::uint64_t region, std::uint64_t entries, Cycle least_cy
     const Cycle busy = std::max(least_cycles, ceil_div(entries, config_.entries_per_cycle));
     grouper_.work(busy, stats_.busy);
     stats_.entries_written += entries;
-    Cycle& oldest = acknowledged_[writes_++ % acknowledged_.size()];
+    Completion& oldest = acknowledged_[writes_++ % acknowledged_.size()];
     grouper_.wait_for_memory(oldest);
     oldest = lists.write(grouper_, region + region_written_ * traffic_.entry_bytes(),
                          entries * traffic_.entry_bytes());
     region_written_ += entries;
-    last_write_ = std::max(last_write_, oldest);
+    last_write_ = latest(last_write_, oldest);
 }
 
 } // namespace degs::gcc

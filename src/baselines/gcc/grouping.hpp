@@ -79,10 +79,10 @@ private:
     std::uint32_t frames_in_flight_;
     Process fetcher_, grouper_;
     DatedFifo<Chunk> fetched_;
-    std::vector<Cycle> acknowledged_; // ring of completion dates of the latest writes
+    std::vector<Completion> acknowledged_; // ring of completion dates of the latest writes
     std::uint64_t writes_ = 0;
     std::uint64_t region_written_ = 0; // entries of the frame's current lists
-    Cycle last_write_ = 0;
+    Completion last_write_;
     std::vector<Cycle> frames_grouped_;
     Stats stats_;
 };

@@ -82,7 +82,7 @@ void ProjectionStage::load_view(TileNumber number) {
         loaded_.reserve(loader_);
         group.first = view.first + done;
         group.count = 0;
-        Cycle ready = 0;
+        Completion ready;
         if (gcc_cancelled(loader_, cancel[0], load_from_, number)) {
             stats_.entries_cancelled += view.count - done;
             done = view.count;
@@ -104,7 +104,7 @@ void ProjectionStage::fetch() {
         SplatChunk group = loaded_.get(fetcher_);
         views += group.last ? 1 : 0;
         fetched_.reserve(fetcher_);
-        Cycle ready = 0;
+        Completion ready;
         if (gcc_cancelled(fetcher_, cancel[1], fetch_from_, group.tile)) {
             stats_.shapes_cancelled += group.count;
             group.count = 0;
@@ -119,7 +119,7 @@ void ProjectionStage::fetch() {
     fetcher_.finish();
 }
 
-Cycle ProjectionStage::read_shapes(const SplatChunk& group) {
+Completion ProjectionStage::read_shapes(const SplatChunk& group) {
     const JobTile& view = job_.tiles[group.tile];
     gaussians_.clear();
     append_gaussians(job_.frame_of(view), group, gaussians_);

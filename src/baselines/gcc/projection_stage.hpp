@@ -59,7 +59,7 @@ private:
     void load();
     void load_view(TileNumber number);
     void fetch();
-    Cycle read_shapes(const SplatChunk& group);
+    Completion read_shapes(const SplatChunk& group);
     void project();
 
     Config config_;

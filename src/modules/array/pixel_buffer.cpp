@@ -151,11 +151,11 @@ int PixelBuffer::context_of(TileNumber number) const {
 }
 
 void PixelBuffer::finish_tile(TileNumber number) {
-    Cycle& oldest = in_flight_[stats_.tiles % in_flight_.size()];
-    self_.advance_to(oldest, stats_.write_wait);
+    Completion& oldest = in_flight_[stats_.tiles % in_flight_.size()];
+    self_.wait_for_memory(oldest, stats_.write_wait);
     const Cycle start = self_.local();
     oldest = write_rows(number);
-    written_ = std::max(written_, oldest);
+    written_ = latest(written_, oldest);
     read_out_ = self_.local();
     stats_.readout_busy += read_out_ - start;
     if (job_.recorder != nullptr) {
@@ -166,11 +166,13 @@ void PixelBuffer::finish_tile(TileNumber number) {
     if (frame >= frames_written_.size()) {
         frames_written_.resize(frame + 1, 0);
     }
-    frames_written_[frame] = std::max(written_, read_out_);
+    latest(written_, read_out_).when_known([this, frame](Cycle date) {
+        frames_written_[frame] = std::max(frames_written_[frame], date);
+        stats_.finished = std::max(stats_.finished, date);
+    });
     for (auto& port : frame_done) {
         port->put_at(self_, frame, oldest);
     }
-    stats_.finished = std::max(written_, read_out_);
     stats_.tiles++;
     const TileNumber next = number + contexts_;
     if (share_.granted || !job_.over(next)) {
@@ -182,7 +184,7 @@ void PixelBuffer::finish_tile(TileNumber number) {
 
 // One posted write per row, as the rows are read out, at most kRowsPerCycle in a cycle: an access
 // takes the kernel half a cycle on, see Memory. Returns the completion of the last one.
-Cycle PixelBuffer::write_rows(TileNumber number) {
+Completion PixelBuffer::write_rows(TileNumber number) {
     constexpr int kRowsPerCycle = 2;
     const JobTile& tile = job_.tiles[number];
     const MemoryMap map = job_.map(tile.frame, traffic_);
@@ -190,7 +192,7 @@ Cycle PixelBuffer::write_rows(TileNumber number) {
     const std::uint64_t frame_width = job_.frame_of(tile).camera.width;
     const int per_cycle = std::max(1, config_.readout_pixels / share_.row_stride);
     const Cycle start = self_.local();
-    Cycle done = start;
+    Completion done = start;
     int read = 0; // pixels
     int row = 0;
     for (int y = share_.first_row; y < tile.height; y += share_.row_stride, ++row) {
@@ -204,7 +206,7 @@ Cycle PixelBuffer::write_rows(TileNumber number) {
         if (instant_) {
             frame_buffer.poke(address, pixels);
         } else {
-            done = std::max(done, frame_buffer.write(self_, address, pixels));
+            done = latest(done, frame_buffer.write(self_, address, pixels));
         }
         read += tile.width;
     }

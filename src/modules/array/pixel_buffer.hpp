@@ -103,7 +103,7 @@ private:
     TileNumber next_tile();
     void finish_tile(TileNumber number);
     int context_of(TileNumber number) const;
-    Cycle write_rows(TileNumber number);
+    Completion write_rows(TileNumber number);
     const std::vector<unsigned char>& read_out(TileNumber number, int y);
 
     Config config_;
@@ -114,11 +114,11 @@ private:
     bool instant_;
     TileDrawing* drawing_ = nullptr; // nullptr: pixels lie in the contexts
     Process self_;
-    Cycle written_ = 0;                // completion of the latest write
-    Cycle read_out_ = 0;               // date at which the latest pixel had been read out
-    std::vector<Cycle> in_flight_;     // ring of completion dates of the latest tile writes
-    std::vector<PixelValue> pixels_;   // of the row being read out
-    std::vector<unsigned char> bytes_; // the same as frame-buffer pixels
+    Completion written_;                // completion of the latest write
+    Cycle read_out_ = 0;                // date at which the latest pixel had been read out
+    std::vector<Completion> in_flight_; // ring of completion dates of the latest tile writes
+    std::vector<PixelValue> pixels_;    // of the row being read out
+    std::vector<unsigned char> bytes_;  // the same as frame-buffer pixels
     std::vector<Cycle> frames_written_;
     Stats stats_;
 };

@@ -34,9 +34,12 @@ void BackgroundWriter::run() {
         for (auto& port : listed) {
             port->get(self_);
         }
-        const Cycle done = write_frame(f);
-        stats_.finished = std::max(stats_.finished, done);
-        frames_written_.push_back(done);
+        const Completion done = write_frame(f);
+        frames_written_.push_back(0);
+        done.when_known([this, f](Cycle date) {
+            frames_written_[f] = date;
+            stats_.finished = std::max(stats_.finished, date);
+        });
         for (auto& port : frame_done) {
             port->put_at(self_, f, done);
         }
@@ -45,9 +48,9 @@ void BackgroundWriter::run() {
 }
 
 // A tile lists no splat if its part of the frame's list is empty.
-Cycle BackgroundWriter::write_frame(std::uint32_t frame) {
+Completion BackgroundWriter::write_frame(std::uint32_t frame) {
     const FrameWorkload& work = *job_.frames[frame];
-    Cycle done = self_.local();
+    Completion done = self_.local();
     const auto empty = [&work](int tile) {
         return work.tile_begin[tile] == work.tile_begin[tile + 1];
     };
@@ -58,7 +61,7 @@ Cycle BackgroundWriter::write_frame(std::uint32_t frame) {
                 ++end;
             }
             if (end != begin) {
-                done = std::max(done, write_run(frame, row, begin, end));
+                done = latest(done, write_run(frame, row, begin, end));
             }
             begin = end + 1;
         }
@@ -67,9 +70,9 @@ Cycle BackgroundWriter::write_frame(std::uint32_t frame) {
 }
 
 // Tiles [begin, end) of a row of tiles. Background is transparent black: zeros in any format.
-Cycle BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, int end) {
+Completion BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, int end) {
     stats_.tiles += end - begin;
-    Cycle done = self_.local();
+    Completion done = self_.local();
     if (instant_) {
         return done;
     }
@@ -88,7 +91,7 @@ Cycle BackgroundWriter::write_run(std::uint32_t frame, int tile_row, int begin, 
         const std::uint64_t pixel = y * pitch + left;
         self_.advance_to(next_write_);
         next_write_ = self_.local() + cycles_per_write_;
-        done = std::max(done, frame_buffer.write(self_, base + pixel * pixel_bytes, zeros));
+        done = latest(done, frame_buffer.write(self_, base + pixel * pixel_bytes, zeros));
     }
     return done;
 }

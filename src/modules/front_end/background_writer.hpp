@@ -40,8 +40,8 @@ public:
 private:
     void end_of_elaboration() override;
     void run();
-    Cycle write_frame(std::uint32_t frame);
-    Cycle write_run(std::uint32_t frame, int tile_row, int begin, int end);
+    Completion write_frame(std::uint32_t frame);
+    Completion write_run(std::uint32_t frame, int tile_row, int begin, int end);
 
     TrafficConfig traffic_;
     const RenderJob& job_;

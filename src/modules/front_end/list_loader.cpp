@@ -31,7 +31,8 @@ void ListLoader::run() {
         }
         const MemoryMap map = job_.map(tile.frame, traffic_);
         out->reserve(self_);
-        const Cycle ready = lists.read(self_, map.lists + tile.first * entry, tile.count * entry);
+        const Completion ready =
+            lists.read(self_, map.lists + tile.first * entry, tile.count * entry);
         out->put_at(self_, t, ready);
         self_.advance();
     }

@@ -62,7 +62,7 @@ void ProjectionUnit::fetch() {
             const std::uint64_t count = std::min(chunk, total - first);
             const std::uint64_t bytes = traffic_.geometry_bytes;
             fetched_.reserve(fetcher_);
-            const Cycle ready =
+            const Completion ready =
                 geometry.read(fetcher_, map.geometry + first * bytes, count * bytes);
             fetched_.put_at(fetcher_, {f, first, count}, ready);
             fetcher_.advance();
@@ -94,7 +94,8 @@ void ProjectionUnit::project() {
     projector_.finish();
 }
 
-Cycle ProjectionUnit::read_sh(std::uint32_t f, const Chunk& chunk, const ProjectedChunk& visible) {
+Completion ProjectionUnit::read_sh(std::uint32_t f, const Chunk& chunk,
+                                   const ProjectedChunk& visible) {
     const FrameWorkload& frame = *job_.frames[f];
     if (traffic_.sh == ShReads::All) {
         const std::uint64_t record = traffic_.sh_bytes(frame.sh_degree);

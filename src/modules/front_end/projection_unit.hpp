@@ -60,7 +60,7 @@ private:
     void fetch();
     void project();
     void shade();
-    Cycle read_sh(std::uint32_t f, const Chunk& chunk, const ProjectedChunk& visible);
+    Completion read_sh(std::uint32_t f, const Chunk& chunk, const ProjectedChunk& visible);
 
     Config config_;
     TrafficConfig traffic_;

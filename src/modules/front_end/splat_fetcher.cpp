@@ -71,7 +71,7 @@ bool SplatFetcher::cancelled(TileNumber number) {
     return number < cancelled_before_;
 }
 
-Cycle SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
+Completion SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
     if (instant_) {
         return self_.local();
     }
@@ -86,7 +86,7 @@ Cycle SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
     if (count == 0) {
         return self_.local();
     }
-    Cycle& oldest = answered_[requests_++ % answered_.size()];
+    Completion& oldest = answered_[requests_++ % answered_.size()];
     self_.wait_for_memory(oldest);
     oldest = records.read(self_, job_.splat_records(tile.frame, traffic_, splats, count));
     return oldest;
@@ -106,7 +106,7 @@ void SplatFetcher::wait_for_place() {
     }
 }
 
-void SplatFetcher::emit(const SplatChunk& chunk, Cycle ready) {
+void SplatFetcher::emit(const SplatChunk& chunk, const Completion& ready) {
     for (auto& port : out) {
         port->put_at(self_, chunk, ready);
     }
@@ -134,7 +134,7 @@ void SplatFetcher::fetch(const SortedRun& run) {
         chunk.tile = run.tile;
         chunk.first = tile.first + done_;
         wait_for_place();
-        Cycle ready = self_.local();
+        Completion ready = self_.local();
         if (cancelled(run.tile)) {
             stats_.records_cancelled += tile.count - done_;
             skipped_ = run.tile;

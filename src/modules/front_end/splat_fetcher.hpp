@@ -63,10 +63,10 @@ private:
     SortedRun next_run();
     void fetch(const SortedRun& run);
     void wait_for_place();
-    void emit(const SplatChunk& chunk, Cycle ready);
+    void emit(const SplatChunk& chunk, const Completion& ready);
     Cycle write_cycles(const SplatChunk& chunk) const;
     bool cancelled(TileNumber number);
-    Cycle read(const JobTile& tile, const SplatChunk& chunk);
+    Completion read(const JobTile& tile, const SplatChunk& chunk);
 
     Config config_;
     TrafficConfig traffic_;
@@ -74,11 +74,11 @@ private:
     bool instant_, granted_;
     ReuseCache* cache_;
     Process self_;
-    TileNumber cancelled_before_ = 0; // tiles below this number are cancelled or over
-    TileNumber skipped_ = kNoTile;    // its readers have had the chunk that ends it
-    std::size_t places_taken_ = 0;    // by chunks, if they are counted
-    std::uint64_t done_ = 0;          // entries of the tile being fetched
-    std::vector<Cycle> answered_;     // ring of completion dates of the latest requests
+    TileNumber cancelled_before_ = 0;  // tiles below this number are cancelled or over
+    TileNumber skipped_ = kNoTile;     // its readers have had the chunk that ends it
+    std::size_t places_taken_ = 0;     // by chunks, if they are counted
+    std::uint64_t done_ = 0;           // entries of the tile being fetched
+    std::vector<Completion> answered_; // ring of completion dates of the latest requests
     std::uint64_t requests_ = 0;
     Stats stats_;
 };

@@ -56,22 +56,22 @@ void TileBinner::bin(const ProjectedChunk& chunk, const MemoryMap& map) {
     const Cycle rate = config_.pairs_per_cycle;
     const Cycle busy = std::max<Cycle>(1, (chunk.tile_pairs + rate - 1) / rate);
     self_.work(busy, stats_.busy);
-    Cycle& oldest = acknowledged_[writes_++ % acknowledged_.size()];
+    Completion& oldest = acknowledged_[writes_++ % acknowledged_.size()];
     self_.wait_for_memory(oldest);
     const std::uint64_t record = traffic_.splat_bytes;
     const std::uint64_t entry = traffic_.list_entry_bytes;
     const std::uint64_t run = map.splats + chunk.first_visible * record;
     const bool in_a_row = job_.places[chunk.frame].of_visible() == nullptr;
-    const Cycle splats_done =
+    const Completion splats_done =
         in_a_row ? splats.write(self_, run, chunk.visible * record)
                  : splats.write(self_, run,
                                 job_.visible_records(chunk.frame, traffic_, chunk.first_visible,
                                                      chunk.visible));
-    const Cycle lists_done =
+    const Completion lists_done =
         lists.write(self_, map.lists + job_.pairs_before(chunk.frame, chunk.first_visible) * entry,
                     chunk.tile_pairs * entry);
-    oldest = std::max(splats_done, lists_done);
-    last_write_ = std::max(last_write_, oldest);
+    oldest = latest(splats_done, lists_done);
+    last_write_ = latest(last_write_, oldest);
 }
 
 } // namespace degs

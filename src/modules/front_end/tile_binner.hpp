@@ -48,9 +48,9 @@ private:
     const RenderJob& job_;
     std::uint64_t chunk_; // Gaussians per chunk
     Process self_;
-    std::vector<Cycle> acknowledged_; // ring of completion dates of the latest writes
+    std::vector<Completion> acknowledged_; // ring of completion dates of the latest writes
     std::uint64_t writes_ = 0;
-    Cycle last_write_ = 0;
+    Completion last_write_;
     std::vector<Cycle> frames_binned_;
     Stats stats_;
 };

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <tlm>
+
+namespace degs {
+
+/// A part of an access that is a transaction of its own.
+struct AccessPiece {
+    std::uint64_t address = 0;
+    unsigned int offset = 0, bytes = 0; ///< inside the data of the access, as TLM counts them
+};
+
+/// The pieces of an access: one per run of bytes that it moves, see Scattered. With `burst_bytes` > 0, a power of
+/// two, every run is cut into naturally aligned pieces of a power of two: whole bursts, and smaller ones
+/// where a run begins or ends inside of one.
+std::vector<AccessPiece> cut_into_bursts(const tlm::tlm_generic_payload& access,
+                                         std::uint64_t burst_bytes);
+
+} // namespace degs
