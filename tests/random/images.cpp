@@ -116,10 +116,10 @@ std::vector<std::string> wrong_images(const Finished& run) {
         }
     }
     if (knows_own_image) {
-        compare_counts("its own arithmetic", run.result.slots.useful, useful, sentences);
+        compare_counts("its own arithmetic", run.result.fragments(), useful, sentences);
     }
     if (exact) {
-        compare_counts("the reference", run.result.slots.useful, fragments, sentences);
+        compare_counts("the reference", run.result.fragments(), fragments, sentences);
     }
     return sentences;
 }
