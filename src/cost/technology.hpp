@@ -85,7 +85,7 @@ struct Technology {
     struct Orange {
         UnitRow preprocessing{0, 0.58, 4}, array{4.8, 3.1, 4096}, vector_unit{4.1, 3.0, 2048};
         double sorting_share = 0.02; ///< of preprocessing
-        SramRow sram{4.84, 0.1, 1032 * 1024, 4096};
+        SramRow sram{4.84, 0.15, 1032 * 1024, 8256};
         void describe(ConfigVisitor& visitor);
     };
     struct Sram {

@@ -109,13 +109,26 @@ TEST(TileDispatcher, OfThoseWhoAskTogetherTheFirstEngine) {
 }
 
 TEST(TileDispatcher, WhoHasWaitedLongestComesFirstWhenAListIsLate) {
+    DispatcherBench bench(3, 3, 2);
+    bench.sort_at({1, 50, 20}); // tile 2 is ready earlier, but tiles go in order
+    bench.engine(0, 8, 100);
+    bench.engine(1, 3, 100);
+    bench.engine(2, 1, 100);
+    sc_core::sc_start();
+    EXPECT_EQ(bench.granted[2], (Grants{{2, 0}}));
+    EXPECT_EQ(bench.granted[1], (Grants{{51, 1}}));
+    EXPECT_EQ(bench.granted[0], (Grants{{52, 2}}));
+}
+
+// Else the engines that end a frame first would begin the next one, and its dates would be others than after a reset.
+TEST(TileDispatcher, AFrameBeginsWithTheLowestIndexWhoeverHasWaited) {
     DispatcherBench bench(2, 2, 2);
-    bench.sort_at({50, 20}); // tile 1 is ready earlier, but tiles go in order
+    bench.sort_at({50, 20});
     bench.engine(0, 8, 100);
     bench.engine(1, 3, 100);
     sc_core::sc_start();
-    EXPECT_EQ(bench.granted[1], (Grants{{51, 0}}));
-    EXPECT_EQ(bench.granted[0], (Grants{{52, 1}}));
+    EXPECT_EQ(bench.granted[0], (Grants{{51, 0}}));
+    EXPECT_EQ(bench.granted[1], (Grants{{52, 1}}));
     EXPECT_EQ(bench.dispatcher.stats().list_wait, 50U);
 }
 

@@ -187,7 +187,7 @@ class SmallRunReset : public ::testing::TestWithParam<Design> {};
 TEST_P(SmallRunReset, FramesAfterItAreThoseAfterPowerOn) {
     const auto& [kind, bus, fidelity] = GetParam();
     const bool quick = fidelity == Fidelity::Exact;
-    const ResetBench bench(*accelerator_kinds()[kind].make(), bus, fidelity, quick ? 50 : 12);
+    const ResetBench bench(*accelerator_kinds()[kind].make(), bus, fidelity, quick ? 50 : 24);
     EXPECT_GT(bench.written, 0U);
     EXPECT_GT(bench.missing, bench.written / 10);
     // An access that is on the bus takes 50 ns, and what is left of the frame 2 ps per cycle.

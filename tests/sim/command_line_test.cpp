@@ -105,7 +105,7 @@ std::vector<std::string> completions(const std::vector<std::string>& words,
 
 TEST(BashCompletion, KnowsCommandsOptionsAndValues) {
     using Words = std::vector<std::string>;
-    EXPECT_EQ(completions({"degs", "re"}), Words{"render"});
+    EXPECT_EQ(completions({"degs", "re"}), (Words{"registers", "render"}));
     EXPECT_EQ(completions({"degs", "co"}), (Words{"compare", "config"}));
     EXPECT_EQ(completions({"degs", "scene", ""}),
               (Words{"cameras", "convert", "generate", "info", "tile"}));

@@ -34,9 +34,9 @@ std::size_t lines_of(const std::string& text) {
 /// The camera stands still before a scene that changes, and no angle is told.
 TEST(CompareRuns, SaysThatTheSceneChanges) {
     const Folder folder;
-    const Outcome outcome = degs({"compare", config("degs-16"), config("gscore-16"), "--scene",
-                                  "synthetic:dynamic,gaussians=300", "--width", "64", "--frames",
-                                  "2", "--no-reference", "--out", folder / "c"});
+    const Outcome outcome = compare({config("degs-16"), config("gscore-16")}, folder / "c",
+                                    {"--width", "64", "--frames", "2", "--no-reference"},
+                                    "synthetic:dynamic,gaussians=300");
     expect_success(outcome);
     EXPECT_NE(outcome.out.find("the first 2 frames of a scene that changes"), std::string::npos)
         << outcome.out;
@@ -190,8 +190,8 @@ TEST(CompareCommand, AllConfigurationsOnOneView) {
         names.erase(run["config"]);
         const auto& slots = run["slots"];
         double sum = 0;
-        for (const char* part :
-             {"useful", "boundary", "terminated", "conflict", "starved", "blocked", "drain"}) {
+        for (const char* part : {"useful", "boundary", "terminated", "conflict", "ports", "padding",
+                                 "starved", "blocked", "drain"}) {
             sum += slots[part].get<double>();
         }
         EXPECT_NEAR(sum, 1, 1e-9) << run["config"];

@@ -45,10 +45,16 @@ std::vector<Broken> broken_rows() {
                             "gbu.sram",
                             "gcc.preprocessing",
                             "gcc.blending",
-                            "gcc.sram"}) {
+                            "gcc.sram",
+                            "orange.array",
+                            "orange.vector_unit",
+                            "orange.sram"}) {
         const std::string key = "cost." + std::string(row) + ".power_w";
         rows.push_back({"degs-64", {key + "=0"}, key});
     }
+    // Its area is that of the vector units.
+    const std::string shared = "cost.orange.preprocessing.";
+    rows.push_back({"degs-64", {shared + "power_w=0", shared + "area_mm2=1"}, shared + "power_w"});
     return rows;
 }
 
@@ -107,6 +113,9 @@ std::vector<Broken> make_broken_rules() {
         {"gcc-64", {"array.window=1"}, "array.window"},
         {"gcc-64", {"colour.block=1"}, "colour.block"},
         {"gcc-64", {"projection.group=4096"}, "group_buffer_bytes"},
+        {"orange-o4", {"pixel_buffer.bytes=64"}, "pixel_buffer.bytes"},
+        {"orange-o4", {"scratchpad.bytes=1024"}, "scratchpad.bytes"},
+        {"orange-o4", {"fetching.chunk=1024"}, "scratchpad.bytes"},
         {"degs-64", {lpddr5 + "channels=3"}, lpddr5 + "channels"},
         {"degs-64", {lpddr5 + "timing.bank_mode=16b"}, lpddr5 + "timing.bank_mode"},
         {"degs-64", {lpddr5 + "timing.burst_length=24"}, lpddr5 + "timing.burst_length"},
@@ -201,7 +210,7 @@ private:
 
 // Rules of number formats have tests of their own (tests/splat/number_set_test.cpp).
 TEST(ConfigRuleSentences, EveryRuleIsInTheListAbove) {
-    for (const char* design : {"degs-64", "gscore-64", "gbu-64", "gcc-64"}) {
+    for (const char* design : {"degs-64", "gscore-64", "gbu-64", "gcc-64", "orange-o4"}) {
         RunConfig config = load_run_config(std::string(DEGS_CONFIGS) + "/" + design + ".yaml", {});
         RuleKeys rules;
         config.describe(rules);
@@ -268,7 +277,7 @@ TEST(ConfigAdvice, HasNothingToSayOfShippedDesigns) {
 }
 
 TEST(ConfigAdvice, IsAllInTheListAbove) {
-    for (const char* design : {"degs-64", "gscore-64", "gbu-64", "gcc-64"}) {
+    for (const char* design : {"degs-64", "gscore-64", "gbu-64", "gcc-64", "orange-o4"}) {
         RunConfig config = load_run_config(std::string(DEGS_CONFIGS) + "/" + design + ".yaml", {});
         RuleKeys advised;
         config.describe(advised);

@@ -125,7 +125,7 @@ TEST(FamilyCommand, WritesAFile) {
 TEST(FamilyCommand, RefusesFilesAndUnknownSizes) {
     const Outcome file = degs({"config", config("degs-64"), "--pes", "128"});
     EXPECT_EQ(file.code, 2);
-    EXPECT_NE(file.err.find("takes the name of an accelerator (degs, gscore, gbu, gcc)"),
+    EXPECT_NE(file.err.find("takes the name of an accelerator (degs, gscore, gbu, gcc, orange)"),
               std::string::npos)
         << file.err;
     EXPECT_EQ(refusal("gscore", 128),

@@ -132,8 +132,7 @@ void Config::require_sizes(ConfigVisitor& visitor) const {
         "scratchpad.bytes", scratchpad.bytes, batches_bytes() + list,
         "to hold the batches of a core and its share of a chunk of list entries for every sorting "
         "unit",
-        {"scratchpad.splat_batches", "scratchpad.coefficient_batches", "scratchpad.product_batches",
-         "fetching.chunk", "tile_size", "sorting.chunk", "sorting.count"});
+        {"fetching.chunk", "scratchpad.product_batches", "tile_size"});
 }
 
 } // namespace degs::orange

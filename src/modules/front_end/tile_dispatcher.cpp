@@ -32,6 +32,9 @@ void TileDispatcher::run() {
         const Cycle ready = self_.local();
         const SortedRun list = in[number % in.size()]->get(self_);
         stats_.list_wait += self_.local() - ready;
+        if (number == 0 || job_.tiles[number - 1].last_of_frame) {
+            frame_begun_ = self_.local();
+        }
         const std::size_t engine = next_engine();
         request[engine]->take(self_);
         out[engine]->put(self_, list);
@@ -52,7 +55,7 @@ std::size_t TileDispatcher::next_engine() {
     for (std::size_t e = 0; e < requests_.size(); ++e) {
         const FifoBase& asked = *requests_[e];
         if (!asked.empty() && asked.head_date() <= self_.local() &&
-            (first == requests_.size() || asked.head_date() < requests_[first]->head_date())) {
+            (first == requests_.size() || asked_at(e) < asked_at(first))) {
             first = e;
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <systemc>
@@ -13,7 +14,8 @@ namespace degs {
 
 /// Hands sorted tiles to engines that each work on a tile of their own: in tile order, the next
 /// complete list goes to the engine that asked first; of those that asked in the same cycle, to the
-/// one with the lowest index. One tile is granted per cycle.
+/// one with the lowest index. Engines that wait for the first list of a frame count as asking when it comes, so that a
+/// frame does not depend on the one before. One tile is granted per cycle.
 class TileDispatcher : public sc_core::sc_module {
 public:
     struct Stats {
@@ -42,10 +44,14 @@ private:
     void end_of_elaboration() override;
     void run();
     std::size_t next_engine();
+    Cycle asked_at(std::size_t engine) const {
+        return std::max(requests_[engine]->head_date(), frame_begun_);
+    }
 
     const RenderJob& job_;
     Process self_;
     std::vector<FifoBase*> requests_;
+    Cycle frame_begun_ = 0; // the first list of the present frame was there
     Stats stats_;
 };
 
