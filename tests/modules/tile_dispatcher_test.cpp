@@ -109,7 +109,7 @@ TEST(TileDispatcher, OfThoseWhoAskTogetherTheFirstEngine) {
 }
 
 TEST(TileDispatcher, WhoHasWaitedLongestComesFirstWhenAListIsLate) {
-    DispatcherBench bench(3, 3, 2);
+    DispatcherBench bench(3, 2, 3);
     bench.sort_at({1, 50, 20}); // tile 2 is ready earlier, but tiles go in order
     bench.engine(0, 8, 100);
     bench.engine(1, 3, 100);
