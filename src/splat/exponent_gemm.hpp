@@ -9,8 +9,8 @@
 
 namespace degs {
 
-/// The exponents of a tile's pixels as a product of matrices, as ORANGE forms them (Li et al., HPCA 2026): every splat is
-/// a row of kGemmDepth coefficients, every pixel a column of as many monomials of its coordinates,
+/// The exponents of a tile's pixels as a product of matrices, as ORANGE forms them (Li et al., HPCA 2026): every
+/// splat is a row of kGemmDepth coefficients, every pixel a column of as many monomials of its coordinates,
 ///
 ///     q' = v . (x^2, y^2, x y, x, y, 1),   x, y from an origin that all pixels of the product share.
 ///
@@ -18,8 +18,8 @@ namespace degs {
 /// square of the distance from the origin to the splat, in standard deviations, and their rounding stays in q'.
 constexpr int kGemmDepth = 6;
 
-/// Where x = y = 0. `Tile`: at the pixel in the middle of the tile, so that the coefficients of a splat are those of one
-/// tile. `Image`: at the first pixel of the image, so that one row of coefficients serves all tiles.
+/// Where x = y = 0. `Tile`: at the pixel in the middle of the tile, so that the coefficients of a splat are those of
+/// one tile. `Image`: at the first pixel of the image, so that one row of coefficients serves all tiles.
 enum class GemmOrigin { Tile, Image };
 
 struct ExponentGemm {

@@ -4,7 +4,8 @@
 
 namespace degs::orange {
 
-// What a core moves per cycle while all of it works: operands and results of the array, and the values of the vector unit.
+// What a core moves per cycle while all of it works: operands and results of the array, and the values of the vector
+// unit.
 cost::BillOfMaterials Config::bill() const {
     const cost::Technology::Orange& rows = cost.orange;
     constexpr int kReadAndWritten = 2;

@@ -62,8 +62,8 @@ public:
     FifoPort<SliceReport> tile_done;   ///< to the Pixel Buffer, once per tile, then kNoTile
     FifoPort<SliceReport> tile_state;  ///< to the Tile Monitor, once per tile, then kNoTile
 
-    /// The core's n-th tile lives in context first_context + n mod contexts of the data path. `macs`: multipliers of the
-    /// core's systolic array.
+    /// The core's n-th tile lives in context first_context + n mod contexts of the data path. `macs`: multipliers of
+    /// the core's systolic array.
     VectorUnit(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                RenderJob& job, int macs, int first_context, int contexts);
 

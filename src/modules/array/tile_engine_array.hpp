@@ -62,8 +62,8 @@ protected:
     TileEngineArray(const sc_core::sc_module_name& name, const Parts& parts, const Timebase& time,
                     RenderJob& job, const BuildOptions& options);
 
-    /// Wires the ports `in`, `context_free`, `tile_done` and `tile_state` of the next engine, which lives in the contexts
-    /// from first_context() of its index on.
+    /// Wires the ports `in`, `context_free`, `tile_done` and `tile_state` of the next engine, which lives in the
+    /// contexts from first_context() of its index on.
     template <class Engine>
     void connect(Engine& engine) {
         const std::size_t index = connected_++;
@@ -79,8 +79,8 @@ protected:
     static void close_slots(AcceleratorResult& result, const ActiveWindow& window,
                             std::uint64_t width);
 
-    /// Fills slots, window, stages, buffers, activity and invariants of the engines. Called when the stages of the front
-    /// end and the fetchers are there.
+    /// Fills slots, window, stages, buffers, activity and invariants of the engines. Called when the stages of the
+    /// front end and the fetchers are there.
     virtual void collect_engines(AcceleratorResult& result) const = 0;
 
     const Timebase& time() const { return time_; }

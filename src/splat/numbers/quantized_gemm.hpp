@@ -10,9 +10,9 @@
 
 namespace degs {
 
-/// Exponents of a number set as products of matrices (exponent_gemm.hpp). A vector unit forms coefficients and monomials
-/// in single precision and rounds each once to the format of the operands; every product and every sum is rounded to that
-/// of the sums, and the exponent to that of q.
+/// Exponents of a number set as products of matrices (exponent_gemm.hpp). A vector unit forms coefficients and
+/// monomials in single precision and rounds each once to the format of the operands; every product and every sum is
+/// rounded to that of the sums, and the exponent to that of q.
 class QuantizedGemm {
 public:
     /// `row` has the units of q; without `gemm` nothing is kept.

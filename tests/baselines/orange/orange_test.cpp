@@ -90,7 +90,8 @@ TEST(SmallRunOrange, ANarrowVectorUnitStarvesTheArray) {
     EXPECT_EQ(run.result().slots.blocked, 0U);
 }
 
-// Opaque splats end every pixel of the tile within the first batch: what is fetched or multiplied by then is thrown away.
+// Opaque splats end every pixel of the tile within the first batch: what is fetched or multiplied by then is thrown
+// away.
 TEST(SmallRunOrange, LeavesATileAfterTheBatchThatEndsIt) {
     const FrameWorkload frame = stack(256 * 20, 0.9);
     orange::Config config = orange_of(8, 1);
