@@ -11,7 +11,7 @@
 
 #include "sim/output_folder.hpp"
 #include "sim/view.hpp"
-#include "splat/exponent_gemm.hpp"
+#include "splat/gemm/exponent_gemm.hpp"
 #include "splat/numbers/number_set.hpp"
 
 namespace degs::sim {

@@ -169,8 +169,7 @@ std::string host_line(const RunResult& result) {
         line += ", " + three_digits(host.sim_s / *host.render_s) + "× of rendering it";
     }
     if (host.sim_s > 0) {
-        line +=
-            kDot + scaled(rate_of(result.accelerator.fragments(), host.sim_s)) + " fragments/s";
+        line += kDot + scaled(rate_of(result.accelerator.fragments(), host.sim_s)) + " fragments/s";
     }
     return line + kDot + scaled_bytes(host.peak_rss_bytes) + kDot + three_digits(host.wall_s) +
            " s in all";

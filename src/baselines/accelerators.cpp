@@ -19,11 +19,8 @@ std::unique_ptr<AcceleratorConfig> make() {
 
 const std::vector<AcceleratorKind>& accelerator_kinds() {
     static const std::vector<AcceleratorKind> kinds{
-        {"degs", &make<DegsConfig>},
-        {"gscore", &make<GscoreConfig>},
-        {"gbu", &make<GbuConfig>},
-        {"gcc", &make<gcc::Config>},
-        {"orange", &make<orange::Config>},
+        {"degs", &make<DegsConfig>}, {"gscore", &make<GscoreConfig>},   {"gbu", &make<GbuConfig>},
+        {"gcc", &make<gcc::Config>}, {"orange", &make<orange::Config>},
     };
     return kinds;
 }

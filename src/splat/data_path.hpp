@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "splat/exponent_gemm.hpp"
 #include "splat/frame/rendering_rules.hpp"
 #include "splat/frame_workload.hpp"
+#include "splat/gemm/exponent_gemm.hpp"
 #include "splat/numbers/number_set.hpp"
 #include "splat/pixel_index.hpp"
 

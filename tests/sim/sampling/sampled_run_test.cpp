@@ -66,8 +66,8 @@ TEST_P(SmallRunSampled, AgreesWithTheExactRun) {
     EXPECT_EQ(sample["workload"]["tile_pairs"], exact["workload"]["tile_pairs"]);
     // The laws of a report hold for what was estimated, too.
     double sum = 0;
-    for (const char* part :
-         {"useful", "boundary", "terminated", "conflict", "ports", "padding", "starved", "blocked", "drain"}) {
+    for (const char* part : {"useful", "boundary", "terminated", "conflict", "ports", "padding",
+                             "starved", "blocked", "drain"}) {
         sum += number(sample, std::string("slots.") + part);
     }
     EXPECT_EQ(sum, number(sample, "slots.total"));

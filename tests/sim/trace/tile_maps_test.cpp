@@ -62,8 +62,8 @@ TEST_P(MapsOf, AddUpToTheReportAndTheImage) {
     const auto report = report_in(folder / "out");
     const std::string tiles = folder / "maps/tiles.exr";
     int width = 0;
-    for (const auto* slot :
-         {"useful", "boundary", "terminated", "conflict", "ports", "padding", "starved", "blocked", "drain"}) {
+    for (const auto* slot : {"useful", "boundary", "terminated", "conflict", "ports", "padding",
+                             "starved", "blocked", "drain"}) {
         EXPECT_EQ(sum_of(layer(tiles, std::string("slots_") + slot, width)),
                   report["slots"][slot].get<double>())
             << slot;

@@ -135,8 +135,8 @@ TEST_P(TraceOf, IntegratesToTheReport) {
     const Folder folder;
     const TraceRun run = traced(folder, GetParam(), {});
     const Reader reader(run.trace);
-    for (const char* slot :
-         {"useful", "boundary", "terminated", "conflict", "ports", "padding", "starved", "blocked", "drain"}) {
+    for (const char* slot : {"useful", "boundary", "terminated", "conflict", "ports", "padding",
+                             "starved", "blocked", "drain"}) {
         EXPECT_EQ(reader.integral(kArray, slot), run.report["slots"][slot]) << slot;
     }
     for (const auto& [name, stream] : run.report["dram"]["streams"].items()) {

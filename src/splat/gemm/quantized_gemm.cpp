@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "splat/numbers/quantized_gemm.hpp"
+#include "splat/gemm/quantized_gemm.hpp"
 
 #include <cmath>
 #include <limits>
