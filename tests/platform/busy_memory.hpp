@@ -57,14 +57,17 @@ private:
     sc_core::sc_time busy_until_;
 };
 
-/// A processor that reads a line of 64 B every `period_ns` and waits for it.
+/// A processor that reads `lines` lines of 64 B, one every `period_ns`, and waits for each; from the start of
+/// the simulation on, or from `begin`.
 class LineReader : public sc_core::sc_module {
 public:
     tlm_utils::simple_initiator_socket<LineReader> out;
     std::vector<double> latencies; ///< ns, in order
 
-    LineReader(const sc_core::sc_module_name& name, int lines, double period_ns = 100)
-        : sc_core::sc_module(name), out("out"), lines_(lines), period_(period_ns, sc_core::SC_NS) {
+    LineReader(const sc_core::sc_module_name& name, int lines, double period_ns = 100,
+               const sc_core::sc_event* begin = nullptr)
+        : sc_core::sc_module(name), out("out"), lines_(lines),
+          period_(period_ns, sc_core::SC_NS), begin_(begin) {
         DEGS_HAS_PROCESS(LineReader);
         SC_THREAD(run);
     }
@@ -74,8 +77,12 @@ public:
 
 private:
     void run() {
+        if (begin_ != nullptr) {
+            sc_core::wait(*begin_);
+        }
+        const sc_core::sc_time zero = sc_core::sc_time_stamp();
         for (int line = 1; line <= lines_; ++line) {
-            const sc_core::sc_time due = line * period_;
+            const sc_core::sc_time due = zero + line * period_;
             if (due > sc_core::sc_time_stamp()) {
                 sc_core::wait(due - sc_core::sc_time_stamp());
             }
@@ -96,6 +103,7 @@ private:
     }
     int lines_;
     sc_core::sc_time period_;
+    const sc_core::sc_event* begin_;
 };
 
 } // namespace degs::test
