@@ -32,6 +32,8 @@ void Accelerator::Options::describe(ConfigVisitor& visitor) {
     visitor.begin_section("memory", "how accesses leave the socket mem");
     visitor.choice("transport", memory.transport, {"lt", "at"}, "b_transport() or four phases");
     visit_count(visitor, "outstanding", memory.outstanding, 1, "at: transactions in flight");
+    visit_count(visitor, "outstanding_per_stream", memory.outstanding_per_stream, 1,
+                "at: the same of one stream");
     visit_count(visitor, "burst_bytes", memory.burst_bytes, 0,
                 "bytes; a power of two from 4 on, 0 cuts no access");
     visitor.choice("pacing", memory.pacing, {"exact", "quantum", "annotated"},
