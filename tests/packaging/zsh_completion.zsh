@@ -63,7 +63,7 @@ expect() {
     [[ $got == "$2 " ]] || { print -r -- "'$1' was completed to '$got' instead of '$2'"; failed=1; }
 }
 
-expect 'degs re' 'render'
+expect 'degs re' 'registers render'
 expect 'degs co' 'compare config'
 expect 'degs scene ' 'cameras convert generate info tile'
 expect 'degs run --came' '--camera --camera-file --cameras'
