@@ -66,8 +66,8 @@ public:
 
     LineReader(const sc_core::sc_module_name& name, int lines, double period_ns = 100,
                const sc_core::sc_event* begin = nullptr)
-        : sc_core::sc_module(name), out("out"), lines_(lines),
-          period_(period_ns, sc_core::SC_NS), begin_(begin) {
+        : sc_core::sc_module(name), out("out"), lines_(lines), period_(period_ns, sc_core::SC_NS),
+          begin_(begin) {
         DEGS_HAS_PROCESS(LineReader);
         SC_THREAD(run);
     }
