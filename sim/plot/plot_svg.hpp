@@ -15,7 +15,7 @@ namespace degs::sim {
 /// One colour for each of kSlotClasses, in every picture.
 constexpr std::array<const char*, kSlotClasses.size()> kSlotColours{
     "#009e73", "#e69f00", "#d55e00", "#cc79a7", "#f0e442",
-    "#000000", "#56b4e9", "#0072b2", "#999999"};
+    "#a9a1d8", "#56b4e9", "#0072b2", "#999999"};
 
 struct SlotBar {
     std::string label; ///< left of the bar
