@@ -31,7 +31,7 @@ struct ExponentGemm {
 template <class T>
 using GemmRow = std::array<T, kGemmDepth>;
 
-/// What the coefficients of a splat are made from: mean and conic, each rounded once, and 2 ln o.
+/// The parameters from which the coefficients of a splat are formed: mean, conic, each rounded once, and 2 ln o.
 template <class T>
 struct GemmSplat {
     int pixel_x = 0, pixel_y = 0; ///< nearest to the mean
