@@ -41,6 +41,7 @@ std::string megabytes(const Measures& m) {
 /// Shares of the slots, then of the whole frame.
 std::vector<std::string> slot_cells(const Measures& m, const std::vector<std::size_t>& classes) {
     std::vector<std::string> cells;
+    cells.reserve(classes.size() + 1);
     for (const std::size_t c : classes) {
         cells.push_back(share(m[slot_measure(c)]));
     }

@@ -63,7 +63,7 @@ std::vector<RegisterInfo> rows() {
          "commands",
          {{"START", bit_of(kControlStart), "start a frame"},
           {"CLEAR_ERROR", bit_of(kControlClearError),
-           "clear the error and the flags \"aborted\" and \"start ignored\""},
+           R"(clear the error and the flags "aborted" and "start ignored")"},
           {"RESET", bit_of(kControlReset), "reset; the other bits are ignored"},
           {"ABORT", bit_of(kControlAbort), "give up the present frame"}}},
         {R::Status,

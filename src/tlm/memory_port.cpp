@@ -58,7 +58,7 @@ Completion MemoryPort::access(Process& process, tlm::tlm_command command, std::u
     if (may_answer_late_.answer != nullptr) {
         payload.clear_extension(&scattered_);
         catch_up();
-        const Completion late(std::exchange(may_answer_late_.answer, nullptr));
+        Completion late(std::exchange(may_answer_late_.answer, nullptr));
         if (watcher_) {
             late.when_known([this, asked](Cycle complete) { watcher_(asked, complete); });
         }
