@@ -52,7 +52,7 @@ AnalyticRun run_analytic(const RunConfig& config, CachedView& view) {
     const std::unique_ptr<AnalyticModel> model = analytic_model_of(config);
     const std::vector<FrameWorkload> frames = view.frames(config.accelerator());
     const Stopwatch clock;
-    run.frame = estimate_frame(*model, frames.front());
+    run.frame = estimate_frame(*model, frames.front(), config.accelerator().tile_order);
     run.estimate_s = clock.seconds();
     run.scene = view.facts();
     run.camera = frames.front().camera;

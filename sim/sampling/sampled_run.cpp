@@ -303,7 +303,8 @@ SampledResult run_sampled(const AcceleratorConfig& config,
         return sampled;
     }
     const std::unique_ptr<AnalyticModel> model = config.analytic();
-    const std::vector<TileWork> work = expected_work(*frames.front(), model.get());
+    const std::vector<TileWork> work =
+        expected_work(*frames.front(), model.get(), config.tile_order);
     SampleDesign design = design_sample(work, sizes_for(contexts, work.size()), request.seed);
     std::uint64_t activations = 0;
     const Timebase time{ClockDomain(config.clock_ghz), fidelity, nullptr, &activations};

@@ -11,6 +11,11 @@ void AcceleratorConfig::describe_common(ConfigVisitor& visitor) {
     visitor.integer("frames_in_flight", frames_in_flight, 1, 64,
                     "frames being preprocessed or rendered at a time; 2: lists are double-buffered "
                     "and preprocessing of a frame overlaps rendering of the one before [assumed]");
+    visitor.choice(
+        "tile_order", tile_order, {"raster", "longest_list"},
+        "order in which the tiles of a frame are sorted and rendered; longest_list: by "
+        "falling length of their lists, so that no long tile comes last; a counting sort "
+        "of tile numbers that takes no time and no area [assumed]");
     visitor.section("frame_end", frame_end, "background pixels, and who waits for a frame");
 }
 
@@ -37,7 +42,7 @@ void AcceleratorConfig::scale_to(int pes) {
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
                           const AcceleratorConfig& config) {
     return make_render_job(frames, config.data_path(), config.tile_contexts(),
-                           config.record_order());
+                           config.record_order(), config.tile_order);
 }
 
 } // namespace degs

@@ -38,25 +38,23 @@ void RenderJob::add(const FrameWorkload& frame, const MemoryBases& base) {
     pair_prefix.push_back(prefix_of_pairs(frame));
     places.emplace_back(frame, record_order);
     images.emplace_back(frame.camera.width, frame.camera.height);
-    const std::size_t before = tiles.size();
-    for (int t = 0; t < frame.tiles(); ++t) {
-        const std::uint64_t begin = frame.tile_begin[t];
-        const std::uint64_t end = frame.tile_begin[t + 1];
-        if (begin == end) {
-            continue;
-        }
+    const std::vector<int> listed = listed_tiles(frame, tile_order);
+    std::uint64_t before = 0;
+    for (const int t : listed) {
         JobTile tile;
         tile.frame = f;
         tile.x = (t % frame.tiles_x) * tile_size;
         tile.y = (t / frame.tiles_x) * tile_size;
         tile.width = std::min(tile_size, frame.camera.width - tile.x);
         tile.height = std::min(tile_size, frame.camera.height - tile.y);
-        tile.first = begin;
-        tile.count = end - begin;
+        tile.first = frame.tile_begin[t];
+        tile.count = frame.tile_begin[t + 1] - tile.first;
+        tile.before = before;
+        before += tile.count;
         tiles.push_back(tile);
     }
-    tiles_of_frame.push_back(tiles.size() - before);
-    if (tiles.size() != before) {
+    tiles_of_frame.push_back(listed.size());
+    if (!listed.empty()) {
         tiles.back().last_of_frame = true;
     }
 }
@@ -100,9 +98,11 @@ ScatteredRecords RenderJob::sh_records(std::uint32_t frame, const TrafficConfig&
 }
 
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
-                          const DataPathOptions& options, int contexts, RecordOrder order) {
+                          const DataPathOptions& options, int contexts, RecordOrder records,
+                          TileOrder tiles) {
     RenderJob job;
-    job.record_order = order;
+    job.record_order = records;
+    job.tile_order = tiles;
     job.tile_size = frames.at(0)->tile_size;
     job.path = make_data_path(options, job.tile_size, contexts);
     for (const FrameWorkload* frame : frames) {

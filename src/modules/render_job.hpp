@@ -8,6 +8,7 @@
 #include <systemc>
 
 #include "modules/array/slot_recorder.hpp"
+#include "modules/front_end/tile_order.hpp"
 #include "modules/messages.hpp"
 #include "modules/record_places.hpp"
 #include "modules/traffic.hpp"
@@ -26,6 +27,7 @@ struct JobTile {
     int width = 0, height = 0; ///< pixels inside the image
     std::uint64_t first = 0;   ///< into the frame's tile_splats
     std::uint64_t count = 0;
+    std::uint64_t before = 0; ///< entries of the frame's tiles that are taken earlier
     bool last_of_frame = false;
 
     PixelRange columns() const { return {x, x + width - 1}; } ///< of the image
@@ -58,12 +60,13 @@ private:
 struct RenderJob {
     std::vector<const FrameWorkload*> frames;
     std::vector<std::uint32_t> first_splat; ///< DataPath index of each frame's splat 0
-    TileList tiles;                         ///< raster order within each frame
+    TileList tiles;                         ///< frame by frame, each in its tile order
     std::vector<std::uint64_t> tiles_of_frame;
     std::deque<Image> images; ///< one per frame, filled by the Pixel Buffer
     std::unique_ptr<DataPath> path;
     int tile_size = 0;
     RecordOrder record_order = RecordOrder::Index; ///< of frames that join from now on
+    TileOrder tile_order = TileOrder::Raster;      ///< likewise
     std::vector<RecordPlaces> places;              ///< of each frame's splat records
     /// Per frame: tile pairs of the first n visible Gaussians in scene order, for n = 0..visible.
     std::vector<std::vector<std::uint64_t>> pair_prefix;
@@ -137,6 +140,7 @@ private:
 /// drawn as they are, whatever format they were projected in.
 RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
                           const DataPathOptions& options, int contexts,
-                          RecordOrder order = RecordOrder::Index);
+                          RecordOrder records = RecordOrder::Index,
+                          TileOrder tiles = TileOrder::Raster);
 
 } // namespace degs

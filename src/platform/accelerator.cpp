@@ -53,6 +53,7 @@ Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorC
         });
     job_.tile_size = config_->tile_size_px();
     job_.record_order = config_->record_order();
+    job_.tile_order = config_->tile_order;
     job_.path = make_data_path(config_->data_path(), job_.tile_size, config_->tile_contexts());
     job_.joined = std::make_unique<sc_core::sc_event>();
     job_.frames_join = true;

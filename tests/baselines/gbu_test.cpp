@@ -153,6 +153,7 @@ public:
         c.monitor.cancel = !chance(3);
         c.monitor.latency_cycles = among({8, 1, 50});
         c.frames_in_flight = among({2, 1, 3});
+        c.tile_order = static_cast<TileOrder>(among({0, 1}));
         c.memory.latency_ns = among({100, 10, 1000});
         return c;
     }

@@ -60,6 +60,7 @@ private:
         c.monitor.cancel = upto(3) != 0;
         c.monitor.latency_cycles = among({8, 1, 50});
         c.frames_in_flight = among({2, 1});
+        c.tile_order = static_cast<TileOrder>(among({0, 1}));
         const double bandwidth[] = {204.8, 204.8, 51.2, 1.0, 1e5};
         c.memory.bandwidth_gb_per_s = bandwidth[upto(4)];
         const double latency[] = {100, 100, 0, 3.3, 1000};

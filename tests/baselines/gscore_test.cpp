@@ -54,6 +54,7 @@ private:
         c.monitor.latency_cycles = among({8, 1, 50});
         c.traffic.sh = static_cast<ShReads>(upto(1));
         c.frames_in_flight = among({2, 1});
+        c.tile_order = static_cast<TileOrder>(among({0, 1}));
         const double bandwidth[] = {204.8, 51.2, 1.0, 1e5};
         c.memory.bandwidth_gb_per_s = bandwidth[upto(3)];
         const double latency[] = {100, 0, 3.3, 1000};

@@ -28,15 +28,19 @@ FrameWorkload lists_of(const std::vector<std::vector<std::uint32_t>>& lists, std
     return frame;
 }
 
-RenderJob job_of(const std::vector<const FrameWorkload*>& frames) {
+RenderJob job_of(const std::vector<const FrameWorkload*>& frames,
+                 TileOrder order = TileOrder::Raster) {
     RenderJob job;
     job.frames = frames;
     for (std::uint32_t f = 0; f < frames.size(); ++f) {
-        for (std::size_t t = 0; t + 1 < frames[f]->tile_begin.size(); ++t) {
+        std::uint64_t before = 0;
+        for (const int t : listed_tiles(*frames[f], order)) {
             JobTile tile;
             tile.frame = f;
             tile.first = frames[f]->tile_begin[t];
             tile.count = frames[f]->tile_begin[t + 1] - tile.first;
+            tile.before = before;
+            before += tile.count;
             job.tiles.push_back(tile);
         }
     }
@@ -94,11 +98,12 @@ std::size_t missed(ReuseCache& cache, TileNumber tile, std::uint64_t first, std:
     return cache.request(tile, first, static_cast<std::uint32_t>(count)).size();
 }
 
-std::uint64_t misses_of(const FrameWorkload& frame, std::size_t capacity, unsigned skip = 1) {
-    const RenderJob job = job_of({&frame});
+std::uint64_t misses_of(const FrameWorkload& frame, std::size_t capacity,
+                        TileOrder order = TileOrder::Raster) {
+    const RenderJob job = job_of({&frame}, order);
     NextUses uses(job);
     ReuseCache cache(job, uses, capacity);
-    for (TileNumber t = 0; t < job.tiles.size(); t += skip) {
+    for (TileNumber t = 0; t < job.tiles.size(); ++t) {
         cache.request(t, job.tiles[t].first, static_cast<std::uint32_t>(job.tiles[t].count));
     }
     return cache.stats().misses;
@@ -106,11 +111,41 @@ std::uint64_t misses_of(const FrameWorkload& frame, std::size_t capacity, unsign
 
 TEST(ReuseCache, NextUseNamesTheNextEntryOfTheSameSplat) {
     const FrameWorkload frame = lists_of({{0, 1, 2}, {1}, {2, 0}}, 3);
-    const NextUse uses(frame);
+    const NextUse uses(job_of({&frame}), 0);
     const std::uint32_t none = NextUse::kNone;
     const std::vector<std::uint32_t> expected{5, 3, 4, none, none, none};
     for (std::size_t i = 0; i < expected.size(); ++i) {
         EXPECT_EQ(uses.after(i), expected[i]) << i;
+    }
+}
+
+// Tiles come as {0, 1, 2}, {2, 0}, {1}.
+TEST(ReuseCache, NextUseFollowsTheTileOrder) {
+    const FrameWorkload frame = lists_of({{1}, {0, 1, 2}, {2, 0}}, 3);
+    const NextUse uses(job_of({&frame}, TileOrder::LongestList), 0);
+    const std::uint32_t none = NextUse::kNone;
+    const std::vector<std::uint32_t> expected{4, 5, 3, none, none, none};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(uses.after(i), expected[i]) << i;
+    }
+}
+
+// A frame whose tiles lie in the image by falling length of their lists.
+TEST(ReuseCache, OrderCountsAndNotWhereListsLie) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        const FrameWorkload frame = random_lists(300 + seed, 20, 15, 18);
+        std::vector<std::vector<std::uint32_t>> lists;
+        for (const int t : listed_tiles(frame, TileOrder::LongestList)) {
+            const auto at = frame.tile_splats.begin();
+            lists.emplace_back(at + static_cast<std::ptrdiff_t>(frame.tile_begin[t]),
+                               at + static_cast<std::ptrdiff_t>(frame.tile_begin[t + 1]));
+        }
+        const FrameWorkload sorted = lists_of(lists, 20);
+        for (const std::size_t capacity : {1U, 3U, 7U}) {
+            EXPECT_EQ(misses_of(frame, capacity, TileOrder::LongestList),
+                      misses_of(sorted, capacity))
+                << "seed " << seed << ", " << capacity << " records";
+        }
     }
 }
 

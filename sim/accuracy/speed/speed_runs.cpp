@@ -140,7 +140,8 @@ private:
     SpeedOutcome estimated(const SpeedDesign& design) const {
         const std::unique_ptr<AnalyticModel> model = analytic_model_of(design.config);
         const CpuStopwatch clock;
-        const AnalyticFrame frame = estimate_frame(*model, frames_.front());
+        const AnalyticFrame frame =
+            estimate_frame(*model, frames_.front(), design.config.accelerator().tile_order);
         SpeedOutcome outcome;
         outcome.run_s = clock.seconds();
         outcome.cycles = frame.cycles;

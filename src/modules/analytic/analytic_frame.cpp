@@ -24,13 +24,11 @@ struct Listed {
 };
 
 /// Tiles that list a splat, in the order of the lengths of their lists.
-std::vector<Listed> listed_tiles(const FrameWorkload& frame) {
+std::vector<Listed> tiles_by_length(const FrameWorkload& frame, TileOrder order) {
     std::vector<Listed> tiles;
-    for (int tile = 0; tile < frame.tiles(); ++tile) {
+    for (const int tile : listed_tiles(frame, order)) {
         const std::uint64_t entries = frame.tile_begin[tile + 1] - frame.tile_begin[tile];
-        if (entries != 0) {
-            tiles.push_back({tile, tiles.size(), static_cast<double>(entries)});
-        }
+        tiles.push_back({tile, tiles.size(), static_cast<double>(entries)});
     }
     std::stable_sort(tiles.begin(), tiles.end(),
                      [](const Listed& a, const Listed& b) { return a.entries < b.entries; });
@@ -137,8 +135,9 @@ double background_pixels(const FrameWorkload& frame) {
 
 } // namespace
 
-AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& frame) {
-    const std::vector<Listed> tiles = listed_tiles(frame);
+AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& frame,
+                             TileOrder order) {
+    const std::vector<Listed> tiles = tiles_by_length(frame, order);
     const AnalyticModel::Blocks blocks = model.blocks();
     const EntrySizes sizes = entry_sizes(frame, blocks.step);
     const int apart = rows_apart(model, sizes, rate_of(frame.tile_pairs(), 1));

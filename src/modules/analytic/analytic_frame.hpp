@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "modules/analytic/analytic_model.hpp"
+#include "modules/front_end/tile_order.hpp"
 
 namespace degs {
 
@@ -28,6 +29,7 @@ struct AnalyticFrame {
 };
 
 /// Draws a sample of the tiles coarsely, see CoarseTile, which takes some milliseconds on any frame.
-AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& frame);
+AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& frame,
+                             TileOrder order = TileOrder::Raster);
 
 } // namespace degs

@@ -60,13 +60,9 @@ TileWork draw(CoarseTile& tile, TileClock* clock) {
 
 } // namespace
 
-std::vector<TileWork> expected_work(const FrameWorkload& frame, const AnalyticModel* model) {
-    std::vector<int> listed;
-    for (int tile = 0; tile < frame.tiles(); ++tile) {
-        if (frame.tile_begin[tile] != frame.tile_begin[tile + 1]) {
-            listed.push_back(tile);
-        }
-    }
+std::vector<TileWork> expected_work(const FrameWorkload& frame, const AnalyticModel* model,
+                                    TileOrder order) {
+    const std::vector<int> listed = listed_tiles(frame, order);
     const AnalyticModel::Blocks blocks =
         model != nullptr ? model->blocks() : AnalyticModel::Blocks{1, 16, 1};
     const int apart = blocks_apart(frame, blocks, entry_sizes(frame, blocks.step), listed.size());

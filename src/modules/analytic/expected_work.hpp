@@ -4,12 +4,14 @@
 #include <vector>
 
 #include "modules/analytic/analytic_model.hpp"
+#include "modules/front_end/tile_order.hpp"
 #include "splat/frame/tile_work.hpp"
 
 namespace degs {
 
 /// The work of every tile that lists a splat, in the order of rendering, drawn coarsely. With a model
 /// the clock of the design follows all of them, one after the other, and says how long each takes.
-std::vector<TileWork> expected_work(const FrameWorkload& frame, const AnalyticModel* model);
+std::vector<TileWork> expected_work(const FrameWorkload& frame, const AnalyticModel* model,
+                                    TileOrder order = TileOrder::Raster);
 
 } // namespace degs

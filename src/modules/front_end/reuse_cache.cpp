@@ -6,15 +6,20 @@
 
 namespace degs {
 
-NextUse::NextUse(const FrameWorkload& frame) : next_(frame.tile_splats.size(), kNone) {
-    if (frame.tile_splats.size() >= kNone) {
+NextUse::NextUse(const RenderJob& job, std::uint32_t frame)
+    : next_(job.frames[frame]->tile_splats.size(), kNone) {
+    const FrameWorkload& work = *job.frames[frame];
+    if (work.tile_splats.size() >= kNone) {
         throw std::length_error("reuse distances of a frame with 2^32 - 1 or more list entries");
     }
-    std::vector<std::uint32_t> seen(frame.splats.size(), kNone); // first use behind the entry
-    for (std::size_t entry = next_.size(); entry-- > 0;) {
-        std::uint32_t& use = seen[frame.tile_splats[entry]];
-        next_[entry] = use;
-        use = static_cast<std::uint32_t>(entry);
+    std::vector<std::uint32_t> seen(work.splats.size(), kNone); // first use behind the entry
+    for (std::size_t number = job.tiles.size(); number-- > 0;) {
+        const JobTile& tile = job.tiles[number];
+        for (std::uint64_t i = tile.frame == frame ? tile.count : 0; i-- > 0;) {
+            std::uint32_t& use = seen[work.tile_splats[tile.first + i]];
+            next_[tile.before + i] = use;
+            use = static_cast<std::uint32_t>(tile.before + i);
+        }
     }
 }
 
@@ -27,9 +32,11 @@ const std::vector<std::uint32_t>& ReuseCache::request(TileNumber tile, std::uint
         start_tile(tile);
     }
     missed_.clear();
-    for (std::uint64_t entry = first; entry < first + count; ++entry) {
-        if (!look_up(entry)) {
-            missed_.push_back(job_.frames[frame_]->tile_splats[entry]);
+    const JobTile& list = job_.tiles[tile];
+    for (std::uint64_t place = first; place < first + count; ++place) {
+        const std::uint32_t splat = job_.frames[frame_]->tile_splats[place];
+        if (!look_up(splat, list.before + (place - list.first))) {
+            missed_.push_back(splat);
         }
     }
     stats_.misses += missed_.size();
@@ -53,7 +60,7 @@ void ReuseCache::start_tile(TileNumber number) {
         if (use != rank.first) {
             continue;
         }
-        while (use < tile.first) {
+        while (use < tile.before) {
             use = next_uses_.of(frame_).after(use);
         }
         if (use == NextUse::kNone) {
@@ -66,8 +73,7 @@ void ReuseCache::start_tile(TileNumber number) {
     std::make_heap(by_use_.begin(), by_use_.end());
 }
 
-bool ReuseCache::look_up(std::uint64_t entry) {
-    const std::uint32_t splat = job_.frames[frame_]->tile_splats[entry];
+bool ReuseCache::look_up(std::uint32_t splat, std::uint64_t entry) {
     const std::uint32_t use = next_uses_.of(frame_).after(entry);
     const bool hit = use_of_[splat] != kNowhere;
     if (hit) {

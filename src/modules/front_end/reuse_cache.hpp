@@ -11,17 +11,18 @@
 
 namespace degs {
 
-/// For every entry of a frame's tile lists the next entry, in raster order of tiles,
-/// that names the same splat.
+/// For every entry of a frame's tile lists the next entry, in the order in which the job takes the
+/// tiles, that names the same splat. Entries are counted in that order, too: entry i of a tile is
+/// number JobTile::before + i.
 class NextUse {
 public:
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-    /// One backward pass over the lists. Throws std::length_error if there are 2^32 - 1 entries or
-    /// more.
-    explicit NextUse(const FrameWorkload& frame);
+    /// One backward pass over the lists; all tiles of the frame must be in the job. Throws
+    /// std::length_error if there are 2^32 - 1 entries or more.
+    NextUse(const RenderJob& job, std::uint32_t frame);
 
-    /// Position in FrameWorkload::tile_splats, or kNone.
+    /// The next use after `entry`, or kNone.
     std::uint32_t after(std::uint64_t entry) const { return next_[entry]; }
 
 private:
@@ -35,7 +36,7 @@ public:
     /// The reference is valid until the next call with another new frame.
     const NextUse& of(std::uint32_t frame) {
         for (std::size_t f = frames_.size(); f <= frame; ++f) {
-            frames_.emplace_back(*job_.frames[f]);
+            frames_.emplace_back(job_, static_cast<std::uint32_t>(f));
         }
         return frames_[frame];
     }
@@ -48,7 +49,7 @@ private:
 /// The Gaussian reuse cache of GBU: keeps splat records between the tiles of one engine. Reuse
 /// distances that binning has computed in advance decide which record is replaced: the one whose
 /// next use is farthest away, which may be the record that has just been read. Next uses are those
-/// of all tiles in raster order, whichever engine works on them; once the engine has passed a tile,
+/// of all tiles in the order of the job, whichever engine works on them; once the engine has passed a tile,
 /// its entries no longer count. Fully associative [assumed].
 ///
 /// The cache has no time of its own: the Splat Fetcher asks which records it must read.
@@ -77,7 +78,7 @@ private:
     using Rank = std::pair<std::uint32_t, std::uint32_t>; // next use, splat
 
     void start_tile(TileNumber number);
-    bool look_up(std::uint64_t entry);
+    bool look_up(std::uint32_t splat, std::uint64_t entry);
     void keep(std::uint32_t splat, std::uint32_t use);
     void evict_farthest();
     const Rank& farthest();
