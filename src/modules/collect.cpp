@@ -83,7 +83,7 @@ void add_buffer(AcceleratorResult& result, const Title& title, std::int64_t byte
     buffer.empty_cycles = use.empty_cycles;
 }
 
-void add_pixel_buffer(AcceleratorResult& result, int bytes, int contexts,
+void add_pixel_buffer(AcceleratorResult& result, std::int64_t bytes, int contexts,
                       const PixelBuffers& buffers) {
     BufferUse& use =
         add_buffer(result, {"pixel_buffer", "State of the pixels of the tiles in flight."}, bytes);

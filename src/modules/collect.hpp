@@ -81,7 +81,7 @@ using PixelBuffers = std::vector<std::unique_ptr<PixelBuffer>>;
 void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
                     const BackgroundWriter& background);
 /// `bytes`: of all instances together.
-void add_pixel_buffer(AcceleratorResult& result, int bytes, int contexts,
+void add_pixel_buffer(AcceleratorResult& result, std::int64_t bytes, int contexts,
                       const PixelBuffers& buffers);
 /// Adds the work that empty and finished tiles saved, for --explain.
 void explain_tiles(AcceleratorResult& result, std::uint64_t records_cancelled);

@@ -46,7 +46,7 @@ public:
     SortCycles sort_cycles(double entries, double) const override {
         return degs::sort_cycles(config_.sorting, entries, front().sort_capacity);
     }
-    int engines() const override { return config_.streams(); }
+    int engines() const override { return config_.all_streams(); }
     double latency() const override;
     int pes() const override { return config_.pes(); }
 
@@ -268,16 +268,17 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
     cycles.walked = tile.walked();
     cycles.busy[kSortingUnits] =
         model_.sort_cycles(tile.entries(), tile.walked()).all / config_.sorting.count;
-    cycles.busy[DegsAnalytic::kSlicing] = slices_ / config_.slicing.count;
-    cycles.busy[DegsAnalytic::kSpan] =
-        rows_ * config_.span.cycles_per_row / config_.span.rows_per_cycle / config_.span.count;
-    cycles.busy[DegsAnalytic::kPacking] =
-        drawn * segments_ / config_.scheduler.issue_width / config_.scheduler.banks;
+    cycles.busy[DegsAnalytic::kSlicing] = slices_ / (config_.clusters * config_.slicing.count);
+    cycles.busy[DegsAnalytic::kSpan] = rows_ * config_.span.cycles_per_row /
+                                       config_.span.rows_per_cycle /
+                                       (config_.clusters * config_.span.count);
+    cycles.busy[DegsAnalytic::kPacking] = drawn * segments_ / config_.scheduler.issue_width /
+                                          (config_.clusters * config_.scheduler.banks);
     cycles.busy[DegsAnalytic::kBlending] = cycles.slots / config_.pes();
     cycles.busy[DegsAnalytic::kMemory] = front.memory.cycles(cycles.bytes);
-    cycles.time =
-        with_other_streams(std::max(sliced_ - last_end_, front.fetch_cycles(tile.walked())),
-                           *std::max_element(cycles.busy.begin() + DegsAnalytic::kSpan,
+    cycles.time = with_other_streams(
+        std::max(sliced_ - last_end_, front.fetch_cycles(tile.walked())),
+        config_.clusters * *std::max_element(cycles.busy.begin() + DegsAnalytic::kSpan,
                                              cycles.busy.begin() + DegsAnalytic::kMemory));
     last_end_ += cycles.time;
     sliced_ = last_end_;

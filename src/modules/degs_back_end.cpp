@@ -1,163 +1,163 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the crossbar to the Pixel Buffer.
-#include <algorithm>
+// From the Splat Fetchers to the crossbar.
+#include "modules/degs_back_end.hpp"
 
-#include "modules/degs.hpp"
 #include "modules/row_map.hpp"
+#include "modules/span_engine/span_pool.hpp"
+#include "modules/span_engine/span_unit.hpp"
 
 namespace degs {
 
-void Degs::build_scheduler() {
-    const DegsConfig::Scheduler& s = config_.scheduler;
-    IssueBank::Config bank;
-    bank.count = s.banks;
-    bank.queue_depth = config_.queue_depth();
-    bank.segment_length = s.segment_length;
-    bank.segments_per_cycle = s.segments_per_cycle;
-    bank.spans_per_cycle = config_.span.crossbar_width;
-    bank.issue_width = s.issue_width;
-    bank.reuse_cycles = s.reuse_cycles;
-    bank.feature_entries = config_.feature_entries();
-    bank.open_splats = config_.slicing.units_per_module();
-    bank.streams = config_.streams();
-    bank.scoreboard = s.scoreboard;
-    bank.termination = s.termination;
-    bank.scan = s.scan;
-    bank.segment_ports = config_.packing.ports;
-    bank.fill = config_.feature_buffer.fill;
-    const PacketPorts::Config ports{config_.pixel_buffer.ports, config_.feature_buffer.fill.ports,
-                                    config_.tile_size, s.banks};
-    const PackingUnit::Config packing{config_.array.pes_per_bank, config_.packing.latency_cycles,
-                                      config_.packing_lead(), config_.packing.reorganisation,
-                                      ports};
-    next_span_port_.assign(spans_.size(), 0);
-    for (int b = 0; b < s.banks; ++b) {
-        packing_.push_back(
-            std::make_unique<PackingUnit>(numbered("packing", packing_.size()).c_str(), packing));
-        banks_.push_back(std::make_unique<IssueBank>(
-            numbered("bank", banks_.size()).c_str(), bank, time_, job_, *packing_.back(), b,
-            reachable(b, s.banks, config_.span.modules()), config_.contexts_per_stream()));
-        connect_crossbar(b);
-    }
+DegsBackEnd::DegsBackEnd(const Shared& shared, DegsBlocks& blocks, int index)
+    : config_(shared.config), time_(shared.time), job_(shared.job), front_end_(shared.front_end),
+      drawing_(shared.drawing), options_(shared.options), index_(index), fetchers_(blocks.fetchers),
+      slicing_(blocks.slicing), releases_(blocks.releases), spans_(blocks.spans),
+      banks_(blocks.banks), packing_(blocks.packing), slices_(blocks.slices),
+      pixel_buffers_(blocks.pixel_buffers), monitors_(blocks.monitors),
+      sorted_rings_(blocks.sorted), gaussian_rings_(blocks.gaussian_buffer),
+      span_rings_(blocks.span_buffer), crossbar_rings_(blocks.crossbar),
+      packing_rings_(blocks.packing_buffer), termination_rings_(blocks.terminations),
+      region_rings_(blocks.region_ended), done_rings_(blocks.tile_done),
+      state_rings_(blocks.tile_state), sliced_rings_(blocks.sliced),
+      row_count_rings_(blocks.row_counts), solved_rings_(blocks.solved),
+      place_rings_(blocks.places), context_rings_(blocks.context_free),
+      cancel_rings_(blocks.cancel) {
+    build_fetchers();
 }
 
-// Queues whose room is asked for tell it in the cycle after.
-void Degs::connect_crossbar(int bank) {
-    const int modules = config_.span.modules();
-    const int release = config_.spans_are_pooled() ? 1 : 0;
-    const std::size_t inputs = banks_[bank]->in.size() / config_.streams();
-    std::size_t input = 0;
-    for (int u = 0; u < modules; ++u) {
-        if (!shares_row(u, modules, bank, config_.scheduler.banks)) {
-            continue;
-        }
-        const std::size_t ports = spans_[u]->out.size() / config_.streams();
-        for (int m = 0; m < config_.streams(); ++m) {
-            auto& vectors = add_ring(crossbar_rings_, "crossbar", time_, config_.crossbar_cells(),
-                                     config_.span.latency_cycles, release);
-            spans_[u]->out[m * ports + next_span_port_[u]].bind(vectors);
-            banks_[bank]->in[m * inputs + input].bind(vectors);
-        }
-        auto* const unit = dynamic_cast<SpanUnit*>(spans_[u].get());
-        if (unit != nullptr && inputs == 1) {
-            banks_[bank]->read_from(*unit);
-        }
-        ++next_span_port_[u];
-        ++input;
-    }
+void DegsBackEnd::build() {
+    build_slicing();
+    build_spans();
+    build_scheduler();
+    build_pixel_buffers();
+    build_array();
 }
 
-void Degs::build_array() {
-    const int writeback = config_.array.writeback_cycles;
-    ArraySlice::Config slice;
-    slice.width = config_.array.pes_per_bank;
-    slice.writeback_cycles = writeback;
-    slice.termination = config_.scheduler.termination;
-    slice.region_listeners = config_.slicing.skip_dead_rows ? config_.slicing.modules() : 0;
-    slice.streams = config_.streams();
-    slice.contexts = config_.contexts_per_stream();
-    slice.scoreboard = config_.scheduler.scoreboard;
-    slice.tests = !config_.span.parsing;
-    next_region_port_.assign(slicing_.size(), 0);
-    for (int b = 0; b < config_.scheduler.banks; ++b) {
-        slices_.push_back(std::make_unique<ArraySlice>(
-            numbered("slice", slices_.size()).c_str(), slice, time_, job_, b,
-            config_.scheduler.banks, config_.scheduler.segment_length));
-        connect_slice(b);
-    }
-}
-
-void Degs::connect_slice(int bank) {
-    const std::size_t b = bank;
-    const int writeback = config_.array.writeback_cycles;
-    // The end of a tile takes no room of the Packing Buffer, but a cell of its ring. At most one of
-    // every tile in flight waits there. As many packets as the latency has cycles are in the pipeline.
-    const int latency = config_.packing.latency_cycles;
-    const int tile_ends = std::max(4, config_.contexts());
-    auto& packets = ring(packing_rings_, "packing_buffer",
-                         config_.packing_depth() + latency + tile_ends, latency);
-    SlotPart* const part = job_.record_part(config_.array.pes_per_bank);
-    packing_[b]->record(part);
-    slices_[b]->record(part);
-    packing_[b]->out.bind(packets);
-    slices_[b]->in.bind(packets);
-    if (drawing_) {
-        packing_[b]->tell(*slices_[b], time_.timeline != nullptr);
-        slices_[b]->expect_drawn();
-    }
-    auto& terminations = wire(termination_rings_, "terminations", writeback);
-    slices_[b]->terminated.bind(terminations);
-    banks_[b]->terminated.bind(terminations);
-    if (config_.slicing.skip_dead_rows) {
-        connect_region_feedback(bank);
-    }
-    const std::size_t parts = pixel_buffers_.size() / config_.streams(); // of a stream
+// Each stream cancels its own tiles; a single one those of all fetchers.
+void DegsBackEnd::build_fetchers() {
+    const int slicers = config_.slicing.modules();
+    const bool granted = config_.granted();
+    const int fetchers = config_.fetchers();
+    const int of_stream = fetchers_of_stream();
+    SplatFetcher::Config fetching = config_.fetching;
+    fetching.splat_ports = config_.gaussian_buffer.ports;
+    fetching.chunks = config_.parameters_wait() ? config_.gaussian_chunks() : 0;
     for (int m = 0; m < config_.streams(); ++m) {
-        auto& done = wire(done_rings_, "tile_done", writeback);
-        slices_[b]->tile_done[m].bind(done);
-        PixelBuffer& pixels = *pixel_buffers_[m * parts + b % parts];
-        pixels.in[b / parts].bind(done);
-        auto& state = wire(state_rings_, "tile_state", writeback);
-        slices_[b]->tile_state[m].bind(state);
-        monitors_[m]->in[b].bind(state);
-        auto& contexts = wire(context_rings_, "context_free", 1);
-        pixels.context_free[b / parts].bind(contexts);
-        banks_[b]->context_free[m].bind(contexts);
+        monitors_.add(std::make_unique<TileMonitor>(
+            numbered("monitor", monitors_.size()).c_str(), config_.monitor, time_, job_,
+            config_.scheduler.banks, of_stream + slicers, granted));
+    }
+    for (int f = 0; f < fetchers; ++f) {
+        fetchers_.add(std::make_unique<SplatFetcher>(numbered("fetcher", fetchers_.size()).c_str(),
+                                                     fetching, config_.traffic, time_, job_,
+                                                     slicers, options_.array_only, granted));
+        auto& cancel = wire(cancel_rings_, "cancel", config_.monitor.latency_cycles);
+        monitors_[f / of_stream]->out[f % of_stream].bind(cancel);
+        fetchers_[f]->cancel.bind(cancel);
+    }
+    for (int f = 0; f < fetchers && !granted; ++f) {
+        auto& lists = ring(sorted_rings_, "sorted", 1, 1);
+        front_end_.sorted[f].bind(lists);
+        fetchers_[f]->sorted.bind(lists);
     }
 }
 
-// A share of the Pixel Buffer is read out at its share of the rate.
-void Degs::build_pixel_buffers() {
+void DegsBackEnd::build_slicing() {
+    const int slicers = config_.slicing.modules();
+    const int of_stream = fetchers_of_stream();
+    GaussianSlicingUnit::Config config = config_.slicing;
+    config.splat_ports = config_.gaussian_buffer.ports;
+    config.row_ports = config_.span_buffer.ports;
+    config.reports_chunks = config_.parameters_wait();
+    config.granted = config_.granted();
+    for (int i = 0; i < config_.streams() * slicers; ++i) {
+        const int g = i % slicers, m = i / slicers;
+        slicing_.add(std::make_unique<GaussianSlicingUnit>(
+            numbered("slicing", slicing_.size()).c_str(), config, time_, job_, g, of_stream,
+            config_.span_lanes(), reachable(g, slicers, config_.scheduler.banks),
+            config_.scheduler.segment_length));
+        GaussianSlicingUnit& unit = slicing_.back();
+        if (drawing_ != nullptr) {
+            unit.draw_with(*drawing_);
+        }
+        for (int f = 0; f < of_stream; ++f) {
+            auto& splats = ring(gaussian_rings_, "gaussian_buffer", config_.gaussian_chunks(), 1);
+            fetchers_[m * of_stream + f]->out[g].bind(splats);
+            unit.in[f].bind(splats);
+        }
+        auto& cancel = wire(cancel_rings_, "cancel", config_.monitor.latency_cycles);
+        monitors_[m]->out[of_stream + g].bind(cancel);
+        unit.cancel.bind(cancel);
+    }
+}
+
+std::unique_ptr<SpanStage> DegsBackEnd::make_span_module(int index) {
+    const std::string name = numbered("span", index);
     const int banks = config_.scheduler.banks;
-    const bool banked = config_.pixel_buffer.release == ContextRelease::Bank;
-    const int parts = banked ? banks : 1;
-    PixelBuffer::Config config = config_.pixel_buffer;
-    config.readout_pixels = std::max(1, config.readout_pixels / config_.streams());
-    for (int i = 0; i < config_.streams() * parts; ++i) {
-        PixelBuffer::Share share;
-        share.first_row = i % parts;
-        share.row_stride = parts;
-        share.first_context = i / parts * config_.contexts_per_stream();
-        share.granted = config_.slicing.granted();
-        pixel_buffers_.push_back(std::make_unique<PixelBuffer>(
-            numbered("pixel_buffer", pixel_buffers_.size()).c_str(), config, config_.traffic, time_,
-            job_, banks / parts, config_.contexts_per_stream(), share,
-            FrameEnds::awaited(front_end_->frame_free, options_), options_.array_only));
-        if (drawing_) {
-            pixel_buffers_.back()->read_from(*drawing_);
+    SpanStage::Config config = config_.span;
+    config.row_ports = config_.span_buffer.ports;
+    config.reports_rows = config_.parameters_wait();
+    config.drawn = drawing_ != nullptr;
+    config.granted = config_.granted();
+    if (!config_.spans_are_pooled()) {
+        return std::make_unique<SpanUnit>(name.c_str(), config, time_, job_, index, banks);
+    }
+    SpanPool::Share share;
+    share.index = index;
+    share.of = config_.span.modules();
+    share.banks = banks;
+    share.streams = config_.streams();
+    share.lanes = config_.span_lanes() / config_.span.modules();
+    share.units = config_.span.units_per_module();
+    return std::make_unique<SpanPool>(name.c_str(), config, time_, job_, share);
+}
+
+// Lane l of a stream goes from its Slicing Unit l mod their number to module l mod the modules.
+void DegsBackEnd::build_spans() {
+    const int modules = config_.span.modules();
+    const int slicers = config_.slicing.modules();
+    const int lanes = config_.span_lanes();
+    for (int u = 0; u < modules; ++u) {
+        spans_.add(make_span_module(u));
+    }
+    for (int m = 0; m < config_.streams(); ++m) {
+        for (int l = 0; l < lanes; ++l) {
+            auto& rows = ring(span_rings_, "span_buffer", config_.span_lane_depth(), 1);
+            slicing_[m * slicers + l % slicers]->out[l / slicers].bind(rows);
+            spans_[l % modules]->in[m * (lanes / modules) + l / modules].bind(rows);
         }
     }
+    if (config_.parameters_wait()) {
+        build_parameter_release();
+    }
 }
 
-void Degs::connect_region_feedback(int slice) {
-    const int listeners = config_.slicing.modules();
-    std::size_t port = 0;
+// Every Slicing module has its lanes, and a copy of what each of its fetchers sends.
+void DegsBackEnd::build_parameter_release() {
+    const int modules = config_.span.modules();
+    const int slicers = config_.slicing.modules();
+    const int lanes = config_.span_lanes();
+    const int of_stream = fetchers_of_stream();
     for (std::size_t i = 0; i < slicing_.size(); ++i) {
-        const int g = static_cast<int>(i) % listeners;
-        if (shares_row(slice, config_.scheduler.banks, g, listeners)) {
-            auto& rows = wire(region_rings_, "region_ended", config_.slicing.feedback_cycles);
-            slices_[slice]->region_ended[port++].bind(rows);
-            slicing_[i]->region_ended[next_region_port_[i]++].bind(rows);
+        const int g = static_cast<int>(i) % slicers, m = static_cast<int>(i) / slicers;
+        releases_.add(std::make_unique<ParameterRelease>(numbered("parameter_release", i).c_str(),
+                                                         time_, lanes / slicers, of_stream));
+        ParameterRelease& release = releases_.back();
+        auto& sliced = wire(sliced_rings_, "sliced", 1);
+        slicing_[i]->sliced[0].bind(sliced);
+        release.sliced.bind(sliced);
+        for (int l = g; l < lanes; l += slicers) {
+            auto& counts = wire(row_count_rings_, "row_counts", 1);
+            slicing_[i]->row_counts[l / slicers].bind(counts);
+            release.rows[l / slicers].bind(counts);
+            auto& solved = wire(solved_rings_, "rows_solved", config_.span.latency_cycles);
+            spans_[l % modules]->solved[m * (lanes / modules) + l / modules].bind(solved);
+            release.solved[l / slicers].bind(solved);
+        }
+        for (int f = 0; f < of_stream; ++f) {
+            auto& places = wire(place_rings_, "chunk_released", 1);
+            release.released[f].bind(places);
+            fetchers_[m * of_stream + f]->released[g].bind(places);
         }
     }
 }

@@ -142,6 +142,10 @@ void DegsConfig::PixelBuffers::describe(ConfigVisitor& visitor) {
 void DegsConfig::describe(ConfigVisitor& visitor) {
     describe_common(visitor);
     visitor.integer("tile_size", tile_size, 4, 1024, "px (paper Table II: 16, 32, 64, 128)");
+    visitor.integer("clusters", clusters, 1, 64,
+                    "back ends that share preprocessing, sorting and memory, each on tiles of its "
+                    "own; what the sections from fetching to monitor say, without projection, "
+                    "binning and sorting, is that of one cluster (paper: 1)");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
     visitor.section("projection", projection, "Projection Units");
@@ -169,7 +173,7 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
 
 void DegsConfig::require_sizes(ConfigVisitor& visitor) const {
     pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), streams(),
-                               {"tile_size", "slicing.interleave"});
+                               {"tile_size", "slicing.interleave"}, kMostContexts / clusters);
     visitor.require_at_least("span_buffer.bytes", span_buffer.bytes,
                              std::int64_t{span_buffer.row_bytes} * span_lanes() * streams(),
                              "to hold a row for every lane",
@@ -232,7 +236,7 @@ void DegsConfig::advise_supply(ConfigVisitor& visitor) const {
                     "",
                     {"array.pes_per_bank", "scheduler.segment_length"}});
     const int pixels_per_unit = tile_size * span.rows_per_cycle; // in cycles_per_row cycles
-    const int units = ceil_div(pes() * span.cycles_per_row, pixels_per_unit);
+    const int units = ceil_div(cluster_pes() * span.cycles_per_row, pixels_per_unit);
     visitor.advise(span.count >= units,
                    {"span.count",
                     "should be at least " + std::to_string(units) +
@@ -281,8 +285,9 @@ void DegsConfig::require_counts(ConfigVisitor& visitor) const {
     const int modules = std::max(1, slicing.modules());
     visitor.require(span.rows == RowAssignment::Pool || span.count % modules == 0,
                     {"slicing.count",
-                     slicing.granted() ? "must be slicing.interleave times a divisor of span.count"
-                                       : "must divide span.count",
+                     slicing.interleave > 1
+                         ? "must be slicing.interleave times a divisor of span.count"
+                         : "must divide span.count",
                      std::to_string(divisor_below(modules, span.count) * slicing.interleave),
                      {"slicing.interleave", "span.count", "slicing.distribution", "span.rows"}});
     visitor.require_at_least("scheduler.reuse_cycles", scheduler.reuse_cycles,

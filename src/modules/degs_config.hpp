@@ -88,6 +88,8 @@ struct DegsConfig : AcceleratorConfig {
     };
 
     int tile_size = 32;
+    int clusters =
+        1; ///< back ends, each with all that the sections from `fetching` to `monitor` describe
     Pipeline pipeline;
     TrafficConfig traffic;
     ProjectionUnit::Config projection;
@@ -115,7 +117,7 @@ struct DegsConfig : AcceleratorConfig {
     int tile_size_px() const override { return tile_size; }
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
-    int tile_contexts() const override { return contexts(); }
+    int tile_contexts() const override { return clusters * contexts(); }
     TrafficConfig records() const override { return traffic; }
     cost::BillOfMaterials bill() const override;
     RecordOrder record_order() const override { return memory.layout; }
@@ -127,15 +129,19 @@ struct DegsConfig : AcceleratorConfig {
                                         const BuildOptions& options) const override;
     std::unique_ptr<AnalyticModel> analytic() const override;
 
-    // Derived sizes.
-    int pes() const override { return scheduler.banks * array.pes_per_bank; }
+    // Derived sizes, of a cluster unless they say otherwise.
+    int pes() const override { return clusters * cluster_pes(); }
+    int cluster_pes() const { return scheduler.banks * array.pes_per_bank; }
     int contexts() const { return pixel_buffer.contexts(tile_pixels()); }
     /// Bytes of the state of a pixel, which need not be whole ones.
     double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
     /// Tile streams, and the tiles of each that the Pixel Buffer holds.
     int streams() const { return slicing.interleave; }
     int contexts_per_stream() const { return contexts() / streams(); }
-    int fetchers() const { return slicing.granted() ? streams() : sorting.count; }
+    int all_streams() const { return clusters * streams(); } ///< of all clusters
+    /// Tiles are granted one by one; a single stream takes all.
+    bool granted() const { return all_streams() > 1; }
+    int fetchers() const { return granted() ? streams() : sorting.count; }
     /// Lanes of the Span Buffer for each stream: one for every unit that takes rows of its own, or
     /// for every Slicing Unit that fills it.
     int span_lanes() const {
@@ -146,7 +152,7 @@ struct DegsConfig : AcceleratorConfig {
     }
     /// True if Span Units have more to choose from than the next row of a lane of their own.
     bool spans_are_pooled() const {
-        return span.rows == RowAssignment::Pool || slicing.granted() || span.rows_per_cycle > 1;
+        return span.rows == RowAssignment::Pool || streams() > 1 || span.rows_per_cycle > 1;
     }
     /// Span Vectors between Span Units and a bank, for each stream: those that wait, and one for
     /// every stage of the pipelines that lead to the bank. Stages fill up while the bank takes
@@ -179,8 +185,7 @@ struct DegsConfig : AcceleratorConfig {
     int feature_entries() const {
         return feature_buffer.bytes / feature_buffer.entry_bytes / scheduler.banks;
     }
-    /// The shares in the Gaussian Buffer: of a fetcher for sorted splats, of a Sorting Unit for
-    /// lists.
+    /// The shares in the Gaussian Buffer of a cluster: of a fetcher for sorted splats, of a Sorting Unit for lists.
     BufferShare splat_share() const { return {1.0 - gaussian_buffer.sort_share, fetchers()}; }
     BufferShare sort_share() const { return {gaussian_buffer.sort_share, sorting.count}; }
     /// Splat chunks that a fetcher's share of the Gaussian Buffer holds.
@@ -197,7 +202,7 @@ struct DegsConfig : AcceleratorConfig {
     bool parameters_wait() const { return gaussian_buffer.temporary == ParameterLife::Spans; }
     /// Keys that a Sorting Unit's share of the Gaussian Buffer holds.
     int sort_capacity() const {
-        return sort_share().bytes_of(gaussian_buffer.bytes) / traffic.list_entry_bytes;
+        return clusters * sort_share().bytes_of(gaussian_buffer.bytes) / traffic.list_entry_bytes;
     }
 
 private:

@@ -12,37 +12,41 @@ cost::BillOfMaterials DegsConfig::bill() const {
         return cost::SramShape{ports.ports, ports.sram_banks};
     };
     constexpr int kReadAndWritten = 2;
+    const std::int64_t many = clusters;
 
     cost::BillOfMaterials bill(cost, clock_ghz);
     bill.add_units({"projection", "Projection Units.", true}, rows.projection, projection.count);
     bill.add_units({"sorting", "Sorting Units.", true}, rows.sorting, sorting.count);
-    bill.add_units({"slicing", "Gaussian Slicing Units."}, rows.span_engine, slicing.count);
+    bill.add_units({"slicing", "Gaussian Slicing Units."}, rows.span_engine,
+                   clusters * slicing.count);
     bill.add_units({"span", "Span Units; one for each row that a unit takes per cycle."},
-                   rows.span_engine, span.count * span.rows_per_cycle);
+                   rows.span_engine, clusters * span.count * span.rows_per_cycle);
     bill.add_units({"packing", "Issue Banks with their Packing Units."}, rows.packing_scheduler,
-                   scheduler.banks, 1 - share + share * width / rows.blending.units);
+                   clusters * scheduler.banks, 1 - share + share * width / rows.blending.units);
     bill.add_units({"blending", "PEs of the Blending Array."}, rows.blending, pes(), 1,
                    cost.pe_factors(pipeline.precision()));
     bill.add_sram({"gaussian_buffer", "Sorted splats and lists being sorted."},
-                  rows.gaussian_buffer, gaussian_buffer.bytes,
-                  kReadAndWritten * (slicing.count * traffic.splat_bytes +
+                  rows.gaussian_buffer, many * gaussian_buffer.bytes,
+                  kReadAndWritten * (clusters * slicing.count * traffic.splat_bytes +
                                      sorting.count * traffic.list_entry_bytes),
                   shape(gaussian_buffer.ports));
     bill.add_sram({"feature_buffer", "Parameters of the splats in the banks."}, rows.feature_buffer,
-                  feature_buffer.bytes,
-                  kReadAndWritten * scheduler.banks * feature_buffer.entry_bytes,
+                  many * feature_buffer.bytes,
+                  kReadAndWritten * clusters * scheduler.banks * feature_buffer.entry_bytes,
                   shape(feature_buffer.fill.ports));
     bill.add_sram({"span_buffer", "Rows of splats on their way to the Span Units."},
-                  rows.span_buffer, span_buffer.bytes,
-                  kReadAndWritten * span.count * span.rows_per_cycle * span_buffer.row_bytes,
+                  rows.span_buffer, many * span_buffer.bytes,
+                  kReadAndWritten * clusters * span.count * span.rows_per_cycle *
+                      span_buffer.row_bytes,
                   {span_buffer.ports.ports});
     bill.add_sram({"packing_buffer", "Waiting segments, and packets."}, rows.packing_buffer,
-                  packing.bytes,
-                  kReadAndWritten * scheduler.banks * (packet_bytes() + scheduler.segment_bytes),
+                  many * packing.bytes,
+                  kReadAndWritten * clusters * scheduler.banks *
+                      (packet_bytes() + scheduler.segment_bytes),
                   {packing.ports.ports});
     bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."},
-                  rows.pixel_buffer, pixel_buffer.bytes, kReadAndWritten * pes() * pixel_bytes(),
-                  shape(pixel_buffer.ports));
+                  rows.pixel_buffer, many * pixel_buffer.bytes,
+                  kReadAndWritten * pes() * pixel_bytes(), shape(pixel_buffer.ports));
     return bill;
 }
 
@@ -54,26 +58,26 @@ void Degs::collect_activity(AcceleratorResult& result) const {
     const auto bytes = [](std::uint64_t records, int record_bytes) {
         return rate_of(records, 1) * record_bytes;
     };
-    const std::uint64_t rows = sum_of(spans_, &S::rows);
-    const std::uint64_t issued = sum_of(banks_, &B::segments_issued);
-    const std::uint64_t segments = 2 * issued + sum_of(banks_, &B::segments_dropped);
-    const std::uint64_t packets = 2 * sum_of(packing_, &PackingUnit::Stats::packets);
+    const std::uint64_t rows = sum_of(blocks_.spans, &S::rows);
+    const std::uint64_t issued = sum_of(blocks_.banks, &B::segments_issued);
+    const std::uint64_t segments = 2 * issued + sum_of(blocks_.banks, &B::segments_dropped);
+    const std::uint64_t packets = 2 * sum_of(blocks_.packing, &PackingUnit::Stats::packets);
     std::uint64_t features = issued;
-    for (const auto& bank : banks_) {
+    for (const auto& bank : blocks_.banks) {
         features += bank->features().stats().entries;
     }
-    const std::uint64_t splats =
-        sum_of(fetchers_, &SplatFetcher::Stats::records) + sum_of(slicing_, &G::splats);
-    add_activity(result, "slicing", sum_of(slicing_, &G::busy));
+    const std::uint64_t splats = sum_of(blocks_.fetchers, &SplatFetcher::Stats::records) +
+                                 sum_of(blocks_.slicing, &G::splats);
+    add_activity(result, "slicing", sum_of(blocks_.slicing, &G::busy));
     add_activity(result, "span", rows * c.span.cycles_per_row);
-    add_activity(result, "packing", sum_of(banks_, &B::busy));
+    add_activity(result, "packing", sum_of(blocks_.banks, &B::busy));
     add_activity(result, "blending", result.slots.executed());
     add_activity(result, "gaussian_buffer",
                  bytes(splats, c.traffic.splat_bytes) +
                      bytes(front_end_->keys_moved(), c.traffic.list_entry_bytes));
     add_activity(result, "feature_buffer", bytes(features, c.feature_buffer.entry_bytes));
     add_activity(result, "span_buffer",
-                 bytes(sum_of(slicing_, &G::rows) + rows, c.span_buffer.row_bytes));
+                 bytes(sum_of(blocks_.slicing, &G::rows) + rows, c.span_buffer.row_bytes));
     add_activity(result, "packing_buffer",
                  bytes(segments, c.scheduler.segment_bytes) + bytes(packets, c.packet_bytes()));
     add_pixel_activity(result, job_, c.pixel_bytes());

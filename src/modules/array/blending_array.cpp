@@ -21,7 +21,8 @@ ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config
       segments_per_row_((job.tile_size + segment_length - 1) / segment_length), self_(time),
       contexts_(std::size_t{1} * config.streams * config.contexts), current_(&contexts_.front()),
       segments_((job.tile_size + slices - 1) / slices * segments_per_row_),
-      plain_(config.scoreboard && !config.tests), blender_(job, config.tests) {
+      plain_(config.scoreboard && !config.tests), blender_(job, config.tests),
+      tiles_(job, config.granted ? 1 : 0) {
     if (!config.scoreboard) {
         early_.emplace(job, config.writeback_cycles, config.tests);
     }
@@ -148,13 +149,14 @@ inline __attribute__((always_inline)) void ArraySlice::pump_packets() {
             self_.advance();
         }
         if (ends) {
-            count_tile();
+            count_tile(tile);
         }
     }
 }
 
-void ArraySlice::count_tile() {
-    if (job_.over(++tiles_done_)) {
+void ArraySlice::count_tile(TileNumber number) {
+    tiles_.count(number);
+    if (tiles_.over()) {
         end_reports();
         self_.finish();
     }
@@ -171,11 +173,11 @@ void ArraySlice::pass_end(TileNumber tile, std::int16_t context, Cycle date, boo
     if (packet) {
         pass_packet(date);
     }
-    count_tile();
+    count_tile(tile);
 }
 
 void ArraySlice::run() {
-    while (!job_.over(tiles_done_)) {
+    while (!tiles_.over()) {
         packets_->wait_for_item(self_);
         if (part_ == nullptr) {
             pump();
@@ -249,6 +251,9 @@ void ArraySlice::report_region(const Context& context, const TaskRun& run) {
 
 // It may be that no task of the tile came here.
 void ArraySlice::end_tile(TileNumber number, std::int16_t in_context) {
+    if (number == kNoTile) {
+        return;
+    }
     if (early_) {
         early_->finish(number);
     }
@@ -261,9 +266,9 @@ void ArraySlice::end_tile(TileNumber number, std::int16_t in_context) {
     tile_done[stream]->put(self_, {number, context.live_pixels == 0});
 }
 
-// The streams do not know which tile is their last one.
+// Who is granted tiles does not know which is the last one.
 void ArraySlice::end_reports() {
-    for (int stream = 0; stream < config_.streams && config_.streams > 1; ++stream) {
+    for (int stream = 0; config_.granted && stream < config_.streams; ++stream) {
         tile_state[stream]->put(self_, {kNoTile, false});
         tile_done[stream]->put(self_, {kNoTile, false});
     }

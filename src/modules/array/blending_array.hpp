@@ -11,6 +11,7 @@
 #include "modules/array/task_blender.hpp"
 #include "modules/render_job.hpp"
 #include "modules/scheduler/termination_grain.hpp"
+#include "modules/tile_end.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
@@ -29,6 +30,8 @@ public:
         int region_listeners = 0; ///< Slicing Units of a stream if they skip dead rows, else 0
         int streams = 1;          ///< tile streams
         int contexts = 1;         ///< tiles of a stream that the Pixel Buffer holds
+        int first_context = 0;    ///< of the Pixel Buffer
+        bool granted = false;     ///< tiles come one by one, see TileEnd
         bool scoreboard = true;   ///< no pixel comes again before its write-back
         bool tests = false;       ///< PEs test whether their pixel is inside the ellipse
     };
@@ -51,7 +54,7 @@ public:
     /// To the Slicing Units that share a row with this slice, stream by stream; empty unless they
     /// skip dead rows.
     sc_core::sc_vector<FifoPort<RegionEnded>> region_ended;
-    // Once per tile, one port per stream; with several streams kNoTile ends the reports.
+    // Once per tile, one port per stream; kNoTile ends the reports of tiles that are granted.
     sc_core::sc_vector<FifoPort<SliceReport>> tile_done;  ///< to the Pixel Buffer
     sc_core::sc_vector<FifoPort<SliceReport>> tile_state; ///< to the Tile Monitor
 
@@ -114,7 +117,7 @@ private:
     /// The context, prepared for the tile if that starts with this call.
     Context& context_of(std::int16_t context, TileNumber tile) {
         if (current_->tile != tile) {
-            current_ = &contexts_[context];
+            current_ = &contexts_[context - config_.first_context];
             if (current_->tile != tile) {
                 start_tile(*current_, tile);
             }
@@ -139,8 +142,10 @@ private:
     void report_region(const Context& context, const TaskRun& run);
     [[gnu::noinline]] void end_tile(TileNumber number, std::int16_t context);
     void end_reports();
-    void count_tile();
-    std::size_t stream_of(std::int16_t context) const { return context / config_.contexts; }
+    void count_tile(TileNumber number);
+    std::size_t stream_of(std::int16_t context) const {
+        return (context - config_.first_context) / config_.contexts;
+    }
 
     Config config_;
     RenderJob& job_;
@@ -155,7 +160,7 @@ private:
     bool plain_;           // solved tasks and a scoreboard: asked once per segment, so in one place
     TaskBlender blender_;
     std::optional<EarlyBlender> early_; // without scoreboard
-    std::size_t tiles_done_ = 0;
+    TileEnd tiles_;
     SlotPart* part_ = nullptr;
     bool drawn_ = false;
     RecordedPump recorded_{*this};

@@ -8,9 +8,8 @@
 namespace degs {
 
 void DrawnBank::run() {
-    const RenderJob& job = bank_.job_;
     DatedFifo<Termination>& terminations = *bank_.terminations_;
-    while (!job.over(bank_.tiles_done_)) {
+    for (bool over = bank_.over(); !over;) {
         now_ = self_.local();
         if (!terminations.empty() && terminations.head_date() <= now_) {
             end_pixels();
@@ -20,7 +19,10 @@ void DrawnBank::run() {
         }
         accept();
         const int issued = issue();
-        const bool over = bank_.closing_ != 0 && finish_tiles() && job.over(bank_.tiles_done_);
+        if (bank_.closing_ != 0) {
+            finish_tiles();
+        }
+        over = bank_.over();
         if (open() && next_slot_ - latency_ <= now_) {
             send_part(idle_cause());
         }
@@ -36,6 +38,9 @@ void DrawnBank::run() {
     now_ = self_.local();
     if (open()) {
         send_part(Idle::Starved);
+    }
+    if (bank_.config_.granted) {
+        packing_.end_tile(self_, kNoTile, 0);
     }
     self_.finish();
 }
@@ -67,8 +72,9 @@ inline __attribute__((always_inline)) bool DrawnBank::open_span() {
             features_full_ = true;
             return false;
         }
-        if (!stream_.entered) {
-            enter_tile(span.tile);
+        const TileNumber number = span.tile;
+        if (!stream_.entered && number != kNoTile) {
+            enter_tile(number);
         }
         if (row) {
             const int domain = bank_.segmenter_.domain_of(span.row, span.drawn.x0);
@@ -86,7 +92,7 @@ inline __attribute__((always_inline)) bool DrawnBank::open_span() {
             return true;
         }
         ++input_.turn;
-        bank_.take_end(stream_, now_);
+        bank_.take_end(stream_, number, now_);
     }
     return false;
 }

@@ -65,7 +65,7 @@ DrawnBank::DrawnBank(IssueBank& bank)
 void DrawnBank::enter_tile(TileNumber number) {
     Tile& tile = tile_at(stream_.entering);
     tile.number = number;
-    tile.context = context_in_turn(stream_.entering, bank_.contexts_);
+    tile.context = context_in_turn(stream_.entering, bank_.contexts_, bank_.config_.first_context);
     tile.later = 0;
     cooling_.forget(tile.places);
     const int width = bank_.job_.tiles[number].width;
@@ -198,7 +198,7 @@ bool DrawnBank::finish_tiles() {
             packing_.tell_end(packing_.passed_.pass_end(now_, now_ + latency_), false);
         }
         ++stream_.oldest;
-        ++bank_.tiles_done_;
+        bank_.tiles_.count(tile.number);
         --bank_.closing_;
         bank_.contexts_owed_ = true;
     }
@@ -251,9 +251,9 @@ Cycle DrawnBank::next_date() {
     }
     limit = self_.next_arrival(watched.data(), watched.size(), next, std::max(next, limit));
     if (limit >= kNever) {
-        throw std::logic_error(std::string(bank_.name()) +
-                               ": nothing left to wait for, but after " +
-                               std::to_string(bank_.tiles_done_) + " tiles there is another one");
+        throw std::logic_error(
+            std::string(bank_.name()) + ": nothing left to wait for, but after " +
+            std::to_string(bank_.tiles_.tiles()) + " tiles there is another one");
     }
     return limit;
 }

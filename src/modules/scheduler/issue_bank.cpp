@@ -44,6 +44,7 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
              config.scan, config.streams),
       features_(config.feature_entries, config.open_splats, config.streams, config.fill),
       next_stream_(&streams_.front()), issued_stream_(&streams_.front()),
+      tiles_(job, config.granted ? config.streams : 0),
       width_cause_(config_.issue_width < config.issue_width ? Idle::Ports : Idle::Starved) {
     for (BankStream& stream : streams_) {
         stream.index = &stream - streams_.data();
@@ -90,13 +91,14 @@ void IssueBank::run() {
 
 template <bool single>
 void IssueBank::run_cycles() {
-    while (!job_.over(tiles_done_)) {
+    for (bool over = this->over(); !over;) {
         const Cycle now = self_.local();
         see_terminations();
         see_contexts();
         accept<single>(now);
         const bool worked = issue(now);
-        const bool over = finish_tiles() && job_.over(tiles_done_);
+        finish_tiles();
+        over = this->over();
         if (packing_.due(now)) {
             packing_.send_due(self_, idle_cause());
         }
@@ -114,6 +116,9 @@ void IssueBank::run_cycles() {
     }
     packing_.send_due(self_, Idle::Starved);
     packing_.close_cycles(self_, self_.local() + 1, Idle::Starved);
+    if (config_.granted) {
+        packing_.end_tile(self_, kNoTile, 0);
+    }
     self_.finish();
 }
 
@@ -166,7 +171,7 @@ void IssueBank::list_started() {
 }
 
 void IssueBank::end_pixels(const Termination& message) {
-    const BankStream& stream = streams_[message.context / contexts_];
+    const BankStream& stream = streams_[(message.context - config_.first_context) / contexts_];
     const std::size_t turn = turn_of(stream, message.context);
     if (turn >= stream.first_unstarted() || tile_at(stream, turn).number() != message.tile) {
         return; // the tile is over for this bank
@@ -185,7 +190,7 @@ void IssueBank::end_pixels(const Termination& message) {
 
 // The turn that is the first one to have this context and is not over for the bank.
 std::size_t IssueBank::turn_of(const BankStream& stream, int context) const {
-    const std::size_t place = context % contexts_;
+    const std::size_t place = (context - config_.first_context) % contexts_;
     return stream.oldest + (place + contexts_ - stream.oldest % contexts_) % contexts_;
 }
 
@@ -203,7 +208,7 @@ void IssueBank::enter_tile(BankStream& stream, TileNumber number) {
     queue_.hold(stream.oldest, stream.entering, stream.index);
     const int width = job_.tiles[number].width;
     SegmentQueue::Tile& tile = tile_at(stream, stream.entering);
-    const int first_context = static_cast<int>(stream.index) * contexts_;
+    const int first_context = config_.first_context + static_cast<int>(stream.index) * contexts_;
     tile.name(number, context_in_turn(stream.entering, contexts_, first_context));
     int domain = 0;
     for (const Segmenter::Domain& place : segmenter_.domains()) {
@@ -251,8 +256,9 @@ inline __attribute__((always_inline)) IssueBank::Taken IssueBank::take_from(Bank
     if (span && fills_ && !features_.filled_by(packing_.next_execution(now))) {
         return Taken::Nothing;
     }
-    if (!stream.entered) {
-        enter_tile(stream, item.tile);
+    const TileNumber number = item.tile;
+    if (!stream.entered && number != kNoTile) {
+        enter_tile(stream, number);
     }
     if (span) {
         cut_tile_ = &tile_at(stream, stream.entering);
@@ -263,7 +269,7 @@ inline __attribute__((always_inline)) IssueBank::Taken IssueBank::take_from(Bank
     source->ring->drop(self_);
     if (!span) {
         ++source->turn;
-        take_end(stream, now);
+        take_end(stream, number, now);
     }
     return span ? Taken::Span : Taken::End;
 }
@@ -315,8 +321,14 @@ IssueBank::earliest_input(BankStream& stream) {
     return source;
 }
 
-void IssueBank::take_end(BankStream& stream, Cycle now) {
-    if (++stream.ends_seen == stream.inputs.size()) {
+// kNoTile: that of the stream.
+void IssueBank::take_end(BankStream& stream, TileNumber number, Cycle now) {
+    if (++stream.ends_seen != stream.inputs.size()) {
+        return;
+    }
+    if (number == kNoTile) {
+        tiles_.count(number);
+    } else {
         features_.close(now, stream.index);
         stream.ends_seen = 0;
         ++stream.entering;

@@ -16,6 +16,7 @@
 #include "modules/scheduler/segmenter.hpp"
 #include "modules/scheduler/termination_grain.hpp"
 #include "modules/span_engine/span_unit.hpp"
+#include "modules/tile_end.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {
@@ -41,6 +42,8 @@ public:
         int feature_entries = 64;   ///< splats whose parameters the bank may need at once
         int open_splats = 1;        ///< splats of a stream whose rows may arrive in turn
         int streams = 1;            ///< tile streams
+        bool granted = false;       ///< tiles come one by one, see TileEnd
+        int first_context = 0;      ///< of the Pixel Buffer
         int spans_per_cycle = 0;    ///< taken from the crossbar; 0: as many as can be cut
         /// Of the waiting segments in a bank's part of the Packing Buffer. Packets lie in a memory
         /// of their own, of which one is written and one is read per cycle at most [assumed].
@@ -76,7 +79,7 @@ public:
     sc_core::sc_vector<FifoPort<TileNumber>> context_free;
 
     /// `packing` takes what the bank issues; it must exist until the bank has finished. `inputs` and
-    /// `contexts` are those of a stream; stream s has the contexts from s * contexts on.
+    /// `contexts` are those of a stream; stream s has the contexts from first_context + s * contexts on.
     IssueBank(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
               const RenderJob& job, PackingUnit& packing, int index, std::size_t inputs,
               int contexts);
@@ -117,7 +120,7 @@ private:
     template <bool single>
     BankStream::Input* earliest_input(BankStream& stream);
     [[gnu::noinline]] void enter_tile(BankStream& stream, TileNumber number);
-    [[gnu::noinline]] void take_end(BankStream& stream, Cycle now);
+    [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number, Cycle now);
     bool cut_segment();
     void drop(std::uint32_t mask);
     static bool takes(const BankStream& stream, const BankStream::Input& input) {
@@ -137,6 +140,8 @@ private:
     bool issue_one(Cycle now, SegmentQueue::Tile& tile, int domain);
     bool finish_tiles();
     [[gnu::noinline]] void finish_tiles(BankStream& stream);
+
+    bool over() const { return tiles_.over() && closing_ == 0; }
 
     // Dates.
     Idle idle_cause() const;
@@ -171,7 +176,7 @@ private:
     BankStream* next_stream_;                // whose span is taken next
     int spans_left_ = 0;                     // that may be taken in this cycle
     BankStream* issued_stream_;              // that issued last
-    std::size_t tiles_done_ = 0;
+    TileEnd tiles_;
     std::uint64_t sequence_ = 0; // segments so far
     bool no_room_ = false;       // a ready segment waits for room in the Packing Buffer
     bool width_limited_ = false;

@@ -157,9 +157,9 @@ void IssueBank::finish_tiles(BankStream& stream) {
             break;
         }
         packing_.end_tile(self_, tile.number(), tile.context());
+        tiles_.count(tile.number());
         queue_.clear(tile);
         ++stream.oldest;
-        ++tiles_done_;
         --closing_;
         contexts_owed_ = true;
     }
@@ -248,7 +248,7 @@ Cycle IssueBank::next_date(Cycle now) {
     limit = self_.next_arrival(watched_.data(), watched_.size(), next, std::max(next, limit));
     if (limit >= kNever) {
         throw std::logic_error(std::string(name()) + ": nothing left to wait for, but after " +
-                               std::to_string(tiles_done_) + " tiles there is another one");
+                               std::to_string(tiles_.tiles()) + " tiles there is another one");
     }
     return limit;
 }

@@ -5,9 +5,9 @@ namespace degs {
 
 DrawnSpans::DrawnSpans(Process& unit, Process& bank, DatedFifo<RowItem>& rows,
                        DatedFifo<SpanItem>& ring, const SpanStage::Config& config,
-                       SpanStage::Stats& stats, const RenderJob& job)
+                       SpanStage::Stats& stats, TileEnd& tiles)
     : FifoBase(ring.forward_latency(), ring.release_latency()), unit_(unit), rows_(rows),
-      ring_(ring), stats_(stats), job_(job), cycles_per_row_(config.cycles_per_row) {
+      ring_(ring), stats_(stats), tiles_(tiles), cycles_per_row_(config.cycles_per_row) {
     depth_ = ring.depth();
     std::size_t size = 1;
     while (size <= depth_) {
@@ -72,8 +72,11 @@ inline __attribute__((always_inline)) bool DrawnSpans::deliver() {
     }
     if (!span.end) {
         unit_.work(cycles_per_row_, stats_.busy);
-    } else if (job_.over(++tiles_done_)) {
-        unit_.finish();
+    } else {
+        tiles_.count(span.tile);
+        if (tiles_.over()) {
+            unit_.finish();
+        }
     }
     return true;
 }

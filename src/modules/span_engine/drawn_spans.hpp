@@ -29,7 +29,7 @@ public:
 
     /// What `unit` does with `rows` for `bank`. `ring` stays empty.
     DrawnSpans(Process& unit, Process& bank, DatedFifo<RowItem>& rows, DatedFifo<SpanItem>& ring,
-               const SpanStage::Config& config, SpanStage::Stats& stats, const RenderJob& job);
+               const SpanStage::Config& config, SpanStage::Stats& stats, TileEnd& tiles);
 
     /// Tells of every row that the unit has taken; before the simulation starts.
     void report_to(DatedFifo<RowSolved>& solved) { solved_ = &solved; }
@@ -58,7 +58,7 @@ private:
     DatedFifo<SpanItem>& ring_;
     DatedFifo<SpanItem>::Stats counts_;
     SpanStage::Stats& stats_;
-    const RenderJob& job_;
+    TileEnd& tiles_;
     DatedFifo<RowSolved>* solved_ = nullptr;
     Cycle cycles_per_row_;
     std::vector<Span> cells_; // as many as a power of two: also the one that the unit holds
@@ -66,7 +66,6 @@ private:
     std::size_t made_ = 0, taken_ = 0; // so far
     Cycle room_ = 0;                   // date from which the crossbar has had room again
     bool holding_ = false;
-    TileNumber tiles_done_ = 0;
 };
 
 inline __attribute__((always_inline)) void DrawnSpans::drop(Cycle now) {

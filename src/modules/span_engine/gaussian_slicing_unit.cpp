@@ -86,19 +86,26 @@ void GaussianSlicingUnit::end_of_elaboration() {
 void GaussianSlicingUnit::run() {
     for (TileNumber number = tile_after(kNoTile); number != kNoTile; number = tile_after(number)) {
         slice_tile(number);
-        RowItem end;
-        end.tile = number;
-        end.end = true;
-        for (DatedFifo<RowItem>* lane : lanes_) {
-            lane->put(self_, end);
-        }
+        end_lanes(number);
+    }
+    if (config_.granted) {
+        end_lanes(kNoTile);
     }
     self_.finish();
 }
 
+void GaussianSlicingUnit::end_lanes(TileNumber number) {
+    RowItem end;
+    end.tile = number;
+    end.end = true;
+    for (DatedFifo<RowItem>* lane : lanes_) {
+        lane->put(self_, end);
+    }
+}
+
 // kNoTile: there is no next tile, or, as an argument, none before.
 TileNumber GaussianSlicingUnit::tile_after(TileNumber number) {
-    if (config_.granted()) {
+    if (config_.granted) {
         return in[0]->arrive(self_).tile;
     }
     const TileNumber next = number + 1; // 0 after kNoTile

@@ -29,7 +29,7 @@ enum class SliceDistribution { Broadcast, BroadcastSkip, Splats };
 /// earliest [assumed]. A full lane of the Span Buffer stops all units of the module.
 ///
 /// With several tile streams every stream has units of its own, which share its tiles in the same
-/// way; these are granted one by one.
+/// way. Where tiles are granted one by one, kNoTile ends every lane.
 ///
 /// Drops the splats of a cancelled tile, a chunk per cycle. With skip_dead_rows (not in the paper)
 /// the array also reports rows whose pixels have all ended; they are masked out, sampled once per
@@ -49,14 +49,13 @@ public:
         BankedSramPorts splat_ports; ///< of a module's part of the Gaussian Buffer
         SramPorts row_ports;         ///< of a lane of the Span Buffer
         bool reports_chunks = false; ///< to Parameter Release
+        bool granted = false;        ///< tiles come one by one, see TileEnd
         void describe(ConfigVisitor& visitor);
         /// Modules of a stream, among which the rows are dealt; each has units_per_module() units.
         int modules() const {
             return distribution == SliceDistribution::Splats ? 1 : count / interleave;
         }
         int units_per_module() const { return count / interleave / modules(); }
-        /// Tiles are granted to streams; a single stream takes all.
-        bool granted() const { return interleave > 1; }
     };
     struct Stats {
         Cycle busy = 0;
@@ -117,6 +116,7 @@ private:
     void run();
     TileNumber tile_after(TileNumber number);
     void slice_tile(TileNumber number);
+    void end_lanes(TileNumber number);
     bool more_splats(TileNumber number);
     void deal(TileNumber number);
     void work(TileNumber number);

@@ -13,7 +13,7 @@ namespace degs {
 SpanPool::SpanPool(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                    const RenderJob& job, const Share& share)
     : SpanStage(name, config, job, std::size_t{1} * share.streams * share.lanes,
-                share.streams * reachable(share.index, share.of, share.banks)),
+                share.streams * reachable(share.index, share.of, share.banks), share.streams),
       self_(time), share_(share),
       port_of_row_(ports_of_rows(job.tile_size, share.index, share.of, share.banks)),
       streams_(share.streams), free_from_(share.units, 0) {
@@ -37,7 +37,7 @@ void SpanPool::end_of_elaboration() {
 }
 
 void SpanPool::run() {
-    while (!job_.over(tiles_done_)) {
+    while (!tiles_.over()) {
         waiting_ = false;
         for (Lane& lane : lanes_) {
             if (!lane.has_row) {
@@ -45,7 +45,7 @@ void SpanPool::run() {
             }
         }
         take_rows();
-        self_.advance_to(job_.over(tiles_done_) ? self_.local() : next_date());
+        self_.advance_to(tiles_.over() ? self_.local() : next_date());
     }
     self_.finish();
 }
@@ -124,7 +124,7 @@ void SpanPool::look_at(Lane& lane) {
     lane.looked_at = true;
     const Stream& stream = *lane.stream;
     if (lane.turn != stream.turn) {
-        if (stream.ending != kNoTile) {
+        if (stream.ending) {
             pass_end(lane);
         }
     } else if (self_.arrived(*lane.rows)) {
@@ -139,7 +139,7 @@ void SpanPool::look_at(Lane& lane) {
 // complete.
 void SpanPool::pass_end(Lane& lane) {
     Stream& stream = *lane.stream;
-    if (stream.ending == kNoTile) {
+    if (!stream.ending) {
         const TileNumber tile = lane.rows->front().tile;
         lane.rows->drop(self_);
         ++lane.turn;
@@ -150,7 +150,7 @@ void SpanPool::pass_end(Lane& lane) {
             stream.end_port = 0;
         }
     }
-    if (stream.ending == kNoTile) {
+    if (!stream.ending) {
         return;
     }
     if (!send_end(stream)) {
@@ -182,13 +182,13 @@ bool SpanPool::send_end(Stream& stream) {
         }
         ring.reserve(self_);
         SpanItem& end = ring.staged();
-        end.tile = stream.ending;
+        end.tile = *stream.ending;
         end.span.reset();
         ring.put_staged(self_);
     }
-    stream.ending = kNoTile;
+    tiles_.count(*stream.ending);
+    stream.ending.reset();
     ++stream.turn;
-    ++tiles_done_;
     return true;
 }
 
@@ -214,7 +214,7 @@ Cycle SpanPool::next_date() {
     const Cycle date = self_.next_arrival(watched_.data(), watched_.size(), from, kNever);
     if (date >= kNever) {
         throw std::logic_error(std::string(name()) + ": nothing left to wait for, but after " +
-                               std::to_string(tiles_done_) + " tiles there is another one");
+                               std::to_string(tiles_.tiles()) + " tiles there is another one");
     }
     return date;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "modules/span_engine/span_stage.hpp"
@@ -31,7 +32,7 @@ private:
         std::vector<DatedFifo<SpanItem>*> rings; // by port
         std::size_t turn = 0;                    // ends of tiles that have been sent
         std::size_t ends = 0;                    // lanes that have delivered the next one
-        TileNumber ending = kNoTile;             // the tile whose end has to be sent; kNoTile: none
+        std::optional<TileNumber> ending;        // the tile whose end has to be sent
         std::size_t end_port = 0;                // to which port
     };
     struct Lane {
@@ -65,7 +66,6 @@ private:
     std::vector<Cycle> free_from_; // by unit
     bool waiting_ = false;         // a row or an end waits for a place in the crossbar
     bool ends_passed_ = false;     // since a unit began to look for rows
-    std::size_t tiles_done_ = 0;
     std::vector<FifoBase*> watched_;
 };
 

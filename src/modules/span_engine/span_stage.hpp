@@ -9,6 +9,7 @@
 #include "config/statistics.hpp"
 #include "modules/render_job.hpp"
 #include "modules/sram_ports.hpp"
+#include "modules/tile_end.hpp"
 #include "splat/coupled_row.hpp"
 #include "tlm/dated_fifo.hpp"
 
@@ -35,6 +36,7 @@ public:
         SramPorts row_ports;       ///< of a lane of the Span Buffer, whose section has the key
         bool reports_rows = false; ///< to Parameter Release
         bool drawn = false;        ///< rows come solved, see TileDrawing
+        bool granted = false;      ///< tiles come one by one, see TileEnd
         void describe(ConfigVisitor& visitor);
         /// Modules of the stage; each has units_per_module() units.
         int modules() const { return rows == RowAssignment::Pool ? 1 : count; }
@@ -66,9 +68,10 @@ public:
 
 protected:
     SpanStage(const sc_core::sc_module_name& name, const Config& config, const RenderJob& job,
-              std::size_t inputs, std::size_t outputs)
+              std::size_t inputs, std::size_t outputs, std::size_t streams)
         : sc_core::sc_module(name), in("in", inputs), out("out", outputs),
-          solved("solved", config.reports_rows ? inputs : 0), config_(config), job_(job) {}
+          solved("solved", config.reports_rows ? inputs : 0), config_(config), job_(job),
+          tiles_(job, config.granted ? streams : 0) {}
 
     void connect_reports(Process& self) {
         for (auto& port : solved) {
@@ -86,6 +89,7 @@ protected:
 
     Config config_;
     const RenderJob& job_;
+    TileEnd tiles_;
     Stats stats_;
 };
 

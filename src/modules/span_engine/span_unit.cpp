@@ -8,7 +8,7 @@ namespace degs {
 
 SpanUnit::SpanUnit(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                    const RenderJob& job, int index, int banks)
-    : SpanStage(name, config, job, 1, reachable(index, config.count, banks)), self_(time),
+    : SpanStage(name, config, job, 1, reachable(index, config.count, banks), 1), self_(time),
       port_of_row_(ports_of_rows(job.tile_size, index, config.count, banks)) {
     DEGS_HAS_PROCESS(SpanUnit);
     if (self_.strict()) {
@@ -35,7 +35,7 @@ std::unique_ptr<DrawnSpans> SpanUnit::hand_over(Process& bank) {
         return nullptr;
     }
     auto spans =
-        std::make_unique<DrawnSpans>(self_, bank, *rows_, *rings_.front(), config_, stats_, job_);
+        std::make_unique<DrawnSpans>(self_, bank, *rows_, *rings_.front(), config_, stats_, tiles_);
     if (config_.reports_rows) {
         spans->report_to(solved[0].ring());
     }
@@ -44,7 +44,7 @@ std::unique_ptr<DrawnSpans> SpanUnit::hand_over(Process& bank) {
 }
 
 void SpanUnit::run() {
-    while (!job_.over(tiles_done_)) {
+    while (!tiles_.over()) {
         rows_->wait_for_item(self_);
         pump();
     }
@@ -97,8 +97,11 @@ bool SpanUnit::deliver() {
         holding_ = !held_.span && ++next_port_ < rings_.size();
         if (held_.span) {
             self_.work(config_.cycles_per_row, stats_.busy);
-        } else if (!holding_ && job_.over(++tiles_done_)) {
-            self_.finish();
+        } else if (!holding_) {
+            tiles_.count(held_.tile);
+            if (tiles_.over()) {
+                self_.finish();
+            }
         }
     }
     return true;

@@ -36,7 +36,6 @@ private:
     SpanItem held_;             // the result of the item taken last, while its ring is full
     std::size_t next_port_ = 0; // where it goes; an end goes to all ports in turn
     bool holding_ = false;
-    TileNumber tiles_done_ = 0;
 };
 
 } // namespace degs
