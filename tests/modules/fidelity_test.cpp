@@ -115,6 +115,7 @@ private:
         c.slicing.count *= c.slicing.interleave;
         c.pixel_buffer.bytes *= chance(2) ? c.slicing.interleave : 1;
         c.span_buffer.bytes *= chance(2) ? c.slicing.interleave : 1;
+        c.clusters = among({1, 1, 2, 3, 5});
         c.span.rows = chance(3) ? RowAssignment::Pool : RowAssignment::Fixed;
         c.span.rows_per_cycle = among({1, 1, 1, 2, 5});
         c.span.crossbar_width = among({0, 0, 1, 2});
@@ -158,8 +159,8 @@ std::string describe(const DegsConfig& c) {
            std::to_string(c.span.count) + "/" + std::to_string(c.scheduler.banks) + "/" +
            std::to_string(c.array.pes_per_bank) + ", " + std::to_string(c.contexts()) +
            " contexts, scan " + std::to_string(static_cast<int>(c.scheduler.scan)) + ", " +
-           std::to_string(c.streams()) + " streams, " +
-           (c.span.rows == RowAssignment::Pool ? "pool of " : "fixed ") +
+           std::to_string(c.clusters) + " clusters of " + std::to_string(c.streams()) +
+           " streams, " + (c.span.rows == RowAssignment::Pool ? "pool of " : "fixed ") +
            std::to_string(c.span.rows_per_cycle) + " per " + std::to_string(c.span.cycles_per_row) +
            " cycles, crossbar " + std::to_string(c.span.crossbar_width) +
            (c.span.parsing ? "" : ", rows not solved") +

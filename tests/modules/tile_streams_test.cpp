@@ -69,5 +69,24 @@ TEST(TileStreams, TwoStreamsFillEachOthersGaps) {
     EXPECT_EQ(run.slots().useful, 2 * kSplats * 16);
 }
 
+// Two clusters of one stream: each chain has an array of its own. The lists are granted
+// one cycle after the other.
+TEST(TileStreams, TwoClustersWorkOnATileEach) {
+    const FrameWorkload frame = two_chains();
+    DegsConfig config = one_bank(1);
+    config.clusters = 2;
+    const DegsRun run("run", config, {&frame});
+    sc_core::sc_start();
+    test::expect_sound(run);
+    test::expect_reference(run);
+    EXPECT_EQ(run.packets(), 2 * kSplats);
+    EXPECT_EQ(run.window().cycles(), chain(kSplats) + 1);
+    for (const auto& slice : run.degs().slices()) {
+        EXPECT_EQ(slice->stats().packets, kSplats);
+        EXPECT_EQ(slice->stats().window.cycles(), chain(kSplats));
+    }
+    EXPECT_EQ(run.slots().total(), 2 * 16 * run.window().cycles());
+}
+
 } // namespace
 } // namespace degs
