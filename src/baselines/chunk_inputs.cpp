@@ -6,8 +6,27 @@
 
 namespace degs {
 
-ChunkInputs::ChunkInputs(Process& self, Ports& ports)
-    : self_(self), ports_(ports), stopped_(ports.size(), false) {}
+TileNumber ChunkInputs::next_tile() {
+    return granted_ ? next_granted() : next_of_job();
+}
+
+TileNumber ChunkInputs::next_granted() {
+    DatedFifo<SplatChunk>& ring = ports_[0].ring();
+    wait_for(ring, kNever);
+    const TileNumber tile = ring.front().tile;
+    if (tile == kNoTile) {
+        ring.drop(self_);
+    }
+    return tile;
+}
+
+// While no tile is there, what still comes for stopped ones is all there is to do.
+TileNumber ChunkInputs::next_of_job() {
+    if (next_ >= job_.tiles.size() && !job_.over(next_)) {
+        wait_for_rest();
+    }
+    return job_.has_tile(self_, next_) ? next_++ : kNoTile;
+}
 
 void ChunkInputs::stop(TileNumber tile) {
     stopped_[tile % ports_.size()] = true;

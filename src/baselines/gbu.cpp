@@ -5,23 +5,14 @@ namespace degs {
 namespace {
 
 TileEngineArray::Parts parts_of(const GbuConfig& config) {
-    TileEngineArray::Parts parts;
-    parts.front.projection = config.projection;
-    parts.front.binning = config.binning;
-    parts.front.hierarchical = config.sorting;
-    parts.front.on_demand = true;
-    parts.front.traffic = config.traffic;
-    parts.front.sort_capacity = config.sort_capacity();
-    parts.front.frames_in_flight = config.frames_in_flight;
-    parts.fetching = config.fetching;
-    parts.pixel_buffer = config.pixel_buffer;
-    parts.monitor = config.monitor;
-    parts.memory = config.memory;
-    parts.frame_end = config.frame_end;
+    TileEngineArray::Parts parts(config);
+    parts.pixel_buffer = config.pixel_buffer.part_of(config.engines.count);
+    parts.granted = true;
     parts.engines = config.engines.count;
     parts.contexts = config.contexts();
     parts.splat_chunks = config.list_buffer.chunks;
     parts.cache_records = config.cache_records();
+    parts.splat_rings = "splat_buffer";
     return parts;
 }
 
@@ -32,8 +23,7 @@ Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Tim
     : TileEngineArray(name, parts_of(config), time, job, options), config_(config) {
     for (int e = 0; e < config_.engines.count; ++e) {
         engines_.push_back(std::make_unique<TileEngine>(numbered("engine", e).c_str(),
-                                                        config_.engines, time, job,
-                                                        first_context(e), config_.contexts()));
+                                                        config_.engines, time, job, first_context(e), config_.contexts()));
         connect(*engines_.back());
     }
 }

@@ -60,6 +60,8 @@ void Gbu::collect_laws(AcceleratorResult& result) const {
     result.conservation.insert(
         result.conservation.end(),
         {
+            {"splats listed = fetched + cancelled", list_entries(),
+             records_fetched() + records_cancelled()},
             {"splats fetched = taken by Row Generation + abandoned", records_fetched(),
              sum_of(engines_, &E::splats) + sum_of(engines_, &E::splats_abandoned)},
             {"pixels of row entries + end probes = slots executed",

@@ -7,20 +7,10 @@ namespace degs {
 namespace {
 
 TileArrayEngine::Parts parts_of(const GscoreConfig& config) {
-    TileArrayEngine::Parts parts;
-    parts.front.projection = config.projection;
-    parts.front.binning = config.binning;
-    parts.front.hierarchical = config.sorting;
-    parts.front.on_demand = true;
-    parts.front.traffic = config.traffic;
-    parts.front.sort_capacity = config.sort_capacity();
-    parts.front.frames_in_flight = config.frames_in_flight;
-    parts.fetching = config.fetching;
-    parts.pixel_buffer = config.pixel_buffer;
-    parts.monitor = config.monitor;
-    parts.memory = config.memory;
-    parts.frame_end = config.frame_end;
-    parts.contexts = config.tile_contexts();
+    TileArrayEngine::Parts parts(config);
+    parts.granted = config.clusters > 1;
+    parts.engines = config.clusters;
+    parts.contexts = config.contexts();
     parts.splat_chunks = config.splat_chunks();
     parts.buffer_bytes = config.buffer.bytes - config.pixel_buffer.bytes;
     parts.pixel_bytes = config.pixel_bytes();
@@ -32,9 +22,12 @@ TileArrayEngine::Parts parts_of(const GscoreConfig& config) {
 
 Gscore::Gscore(const sc_core::sc_module_name& name, const GscoreConfig& config,
                const Timebase& time, RenderJob& job, const BuildOptions& options)
-    : TileArrayEngine(name, parts_of(config), time, job, options), config_(config),
-      array_("array", config.array, time, job, streams(), config.tile_contexts()) {
-    connect(array_);
+    : TileArrayEngine(name, parts_of(config), time, job, options), config_(config), boxes_(job) {
+    for (int c = 0; c < config_.clusters; ++c) {
+        arrays_.push_back(std::make_unique<LockstepArray>(
+            name_of("array", c).c_str(), config_.array, time, job, boxes_, share_of(c)));
+        connect(*arrays_.back());
+    }
 }
 
 std::unique_ptr<RenderEngine> GscoreConfig::build(const char* module, const Timebase& time,
@@ -44,28 +37,42 @@ std::unique_ptr<RenderEngine> GscoreConfig::build(const char* module, const Time
 }
 
 void Gscore::collect_array(AcceleratorResult& result) const {
-    const LockstepArray::Stats& array = array_.stats();
-    result.slots = array.slots;
-    result.window = array.window;
-    add_stage(result, {"blending", "Clusters of the Lockstep Array."}, config_.array.clusters,
-              array.passes * config_.array.clusters, counters_of(array));
+    using A = LockstepArray::Stats;
+    collect_slots(result);
+    const std::uint64_t groups = config_.array.clusters;
+    add_stage(result, {"blending", "Clusters of the Lockstep Array."}, arrays_.size() * groups,
+              sum_of(arrays_, &A::passes) * groups, Counters().add(arrays_));
     add_activity(result, "blending", result.slots.executed());
     collect_laws(result);
     result.left_out.push_back(
-        grouped(array.splats_skipped) +
+        grouped(sum_of(arrays_, &A::splats_skipped)) +
         " splats took no slot: their sub-tiles had ended, or their box meets none.");
-    result.left_out.push_back(grouped(array.splats_discarded) +
+    result.left_out.push_back(grouped(sum_of(arrays_, &A::splats_discarded)) +
                               " splats had been fetched when their tile stopped.");
 }
 
+void Gscore::collect_slots(AcceleratorResult& result) const {
+    for (const auto& array : arrays_) {
+        add_slots(result, array->stats().slots, array->stats().window);
+    }
+    for (const auto& array : arrays_) {
+        close_slots(result, array->stats().window, config_.array.lanes);
+    }
+}
+
 void Gscore::collect_laws(AcceleratorResult& result) const {
-    const LockstepArray::Stats& array = array_.stats();
+    using A = LockstepArray::Stats;
     const SlotAccount& s = result.slots;
     auto& laws = result.conservation;
     laws.push_back({"records fetched = splats worked on + discarded", records_fetched(),
-                    array.splats + array.splats_discarded});
-    laws.push_back({"lanes x passes = lanes evaluated", array.passes * config_.array.lanes,
+                    sum_of(arrays_, &A::splats) + sum_of(arrays_, &A::splats_discarded)});
+    laws.push_back({"lanes x passes = lanes evaluated",
+                    sum_of(arrays_, &A::passes) * config_.array.lanes,
                     s.useful + s.boundary + s.terminated});
+    if (granted()) {
+        laws.push_back(
+            {"tiles granted = worked on", dispatcher().stats().tiles, sum_of(arrays_, &A::tiles)});
+    }
     if (!front_end().hierarchical().empty()) {
         using H = HierarchicalSorter::Stats;
         const auto& sorters = front_end().hierarchical();

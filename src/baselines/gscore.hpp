@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <systemc>
 
@@ -16,7 +17,8 @@ namespace degs {
 ///   Pixel Buffer -> memory
 ///
 /// There is one way back: a tile whose pixels have all ended is cancelled, neither
-/// fetched nor sorted any further.
+/// fetched nor sorted any further. With several clusters each of them is a Splat Fetcher, a buffer,
+/// a Lockstep Array, a Tile Monitor and a Pixel Buffer, on tiles that the Tile Dispatcher grants.
 class Gscore : public TileArrayEngine {
 public:
     /// `job` supplies the work and receives the images. `config.problem()` must be empty.
@@ -24,14 +26,17 @@ public:
            RenderJob& job, const BuildOptions& options = {});
 
     const GscoreConfig& config() const { return config_; }
-    const LockstepArray& array() const { return array_; }
+    /// One for each cluster.
+    const std::vector<std::unique_ptr<LockstepArray>>& arrays() const { return arrays_; }
 
 private:
     void collect_array(AcceleratorResult& result) const override;
+    void collect_slots(AcceleratorResult& result) const;
     void collect_laws(AcceleratorResult& result) const;
 
     GscoreConfig config_;
-    LockstepArray array_;
+    OrientedBoxes boxes_;
+    std::vector<std::unique_ptr<LockstepArray>> arrays_;
 };
 
 } // namespace degs

@@ -24,9 +24,15 @@ public:
     // Rows only tell when a sub-tile is done; two of each are enough.
     Blocks blocks() const override { return {1, config_.array.side() / 2}; }
     double visits_per_entry() const override { return 3; } // boxes
+    int engines() const override { return config_.clusters; }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double walked) const override {
-        return degs::sort_cycles(config_.sorting, entries, walked, front().sort_capacity);
+        if (config_.clusters == 1) {
+            return degs::sort_cycles(config_.sorting, entries, walked, front().sort_capacity);
+        }
+        const double all = // granted as a whole
+            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity).all;
+        return {all, all};
     }
     double latency() const override { return 4 * memory_latency() + config_.array.pipeline_cycles; }
     int pes() const override { return config_.pes(); }
@@ -102,12 +108,12 @@ TileCycles GscoreClock::end(const CoarseTile& tile) {
     const FrontEndLoad& front = model_.front();
     const double entries = tile.entries(), walked = tile.walked();
     TileCycles cycles;
-    cycles.slots = passes_ * model_.pes();
+    cycles.slots = passes_ * model_.config().array.lanes;
     cycles.fragments = tile.fragments();
     cycles.bytes = front.tile_bytes(entries, walked, tile.pixels());
     cycles.walked = walked;
     cycles.busy[kSortingUnits] = model_.sort_cycles(entries, walked).all / model_.sorters();
-    cycles.busy[GscoreAnalytic::kBlending] = passes_;
+    cycles.busy[GscoreAnalytic::kBlending] = passes_ / model_.engines();
     cycles.busy[GscoreAnalytic::kMemory] = front.memory.cycles(cycles.bytes);
     cycles.time = std::max(passes_, front.fetch_cycles(walked));
     return cycles;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "modules/family_size.hpp"
+#include "tlm/ceil_div.hpp"
 
 namespace degs {
 
@@ -26,6 +27,10 @@ GscoreConfig::GscoreConfig() {
 
 void GscoreConfig::describe(ConfigVisitor& visitor) {
     describe_common(visitor);
+    visitor.integer(
+        "clusters", clusters, 1, 64,
+        "arrays, each with the buffers below and on a tile of its own, behind one front "
+        "end; beyond the paper");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
     visitor.section("projection", projection, "culling and conversion units");
@@ -68,24 +73,26 @@ cost::BillOfMaterials GscoreConfig::bill() const {
     bill.add_units({"blending", "Lanes of the volume rendering cores."}, rows.blending, pes(), 1,
                    cost.pe_factors(pipeline.precision()));
     bill.add_sram({"gaussian_buffer", "Sorted splats and lists being sorted."}, rows.sram,
-                  shared_bytes(),
-                  kReadAndWritten * (traffic.splat_bytes +
+                  std::int64_t{clusters} * shared_bytes(),
+                  kReadAndWritten * (clusters * traffic.splat_bytes +
                                      kSortingSteps * sorting.count * traffic.list_entry_bytes));
     bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."}, rows.sram,
-                  pixel_buffer.bytes, kReadAndWritten * pes() * pixel_bytes());
+                  std::int64_t{clusters} * pixel_buffer.bytes,
+                  kReadAndWritten * pes() * pixel_bytes());
     return bill;
 }
 
 void GscoreConfig::require_sizes(ConfigVisitor& visitor) const {
-    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), 1, {"array.lanes"});
-    const int lists = sorting.chunk * traffic.list_entry_bytes;
+    pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), 1,
+                               {"array.lanes", "clusters"}, kMostContexts / clusters);
+    const int lists = ceil_div(sorting.chunk * traffic.list_entry_bytes, clusters);
     visitor.require_at_least(
         "buffer.bytes", buffer.bytes,
         pixel_buffer.bytes +
             std::max(splat_share().least_buffer(chunk_bytes()), sort_share().least_buffer(lists)),
         "to hold the tiles, and a chunk of splats and one of list entries for every sorting unit",
         {"pixel_buffer.bytes", "buffer.sort_share", "sorting.count", "fetching.chunk",
-         "sorting.chunk"});
+         "sorting.chunk", "clusters"});
 }
 
 } // namespace degs

@@ -28,6 +28,9 @@ struct GscoreConfig : AcceleratorConfig {
         void describe(ConfigVisitor& visitor);
     };
 
+    /// Arrays, each with its buffers and on a tile of its own, behind one front end. `array`,
+    /// `buffer` and `pixel_buffer` describe one of them.
+    int clusters = 1;
     PipelineConfig pipeline;
     TrafficConfig traffic;
     ProjectionUnit::Config projection;
@@ -46,11 +49,11 @@ struct GscoreConfig : AcceleratorConfig {
     }
     void describe(ConfigVisitor& visitor) override;
     void scale_to(int pes) override;
-    int pes() const override { return array.lanes; }
+    int pes() const override { return clusters * array.lanes; }
     int tile_size_px() const override { return array.tile_size(); }
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
-    int tile_contexts() const override { return pixel_buffer.contexts(tile_pixels()); }
+    int tile_contexts() const override { return clusters * contexts(); }
     TrafficConfig records() const override { return traffic; }
     cost::BillOfMaterials bill() const override;
     RecordOrder record_order() const override { return memory.layout; }
@@ -62,19 +65,25 @@ struct GscoreConfig : AcceleratorConfig {
                                         const BuildOptions& options) const override;
     std::unique_ptr<AnalyticModel> analytic() const override;
 
+    /// Tile contexts of one cluster.
+    int contexts() const { return pixel_buffer.contexts(tile_pixels()); }
     /// Bytes of the state of a pixel, which need not be whole ones.
     double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
     /// Splat chunks that a fetcher's share of the buffer holds.
     int splat_chunks() const { return splat_share().bytes_of(shared_bytes()) / chunk_bytes(); }
-    /// Keys that a sorter's share of the buffer holds.
-    int sort_capacity() const {
-        return sort_share().bytes_of(shared_bytes()) / traffic.list_entry_bytes;
+    /// Keys that a sorter's share of the buffers of all clusters holds.
+    std::int64_t sort_capacity() const {
+        return std::int64_t{clusters} * sort_share().bytes_of(shared_bytes()) /
+               traffic.list_entry_bytes;
     }
 
 private:
     PixelBuffer::TilePixels tile_pixels() const { return {tile_size_px(), pipeline.pixel_bits()}; }
-    BufferShare splat_share() const { return {1.0 - buffer.sort_share, sorting.count}; }
+    BufferShare splat_share() const { return {1.0 - buffer.sort_share, fetchers()}; }
+    /// Of one cluster: one that works on all tiles has a fetcher for each sorter.
+    int fetchers() const { return clusters > 1 ? 1 : sorting.count; }
     BufferShare sort_share() const { return {buffer.sort_share, sorting.count}; }
+    /// Of one cluster.
     int shared_bytes() const { return buffer.bytes - pixel_buffer.bytes; }
     int chunk_bytes() const { return traffic.splat_bytes * fetching.chunk; }
     void require_sizes(ConfigVisitor& visitor) const;

@@ -41,12 +41,13 @@ int LockstepArray::Config::tile_size() const {
 }
 
 LockstepArray::LockstepArray(const sc_core::sc_module_name& name, const Config& config,
-                             const Timebase& time, RenderJob& job, std::size_t inputs, int contexts)
-    : sc_core::sc_module(name), in("in", inputs), context_free("context_free"),
-      tile_done("tile_done"), tile_state("tile_state"), config_(config), job_(job),
-      contexts_(contexts), self_(time), chunks_(self_, in), grid_(job.tile_size, config.side()),
-      clusters_(config.clusters), subtiles_(grid_.count()), outcomes_(config.side()),
-      startable_(contexts) {
+                             const Timebase& time, RenderJob& job, OrientedBoxes& boxes,
+                             const ArrayShare& share)
+    : sc_core::sc_module(name), in("in", share.inputs), context_free("context_free"),
+      tile_done("tile_done"), tile_state("tile_state"), config_(config), job_(job), share_(share),
+      self_(time), chunks_(self_, in, job, share.granted), grid_(job.tile_size, config.side()),
+      boxes_(boxes), clusters_(config.clusters), subtiles_(grid_.count()), outcomes_(config.side()),
+      startable_(share.contexts) {
     DEGS_HAS_PROCESS(LockstepArray);
     SC_THREAD(run);
     self_.show(*this, "", config.clusters);
@@ -67,31 +68,17 @@ void LockstepArray::end_of_elaboration() {
 }
 
 void LockstepArray::run() {
-    for (TileNumber number = 0; await_tile(number); ++number) {
+    for (TileNumber number = chunks_.next_tile(); number != kNoTile; number = chunks_.next_tile()) {
         render_tile(number);
     }
     chunks_.wait_for_rest();
     stats_.splats_discarded += chunks_.discarded();
+    if (share_.granted) {
+        tile_state->put(self_, {kNoTile, false});
+        tile_done->put(self_, {kNoTile, false});
+    }
     close_window();
     self_.finish();
-}
-
-// While no tile is there, what still comes for stopped ones is all there is to do.
-bool LockstepArray::await_tile(TileNumber number) {
-    if (number >= job_.tiles.size() && !job_.over(number)) {
-        chunks_.wait_for_rest();
-    }
-    if (!job_.has_tile(self_, number)) {
-        return false;
-    }
-    if (config_.subtile_skip == SubtileTest::Obb) {
-        for (; boxed_frames_ <= job_.tiles[number].frame; ++boxed_frames_) {
-            for (const ProjectedSplat& splat : job_.frames[boxed_frames_]->splats) {
-                boxes_.emplace_back(splat);
-            }
-        }
-    }
-    return true;
 }
 
 void LockstepArray::render_tile(TileNumber number) {
@@ -101,7 +88,7 @@ void LockstepArray::render_tile(TileNumber number) {
     Cycle begin = 0;
     for (bool first = true; !last && await_chunk(source); first = false) {
         if (first) {
-            await_context(number);
+            await_context();
             begin = self_.local();
         }
         last = source.front().last;
@@ -124,7 +111,10 @@ void LockstepArray::render_tile(TileNumber number) {
 void LockstepArray::start_tile(TileNumber number) {
     number_ = number;
     tile_ = &job_.tiles[number];
-    context_ = context_in_turn(number, contexts_);
+    context_ = context_in_turn(stats_.tiles++, share_.contexts, share_.first_context);
+    if (config_.subtile_skip == SubtileTest::Obb) {
+        boxes_.include(tile_->frame);
+    }
     inside_ = grid_.inside(tile_->width, tile_->height);
     live_subtiles_ = 0;
     for (int s = 0; s < grid_.count(); ++s) {
@@ -159,11 +149,11 @@ bool LockstepArray::await_chunk(FifoBase& source) {
     return stop > self_.local() && chunks_.wait_for(source, stop);
 }
 
-void LockstepArray::await_context(TileNumber number) {
+void LockstepArray::await_context() {
     const Cycle ready = self_.local();
-    while (startable_ <= number) {
+    for (; startable_ < stats_.tiles; ++startable_) {
         chunks_.wait_for(context_free.ring(), kNever);
-        startable_ = std::max(startable_, context_free->take(self_) + 1);
+        context_free->take(self_);
     }
     blocked_ += self_.local() - ready;
 }

@@ -6,8 +6,10 @@
 #include <systemc>
 
 #include "baselines/chunk_inputs.hpp"
+#include "baselines/oriented_boxes.hpp"
 #include "config/config.hpp"
 #include "config/statistics.hpp"
+#include "modules/array/array_share.hpp"
 #include "modules/array/slot_account.hpp"
 #include "modules/render_job.hpp"
 #include "splat/subtile_cover.hpp"
@@ -42,6 +44,7 @@ public:
     struct Stats {
         SlotAccount slots; ///< of all lanes over the window
         ActiveWindow window;
+        std::uint64_t tiles = 0; ///< begun
         std::uint64_t passes = 0, splats = 0, splats_skipped = 0, splats_discarded = 0;
         std::uint64_t pixels_ended = 0, tiles_stopped = 0;
         void describe(StatsVisitor& v) const { // slots are described by the result
@@ -59,13 +62,14 @@ public:
     };
 
     sc_core::sc_vector<FifoPort<SplatChunk>> in; ///< tile t arrives on port t mod their number
-    FifoPort<TileNumber> context_free;           ///< from the Pixel Buffer
-    FifoPort<SliceReport> tile_done;             ///< to the Pixel Buffer, once per tile
-    FifoPort<SliceReport> tile_state;            ///< to the Tile Monitor, once per tile
+    FifoPort<TileNumber> context_free; ///< one message for each tile from tile `contexts` on
+    FifoPort<SliceReport> tile_done;   ///< to the Pixel Buffer, once per tile
+    FifoPort<SliceReport> tile_state;  ///< to the Tile Monitor, once per tile
 
-    /// The job's tiles are whole multiples of config.side(), at most 32 sub-tiles.
+    /// The job's tiles are whole multiples of config.side(), at most 32 sub-tiles. If tiles are
+    /// granted, both reports end with kNoTile. `boxes` are those of the job and must outlive this.
     LockstepArray(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
-                  RenderJob& job, std::size_t inputs, int contexts);
+                  RenderJob& job, OrientedBoxes& boxes, const ArrayShare& share);
 
     const Config& config() const { return config_; }
     const Stats& stats() const { return stats_; }
@@ -84,11 +88,10 @@ private:
     };
     void end_of_elaboration() override;
     void run();
-    bool await_tile(TileNumber number);
     void render_tile(TileNumber number);
     void start_tile(TileNumber number);
     bool await_chunk(FifoBase& source);
-    void await_context(TileNumber number);
+    void await_context();
     void work(const SplatChunk& chunk, Cycle begin);
     SubtileMask bitmap(std::uint32_t splat) const;
     SubtileMask tested(std::uint32_t splat) const;
@@ -107,12 +110,11 @@ private:
 
     Config config_;
     RenderJob& job_;
-    int contexts_;
+    ArrayShare share_;
     Process self_;
     ChunkInputs chunks_;
     SubtileGrid grid_;
-    std::vector<OrientedBox> boxes_; // by DataPath index; empty unless the bitmap needs them
-    std::uint32_t boxed_frames_ = 0;
+    OrientedBoxes& boxes_; // empty unless the bitmap needs them
     std::vector<Cluster> clusters_;
     std::vector<Subtile> subtiles_;
     std::vector<BlendOutcome> outcomes_; // of the rows of the present sub-tile
@@ -121,7 +123,7 @@ private:
     const JobTile* tile_ = nullptr;
     TileNumber number_ = 0;
     int context_ = 0;
-    TileNumber startable_ = 0;   // tiles below this number have a context
+    std::uint64_t startable_;    // so many tiles have had a context
     Cycle blocked_ = 0;          // cycles spent waiting for contexts so far
     bool recorded_ = false;      // slots, with their dates
     TimeSeries* busy_ = nullptr; // cycles of the clusters, in the timeline

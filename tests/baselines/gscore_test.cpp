@@ -53,6 +53,7 @@ private:
         c.monitor.cancel = upto(3) != 0;
         c.monitor.latency_cycles = among({8, 1, 50});
         c.traffic.sh = static_cast<ShReads>(upto(1));
+        c.clusters = among({1, 1, 2, 3, 8});
         c.frames_in_flight = among({2, 1});
         c.tile_order = static_cast<TileOrder>(among({0, 1}));
         const double bandwidth[] = {204.8, 51.2, 1.0, 1e5};
@@ -207,6 +208,92 @@ TEST(ShapeGscore, FinerSubtileTestsTakeFewerPasses) {
                   count_of(runs[i - 1]->result(), "blending", "passes"));
         EXPECT_EQ(runs[i]->result().slots.useful, runs[0]->result().slots.useful);
         EXPECT_TRUE(test::same_bytes(runs[i]->image(), runs[0]->image()));
+    }
+}
+
+// What a pixel takes does not depend on which array works on its tile, nor on how many there are.
+TEST(GscoreClusters, ChangeNoPixelAndTakeTheTilesInTurn) {
+    const FrameWorkload frame = test::random_frame(11, 150, 120, 16, 400);
+    GscoreConfig config;
+    config.pipeline.numbers = Arithmetic::Fp64;
+    std::vector<std::unique_ptr<EngineRun>> runs;
+    const int counts[] = {1, 2, 4, 64};
+    for (const int clusters : counts) {
+        config.clusters = clusters;
+        runs.push_back(std::make_unique<EngineRun>("k" + std::to_string(clusters), config,
+                                                   std::vector<const FrameWorkload*>{&frame}));
+    }
+    sc_core::sc_start();
+    for (const auto& run : runs) {
+        run->expect_sound();
+        run->expect_reference();
+        EXPECT_TRUE(test::same_bytes(run->image(), runs.front()->image()));
+        EXPECT_EQ(run->result().slots.executed(), runs.front()->result().slots.executed());
+    }
+    EXPECT_LT(runs[1]->result().cycles, runs[0]->result().cycles);
+    EXPECT_LT(runs[2]->result().cycles, runs[1]->result().cycles);
+}
+
+// Of two arrays, each has two of four tiles of 4 sub-tiles under 60 splats. Chunks are there at
+// once, so that the second starts a cycle after the first, because one tile is granted per cycle.
+TEST(GscoreClusters, ShareTheWorkOfTheArrayAlone) {
+    const FrameWorkload frame =
+        make_frame(std::vector<ProjectedSplat>(60, blanket(32, 8, 1e4, 0.01)), 64, 16, 16);
+    GscoreConfig config;
+    config.pixel_buffer.bytes = 4 * config.pixel_buffer.state_bytes * 16 * 16;
+    BuildOptions alone;
+    alone.array_only = true;
+    const EngineRun one("one", config, {&frame}, Fidelity::Exact, alone);
+    config.clusters = 2;
+    const EngineRun two("two", config, {&frame}, Fidelity::Exact, alone);
+    sc_core::sc_start();
+    one.expect_sound();
+    two.expect_sound();
+    EXPECT_EQ(one.result().window.cycles(), 4U * 4 * 60);
+    EXPECT_EQ(two.result().window.cycles(), 2U * 4 * 60 + 1);
+    const SlotAccount& slots = two.result().slots;
+    EXPECT_EQ(slots.starved, 64U);
+    EXPECT_EQ(slots.drain, 64U);
+    EXPECT_EQ(slots.useful, one.result().slots.useful);
+}
+
+// Tiles that end after three splats: their lists are sorted to the end, their records are not
+// fetched, and what has been fetched in vain does not reach the next tile.
+TEST(GscoreClusters, StopTheirTilesEarly) {
+    const FrameWorkload frame =
+        make_frame(std::vector<ProjectedSplat>(2000, blanket(32, 8, 1e4, 0.98)), 64, 16, 16);
+    GscoreConfig config;
+    config.pipeline.numbers = Arithmetic::Fp64;
+    config.clusters = 2;
+    const EngineRun run("run", config, {&frame});
+    sc_core::sc_start();
+    run.expect_sound();
+    run.expect_reference();
+    const AcceleratorResult result = run.result();
+    EXPECT_EQ(result.tiles_cancelled, 4U);
+    EXPECT_EQ(count_of(result, "sorting", "keys_sorted"), 4U * 2000);
+    EXPECT_LT(count_of(result, "fetching", "records"), 4U * 1000);
+    EXPECT_EQ(count_of(result, "blending", "splats"), 4U * 3);
+    EXPECT_EQ(count_of(result, "dispatch", "tiles"), 4U);
+}
+
+// Projection and sorting are shared; lanes and memories are there once per cluster.
+TEST(GscoreClusters, CostLanesAndMemoriesOfTheirOwn) {
+    GscoreConfig config;
+    const cost::BillOfMaterials one = config.bill();
+    config.clusters = 3;
+    EXPECT_EQ(config.problem(), "");
+    EXPECT_EQ(config.pes(), 3 * 64);
+    EXPECT_EQ(config.tile_contexts(), 6);
+    EXPECT_EQ(config.splat_chunks(), 4 * GscoreConfig().splat_chunks());
+    EXPECT_EQ(config.sort_capacity(), 3 * GscoreConfig().sort_capacity());
+    const cost::BillOfMaterials three = config.bill();
+    ASSERT_EQ(three.blocks().size(), one.blocks().size());
+    for (std::size_t b = 0; b < one.blocks().size(); ++b) {
+        const cost::Block& block = one.blocks()[b];
+        const bool shared = block.name == "projection" || block.name == "sorting";
+        EXPECT_NEAR(three.blocks()[b].area_mm2, block.area_mm2 * (shared ? 1 : 3), 1e-9)
+            << block.name;
     }
 }
 

@@ -38,8 +38,9 @@ public:
                                sizes.contexts)),
           done_((name + "_done").c_str(), time_, 64, static_cast<Cycle>(config.pipeline_cycles)),
           state_((name + "_state").c_str(), time_, 64),
-          contexts_((name + "_contexts").c_str(), time_, 64),
-          array_((name + "_array").c_str(), config, time_, job_, sizes.inputs, sizes.contexts),
+          contexts_((name + "_contexts").c_str(), time_, 64), boxes_(job_),
+          array_((name + "_array").c_str(), config, time_, job_, boxes_,
+                 ArrayShare{sizes.inputs, sizes.contexts, 0, false}),
           tile_done(job_.tiles.size()), tile_state(job_.tiles.size()),
           all_ended(job_.tiles.size()) {
         for (std::size_t i = 0; i < sizes.inputs; ++i) {
@@ -167,6 +168,7 @@ private:
     std::vector<std::unique_ptr<DatedFifo<SplatChunk>>> rings_;
     DatedFifo<SliceReport> done_, state_;
     DatedFifo<TileNumber> contexts_;
+    OrientedBoxes boxes_;
     LockstepArray array_;
     std::vector<std::vector<Feed>> feeds_;
     std::vector<std::unique_ptr<Process>> processes_;

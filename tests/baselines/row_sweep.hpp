@@ -98,7 +98,7 @@ public:
     RowSweep(const char* name, const Parts& parts, const Timebase& time, RenderJob& job,
              const BuildOptions& options)
         : TileArrayEngine(name, parts, time, job, options),
-          array_("array", time, job, streams(), parts.contexts) {
+          array_("array", time, job, share_of(0).inputs, parts.contexts) {
         connect(array_);
     }
 

@@ -90,6 +90,9 @@ void draw_changes(Dice& dice, Trial& trial, const std::vector<Key>& keys) {
     if (dice.chance(0.2)) {
         put_if_known(trial, keys, "memory.layout", "morton");
     }
+    if (dice.chance(0.3)) {
+        put_if_known(trial, keys, "clusters", std::to_string(2 + dice.below(4)));
+    }
 }
 
 /// Takes back changes until the design can be built, first those that the refusal names.

@@ -5,22 +5,13 @@ namespace degs::orange {
 namespace {
 
 TileEngineArray::Parts parts_of(const Config& config) {
-    TileEngineArray::Parts parts;
-    parts.front.projection = config.projection;
-    parts.front.binning = config.binning;
-    parts.front.hierarchical = config.sorting;
-    parts.front.on_demand = true;
-    parts.front.traffic = config.traffic;
-    parts.front.sort_capacity = config.sort_capacity();
-    parts.front.frames_in_flight = config.frames_in_flight;
-    parts.fetching = config.fetching;
-    parts.pixel_buffer = config.pixel_buffer;
-    parts.monitor = config.monitor;
-    parts.memory = config.memory;
-    parts.frame_end = config.frame_end;
+    TileEngineArray::Parts parts(config);
+    parts.pixel_buffer = config.pixel_buffer.part_of(config.cores.count);
+    parts.granted = true;
     parts.engines = config.cores.count;
     parts.contexts = config.contexts();
     parts.splat_chunks = config.scratchpad.splat_batches;
+    parts.splat_rings = "splat_buffer";
     return parts;
 }
 
@@ -42,9 +33,9 @@ std::unique_ptr<RenderEngine> Config::build(const char* module, const Timebase& 
 void Orange::build_core(int index) {
     const std::size_t core = index;
     const Config::Cores& cores = config_.cores;
-    vector_units_.push_back(std::make_unique<VectorUnit>(
-        numbered("vector_unit", core).c_str(), cores.vector, time(), job(), cores.array.macs(),
-        first_context(index), config_.contexts()));
+    vector_units_.push_back(std::make_unique<VectorUnit>(numbered("vector_unit", core).c_str(),
+                                                         cores.vector, time(), job(),
+                                                         cores.array.macs(), first_context(index), config_.contexts()));
     arrays_.push_back(std::make_unique<SystolicArray>(numbered("systolic_array", core).c_str(),
                                                       cores.array, time(), job()));
     VectorUnit& vector = *vector_units_.back();

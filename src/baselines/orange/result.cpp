@@ -65,6 +65,8 @@ void Orange::collect_laws(AcceleratorResult& result) const {
     result.conservation.insert(
         result.conservation.end(),
         {
+            {"splats listed = fetched + cancelled", list_entries(),
+             records_fetched() + records_cancelled()},
             {"splats fetched = with coefficients + abandoned", records_fetched(),
              sum_of(vector_units_, &V::splats) + sum_of(vector_units_, &V::splats_abandoned)},
             {"splats multiplied = blended + thrown away", splats,

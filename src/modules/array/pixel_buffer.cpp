@@ -81,6 +81,13 @@ void PixelBuffer::Config::require_tiles(ConfigVisitor& visitor, const std::strin
                            std::to_string(bytes - rest), others});
 }
 
+PixelBuffer::Config PixelBuffer::Config::part_of(int parts) const {
+    Config part = *this;
+    part.bytes /= parts;
+    part.readout_pixels = std::max(1, readout_pixels / parts);
+    return part;
+}
+
 std::int64_t PixelBuffer::Config::tile_bytes(TilePixels tile) const {
     return ceil_div(std::int64_t{bits(tile)} * tile.side * tile.side, std::int64_t{8});
 }

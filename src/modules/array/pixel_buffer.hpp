@@ -48,6 +48,8 @@ public:
         int contexts(TilePixels tile) const {
             return static_cast<int>(bytes / tile_bytes(tile)); // as bytes, below 2^31
         }
+        /// One of so many equal parts, each with tile contexts of its own.
+        Config part_of(int parts) const;
         /// Bytes of the pixel state of one tile, whole ones.
         std::int64_t tile_bytes(TilePixels tile) const;
         /// Bytes of the state of one pixel, which need not be whole ones.
