@@ -23,7 +23,8 @@ Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Tim
     : TileEngineArray(name, parts_of(config), time, job, options), config_(config) {
     for (int e = 0; e < config_.engines.count; ++e) {
         engines_.push_back(std::make_unique<TileEngine>(numbered("engine", e).c_str(),
-                                                        config_.engines, time, job, first_context(e), config_.contexts()));
+                                                        config_.engines, time, job,
+                                                        first_context(e), config_.contexts()));
         connect(*engines_.back());
     }
 }

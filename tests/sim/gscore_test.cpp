@@ -58,6 +58,8 @@ TEST(HostileConfigGscore, Mistakes) {
     expect_mistake(with("array.lanes=100"), "16, 64, 256 or 1024");
     expect_mistake(with("array.lanes=2048"), "16 to 1024");
     expect_mistake(with("array.clusters=3"), "1, 2 or 4");
+    expect_mistake(with("clusters=0"), "1 to 64");
+    expect_mistake(with("clusters=65"), "1 to 64");
     expect_mistake(with("array.subtile_skip=box"), "obb");
     expect_mistake(with("array.termination_cycles=0"), "1 to 1024");
     expect_mistake(with("scheduler.banks=8"), "scheduler");
@@ -102,6 +104,34 @@ INSTANTIATE_TEST_SUITE_P(Views, SceneOnGscore,
                          testing::Values(View{"gscore-64", "flowers-small", 0},
                                          View{"gscore-16", "fruit-drops", 0},
                                          View{"gscore-1024", "guitar", 1}));
+
+// Two arrays blend the same slots in less time, up to what the shared front end takes.
+TEST(SceneOnGscoreClusters, RenderTheSameImageFaster) {
+    const fs::path file = trained_scenes() / "flowers-small" / "scene.ply";
+    if (!fs::exists(file)) {
+        GTEST_SKIP() << file << " is not there; set DEGS_SCENES";
+    }
+    const Folder folder;
+    const auto run = [&](const std::string& out, const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"--scene", file.string(), "--width",       "512",
+                                           "--out",   folder / out,  "--no-reference"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        expect_success(run_gscore("gscore-64", arguments));
+    };
+    run("one", {});
+    run("two", {"--set", "clusters=2"});
+    run("estimate", {"--set", "clusters=2", "--fidelity", "analytic"});
+    EXPECT_EQ(read_file(folder / "one/image.exr"), read_file(folder / "two/image.exr"));
+    const json one = report_in(folder / "one");
+    const json two = report_in(folder / "two");
+    for (const char* slots : {"useful", "boundary", "terminated"}) {
+        EXPECT_EQ(one["slots"][slots], two["slots"][slots]) << slots;
+    }
+    const auto cycles = [](const json& report) { return report["timing"]["cycles"].get<double>(); };
+    EXPECT_LT(cycles(two), 0.8 * cycles(one));
+    const json estimate = json::parse(read_file(folder / "estimate/analytic.json"));
+    EXPECT_NEAR(estimate["timing"]["cycles"].get<double>(), cycles(two), 0.25 * cycles(two));
+}
 
 } // namespace
 } // namespace degs::sim_test

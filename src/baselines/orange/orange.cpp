@@ -33,9 +33,9 @@ std::unique_ptr<RenderEngine> Config::build(const char* module, const Timebase& 
 void Orange::build_core(int index) {
     const std::size_t core = index;
     const Config::Cores& cores = config_.cores;
-    vector_units_.push_back(std::make_unique<VectorUnit>(numbered("vector_unit", core).c_str(),
-                                                         cores.vector, time(), job(),
-                                                         cores.array.macs(), first_context(index), config_.contexts()));
+    vector_units_.push_back(std::make_unique<VectorUnit>(
+        numbered("vector_unit", core).c_str(), cores.vector, time(), job(), cores.array.macs(),
+        first_context(index), config_.contexts()));
     arrays_.push_back(std::make_unique<SystolicArray>(numbered("systolic_array", core).c_str(),
                                                       cores.array, time(), job()));
     VectorUnit& vector = *vector_units_.back();
