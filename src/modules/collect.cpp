@@ -91,6 +91,20 @@ void add_pixel_buffer(AcceleratorResult& result, std::int64_t bytes, int context
     use.counters.add(buffers);
 }
 
+void add_slots(AcceleratorResult& result, const SlotAccount& slots, const ActiveWindow& window) {
+    result.slots += slots;
+    result.window.include(window);
+}
+
+void close_slots(AcceleratorResult& result, const ActiveWindow& window, std::uint64_t width) {
+    if (window.empty()) {
+        result.slots.drain += result.window.cycles() * width;
+    } else {
+        result.slots.starved += (window.first - result.window.first) * width;
+        result.slots.drain += (result.window.last - window.last) * width;
+    }
+}
+
 void explain_tiles(AcceleratorResult& result, std::uint64_t records_cancelled) {
     auto& out = result.left_out;
     out.push_back(grouped(result.background_tiles) + " of " +

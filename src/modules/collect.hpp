@@ -83,6 +83,10 @@ void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
 /// `bytes`: of all instances together.
 void add_pixel_buffer(AcceleratorResult& result, std::int64_t bytes, int contexts,
                       const PixelBuffers& buffers);
+/// Slots of several arrays with windows of their own: first each of them is added, then each, of `width` PEs, has
+/// its cycles between the window of all and its own counted.
+void add_slots(AcceleratorResult& result, const SlotAccount& slots, const ActiveWindow& window);
+void close_slots(AcceleratorResult& result, const ActiveWindow& window, std::uint64_t width);
 /// Adds the work that empty and finished tiles saved, for --explain.
 void explain_tiles(AcceleratorResult& result, std::uint64_t records_cancelled);
 

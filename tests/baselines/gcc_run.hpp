@@ -37,12 +37,12 @@ public:
 inline Signature GccRun::signature() const {
     Signature words;
     words.add_unit("grouping", gcc().grouping());
-    words.add_unit("projection", gcc().projection());
-    words.add_unit("colour", gcc().colour());
-    words.add_unit("fetcher", gcc().fetcher());
-    words.add_unit("array", &gcc().array());
-    words.add_unit("image buffer", &gcc().image_buffer());
-    words.add_unit("monitor", &gcc().monitor());
+    words.add_units("projection", gcc().projection());
+    words.add_units("colour", gcc().colour());
+    words.add_units("fetcher", gcc().fetchers());
+    words.add_units("array", gcc().arrays());
+    words.add_units("image buffer", gcc().image_buffers());
+    words.add_units("monitor", gcc().monitors());
     words.add_streams(gcc().streams());
     for (const FrameDates& frame : result().frames) {
         words.add("frame", frame);

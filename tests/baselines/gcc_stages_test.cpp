@@ -30,7 +30,7 @@ TEST(GccGrouping, AFrameIsGroupedWhenItsListsAreInMemory) {
     config.chunk = 100;
     gcc::Grouping unit("unit", config, {}, bench.time, bench.job, 0);
     DatedFifo<std::uint32_t> out("out", bench.time, 4);
-    unit.out.bind(out);
+    unit.out[0].bind(out);
     bench.connect({&unit.means, &unit.lists}, 200);
     const auto& got = bench.drain(out);
     sc_core::sc_start();
@@ -53,7 +53,7 @@ TEST(GccGrouping, EntriesLimitWhereSplatsAreLarge) {
                            16)); // 64 views each
     gcc::Grouping unit("unit", {}, {}, bench.time, bench.job, 0);
     DatedFifo<std::uint32_t> out("out", bench.time, 4);
-    unit.out.bind(out);
+    unit.out[0].bind(out);
     bench.connect({&unit.means, &unit.lists});
     bench.drain(out);
     sc_core::sc_start();
@@ -70,7 +70,7 @@ TEST(GccGrouping, RegroupingReadsAndWritesAgain) {
     config.chunk = 10;
     gcc::Grouping unit("unit", config, {}, bench.time, bench.job, 0);
     DatedFifo<std::uint32_t> out("out", bench.time, 4);
-    unit.out.bind(out);
+    unit.out[0].bind(out);
     bench.connect({&unit.means, &unit.lists});
     bench.drain(out);
     sc_core::sc_start();

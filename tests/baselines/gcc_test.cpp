@@ -58,6 +58,7 @@ private:
         c.colour.feedback_cycles = among({8, 1, 100});
         c.colour.chunk = among({16, 1, 100});
         c.monitor.cancel = upto(3) != 0;
+        c.clusters = among({1, 1, 2, 3, 7});
         c.monitor.latency_cycles = among({8, 1, 50});
         c.frames_in_flight = among({2, 1});
         c.tile_order = static_cast<TileOrder>(among({0, 1}));
@@ -126,9 +127,9 @@ TEST(SmallRunGccStages, TheMaskSavesSphericalHarmonics) {
     test::expect_sound(masked);
     test::expect_reference(masked);
     test::expect_reference(plain);
-    EXPECT_GT(masked.gcc().colour()->stats().masked, 300U); // the mask is late by some groups
-    EXPECT_EQ(plain.gcc().colour()->stats().masked, 0U);
-    EXPECT_EQ(plain.gcc().colour()->stats().coloured, frame.tile_pairs());
+    EXPECT_GT(masked.gcc().colour()[0]->stats().masked, 300U); // the mask is late by some groups
+    EXPECT_EQ(plain.gcc().colour()[0]->stats().masked, 0U);
+    EXPECT_EQ(plain.gcc().colour()[0]->stats().coloured, frame.tile_pairs());
     EXPECT_LT(masked.stream_bytes("sh"), plain.stream_bytes("sh"));
     EXPECT_EQ(masked.stream_bytes("shapes"), plain.stream_bytes("shapes"));
 }
@@ -145,9 +146,9 @@ TEST(SmallRunGccStages, AFinishedViewStopsItsGroups) {
     sc_core::sc_start();
     test::expect_reference(stopped);
     test::expect_reference(literal);
-    EXPECT_EQ(stopped.gcc().monitor().stats().tiles_cancelled, 2U);
-    EXPECT_LT(stopped.gcc().projection()->stats().entries, 2U * 20 * 256);
-    EXPECT_EQ(literal.gcc().projection()->stats().entries, 40'000U);
+    EXPECT_EQ(stopped.gcc().monitors()[0]->stats().tiles_cancelled, 2U);
+    EXPECT_LT(stopped.gcc().projection()[0]->stats().entries, 2U * 20 * 256);
+    EXPECT_EQ(literal.gcc().projection()[0]->stats().entries, 40'000U);
     EXPECT_LT(stopped.result().cycles, literal.result().cycles / 2);
 }
 
@@ -207,6 +208,72 @@ TEST(SmallRunGccStages, FramesOverlap) {
     EXPECT_LT(both.result().frames[1].preprocessed, both.result().frames[0].finished);
 }
 
+// What a pixel takes does not depend on the cluster that works on its view, nor on how many there are.
+TEST(GccClusters, ChangeNoPixelAndTakeTheViewsInTurn) {
+    const FrameWorkload first = test::random_frame(5, 200, 150, 32, 300);
+    const FrameWorkload second = test::random_frame(6, 170, 90, 32, 250);
+    gcc::Config config = gcc_of(32);
+    std::vector<std::unique_ptr<GccRun>> runs;
+    for (const int clusters : {1, 2, 4, 64}) {
+        config.clusters = clusters;
+        runs.push_back(
+            std::make_unique<GccRun>("k" + std::to_string(clusters), config,
+                                     std::vector<const FrameWorkload*>{&first, &second, &first}));
+    }
+    sc_core::sc_start();
+    for (const auto& run : runs) {
+        test::expect_sound(*run);
+        test::expect_reference(*run);
+        for (std::size_t f = 0; f < 3; ++f) {
+            EXPECT_TRUE(test::same_bytes(run->image(f), runs.front()->image(f)));
+        }
+        EXPECT_EQ(run->result().slots.executed(), runs.front()->result().slots.executed());
+    }
+    EXPECT_LT(runs[1]->result().cycles, runs[0]->result().cycles);
+    EXPECT_LT(runs[2]->result().cycles, runs[1]->result().cycles);
+}
+
+// Four views of 64 windows under 30 splats, of which each of two arrays has two. The lists are there
+// at once, so that the second starts a cycle after the first, because one view is granted per cycle.
+TEST(GccClusters, ShareTheWorkOfTheArrayAlone) {
+    const FrameWorkload frame =
+        make_frame(std::vector<ProjectedSplat>(30, blanket(128, 32, 1e4, 0.01)), 256, 64, 64);
+    gcc::Config config = gcc_of(64);
+    config.image_buffer.bytes *= 4;
+    BuildOptions alone;
+    alone.array_only = true;
+    const GccRun one("one", config, {&frame}, Fidelity::Exact, alone);
+    config.clusters = 2;
+    const GccRun two("two", config, {&frame}, Fidelity::Exact, alone);
+    sc_core::sc_start();
+    test::expect_sound(one);
+    test::expect_sound(two);
+    EXPECT_EQ(one.result().window.cycles(), 4U * 64 * 30);
+    EXPECT_EQ(two.result().window.cycles(), 2U * 64 * 30 + 1);
+    const SlotAccount& slots = two.result().slots;
+    EXPECT_EQ(slots.starved, 64U);
+    EXPECT_EQ(slots.drain, 64U);
+    EXPECT_EQ(slots.useful, one.result().slots.useful);
+}
+
+// Stage I is shared; units and memories of the others are there once per cluster.
+TEST(GccClusters, CostStagesOfTheirOwn) {
+    gcc::Config config;
+    const cost::BillOfMaterials one = config.bill();
+    config.clusters = 3;
+    EXPECT_EQ(config.problem(), "");
+    EXPECT_EQ(config.pes(), 3 * 64);
+    EXPECT_EQ(config.tile_contexts(), 3);
+    const cost::BillOfMaterials three = config.bill();
+    ASSERT_EQ(three.blocks().size(), one.blocks().size());
+    for (std::size_t b = 0; b < one.blocks().size(); ++b) {
+        const cost::Block& block = one.blocks()[b];
+        EXPECT_NEAR(three.blocks()[b].area_mm2, block.area_mm2 * (block.name == "grouping" ? 1 : 3),
+                    1e-9)
+            << block.name;
+    }
+}
+
 TEST(HostileConfigGcc, ProblemsNameTheirKeys) {
     const auto problem = [](void (*change)(gcc::Config&)) {
         gcc::Config config;
@@ -221,6 +288,13 @@ TEST(HostileConfigGcc, ProblemsNameTheirKeys) {
     names(problem([](gcc::Config& c) {
               c.view_size = 4;
               c.image_buffer.bytes = 1 << 30;
+          }),
+          "image_buffer.bytes");
+    names(problem([](gcc::Config& c) { c.clusters = 0; }), "clusters");
+    names(problem([](gcc::Config& c) { c.clusters = 65; }), "clusters");
+    names(problem([](gcc::Config& c) { // 65 views each, 4096 in all
+              c.clusters = 64;
+              c.image_buffer.bytes *= 65;
           }),
           "image_buffer.bytes");
     names(problem([](gcc::Config& c) { c.array.window = 1; }), "array.window");

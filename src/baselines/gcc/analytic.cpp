@@ -29,6 +29,7 @@ public:
                 std::max(1, config_.array.window / 4)};
     }
     double visits_per_entry() const override { return 3; } // neighbours
+    int engines() const override { return config_.clusters; }
     double places() const override { return 4.0 * config_.listed_gaussians(); }
     double memory_latency() const override { return memory_.latency; }
     TileCycles background(double pixels) const override {
@@ -147,20 +148,24 @@ TileCycles Clock::end(const CoarseTile& tile) {
     const double gaussian = config.traffic.list_entry_bytes + alone(config.traffic.shape_bytes) +
                             alone(config.traffic.common().sh_bytes(frame_.sh_degree));
     TileCycles cycles;
-    cycles.slots = windows_ * tile.blocks_per_drawn() * config.pes();
+    cycles.slots = windows_ * tile.blocks_per_drawn() * config.array.pes();
     cycles.fragments = tile.fragments();
     cycles.bytes = walked * gaussian + tile.pixels() * config.traffic.pixel_bytes;
     const double passes =
         std::ceil(std::log(config.projection.group) / std::log(config.colour.merge_ways));
     cycles.walked = walked;
-    cycles.busy[Analytic::kProjection] =
+    UnitCycles& busy = cycles.busy; // first of the cluster of this view, then of all of them
+    busy[Analytic::kProjection] =
         walked * config.projection.cycles_per_gaussian / config.projection.units;
-    cycles.busy[Analytic::kColour] =
+    busy[Analytic::kColour] =
         walked * std::max(1.0 * config.colour.cycles_per_colour / config.colour.units,
                           passes / config.colour.keys_per_cycle);
-    cycles.busy[Analytic::kBlending] = cycles.slots / config.pes();
-    cycles.busy[Analytic::kMemory] = model_.memory().cycles(cycles.bytes);
-    cycles.time = *std::max_element(cycles.busy.begin(), cycles.busy.end());
+    busy[Analytic::kBlending] = cycles.slots / config.array.pes();
+    busy[Analytic::kMemory] = model_.memory().cycles(cycles.bytes);
+    cycles.time = *std::max_element(busy.begin(), busy.end());
+    for (const auto unit : {Analytic::kProjection, Analytic::kColour, Analytic::kBlending}) {
+        busy[unit] /= config.clusters;
+    }
     return cycles;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "baselines/gcc/projection_stage.hpp"
+#include "baselines/gcc/views_left.hpp"
 #include "tlm/ceil_div.hpp"
 #include "tlm/has_process.hpp"
 
@@ -32,11 +33,11 @@ void ColourStage::Config::describe(ConfigVisitor& visitor) {
 
 ColourStage::ColourStage(const sc_core::sc_module_name& name, const Config& config,
                          const Traffic& traffic, const Timebase& time, const RenderJob& job,
-                         int groups_ahead)
+                         int groups_ahead, bool granted)
     : sc_core::sc_module(name), in("in"), cancel("cancel"),
       block_ended("block_ended", config.skip_ended ? 1 : 0), out("out"), sh("sh", time),
-      config_(config), traffic_(traffic), job_(job), fetcher_(time), shader_(time),
-      fetched_("fetched", time, groups_ahead), mask_(job.tile_size, config.block) {
+      config_(config), traffic_(traffic), job_(job), granted_(granted), fetcher_(time),
+      shader_(time), fetched_("fetched", time, groups_ahead), mask_(job.tile_size, config.block) {
     DEGS_HAS_PROCESS(ColourStage);
     SC_THREAD(fetch);
     SC_THREAD(shade);
@@ -57,10 +58,14 @@ void ColourStage::end_of_elaboration() {
 
 // A group enters when the one before has asked for its SH and a place behind it is free.
 void ColourStage::fetch() {
-    for (TileNumber views = 0; !job_.over(views);) {
+    for (ViewsLeft left(job_, granted_); left.any();) {
         SplatChunk group = in->get(fetcher_);
-        views += group.last ? 1 : 0;
+        left.take(group);
         fetched_.reserve(fetcher_);
+        if (group.tile == kNoTile) {
+            fetched_.put(fetcher_, {group, 0, {}});
+            break;
+        }
         see_ended_blocks(group.tile);
         if (gcc_cancelled(fetcher_, cancel, from_, group.tile)) {
             stats_.cancelled += group.count;
@@ -127,9 +132,9 @@ Completion ColourStage::read_sh(const Survivors& survivors) {
 
 void ColourStage::shade() {
     const std::uint64_t units = config_.units;
-    for (TileNumber views = 0; !job_.over(views);) {
+    for (ViewsLeft left(job_, granted_); left.any();) {
         const Survivors survivors = fetched_.get(shader_);
-        views += survivors.group.last ? 1 : 0;
+        left.take(survivors.group);
         const Cycle colour = ceil_div(survivors.count, units) * config_.cycles_per_colour;
         const Cycle sort = sort_cycles(survivors.count);
         stats_.colour_busy += colour;

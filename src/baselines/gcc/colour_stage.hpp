@@ -50,9 +50,10 @@ public:
     FifoPort<SplatChunk> out;                             ///< to Stage IV
     MemoryPort sh;
 
-    /// `groups_ahead`: groups whose SH is on its way while another is coloured.
+    /// `groups_ahead`: groups whose SH is on its way while another is coloured. `granted`: groups
+    /// end with kNoTile, which is handed on; else those of all views of the job come.
     ColourStage(const sc_core::sc_module_name& name, const Config& config, const Traffic& traffic,
-                const Timebase& time, const RenderJob& job, int groups_ahead);
+                const Timebase& time, const RenderJob& job, int groups_ahead, bool granted = false);
 
     const Stats& stats() const { return stats_; }
 
@@ -75,6 +76,7 @@ private:
     Config config_;
     Traffic traffic_;
     const RenderJob& job_;
+    bool granted_;
     Process fetcher_, shader_;
     DatedFifo<Survivors> fetched_;
     std::vector<std::uint32_t> gaussians_; // whose SH are read

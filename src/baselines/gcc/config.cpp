@@ -16,6 +16,9 @@ Config::Config() {
 
 void Config::describe(ConfigVisitor& visitor) {
     describe_common(visitor);
+    visitor.integer("clusters", clusters, 1, 64,
+                    "Stages II to IV, each with the buffers below and on a view of its own, behind "
+                    "one Stage I; beyond the paper");
     visitor.integer("view_size", view_size, 4, 1024,
                     "px; side of the part of the image that is rendered at a time, 128 fills 128 "
                     "KB of image buffer [unverified]");
@@ -60,8 +63,8 @@ void Config::scale_to(int pes) {
 
 void Config::require_sizes(ConfigVisitor& visitor) const {
     constexpr int kMostViews = 4096;
-    image_buffer.require_tiles(visitor, "image_buffer", view_pixels(), 1, {"view_size"},
-                               kMostViews);
+    image_buffer.require_tiles(visitor, "image_buffer", view_pixels(), 1, {"view_size", "clusters"},
+                               kMostViews / clusters);
     visitor.require_at_least(
         "array.window", array.window, ceil_div(view_size, Footprint::kMaxWindows),
         "so that at most 64 windows lie side by side in a view", {"view_size"});

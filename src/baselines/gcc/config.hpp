@@ -16,6 +16,9 @@ namespace degs::gcc {
 /// A complete GCC accelerator; defaults are the 64-PE design that DeGS compares with (its Table I).
 /// Every unpublished value is a key.
 struct Config : AcceleratorConfig {
+    /// Stages II to IV, each with its buffers and on a view of its own, behind one Stage I. All
+    /// sections but `grouping` and `memory`, and `group_buffer_bytes`, describe one of them.
+    int clusters = 1;
     int view_size = 128;                ///< px, side of a view
     int group_buffer_bytes = 62 * 1024; ///< groups between the stages
     int splat_bytes = 32;               ///< per Gaussian of a group in flight
@@ -35,11 +38,11 @@ struct Config : AcceleratorConfig {
     }
     void describe(ConfigVisitor& visitor) override;
     void scale_to(int pes) override;
-    int pes() const override { return array.pes(); }
+    int pes() const override { return clusters * array.pes(); }
     int tile_size_px() const override { return view_size; }
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
-    int tile_contexts() const override { return image_buffer.contexts(view_pixels()); }
+    int tile_contexts() const override { return clusters * contexts(); }
     TrafficConfig records() const override { return traffic.common(); }
     cost::BillOfMaterials bill() const override;
     void read_floats() override {
@@ -53,6 +56,8 @@ struct Config : AcceleratorConfig {
                                         const BuildOptions& options) const override;
     std::unique_ptr<AnalyticModel> analytic() const override;
 
+    /// Views of one cluster whose pixels are on chip.
+    int contexts() const { return image_buffer.contexts(view_pixels()); }
     /// Bytes of the state of a pixel, which need not be whole ones.
     double pixel_bytes() const { return image_buffer.pixel_bytes(view_pixels()); }
     /// Gaussians that wait before Stage II: list entries only.

@@ -18,16 +18,18 @@ cost::BillOfMaterials Config::bill() const {
     bill.add_units({"grouping", "Lanes of Stage I, a mean per cycle each.", true},
                    rows.preprocessing, grouping.means_per_cycle);
     bill.add_units({"projection", "Projection units of Stage II.", true}, rows.preprocessing,
-                   projection.units);
+                   clusters * projection.units);
     bill.add_units({"colour", "SH units of Stage III, with its sorter.", true}, rows.preprocessing,
-                   colour.units);
+                   clusters * colour.units);
     bill.add_units({"blending", "PEs of the window."}, rows.blending, pes(), 1,
                    cost.pe_factors(pipeline.precision()));
-    bill.add_sram(
-        {"group_buffer", "Groups of Gaussians between the stages."}, rows.sram, group_buffer_bytes,
-        kReadAndWritten * (records * splat_bytes + projection.units * traffic.list_entry_bytes));
+    bill.add_sram({"group_buffer", "Groups of Gaussians between the stages."}, rows.sram,
+                  std::int64_t{clusters} * group_buffer_bytes,
+                  clusters * kReadAndWritten *
+                      (records * splat_bytes + projection.units * traffic.list_entry_bytes));
     bill.add_sram({"pixel_buffer", "State of the pixels of the views in flight."}, rows.sram,
-                  image_buffer.bytes, kReadAndWritten * pes() * pixel_bytes());
+                  std::int64_t{clusters} * image_buffer.bytes,
+                  kReadAndWritten * pes() * pixel_bytes());
     return bill;
 }
 
@@ -35,15 +37,15 @@ void Engine::collect_activity(AcceleratorResult& result) const {
     std::uint64_t entries = 0;
     std::uint64_t records = 0; // through one ring each
     if (grouping_) {
-        const ProjectionStage::Stats& p = projection_->stats();
-        const ColourStage::Stats& c = colour_->stats();
+        const std::uint64_t shapes = sum_of(projection_, &ProjectionStage::Stats::shapes);
+        const std::uint64_t coloured = sum_of(colour_, &ColourStage::Stats::coloured);
         add_activity(result, "grouping", grouping_->stats().gaussians);
-        add_activity(result, "projection", p.shapes * config_.projection.cycles_per_gaussian);
-        add_activity(result, "colour", c.coloured * config_.colour.cycles_per_colour);
-        entries = p.entries;
-        records = kRingsOfShapes * p.shapes + kRingsOfColours * c.coloured;
+        add_activity(result, "projection", shapes * config_.projection.cycles_per_gaussian);
+        add_activity(result, "colour", coloured * config_.colour.cycles_per_colour);
+        entries = sum_of(projection_, &ProjectionStage::Stats::entries);
+        records = kRingsOfShapes * shapes + kRingsOfColours * coloured;
     } else {
-        records = fetcher_->stats().records;
+        records = sum_of(fetchers_, &SplatFetcher::Stats::records);
     }
     add_activity(result, "blending", result.slots.executed());
     add_activity(result, "group_buffer",

@@ -28,8 +28,8 @@ void Grouping::Config::describe(ConfigVisitor& visitor) {
 
 Grouping::Grouping(const sc_core::sc_module_name& name, const Config& config,
                    const Traffic& traffic, const Timebase& time, const RenderJob& job,
-                   int frames_in_flight, std::size_t listeners)
-    : sc_core::sc_module(name), out("out"), listed("listed", listeners),
+                   int frames_in_flight, std::size_t listeners, std::size_t readers)
+    : sc_core::sc_module(name), out("out", readers), listed("listed", listeners),
       frame_free("frame_free", frames_in_flight == 0 ? 0 : 1), means("means", time),
       lists("lists", time), config_(config), traffic_(traffic), job_(job),
       frames_in_flight_(frames_in_flight), fetcher_(time), grouper_(time),
@@ -45,7 +45,9 @@ Grouping::Grouping(const sc_core::sc_module_name& name, const Config& config,
 void Grouping::end_of_elaboration() {
     fetched_.connect_writer(fetcher_);
     fetched_.connect_reader(grouper_);
-    out->connect_writer(grouper_);
+    for (auto& port : out) {
+        port->connect_writer(grouper_);
+    }
     for (auto& port : listed) {
         port->connect_writer(grouper_);
     }
@@ -90,7 +92,9 @@ void Grouping::group() {
         }
         stats_.view_entries += frame.tile_pairs();
         frames_grouped_.push_back(grouper_.local());
-        out->put(grouper_, f);
+        for (auto& port : out) {
+            port->put(grouper_, f);
+        }
         for (auto& port : listed) {
             port->put(grouper_, f);
         }

@@ -45,7 +45,7 @@ public:
         }
     };
 
-    FifoPort<std::uint32_t> out; ///< frames whose lists are complete
+    sc_core::sc_vector<FifoPort<std::uint32_t>> out; ///< frames whose lists are complete
     /// The same for all others that wait for these lists.
     sc_core::sc_vector<FifoPort<std::uint32_t>> listed;
     /// Frames that have been written; empty unless frames have to wait for each other.
@@ -54,9 +54,10 @@ public:
     MemoryPort lists;
 
     /// `frames_in_flight`: frame f + this waits for a message of frame_free; 0: none does.
+    /// `readers`: Stages II.
     Grouping(const sc_core::sc_module_name& name, const Config& config, const Traffic& traffic,
              const Timebase& time, const RenderJob& job, int frames_in_flight,
-             std::size_t listeners = 0);
+             std::size_t listeners = 0, std::size_t readers = 1);
 
     const Stats& stats() const { return stats_; }
     /// Dates at which each frame's lists were complete.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "baselines/gcc/views_left.hpp"
 #include "tlm/ceil_div.hpp"
 #include "tlm/has_process.hpp"
 
@@ -37,9 +38,11 @@ bool gcc_cancelled(Process& self, FifoPort<TileNumber>& cancel, TileNumber& firs
 }
 
 ProjectionStage::ProjectionStage(const sc_core::sc_module_name& name, const Config& config,
-                                 const Traffic& traffic, const Timebase& time, const RenderJob& job)
+                                 const Traffic& traffic, const Timebase& time, const RenderJob& job,
+                                 bool granted)
     : sc_core::sc_module(name), start("start"), cancel("cancel", 2), out("out"),
-      lists("lists", time), shapes("shapes", time), config_(config), traffic_(traffic), job_(job),
+      request("request", granted ? 1 : 0), views("views", granted ? 1 : 0), lists("lists", time),
+      shapes("shapes", time), config_(config), traffic_(traffic), job_(job), granted_(granted),
       loader_(time), fetcher_(time), projector_(time), loaded_("loaded", time, config.groups_ahead),
       fetched_("fetched", time, config.groups_ahead) {
     DEGS_HAS_PROCESS(ProjectionStage);
@@ -60,15 +63,32 @@ void ProjectionStage::end_of_elaboration() {
     fetched_.connect_writer(fetcher_);
     fetched_.connect_reader(projector_);
     out->connect_writer(projector_);
+    for (auto& port : request) {
+        port->connect_writer(loader_);
+    }
+    for (auto& port : views) {
+        port->connect_reader(loader_);
+    }
+}
+
+TileNumber ProjectionStage::next_view() {
+    if (granted_) {
+        request[0]->put(loader_, {});
+        return views[0]->get(loader_).tile;
+    }
+    return job_.has_tile(loader_, next_view_) ? next_view_++ : kNoTile;
 }
 
 void ProjectionStage::load() {
     std::uint32_t frames_started = 0;
-    for (TileNumber number = 0; job_.has_tile(loader_, number); ++number) {
+    for (TileNumber number = next_view(); number != kNoTile; number = next_view()) {
         for (; frames_started <= job_.tiles[number].frame; ++frames_started) {
             start->get(loader_);
         }
         load_view(number);
+    }
+    if (granted_) {
+        loaded_.put(loader_, {kNoTile, 0, 0, true});
     }
     loader_.finish();
 }
@@ -100,9 +120,9 @@ void ProjectionStage::load_view(TileNumber number) {
 }
 
 void ProjectionStage::fetch() {
-    for (TileNumber views = 0; !job_.over(views);) {
+    for (ViewsLeft left(job_, granted_); left.any();) {
         SplatChunk group = loaded_.get(fetcher_);
-        views += group.last ? 1 : 0;
+        left.take(group);
         fetched_.reserve(fetcher_);
         Completion ready;
         if (gcc_cancelled(fetcher_, cancel[1], fetch_from_, group.tile)) {
@@ -129,9 +149,9 @@ Completion ProjectionStage::read_shapes(const SplatChunk& group) {
 
 void ProjectionStage::project() {
     const Cycle units = config_.units;
-    for (TileNumber views = 0; !job_.over(views);) {
+    for (ViewsLeft left(job_, granted_); left.any();) {
         const SplatChunk group = fetched_.get(projector_);
-        views += group.last ? 1 : 0;
+        left.take(group);
         const Cycle busy = ceil_div(group.count, units) * config_.cycles_per_gaussian;
         projector_.work(busy, stats_.busy);
         stats_.shapes += group.count;

@@ -7,6 +7,7 @@
 
 #include "baselines/gcc/traffic.hpp"
 #include "config/statistics.hpp"
+#include "modules/messages.hpp"
 #include "modules/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
@@ -17,7 +18,8 @@ namespace degs::gcc {
 /// list of a group, then scale, rotation and opacity of its Gaussians, and projects them. A group
 /// is a fixed number of neighbours in the view's list; the last one may be smaller. Three
 /// overlapping steps, each some groups ahead of the next. Once all pixels of a view have ended, its
-/// further groups are not read. A Gaussian is read again for every view that it overlaps.
+/// further groups are not read. A Gaussian is read again for every view that it overlaps. Either
+/// the stage works on all views of the job, or views are granted to it one by one, ascending.
 class ProjectionStage : public sc_core::sc_module {
 public:
     struct Config {
@@ -46,16 +48,22 @@ public:
     FifoPort<std::uint32_t> start;                   ///< frames whose lists are complete
     sc_core::sc_vector<FifoPort<TileNumber>> cancel; ///< from the Tile Monitor, one per reader
     FifoPort<SplatChunk> out;                        ///< groups; the last one may be empty
+    /// To the Tile Dispatcher, for another view, and its answers, until kNoTile, which ends the
+    /// groups, too. Both are empty unless views are granted.
+    sc_core::sc_vector<FifoPort<TileRequest>> request;
+    sc_core::sc_vector<FifoPort<SortedRun>> views;
     MemoryPort lists;
     MemoryPort shapes;
 
     ProjectionStage(const sc_core::sc_module_name& name, const Config& config,
-                    const Traffic& traffic, const Timebase& time, const RenderJob& job);
+                    const Traffic& traffic, const Timebase& time, const RenderJob& job,
+                    bool granted = false);
 
     const Stats& stats() const { return stats_; }
 
 private:
     void end_of_elaboration() override;
+    TileNumber next_view();
     void load();
     void load_view(TileNumber number);
     void fetch();
@@ -65,9 +73,11 @@ private:
     Config config_;
     Traffic traffic_;
     const RenderJob& job_;
+    bool granted_;
     Process loader_, fetcher_, projector_;
     DatedFifo<SplatChunk> loaded_, fetched_;
     std::vector<std::uint32_t> gaussians_;      // of the group that is read
+    TileNumber next_view_ = 0;                  // of the job
     TileNumber load_from_ = 0, fetch_from_ = 0; // earlier views are cancelled or over
     Stats stats_;
 };

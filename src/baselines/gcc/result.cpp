@@ -10,9 +10,8 @@ namespace degs::gcc {
 void Engine::collect(AcceleratorResult& result) const {
     collect_frames(result, image_buffers_, frame_ends_.background());
     result.tiles = finished_tiles();
-    result.tiles_cancelled = monitor_->stats().tiles_cancelled;
-    result.slots = array_->stats().slots;
-    result.window = array_->stats().window;
+    result.tiles_cancelled = sum_of(monitors_, &TileMonitor::Stats::tiles_cancelled);
+    collect_slots(result);
     if (grouping_) {
         for (std::size_t f = 0; f < result.frames.size(); ++f) {
             result.frames[f].preprocessed = grouping_->frames_grouped()[f];
@@ -21,68 +20,99 @@ void Engine::collect(AcceleratorResult& result) const {
     collect_stages(result);
     // Only the ring in front of the array is reported, not the groups on their way to it.
     add_buffer(result, {"group_buffer", "Groups of splats in front of the array."},
-               config_.group_buffer_bytes, config_.chunks_ahead(), use_of(splat_rings_));
-    add_pixel_buffer(result, config_.image_buffer.bytes, config_.tile_contexts(), image_buffers_);
+               std::int64_t{config_.clusters} * config_.group_buffer_bytes, config_.chunks_ahead(),
+               use_of(splat_rings_));
+    add_pixel_buffer(result, std::int64_t{config_.clusters} * config_.image_buffer.bytes,
+                     config_.tile_contexts(), image_buffers_);
     collect_activity(result);
     streams_.collect(result);
     collect_laws(result);
     explain(result);
 }
 
+void Engine::collect_slots(AcceleratorResult& result) const {
+    for (const auto& array : arrays_) {
+        add_slots(result, array->stats().slots, array->stats().window);
+    }
+    for (const auto& array : arrays_) {
+        close_slots(result, array->stats().window, config_.array.pes());
+    }
+}
+
 void Engine::collect_stages(AcceleratorResult& result) const {
     if (grouping_) {
         const Grouping::Stats& g = grouping_->stats();
         add_stage(result, {"grouping", "Stage I: groups by depth."}, 1, g.busy, counters_of(g));
-        const ProjectionStage::Stats& p = projection_->stats();
-        add_stage(result, {"projection", "Stage II: shapes."}, 1, p.busy, counters_of(p));
-        const ColourStage::Stats& c = colour_->stats();
-        add_stage(result, {"colour", "Stage III: colours and sorting overlap, the busier counts."},
-                  1, std::max(c.colour_busy, c.sort_busy), counters_of(c));
     }
-    const WindowArray::Stats& a = array_->stats();
-    add_stage(result, {"blending", "Stage IV: the window array."}, 1, a.windows, counters_of(a));
+    if (dispatcher_) {
+        const TileDispatcher::Stats& d = dispatcher_->stats();
+        add_stage(result, {"dispatch", "The Tile Dispatcher, a cycle for each view."}, 1, d.tiles,
+                  counters_of(d));
+    }
+    if (grouping_) {
+        add_stage(result, {"projection", "Stage II: shapes."}, projection_.size(),
+                  sum_of(projection_, &ProjectionStage::Stats::busy), Counters().add(projection_));
+        Cycle busy = 0;
+        for (const auto& stage : colour_) {
+            busy += std::max(stage->stats().colour_busy, stage->stats().sort_busy);
+        }
+        add_stage(result, {"colour", "Stage III: colours and sorting overlap, the busier counts."},
+                  colour_.size(), busy, Counters().add(colour_));
+    }
+    add_stage(result, {"blending", "Stage IV: the window array."}, arrays_.size(),
+              sum_of(arrays_, &WindowArray::Stats::windows), Counters().add(arrays_));
 }
 
 void Engine::collect_laws(AcceleratorResult& result) const {
-    const WindowArray::Stats& a = array_->stats();
-    const SlotAccount& s = a.slots;
-    const std::uint64_t pes = config_.pes();
+    using A = WindowArray::Stats;
+    const SlotAccount& s = result.slots;
+    const std::uint64_t pes = config_.array.pes();
+    const std::uint64_t skipped = sum_of(arrays_, &A::skip_cycles) * pes;
+    const std::uint64_t taken = sum_of(arrays_, &A::splats) + sum_of(arrays_, &A::splats_dropped);
     auto& laws = result.conservation;
     laws.push_back({"slots of windows and skips = useful + boundary + terminated",
-                    (a.windows + a.skip_cycles) * pes, s.useful + s.boundary + s.terminated});
+                    sum_of(arrays_, &A::windows) * pes + skipped,
+                    s.useful + s.boundary + s.terminated});
     laws.push_back({"valid pixels of live windows = useful + terminated",
-                    a.valid_pixels + a.skip_cycles * pes, s.useful + s.terminated});
+                    sum_of(arrays_, &A::valid_pixels) + skipped, s.useful + s.terminated});
+    if (dispatcher_) {
+        laws.push_back(
+            {"views granted = views of the job", dispatcher_->stats().tiles, job_.tiles.size()});
+    }
     if (!grouping_) {
-        laws.push_back({"splats fetched = rendered + dropped", fetcher_->stats().records,
-                        a.splats + a.splats_dropped});
+        laws.push_back({"splats fetched = rendered + dropped",
+                        sum_of(fetchers_, &SplatFetcher::Stats::records), taken});
         return;
     }
-    const ProjectionStage::Stats& p = projection_->stats();
-    const ColourStage::Stats& c = colour_->stats();
+    using P = ProjectionStage::Stats;
+    using C = ColourStage::Stats;
     std::uint64_t view_entries = 0; // of the job, which may be a sample of the views
     for (const JobTile& view : job_.tiles) {
         view_entries += view.count;
     }
-    laws.push_back(
-        {"entries of the views = read + cancelled", view_entries, p.entries + p.entries_cancelled});
-    laws.push_back(
-        {"entries read = projected + cancelled", p.entries, p.shapes + p.shapes_cancelled});
-    laws.push_back({"projected = coloured + masked + cancelled", p.shapes,
-                    c.coloured + c.masked + c.cancelled});
-    laws.push_back({"coloured = rendered + dropped", c.coloured, a.splats + a.splats_dropped});
+    const std::uint64_t entries = sum_of(projection_, &P::entries);
+    const std::uint64_t shapes = sum_of(projection_, &P::shapes);
+    const std::uint64_t coloured = sum_of(colour_, &C::coloured);
+    laws.push_back({"entries of the views = read + cancelled", view_entries,
+                    entries + sum_of(projection_, &P::entries_cancelled)});
+    laws.push_back({"entries read = projected + cancelled", entries,
+                    shapes + sum_of(projection_, &P::shapes_cancelled)});
+    laws.push_back({"projected = coloured + masked + cancelled", shapes,
+                    coloured + sum_of(colour_, &C::masked) + sum_of(colour_, &C::cancelled)});
+    laws.push_back({"coloured = rendered + dropped", coloured, taken});
 }
 
 void Engine::explain(AcceleratorResult& result) const {
     auto& out = result.left_out;
-    explain_tiles(result, grouping_ ? projection_->stats().entries_cancelled
-                                    : fetcher_->stats().records_cancelled);
+    explain_tiles(result, sum_of(projection_, &ProjectionStage::Stats::entries_cancelled) +
+                              sum_of(fetchers_, &SplatFetcher::Stats::records_cancelled));
     if (grouping_) {
-        out.push_back(grouped(colour_->stats().masked) +
+        out.push_back(grouped(sum_of(colour_, &ColourStage::Stats::masked)) +
                       " projected Gaussians could only reach ended blocks: their SH was not read.");
     }
-    out.push_back(grouped(array_->stats().windows_ended) +
+    out.push_back(grouped(sum_of(arrays_, &WindowArray::Stats::windows_ended)) +
                   " windows were passed without evaluation because all their pixels had ended.");
-    out.push_back(grouped(array_->stats().splats_dropped) +
+    out.push_back(grouped(sum_of(arrays_, &WindowArray::Stats::splats_dropped)) +
                   " splats reached the array after all pixels of their view had ended and cost no "
                   "slot.");
 }

@@ -31,15 +31,16 @@ void WindowArray::Config::describe(ConfigVisitor& visitor) {
 }
 
 WindowArray::WindowArray(const sc_core::sc_module_name& name, const Config& config,
-                         const Timebase& time, RenderJob& job, std::size_t inputs, int contexts,
+                         const Timebase& time, RenderJob& job, const ArrayShare& share,
                          std::size_t listeners, int block)
-    : sc_core::sc_module(name), in("in", inputs), context_free("context_free"),
+    : sc_core::sc_module(name), in("in", share.inputs), context_free("context_free"),
       tile_done("tile_done"), tile_state("tile_state"), block_ended("block_ended", listeners),
-      config_(config), job_(job), contexts_(contexts), block_(block),
+      config_(config), job_(job), share_(share), block_(block),
       blocks_(ceil_div(job.tile_size, block)), grid_(ceil_div(job.tile_size, config.window)),
       self_(time), footprint_(job.tile_size, config.window), traversal_(grid_),
-      startable_(contexts), live_in_window_(grid_ * grid_, 0), live_in_block_(blocks_ * blocks_, 0),
-      live_windows_(grid_, 0), ended_head_(live_in_window_.size(), -1) {
+      startable_(share.contexts), live_in_window_(grid_ * grid_, 0),
+      live_in_block_(blocks_ * blocks_, 0), live_windows_(grid_, 0),
+      ended_head_(live_in_window_.size(), -1) {
     DEGS_HAS_PROCESS(WindowArray);
     SC_THREAD(run);
     self_.show(*this, stats_.windows);
@@ -59,36 +60,45 @@ void WindowArray::end_of_elaboration() {
 }
 
 void WindowArray::run() {
-    for (TileNumber number = 0; !job_.over(number); ++number) {
-        SplatChunk chunk = next_chunk(number);
-        await_context(number);
-        start_view(number);
-        for (;; chunk = next_chunk(number)) {
-            const FrameWorkload& frame = job_.frame_of(*view_);
-            for (std::uint32_t i = 0; i < chunk.count; ++i) {
-                const std::uint32_t splat = frame.tile_splats[chunk.first + i];
-                render(job_.first_splat[view_->frame] + splat, frame.splats[splat]);
-            }
-            if (chunk.last) {
-                break;
-            }
+    for (; share_.granted || !job_.over(views_); ++views_) {
+        const SplatChunk chunk = next_chunk();
+        if (chunk.tile == kNoTile) {
+            tile_state->put(self_, {kNoTile, false});
+            tile_done->put(self_, {kNoTile, false});
+            break;
         }
-        end_view(number);
+        await_context();
+        start_view(chunk.tile);
+        render_view(chunk);
+        end_view();
     }
     self_.finish();
 }
 
-SplatChunk WindowArray::next_chunk(TileNumber number) {
+void WindowArray::render_view(SplatChunk chunk) {
+    const FrameWorkload& frame = job_.frame_of(*view_);
+    for (;; chunk = next_chunk()) {
+        for (std::uint32_t i = 0; i < chunk.count; ++i) {
+            const std::uint32_t splat = frame.tile_splats[chunk.first + i];
+            render(job_.first_splat[view_->frame] + splat, frame.splats[splat]);
+        }
+        if (chunk.last) {
+            return;
+        }
+    }
+}
+
+SplatChunk WindowArray::next_chunk() {
     const Cycle asked = self_.local();
-    const SplatChunk chunk = in[number % in.size()]->get(self_);
+    const SplatChunk chunk = in[views_ % in.size()]->get(self_);
     idle(Idle::Starved, asked, self_.local());
     return chunk;
 }
 
-void WindowArray::await_context(TileNumber number) {
+void WindowArray::await_context() {
     const Cycle asked = self_.local();
-    while (startable_ <= number) {
-        startable_ = std::max(startable_, context_free->get(self_) + 1);
+    for (; startable_ <= views_; ++startable_) {
+        context_free->get(self_);
     }
     idle(Idle::Blocked, asked, self_.local());
 }
@@ -97,7 +107,7 @@ void WindowArray::start_view(TileNumber number) {
     const JobTile& view = job_.tiles[number];
     view_ = &view;
     number_ = number;
-    context_ = context_in_turn(number, contexts_);
+    context_ = context_in_turn(views_, share_.contexts, share_.first_context);
     columns_ = ceil_div(view.width, config_.window);
     rows_ = ceil_div(view.height, config_.window);
     live_pixels_ = view.width * view.height;
@@ -116,8 +126,8 @@ void WindowArray::start_view(TileNumber number) {
     std::fill_n(live_windows_.begin(), rows_, windows_between(0, columns_ - 1));
 }
 
-void WindowArray::end_view(TileNumber number) {
-    const SliceReport report{number, live_pixels_ == 0};
+void WindowArray::end_view() {
+    const SliceReport report{number_, live_pixels_ == 0};
     if (!reported_) {
         tile_state->put(self_, report);
     }

@@ -9,6 +9,7 @@
 #include "baselines/gcc/traversal.hpp"
 #include "config/config.hpp"
 #include "config/statistics.hpp"
+#include "modules/array/array_share.hpp"
 #include "modules/array/slot_account.hpp"
 #include "tlm/dated_fifo.hpp"
 
@@ -66,16 +67,15 @@ public:
     };
 
     sc_core::sc_vector<FifoPort<SplatChunk>> in; ///< tile t arrives on port t mod their number
-    FifoPort<TileNumber> context_free;           ///< from the Pixel Buffer
-    FifoPort<SliceReport> tile_done;             ///< to the Pixel Buffer, once per tile
-    FifoPort<SliceReport> tile_state;            ///< to the Tile Monitor, once per tile
+    FifoPort<TileNumber> context_free; ///< one message for each tile from tile `contexts` on
+    FifoPort<SliceReport> tile_done;   ///< to the Pixel Buffer, once per tile
+    FifoPort<SliceReport> tile_state;  ///< to the Tile Monitor, once per tile
     sc_core::sc_vector<FifoPort<BlockEnded>> block_ended; ///< to Stage III; may be empty
 
-    /// The job's tile size is at most 64 windows. `block`: side of the blocks that are reported,
-    /// px.
+    /// The job's tile size is at most 64 windows. If views are granted, both reports end with
+    /// kNoTile. `block`: side of the blocks that are reported, px.
     WindowArray(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
-                RenderJob& job, std::size_t inputs, int contexts, std::size_t listeners = 0,
-                int block = 8);
+                RenderJob& job, const ArrayShare& share, std::size_t listeners = 0, int block = 8);
 
     const Config& config() const { return config_; }
     const Stats& stats() const { return stats_; }
@@ -88,10 +88,11 @@ private:
     };
     void end_of_elaboration() override;
     void run();
-    SplatChunk next_chunk(TileNumber number);
+    SplatChunk next_chunk();
+    void render_view(SplatChunk chunk);
     void start_view(TileNumber number);
-    void await_context(TileNumber number);
-    void end_view(TileNumber number);
+    void await_context();
+    void end_view();
     void render(std::uint32_t splat, const ProjectedSplat& projected);
     void evaluate(std::uint32_t splat);
     void evaluate_run(std::uint32_t splat, int y, const PixelRange& columns);
@@ -110,7 +111,7 @@ private:
 
     Config config_;
     RenderJob& job_;
-    int contexts_;
+    ArrayShare share_;
     int block_, blocks_; // side in px; per row of the largest view
     int grid_;           // windows per row of the largest view
     Process self_;
@@ -120,7 +121,8 @@ private:
     TileNumber number_ = 0;
     int context_ = 0;
     int columns_ = 0, rows_ = 0; // windows of the view
-    TileNumber startable_ = 0;   // tiles below this number have a context
+    std::uint64_t views_ = 0;    // that are over
+    std::uint64_t startable_;    // so many views have had a context
     int live_pixels_ = 0;
     bool reported_ = false;
     std::vector<int> live_in_window_, live_in_block_;

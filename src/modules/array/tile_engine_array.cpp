@@ -127,22 +127,6 @@ std::uint64_t TileEngineArray::list_entries() const {
     return entries;
 }
 
-void TileEngineArray::add_slots(AcceleratorResult& result, const SlotAccount& slots,
-                                const ActiveWindow& window) {
-    result.slots += slots;
-    result.window.include(window);
-}
-
-void TileEngineArray::close_slots(AcceleratorResult& result, const ActiveWindow& window,
-                                  std::uint64_t width) {
-    if (window.empty()) {
-        result.slots.drain += result.window.cycles() * width;
-    } else {
-        result.slots.starved += (window.first - result.window.first) * width;
-        result.slots.drain += (result.window.last - window.last) * width;
-    }
-}
-
 void TileEngineArray::collect(AcceleratorResult& result) const {
     collect_frames(result, pixel_buffers_, frame_ends_.background());
     result.tiles = finished_tiles();

@@ -106,12 +106,6 @@ protected:
     std::string name_of(const char* block, int engine) const {
         return parts_.granted ? numbered(block, engine) : block;
     }
-    /// Slots of all engines: an engine of `width` PEs knows its own from its first to its last.
-    static void add_slots(AcceleratorResult& result, const SlotAccount& slots,
-                          const ActiveWindow& window);
-    static void close_slots(AcceleratorResult& result, const ActiveWindow& window,
-                            std::uint64_t width);
-
     /// Fills slots, window, stages, buffers, activity and invariants of the engines. Called when the stages of the
     /// front end and the fetchers are there.
     virtual void collect_engines(AcceleratorResult& result) const = 0;
