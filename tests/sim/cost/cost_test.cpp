@@ -152,9 +152,11 @@ TEST(Area, FollowsTheKeysOfUnitsAndBytesAndNoOthers) {
                                          "packing.ports=1", "feature_buffer.ports=1",
                                          "pixel_buffer.ports=1"};
     const std::set<std::string> degs{
-        "projection.count",    "sorting.count",   "slicing.count",        "span.count",
-        "span.rows_per_cycle", "scheduler.banks", "array.pes_per_bank",   "gaussian_buffer.bytes",
-        "span_buffer.bytes",   "packing.bytes",   "feature_buffer.bytes", "pixel_buffer.bytes"};
+        "clusters",          "projection.count",   "sorting.count",
+        "slicing.count",     "span.count",         "span.rows_per_cycle",
+        "scheduler.banks",   "array.pes_per_bank", "gaussian_buffer.bytes",
+        "span_buffer.bytes", "packing.bytes",      "feature_buffer.bytes",
+        "pixel_buffer.bytes"};
     std::set<std::string> limited = degs;
     limited.insert({"gaussian_buffer.ports", "gaussian_buffer.sram_banks", "span_buffer.ports",
                     "packing.ports", "feature_buffer.ports", "feature_buffer.sram_banks",
@@ -162,14 +164,15 @@ TEST(Area, FollowsTheKeysOfUnitsAndBytesAndNoOthers) {
     const std::vector<Moving> all{
         {"degs-64", degs},
         {"degs-64", limited, ports},
-        {"gscore-64", {"projection.count", "sorting.count", "array.lanes", "buffer.bytes"}},
+        {"gscore-64",
+         {"clusters", "projection.count", "sorting.count", "array.lanes", "buffer.bytes"}},
         {"gbu-64",
          {"projection.count", "sorting.count", "engines.count", "engines.row_pes",
           "engines.queue_depth", "engines.entry_bytes", "list_buffer.bytes", "list_buffer.chunks",
           "fetching.chunk", "traffic.splat_bytes", "reuse_cache.bytes", "pixel_buffer.bytes"}},
         {"gcc-64",
-         {"grouping.means_per_cycle", "projection.units", "colour.units", "array.window",
-          "group_buffer_bytes", "image_buffer.bytes"}}};
+         {"clusters", "grouping.means_per_cycle", "projection.units", "colour.units",
+          "array.window", "group_buffer_bytes", "image_buffer.bytes"}}};
     for (const Moving& moving : all) {
         const sim::RunConfig shipped =
             sim::load_run_config(config(moving.design), moving.overrides);
