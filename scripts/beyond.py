@@ -3,14 +3,15 @@
 """The machines of docs/beyond-the-paper.md against those of the paper and the baselines.
 
     beyond.py run [FOLDER] [--only GROUP]... [--scene NAME]... [--jobs N]
-    beyond.py search SIZE [FOLDER]       `degs explore` of the study beyond-SIZE, and the picture of its front
-    beyond.py table GROUP TABLE          a Markdown table from docs/beyond.csv; TABLE: array, 204.8, 102.4, memory
+    beyond.py search SIZE [FOLDER]       `degs explore` of the study beyond-SIZE
+    beyond.py picture FILE               throughput over area of the machines in docs/beyond.csv, as SVG
+    beyond.py table GROUP TABLE          a Markdown table from docs/beyond.csv; TABLE: array, GB/s, memory
 
-`run` sweeps the designs of a group (64, mechanisms, front, 4k) over the scenes of DEGS_SCENES that the search did
-not see, with cameras 2 (close-up) and 1 (small splats): the arrays alone, and whole accelerators on LPDDR5 with 204.8
-and 102.4 GB/s over a path of two frames. It goes on with what FOLDER has, and writes docs/beyond.csv, a row for each
-design, memory, scene and camera. Rows of other groups stay. `search` has the three other
-scenes at 720p. The program is DEGS_PROGRAM, or build/release/sim/degs."""
+`run` sweeps the designs of a group (64, 256, 1024, mechanisms) over the scenes of DEGS_SCENES that the
+search did not see, with cameras 2 (close-up) and 1 (small splats): the arrays alone, and whole accelerators on LPDDR5
+with 204.8 GB/s (or more) over a path of two frames. It goes on with what FOLDER has, and writes docs/beyond.csv, a row
+for each design, memory, scene and camera. Rows of other groups stay. `search` has the three other scenes at 720p. The
+program is DEGS_PROGRAM, or build/release/sim/degs."""
 import argparse
 import csv
 import json
@@ -27,7 +28,8 @@ MEASURED = ROOT / "docs/beyond.csv"
 SCENES = ["fruit-drops", "guitar", "seal", "skull", "st-peter"]
 SEARCHED = ["flowers", "flowers-small", "garden-crop"]
 CAMERAS = ["2", "1"]
-MEMORIES = {"204.8": "lpddr5-6400x256", "102.4": "lpddr5-6400x128"}
+MEMORIES = {"204.8": ("lpddr5-6400x256", ""), "102.4": ("lpddr5-6400x128", ""),
+            "819.2": ("lpddr5-6400x256", ", channels: 64")}  # GB/s: a file of configs/memory, and other keys
 NAMES = {"2": "close-up", "1": "small splats"}
 COLUMNS = ["group", "design", "memory", "scene", "camera", "utilization", "bound", "bounded_by", "conflict", "starved",
            "terminated", "throughput_fps", "latency_ms", "nj_per_frame", "area_mm2", "dram_gb_per_s", "limited_by"]
@@ -36,20 +38,16 @@ BASELINES = ("gscore", "gbu", "gcc")
 GROUPS = {
     "64": [("degs-64", "degs-64", {}), ("degs-64-tuned", "degs-64-tuned", {}), ("degs-x-64", "degs-x-64", {}),
            *((f"{name}-64", f"{name}-64", {}) for name in BASELINES)],
+    "256": [("degs-256", "degs-256", {}), ("degs-x-256", "degs-x-256", {}), ("4 × gcc-64", "gcc-64", {"clusters": 4})],
+    "1024": [("degs-1024", "degs-1024", {}), ("degs-x-1024", "degs-x-1024", {})],
     "mechanisms": [("degs-x-64", "degs-x-64", {}),
                    ("pairs of segments", "degs-x-64", {"scheduler.reuse_cycles": 2, "array.writeback_cycles": 2}),
-                   ("no conflicts", "degs-x-64", {"scheduler.reuse_cycles": 1, "array.writeback_cycles": 1}),
-                   ("two streams", "degs-x-64", {"slicing.interleave": 2, "slicing.count": 2,
-                                                 "pixel_buffer.bytes": 21504}),
-                   ("8 Span Units", "degs-x-64", {"span.count": 8}),
-                   ("own rows", "degs-x-64", {"span.rows": "fixed"}),
-                   ("8 banks of 8", "degs-x-64", {"scheduler.banks": 8, "array.pes_per_bank": 8,
-                                                  "scheduler.issue_width": 2})],
-    "front": [("degs-x-64", "degs-x-64", {}), ("bursts of 64 B", "degs-x-64", {"traffic.burst_bytes": 64}),
-              ("2 Projection Units", "degs-x-64", {"projection.count": 2})],
+                   ("no conflicts", "degs-x-64", {"scheduler.reuse_cycles": 1, "array.writeback_cycles": 1})],
 }
-GROUPS["4k"] = [each for each in GROUPS["64"] if each[0] in ("degs-64", "degs-x-64")]
-SETTINGS = {"mechanisms": ["alone"], "front": ["204.8"], "4k": ["alone", "204.8"]}  # of a group, where not all
+SETTINGS = {"64": ["alone", "204.8"], "256": ["alone", "204.8"], "1024": ["819.2"],
+            "mechanisms": ["alone"]}
+PICTURED = [("64", "204.8"), ("256", "204.8"), ("1024", "819.2")]
+ONLY_DEGS = [("256", "alone")]  # settings without baselines
 
 
 def mean(values):
@@ -62,9 +60,10 @@ def write_study(file, group, memory, scenes):
     lines = [f"study: beyond-{group}-{memory}", "reference: false", f"cameras: [{', '.join(CAMERAS)}]"]
     lines += [f"scenes: [{', '.join(str((SCENES_AT / name / 'scene.ply').resolve()) for name in scenes)}]"]
     lines += ["array_only: true"] if memory == "alone" else ["frames: 2"]
-    lines += ["resolutions: 4k"] if group == "4k" else []
     lines.append("designs:")
     for name, config, keys in GROUPS[group]:
+        if (group, memory) in ONLY_DEGS and not config.startswith("degs"):
+            continue
         lines += [f"  - include: {ROOT / 'configs' / (config + '.yaml')}", f"    name: {name}"]
         sections = {}
         for key, value in keys.items():
@@ -74,8 +73,9 @@ def write_study(file, group, memory, scenes):
             inside = ", ".join(f"{rest}: {value}" for rest, value in values)
             lines.append(f"    {section}: " + (f"{{ {inside} }}" if values[0][0] else str(values[0][1])))
         if memory != "alone":
+            file_name, keys = MEMORIES[memory]
             lines.append("    memory: { model: lpddr5, lpddr5: { include: "
-                         f"{ROOT / 'configs/memory' / (MEMORIES[memory] + '.yaml')} }} }}")
+                         f"{ROOT / 'configs/memory' / (file_name + '.yaml')}{keys} }} }}")
     Path(file).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
@@ -136,7 +136,7 @@ def run(options):
     rows = []
     groups = options.only or list(GROUPS)
     for group in groups:
-        for memory in SETTINGS.get(group, ["alone", *MEMORIES]):
+        for memory in SETTINGS[group]:
             name = f"{group}-{memory}"
             folder.mkdir(parents=True, exist_ok=True)
             write_study(folder / (name + ".yaml"), group, memory, options.scene or SCENES)
@@ -233,66 +233,53 @@ def table_memory(group):
     print_table(headings, rows)
 
 
-def others_of(size, folder):
-    """Area and latency of the machines beside the front, over the views of the search, and the front itself."""
-    study = folder / "others.yaml"
-    names = [f"degs-{size}", f"degs-{size}-tuned", *(f"{name}-{size}" for name in BASELINES)]
-    memory = f"{{ model: lpddr5, lpddr5: {{ include: {ROOT / 'configs/memory/lpddr5-6400x256.yaml'} }} }}"
-    lines = ["study: others", "reference: false", "cameras: [1, 2]", "resolutions: 720p",
-             f"scenes: [{', '.join(str((SCENES_AT / name / 'scene.ply').resolve()) for name in SEARCHED)}]", "designs:"]
-    for name in names:
-        lines += [f"  - include: {ROOT / 'configs' / (name + '.yaml')}", f"    name: {name}", f"    memory: {memory}"]
-    study.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    sweep(study, folder / "others")
-    with open(folder / "others/results.csv", encoding="utf-8") as file:
-        results = list(csv.DictReader(file))
-    points = []
-    for name in names:
-        of = [row for row in results if row["design"] == name]
-        points.append((name, float(of[0]["area_mm2"]), mean([float(row["latency_ms"]) for row in of])))
-    with open(folder / "front/front.csv", encoding="utf-8") as file:
-        front = list(csv.DictReader(file))
-    return points, [(float(row["area_mm2"]), float(row["latency_ms"])) for row in front]
-
-
 def search(options):
-    """The search of a study, and docs/images/beyond-SIZE.svg."""
-    folder = Path(options.folder or tempfile.mkdtemp())
-    folder.mkdir(parents=True, exist_ok=True)
+    """The search of a study over the scenes that no table has."""
     scenes = [word for name in SEARCHED for word in ("--scene", str(SCENES_AT / name / "scene.ply"))]
     subprocess.run([PROGRAM, "explore", str(ROOT / f"configs/studies/beyond-{options.size}.yaml"), *scenes, "--out",
-                    str(folder / "front"), "--jobs", str(options.jobs)], check=True)
-    others, front = others_of(options.size, folder)
-    (ROOT / f"docs/images/beyond-{options.size}.svg").write_text(picture(others, front), encoding="utf-8")
+                    options.folder or tempfile.mkdtemp(), "--jobs", str(options.jobs)], check=True)
 
 
-def picture(others, front):
-    """Latency over area: the designs of the last rung as dots, other machines with their names."""
-    width, height, left, bottom = 720, 420, 60, 50
-    points = [point[1:] for point in others] + front
-    x1, y1 = 1.15 * max(point[0] for point in points), 1.1 * max(point[1] for point in points)
-
-    def place(area, latency):
-        return left + (width - left - 20) * area / x1, height - bottom - (height - bottom - 20) * latency / y1
-
+def picture(file):
+    """Throughput over area, both logarithmic, a panel for each view: SVG."""
+    found = []
+    for group, memory in PICTURED:
+        for design, views in select(group, memory).items():
+            found.append((design, float(views["2"][0]["area_mm2"]),
+                          {camera: column(views[camera], "throughput_fps") for camera in CAMERAS}))
+    width, height, side, bottom = 960, 460, 60, 44
+    ranges = [[function(values) * factor for function, factor in ((min, 0.8), (max, 1.3))]
+              for values in ([area for _, area, _ in found], [fps for _, _, by in found for fps in by.values()])]
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="sans-serif" '
-           'font-size="12">', f'<rect width="{width}" height="{height}" fill="white"/>',
-           f'<path d="M{left},20 V{height - bottom} H{width - 20}" fill="none" stroke="black"/>',
-           f'<text x="{width / 2}" y="{height - 12}" text-anchor="middle">area, mm²</text>',
-           f'<text x="16" y="{height / 2}" text-anchor="middle" transform="rotate(-90 16 {height / 2})">latency of a '
-           'frame, ms</text>']
-    for i in range(5):
-        x, y = place(x1 * i / 5, y1 * i / 5)
-        out += [f'<text x="{x:.1f}" y="{height - bottom + 16}" text-anchor="middle">{x1 * i / 5:.1f}</text>',
-                f'<text x="{left - 6}" y="{y + 4:.1f}" text-anchor="end">{y1 * i / 5:.2f}</text>']
-    for name, area, latency in others:
-        x, y = place(area, latency)
-        out += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="#b2182b"/>',
-                f'<text x="{x + 8:.1f}" y="{y + 4:.1f}">{name}</text>']
-    for area, latency in front:
-        x, y = place(area, latency)
-        out.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="#2166ac" fill-opacity="0.7"/>')
-    return "\n".join(out + ["</svg>"]) + "\n"
+           'font-size="12">', f'<rect width="{width}" height="{height}" fill="white"/>']
+    for panel, camera in enumerate(CAMERAS):
+        left = side + panel * width / 2
+        across, up = width / 2 - side - 60, height - bottom - 40
+
+        def place(area, fps, left=left, across=across, up=up):
+            share = [math.log(value / low) / math.log(high / low) for value, (low, high) in zip((area, fps), ranges)]
+            return left + across * share[0], height - bottom - up * share[1]
+
+        out += [f'<text x="{left + across / 2:.0f}" y="24" text-anchor="middle">{NAMES[camera]}</text>',
+                f'<path d="M{left:.0f},40 V{height - bottom} H{left + across:.0f}" fill="none" stroke="black"/>',
+                f'<text x="{left + across / 2:.0f}" y="{height - 8}" text-anchor="middle">area, mm²</text>']
+        if not panel:
+            out.append(f'<text x="14" y="{height / 2}" text-anchor="middle" transform="rotate(-90 14 {height / 2})">'
+                       'frames per second</text>')
+        for area in (3, 5, 10, 20):
+            x, y = place(area, ranges[1][0])
+            if ranges[0][0] < area < ranges[0][1]:
+                out.append(f'<text x="{x:.1f}" y="{y + 16:.1f}" text-anchor="middle">{area}</text>')
+        for fps in (500, 1000, 2000, 5000, 10000, 20000):
+            x, y = place(ranges[0][0], fps)
+            if ranges[1][0] < fps < ranges[1][1]:
+                out.append(f'<text x="{x - 6:.1f}" y="{y + 4:.1f}" text-anchor="end">{fps}</text>')
+        for design, area, by in found:
+            x, y = place(area, by[camera])
+            colour = "#2166ac" if "-x-" in design else "#b2182b" if "degs" in design else "#777777"
+            out += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{colour}"/>',
+                    f'<text x="{x + 7:.1f}" y="{y + 4:.1f}" font-size="10">{design}</text>']
+    Path(file).write_text("\n".join(out + ["</svg>"]) + "\n", encoding="utf-8")
 
 
 def main():
@@ -311,11 +298,14 @@ def main():
     tables = commands.add_parser("table")
     tables.add_argument("group", choices=list(GROUPS))
     tables.add_argument("table", choices=["array", *MEMORIES, "memory"])
+    commands.add_parser("picture").add_argument("file")
     options = parser.parse_args()
     if options.command == "run":
         run(options)
     elif options.command == "search":
         search(options)
+    elif options.command == "picture":
+        picture(options.file)
     elif options.table in MEMORIES:
         table_whole(options.group, options.table)
     else:
