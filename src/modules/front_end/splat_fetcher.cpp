@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "tlm/ceil_div.hpp"
 #include "tlm/has_process.hpp"
 
 namespace degs {
@@ -20,7 +19,9 @@ SplatFetcher::SplatFetcher(const sc_core::sc_module_name& name, const Config& co
     : sc_core::sc_module(name), sorted("sorted"), cancel("cancel"), out("out", readers),
       request("request", granted ? 1 : 0), released("released", config.chunks == 0 ? 0 : readers),
       records("records", time), config_(config), traffic_(traffic), job_(job), instant_(instant),
-      granted_(granted), cache_(cache), self_(time), answered_(config.chunks_in_flight, 0) {
+      granted_(granted), cache_(cache), self_(time),
+      writer_(out, released, config.splat_ports, config.chunks, instant),
+      answered_(config.chunks_in_flight, 0) {
     DEGS_HAS_PROCESS(SplatFetcher);
     SC_THREAD(run);
     self_.show(*this, stats_.busy);
@@ -29,14 +30,9 @@ SplatFetcher::SplatFetcher(const sc_core::sc_module_name& name, const Config& co
 void SplatFetcher::end_of_elaboration() {
     sorted->connect_reader(self_);
     cancel->connect_reader(self_);
-    for (auto& port : out) {
-        port->connect_writer(self_);
-    }
+    writer_.connect(self_);
     for (auto& port : request) {
         port->connect_writer(self_);
-    }
-    for (auto& port : released) {
-        port->connect_reader(self_);
     }
 }
 
@@ -72,7 +68,7 @@ bool SplatFetcher::cancelled(TileNumber number) {
 }
 
 Completion SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
-    if (instant_) {
+    if (instant_ || !config_.reads) {
         return self_.local();
     }
     const std::uint32_t* splats = job_.frame_of(tile).tile_splats.data() + chunk.first;
@@ -92,39 +88,14 @@ Completion SplatFetcher::read(const JobTile& tile, const SplatChunk& chunk) {
     return oldest;
 }
 
-// In the buffer of every reader.
-void SplatFetcher::wait_for_place() {
-    for (auto& port : out) {
-        port->reserve(self_);
-    }
-    if (places_taken_ < config_.chunks) {
-        ++places_taken_;
-        return;
-    }
-    for (auto& port : released) {
-        port->get(self_);
-    }
-}
-
 void SplatFetcher::emit(const SplatChunk& chunk, const Completion& ready) {
-    for (auto& port : out) {
-        port->put_at(self_, chunk, ready);
-    }
-    const Cycle written = write_cycles(chunk);
+    writer_.put(self_, chunk, ready);
+    const Cycle written = writer_.cycles(chunk);
     if (instant_) {
         self_.advance(written);
     } else {
         self_.work(written, stats_.busy);
     }
-}
-
-// Writing a chunk takes a cycle, or nothing where records are there at once, or what ports need.
-Cycle SplatFetcher::write_cycles(const SplatChunk& chunk) const {
-    const int least = instant_ ? 0 : 1;
-    const int count = static_cast<int>(chunk.count);
-    return config_.splat_ports.limited() && count != 0
-               ? std::max(least, ceil_div(count, config_.splat_ports.neighbours(count)))
-               : least;
 }
 
 void SplatFetcher::fetch(const SortedRun& run) {
@@ -133,7 +104,7 @@ void SplatFetcher::fetch(const SortedRun& run) {
         SplatChunk chunk;
         chunk.tile = run.tile;
         chunk.first = tile.first + done_;
-        wait_for_place();
+        writer_.wait_for_place(self_);
         Completion ready = self_.local();
         if (cancelled(run.tile)) {
             stats_.records_cancelled += tile.count - done_;

@@ -4,6 +4,7 @@
 #include <systemc>
 
 #include "config/statistics.hpp"
+#include "modules/front_end/chunk_writer.hpp"
 #include "modules/front_end/reuse_cache.hpp"
 #include "modules/render_job.hpp"
 #include "modules/sram_ports.hpp"
@@ -24,6 +25,7 @@ public:
         /// Of the readers' buffer, whose section has the keys: a chunk is written before the next.
         BankedSramPorts splat_ports;
         std::size_t chunks = 0; ///< places for chunks; 0: those of the rings to the readers
+        bool reads = true;      ///< false: a SplatSupply reads the records that it asks for
         void describe(ConfigVisitor& visitor);
     };
     struct Stats {
@@ -62,9 +64,7 @@ private:
     void run();
     SortedRun next_run();
     void fetch(const SortedRun& run);
-    void wait_for_place();
     void emit(const SplatChunk& chunk, const Completion& ready);
-    Cycle write_cycles(const SplatChunk& chunk) const;
     bool cancelled(TileNumber number);
     Completion read(const JobTile& tile, const SplatChunk& chunk);
 
@@ -74,9 +74,9 @@ private:
     bool instant_, granted_;
     ReuseCache* cache_;
     Process self_;
+    ChunkWriter writer_;
     TileNumber cancelled_before_ = 0;  // tiles below this number are cancelled or over
     TileNumber skipped_ = kNoTile;     // its readers have had the chunk that ends it
-    std::size_t places_taken_ = 0;     // by chunks, if they are counted
     std::uint64_t done_ = 0;           // entries of the tile being fetched
     std::vector<Completion> answered_; // ring of completion dates of the latest requests
     std::uint64_t requests_ = 0;
