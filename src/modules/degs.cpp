@@ -32,6 +32,7 @@ Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const 
             job_, {!config_.span.parsing, config_.slicing.rows, config_.slicing.modules()});
     }
     build_front_end();
+    build_supply();
     build_back_ends();
     frame_ends_.build(config_.frame_end, time_, config_.traffic, job_, blocks_.pixel_buffers,
                       {front_end_->frame_free, front_end_->listed},
@@ -66,8 +67,23 @@ void Degs::build_front_end() {
     front_end_ = std::make_unique<TileFrontEnd>("front_end", front, time_, job_);
 }
 
+void Degs::build_supply() {
+    if (!config_.front.built()) {
+        return;
+    }
+    SplatSupply::Shape shape;
+    shape.clusters = config_.clusters;
+    shape.fetchers = config_.fetchers();
+    shape.readers = config_.slicing.modules();
+    shape.fetching = config_.chunk_writers();
+    shape.instant = options_.array_only;
+    supply_ = std::make_unique<SplatSupply>("splat_supply", config_.front, config_.traffic, time_,
+                                            job_, shape);
+}
+
 void Degs::build_back_ends() {
-    const DegsBackEnd::Shared shared{config_, time_, job_, *front_end_, drawing_.get(), options_};
+    const DegsBackEnd::Shared shared{config_,       time_,          job_,    *front_end_,
+                                     supply_.get(), drawing_.get(), options_};
     const auto grant_tiles = [&] {
         if (config_.granted()) {
             grants_ = std::make_unique<TileGrants>(*front_end_, blocks_.fetchers, time_, job_);
@@ -88,6 +104,9 @@ void Degs::build_back_ends() {
 
 void Degs::build_memory() {
     front_end_->connect_memory(streams_, blocks_.fetchers);
+    if (supply_) {
+        streams_.connect(supply_->records, stream_kinds::kSplatsRead);
+    }
     for (auto& unit : blocks_.pixel_buffers) {
         streams_.connect(unit->frame_buffer, stream_kinds::kFrameBuffer);
     }

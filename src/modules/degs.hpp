@@ -50,6 +50,8 @@ public:
     Cycle finished() const;
     const std::vector<std::unique_ptr<TileMonitor>>& monitors() const { return blocks_.monitors; }
     const MemoryStreams& streams() const { return streams_; }
+    /// Null if fetchers read by themselves.
+    const SplatSupply* supply() const { return supply_.get(); }
     RingUse gaussian_buffer() const { return use_of(blocks_.gaussian_buffer); }
     RingUse span_buffer() const { return use_of(blocks_.span_buffer); }
     RingUse crossbar() const;
@@ -58,6 +60,7 @@ public:
 private:
     bool draws_ahead() const;
     void build_front_end();
+    void build_supply();
     void build_back_ends();
     void build_memory();
     void collect_slots(AcceleratorResult& result) const;
@@ -65,6 +68,7 @@ private:
     void collect_buffers(AcceleratorResult& result) const;
     void collect_activity(AcceleratorResult& result) const;
     void collect_laws(AcceleratorResult& result) const;
+    void collect_supply_laws(AcceleratorResult& result) const;
     void explain(AcceleratorResult& result) const;
     void explain_ports(AcceleratorResult& result) const;
 
@@ -75,6 +79,7 @@ private:
     std::unique_ptr<TileDrawing> drawing_; // nullptr: tasks are blended when they execute
 
     std::unique_ptr<TileFrontEnd> front_end_;
+    std::unique_ptr<SplatSupply> supply_;
     DegsBlocks blocks_;
     std::unique_ptr<TileGrants> grants_;                        // of streams
     std::vector<std::unique_ptr<sc_core::sc_module>> clusters_; // if there are several

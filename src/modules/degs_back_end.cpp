@@ -10,15 +10,15 @@ namespace degs {
 
 DegsBackEnd::DegsBackEnd(const Shared& shared, DegsBlocks& blocks, int index)
     : config_(shared.config), time_(shared.time), job_(shared.job), front_end_(shared.front_end),
-      drawing_(shared.drawing), options_(shared.options), index_(index), fetchers_(blocks.fetchers),
-      slicing_(blocks.slicing), releases_(blocks.releases), spans_(blocks.spans),
-      banks_(blocks.banks), packing_(blocks.packing), slices_(blocks.slices),
+      supply_(shared.supply), drawing_(shared.drawing), options_(shared.options), index_(index),
+      fetchers_(blocks.fetchers), slicing_(blocks.slicing), releases_(blocks.releases),
+      spans_(blocks.spans), banks_(blocks.banks), packing_(blocks.packing), slices_(blocks.slices),
       pixel_buffers_(blocks.pixel_buffers), monitors_(blocks.monitors),
-      sorted_rings_(blocks.sorted), gaussian_rings_(blocks.gaussian_buffer),
-      span_rings_(blocks.span_buffer), crossbar_rings_(blocks.crossbar),
-      packing_rings_(blocks.packing_buffer), termination_rings_(blocks.terminations),
-      region_rings_(blocks.region_ended), done_rings_(blocks.tile_done),
-      state_rings_(blocks.tile_state), sliced_rings_(blocks.sliced),
+      sorted_rings_(blocks.sorted), request_rings_(blocks.splat_requests),
+      gaussian_rings_(blocks.gaussian_buffer), span_rings_(blocks.span_buffer),
+      crossbar_rings_(blocks.crossbar), packing_rings_(blocks.packing_buffer),
+      termination_rings_(blocks.terminations), region_rings_(blocks.region_ended),
+      done_rings_(blocks.tile_done), state_rings_(blocks.tile_state), sliced_rings_(blocks.sliced),
       row_count_rings_(blocks.row_counts), solved_rings_(blocks.solved),
       place_rings_(blocks.places), context_rings_(blocks.context_free),
       cancel_rings_(blocks.cancel) {
@@ -39,18 +39,23 @@ void DegsBackEnd::build_fetchers() {
     const bool granted = config_.granted();
     const int fetchers = config_.fetchers();
     const int of_stream = fetchers_of_stream();
-    SplatFetcher::Config fetching = config_.fetching;
-    fetching.splat_ports = config_.gaussian_buffer.ports;
-    fetching.chunks = config_.parameters_wait() ? config_.gaussian_chunks() : 0;
+    SplatFetcher::Config fetching = supply_ != nullptr ? config_.fetching : config_.chunk_writers();
+    if (supply_ != nullptr) {
+        fetching.reads = false;
+        fetching.chunks = fetching.chunks_in_flight;
+    }
     for (int m = 0; m < config_.streams(); ++m) {
         monitors_.add(std::make_unique<TileMonitor>(
             numbered("monitor", monitors_.size()).c_str(), config_.monitor, time_, job_,
             config_.scheduler.banks, of_stream + slicers, granted));
     }
     for (int f = 0; f < fetchers; ++f) {
-        fetchers_.add(std::make_unique<SplatFetcher>(numbered("fetcher", fetchers_.size()).c_str(),
-                                                     fetching, config_.traffic, time_, job_,
-                                                     slicers, options_.array_only, granted));
+        fetchers_.add(std::make_unique<SplatFetcher>(
+            numbered("fetcher", fetchers_.size()).c_str(), fetching, config_.traffic, time_, job_,
+            supply_ != nullptr ? 1 : slicers, options_.array_only, granted));
+        if (supply_ != nullptr) {
+            connect_supply(f);
+        }
         auto& cancel = wire(cancel_rings_, "cancel", config_.monitor.latency_cycles);
         monitors_[f / of_stream]->out[f % of_stream].bind(cancel);
         fetchers_[f]->cancel.bind(cancel);
@@ -60,6 +65,28 @@ void DegsBackEnd::build_fetchers() {
         front_end_.sorted[f].bind(lists);
         fetchers_[f]->sorted.bind(lists);
     }
+}
+
+// Fetchers ask the supply, which writes to the Gaussian Buffer in their place.
+void DegsBackEnd::connect_supply(int fetcher) {
+    auto& requests = ring(request_rings_, "splat_requests", 2, 1);
+    fetchers_[fetcher]->out[0].bind(requests);
+    auto& taken = wire(place_rings_, "chunk_taken", 1);
+    const int number = index_ * config_.fetchers() + fetcher;
+    supply_->in[number].bind(requests);
+    supply_->taken[number].bind(taken);
+    fetchers_[fetcher]->released[0].bind(taken);
+}
+
+FifoPort<SplatChunk>& DegsBackEnd::splats_to(int slicer, int fetcher) {
+    return supply_ != nullptr ? supply_->outlet(index_ * config_.fetchers() + fetcher).out[slicer]
+                              : fetchers_[fetcher]->out[slicer];
+}
+
+FifoPort<ChunkReleased>& DegsBackEnd::places_from(int slicer, int fetcher) {
+    return supply_ != nullptr
+               ? supply_->outlet(index_ * config_.fetchers() + fetcher).released[slicer]
+               : fetchers_[fetcher]->released[slicer];
 }
 
 void DegsBackEnd::build_slicing() {
@@ -82,7 +109,7 @@ void DegsBackEnd::build_slicing() {
         }
         for (int f = 0; f < of_stream; ++f) {
             auto& splats = ring(gaussian_rings_, "gaussian_buffer", config_.gaussian_chunks(), 1);
-            fetchers_[m * of_stream + f]->out[g].bind(splats);
+            splats_to(g, m * of_stream + f).bind(splats);
             unit.in[f].bind(splats);
         }
         auto& cancel = wire(cancel_rings_, "cancel", config_.monitor.latency_cycles);
@@ -157,7 +184,7 @@ void DegsBackEnd::build_parameter_release() {
         for (int f = 0; f < of_stream; ++f) {
             auto& places = wire(place_rings_, "chunk_released", 1);
             release.released[f].bind(places);
-            fetchers_[m * of_stream + f]->released[g].bind(places);
+            places_from(g, m * of_stream + f).bind(places);
         }
     }
 }

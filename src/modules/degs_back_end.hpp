@@ -34,6 +34,7 @@ struct DegsBlocks {
     Units<TileMonitor> monitors;      ///< one per stream
 
     Rings<SortedRun> sorted;
+    Rings<SplatChunk> splat_requests; ///< to the Splat Supply
     Rings<SplatChunk> gaussian_buffer;
     Rings<RowItem> span_buffer;
     Rings<SpanItem> crossbar;
@@ -58,6 +59,7 @@ public:
         const Timebase& time;
         RenderJob& job;
         TileFrontEnd& front_end;
+        SplatSupply* supply;  ///< nullptr: fetchers read by themselves
         TileDrawing* drawing; ///< nullptr: tasks are blended when they execute
         const BuildOptions& options;
     };
@@ -102,6 +104,9 @@ private:
     int fetchers_of_stream() const { return config_.fetchers() / config_.streams(); }
     int first_context() const { return index_ * config_.contexts(); }
     void build_fetchers();
+    void connect_supply(int fetcher);
+    FifoPort<SplatChunk>& splats_to(int slicer, int fetcher);
+    FifoPort<ChunkReleased>& places_from(int slicer, int fetcher);
     void build_slicing();
     void build_spans();
     void build_parameter_release();
@@ -117,6 +122,7 @@ private:
     const Timebase& time_; // blocks refer to its clock
     RenderJob& job_;
     TileFrontEnd& front_end_;
+    SplatSupply* supply_;
     TileDrawing* drawing_;
     BuildOptions options_;
     int index_;
@@ -131,7 +137,7 @@ private:
     Own<PixelBuffer> pixel_buffers_;
     Own<TileMonitor> monitors_;
     OwnRings<SortedRun> sorted_rings_;
-    OwnRings<SplatChunk> gaussian_rings_;
+    OwnRings<SplatChunk> request_rings_, gaussian_rings_;
     OwnRings<RowItem> span_rings_;
     OwnRings<SpanItem> crossbar_rings_;
     OwnRings<TaskPacket> packing_rings_;

@@ -151,6 +151,7 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
     visitor.section("projection", projection, "Projection Units");
     visitor.section("binning", binning, "tile lists");
     visitor.section("sorting", sorting, "Sorting Units");
+    visitor.section("front", front, "Splat Supply between memory and clusters");
     visitor.section("fetching", fetching, "Splat Fetchers, one per Sorting Unit");
     visitor.section("gaussian_buffer", gaussian_buffer, "sorted splats and lists being sorted");
     visitor.section("slicing", slicing, "Gaussian Slicing Units");
@@ -185,6 +186,11 @@ void DegsConfig::require_sizes(ConfigVisitor& visitor) const {
         "to hold a chunk of splats for every fetcher and two list entries for every Sorting Unit",
         {"gaussian_buffer.sort_share", "sorting.count", "slicing.interleave", "fetching.chunk",
          "traffic.splat_bytes"});
+    visitor.require(!front.built() || front.fifo_splats >= fetchers() * fetching.chunk,
+                    {"front.fifo_splats",
+                     "must hold a chunk of splats for every fetcher of a cluster",
+                     std::to_string(fetchers() * fetching.chunk),
+                     {"fetching.chunk", "sorting.count", "slicing.interleave", "clusters"}});
     const int entry = feature_buffer.entry_bytes * scheduler.banks;
     visitor.require_at_least(
         "feature_buffer.bytes", feature_buffer.bytes, std::int64_t{entry} * streams(),
@@ -274,6 +280,13 @@ void DegsConfig::advise_depths(ConfigVisitor& visitor) const {
              ", which hold all segments and packets that may wait",
          "",
          {"packing.lead_packets", "scheduler.queue_segments_per_pe", "scheduler.segment_bytes"}});
+}
+
+SplatFetcher::Config DegsConfig::chunk_writers() const {
+    SplatFetcher::Config writers = fetching;
+    writers.splat_ports = gaussian_buffer.ports;
+    writers.chunks = parameters_wait() ? gaussian_chunks() : 0;
+    return writers;
 }
 
 void DegsConfig::require_counts(ConfigVisitor& visitor) const {

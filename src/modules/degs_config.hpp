@@ -10,6 +10,7 @@
 #include "modules/front_end/projection_unit.hpp"
 #include "modules/front_end/sorting_unit.hpp"
 #include "modules/front_end/splat_fetcher.hpp"
+#include "modules/front_end/splat_supply.hpp"
 #include "modules/front_end/tile_binner.hpp"
 #include "modules/main_memory_config.hpp"
 #include "modules/render_engine.hpp"
@@ -95,6 +96,7 @@ struct DegsConfig : AcceleratorConfig {
     ProjectionUnit::Config projection;
     TileBinner::Config binning;
     SortingUnit::Config sorting;
+    SplatSupply::Config front; ///< of all clusters but for the FIFOs
     SplatFetcher::Config fetching;
     GaussianBuffer gaussian_buffer;
     GaussianSlicingUnit::Config slicing;
@@ -192,6 +194,8 @@ struct DegsConfig : AcceleratorConfig {
     int gaussian_chunks() const {
         return splat_share().bytes_of(gaussian_buffer.bytes) / chunk_bytes();
     }
+    /// What writes chunks of splats to the Gaussian Buffer, as if it read them itself.
+    SplatFetcher::Config chunk_writers() const;
     /// Some SRAM has a limited number of ports.
     bool ports_limited() const {
         return gaussian_buffer.ports.limited() || span_buffer.ports.limited() ||

@@ -30,6 +30,13 @@ cost::BillOfMaterials DegsConfig::bill() const {
                   kReadAndWritten * (clusters * slicing.count * traffic.splat_bytes +
                                      sorting.count * traffic.list_entry_bytes),
                   shape(gaussian_buffer.ports));
+    if (front.built()) {
+        const int moved = front.splats_per_cycle != 0 ? front.splats_per_cycle
+                                                      : clusters * fetchers() * fetching.chunk;
+        bill.add_sram({"splat_supply", "FIFOs, windows and cache of the Splat Supply."},
+                      rows.gaussian_buffer, front.bytes(clusters, fetchers(), traffic.splat_bytes),
+                      kReadAndWritten * moved * traffic.splat_bytes, {});
+    }
     bill.add_sram({"feature_buffer", "Parameters of the splats in the banks."}, rows.feature_buffer,
                   many * feature_buffer.bytes,
                   kReadAndWritten * clusters * scheduler.banks * feature_buffer.entry_bytes,
@@ -75,6 +82,10 @@ void Degs::collect_activity(AcceleratorResult& result) const {
     add_activity(result, "gaussian_buffer",
                  bytes(splats, c.traffic.splat_bytes) +
                      bytes(front_end_->keys_moved(), c.traffic.list_entry_bytes));
+    if (supply_) {
+        add_activity(result, "splat_supply",
+                     bytes(supply_->stats().records_moved(), c.traffic.splat_bytes));
+    }
     add_activity(result, "feature_buffer", bytes(features, c.feature_buffer.entry_bytes));
     add_activity(result, "span_buffer",
                  bytes(sum_of(blocks_.slicing, &G::rows) + rows, c.span_buffer.row_bytes));

@@ -35,6 +35,12 @@ void Degs::collect_stages(AcceleratorResult& result) const {
     add_stage(result, kFetching, blocks_.fetchers.size(),
               sum_of(blocks_.fetchers, &SplatFetcher::Stats::busy),
               Counters().add(blocks_.fetchers));
+    if (supply_) {
+        Counters counters;
+        supply_->stats().describe(counters);
+        add_stage(result, {"splat_supply", "Splat Supply, busy when its bus carries a record."}, 1,
+                  supply_->stats().bus_busy, std::move(counters));
+    }
     add_stage(result, {"slicing", "Gaussian Slicing Units, without their waiting."},
               config_.clusters * config_.slicing.count,
               sum_of(blocks_.slicing, &GaussianSlicingUnit::Stats::busy),
@@ -128,6 +134,23 @@ void Degs::collect_laws(AcceleratorResult& result) const {
         });
 }
 
+void Degs::collect_supply_laws(AcceleratorResult& result) const {
+    if (!supply_) {
+        return;
+    }
+    const SplatSupply::Stats& stats = supply_->stats();
+    const RecordSharing::Stats& records = stats.records;
+    result.conservation.insert(
+        result.conservation.end(),
+        {
+            {"splat records fetched = asked of the supply",
+             sum_of(blocks_.fetchers, &SplatFetcher::Stats::records), records.requested},
+            {"splat records asked of the supply = read + captured + found in its cache",
+             records.requested, records.read + records.captured + records.hits},
+            {"splat records asked of the supply = delivered", records.requested, stats.delivered},
+        });
+}
+
 void Degs::explain(AcceleratorResult& result) const {
     auto& out = result.left_out;
     explain_tiles(result, sum_of(blocks_.fetchers, &SplatFetcher::Stats::records_cancelled));
@@ -173,6 +196,7 @@ void Degs::collect(AcceleratorResult& result) const {
     collect_activity(result);
     streams_.collect(result);
     collect_laws(result);
+    collect_supply_laws(result);
     explain(result);
 }
 

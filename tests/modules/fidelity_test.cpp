@@ -150,6 +150,13 @@ private:
         c.monitor.cancel = !chance(3);
         c.monitor.latency_cycles = among({8, 1, 50});
         c.binning.writes_in_flight = among({8, 1});
+        c.tile_order = static_cast<TileOrder>(among({0, 1}));
+        if (chance(2)) {
+            c.front.splats_per_cycle = among({0, 1, 5, 16});
+            c.front.fifo_splats = among({256, 32, 8});
+            c.front.multicast_window = among({0, 8, 64});
+            c.front.cache_bytes = among({0, 2048});
+        }
     }
     std::mt19937 random_;
 };

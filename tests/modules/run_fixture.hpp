@@ -107,6 +107,7 @@ inline Signature DegsRun::signature() const {
     words.add_unit("binner", degs().front_end().binner());
     words.add_units("sorting", degs().front_end().sorting());
     words.add_units("fetchers", degs().fetchers());
+    words.add_unit("supply", degs().supply());
     words.add_units("slicing", degs().slicing());
     words.add_units("spans", degs().spans());
     words.add_units("banks", degs().banks());
@@ -144,6 +145,13 @@ inline void expect_sound(const DegsRun& run) {
     EXPECT_EQ(issued, slots.useful + slots.boundary + slots.terminated);
     if (degs.config().scheduler.scoreboard) {
         EXPECT_EQ(run.hazards(), 0U);
+    }
+    if (degs.supply() != nullptr) {
+        const SplatSupply::Stats& supply = degs.supply()->stats();
+        EXPECT_EQ(sum_of(degs.fetchers(), &SplatFetcher::Stats::records), supply.records.requested);
+        EXPECT_EQ(supply.records.requested,
+                  supply.records.read + supply.records.captured + supply.records.hits);
+        EXPECT_EQ(supply.records.requested, supply.delivered);
     }
     const std::size_t streams = degs.monitors().size();
     EXPECT_EQ(sum_of(degs.pixel_buffers(), &PixelBuffer::Stats::tiles),
