@@ -79,6 +79,20 @@ void by_size(benchmark::State& state, const View& view, double limit) {
     state.counters["ns/fragment"] = of_large.ns_per_fragment();
 }
 
+/// Time per fragment on a design over that on degs-64, both as their files say.
+void by_design(benchmark::State& state, const std::string& design, const View& view, double limit) {
+    const Folder cache;
+    Times of_paper, of_other;
+    for (auto iteration : state) {
+        (void)iteration;
+        of_paper.add(run_design("degs-64", view, {"--no-reference"}, cache.path()));
+        of_other.add(run_design(design, view, {"--no-reference"}, cache.path()));
+        state.SetIterationTime(of_paper.sim_s + of_other.sim_s);
+    }
+    report_ratio(state, of_other.ns_per_fragment() / of_paper.ns_per_fragment(), limit);
+    state.counters["ns/fragment"] = of_other.ns_per_fragment();
+}
+
 void add_over_reference(const std::string& name, const View& view) {
     // Single precision is the machine's own. In the formats of `paper` every operation is rounded as well.
     const std::pair<const char*, double> numbers[] = {{"fp32", 2.0}, {"paper", 3.0}};
@@ -117,6 +131,14 @@ void register_frames() {
               [=](benchmark::State& state) { by_resolution(state, small, large, 1.2); });
     add_ratio("time of a frame, 1024 over 64 PEs",
               [=](benchmark::State& state) { by_size(state, small, 1.5); });
+    for (const std::string design : {"degs-x-64"}) {
+        for (const int camera : {2, 1}) {
+            const View view{object, camera, small.size};
+            add_ratio("time per fragment, " + design + " over degs-64/camera " +
+                          std::to_string(camera),
+                      [=](benchmark::State& state) { by_design(state, design, view, 1.6); });
+        }
+    }
 }
 
 } // namespace degs::bench
