@@ -94,6 +94,7 @@ std::vector<Broken> make_broken_rules() {
         {"degs-64",
          {"slicing.interleave=2", "pixel_buffer.bytes=32768", "feature_buffer.bytes=200"},
          "feature_buffer.bytes"},
+        {"degs-64", {"front.splats_per_cycle=4", "front.fifo_splats=16"}, "front.fifo_splats"},
         {"degs-64", {"span.rows_per_cycle=2", "span.cycles_per_row=3"}, "span.rows_per_cycle"},
         {"degs-64", {"packing.bytes=4096"}, "packing.bytes"},
         {"degs-64", {"scheduler.banks=64"}, "packing.bytes"},
