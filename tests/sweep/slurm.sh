@@ -11,7 +11,6 @@ for tool in slurmctld slurmd munged sbatch; do
 done
 
 folder=$(mktemp -d)
-own_munge=
 stop() { # FILE: ends the daemon with this pid file
     local pid
     pid=$(cat "$1" 2>/dev/null) || return 0
@@ -27,8 +26,7 @@ finish() {
         tail -n 20 "$folder"/*.log "$folder"/slurm-out/slurm/*.log 2>/dev/null || true
     fi
     scancel --user root 2>/dev/null || true
-    for file in n1 n2 slurmctld; do stop "$folder/$file.pid"; done
-    [[ -z $own_munge ]] || stop "$own_munge"
+    for file in n1 n2 slurmctld munged; do stop "$folder/$file.pid"; done
     rm -rf "$folder"
 }
 trap finish EXIT
@@ -41,13 +39,13 @@ until_true() { # SECONDS COMMAND...
     done
 }
 
-# The cluster: its ports are free ones, and everything lies in the folder, except for the socket of munge.
-if ! munge -n </dev/null >/dev/null 2>&1; then
-    mkdir -p /run/munge
-    chown munge: /run/munge
-    runuser -u munge -- munged
-    own_munge=/run/munge/munged.pid
-fi
+# The cluster: its ports are free ones, and everything lies in the folder, the socket of its own munge too.
+mkdir -m 755 "$folder/munge"
+chmod 755 "$folder"
+head -c 128 /dev/urandom >"$folder/munge/key"
+chmod 600 "$folder/munge/key"
+munged --socket="$folder/munge/socket" --key-file="$folder/munge/key" --pid-file="$folder/munged.pid" \
+    --log-file="$folder/munge/munged.log" --seed-file="$folder/munge/seed"
 free_ports=($(python3 -c "
 import socket
 sockets = [socket.socket() for _ in range(3)]
@@ -61,7 +59,7 @@ SlurmctldHost=$host(127.0.0.1)
 SlurmctldPort=${free_ports[0]}
 SlurmUser=root
 AuthType=auth/munge
-AuthInfo=cred_expire=5
+AuthInfo=cred_expire=5,socket=$folder/munge/socket
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
 SelectType=select/cons_tres
@@ -104,36 +102,48 @@ YAML
 "$program" sweep "$folder/study.yaml" --out "$folder/plain" >/dev/null 2>&1
 
 "$program" sweep "$folder/study.yaml" --out "$folder/slurm-out" --slurm --tasks 12 --sbatch --mem=100
-points() { find "$folder/slurm-out/points" -name '*.point' | wc -l; }
+points() { find "$folder/slurm-out/points" -name '*.point' 2>/dev/null | wc -l || true; }
 some_points() { [[ $(points) -ge 4 ]]; }
 until_true 60 some_points
 
-# The node is lost with all of its processes, in the midst of a task.
+# The node is lost with all of its processes, in the midst of a task. They are stopped first, one after the other from
+# the daemon down, so that no task begins or ends while the others are looked for.
 of_n1() { # pids of what runs there
     local environment
     for environment in $(grep -lszx 'SLURMD_NODENAME=n1' /proc/[0-9]*/environ || true); do
         if grep -qszx "SLURM_CONF=$SLURM_CONF" "$environment"; then cut -d/ -f3 <<<"$environment"; fi
     done
 }
-catch_n1() { # a task runs there, and its processes are found before it ends
-    lost=$(squeue -h -w n1 -t R -o %A)
-    victims=$(of_n1)
-    [[ -n $lost && -n $victims ]]
+stop_n1() { # a task runs there, and all of its processes stand still; otherwise the daemon goes on
+    lost=$(squeue -h -w n1 -t R -o %A) || return 1
+    [[ -n $lost ]] || return 1
+    kill -STOP "$daemon"
+    victims=
+    keepers=
+    local pid parent
+    for pid in $(of_n1); do
+        kill -STOP "$pid" 2>/dev/null || continue
+        parent=$(grep -s '^PPid:' "/proc/$pid/status" | cut -f2) || continue
+        victims+=" $pid"
+        [[ $(cat "/proc/$parent/comm" 2>/dev/null) != slurmstepd ]] || keepers+=" $parent"
+    done
+    [[ -z $victims || -z $keepers ]] || return 0
+    for pid in $victims "$daemon"; do kill -CONT "$pid" 2>/dev/null || true; done
+    return 1
 }
-until_true 60 catch_n1
-keepers=$(for pid in $victims; do grep -s '^PPid:' "/proc/$pid/status" | cut -f2; done | sort -u)
-kill -9 "$(cat "$folder/n1.pid")"
-for pid in $keepers; do
-    if [[ $(cat "/proc/$pid/comm" 2>/dev/null) == slurmstepd ]]; then kill -9 "$pid" 2>/dev/null || true; fi
-done
-for pid in $victims; do kill -9 "$pid" 2>/dev/null || true; done
+daemon=$(cat "$folder/n1.pid")
+until_true 60 stop_n1
+for pid in "$daemon" $keepers $victims; do kill -9 "$pid" 2>/dev/null || true; done
 rm -f "$folder/n1.pid"
 at_the_loss=$(points)
 echo "node n1 lost with job $lost, $at_the_loss of 36 points finished"
 [[ $at_the_loss -lt 36 ]]
 node_is_down() { [[ $(sinfo -h -n n1 -o %t) == down* ]]; }
 until_true 60 node_is_down
-queue_is_empty() { [[ -z $(squeue -h) ]]; }
+queue_is_empty() { # a controller that does not answer has not said so
+    local queue
+    queue=$(squeue -h) && [[ -z $queue ]]
+}
 until_true 200 queue_is_empty
 echo "queue empty, $(points) of 36 points finished"
 
