@@ -9,7 +9,7 @@
 
 `run` sweeps the designs of a group (64, 256, 1024, mechanisms) over the scenes of DEGS_SCENES that the
 search did not see, with cameras 2 (close-up) and 1 (small splats): the arrays alone, and whole accelerators on LPDDR5
-with 204.8 GB/s (or more) over a path of two frames. It goes on with what FOLDER has, and writes docs/beyond.csv, a row
+with 204.8 GB/s (or more) over a path of four frames. It goes on with what FOLDER has, and writes docs/beyond.csv, a row
 for each design, memory, scene and camera. Rows of other groups stay. `search` has the three other scenes at 720p. The
 program is DEGS_PROGRAM, or build/release/sim/degs."""
 import argparse
@@ -59,7 +59,7 @@ def write_study(file, group, memory, scenes):
     """A study with the designs of a group behind one memory."""
     lines = [f"study: beyond-{group}-{memory}", "reference: false", f"cameras: [{', '.join(CAMERAS)}]"]
     lines += [f"scenes: [{', '.join(str((SCENES_AT / name / 'scene.ply').resolve()) for name in scenes)}]"]
-    lines += ["array_only: true"] if memory == "alone" else ["frames: 2"]
+    lines += ["array_only: true"] if memory == "alone" else ["frames: 4"]
     lines.append("designs:")
     for name, config, keys in GROUPS[group]:
         if (group, memory) in ONLY_DEGS and not config.startswith("degs"):

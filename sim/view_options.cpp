@@ -62,7 +62,7 @@ void add_path_options(CLI::App& command, PathRequest& request) {
             .add_option(
                 "--frames", request.frames,
                 "frames of a camera path that starts at the view, or of a scene that changes; "
-                "from 2 on, throughput is measured, too")
+                "from 3 on, throughput is measured, too")
             ->check(CLI::Range(1, kMostFrames))
             ->capture_default_str();
     command

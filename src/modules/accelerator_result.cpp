@@ -43,7 +43,8 @@ void describe_timing(const AcceleratorResult& run, StatsVisitor& v) {
     v.list("frame_finished_cycles", ends_of(run.frames), "cycles",
            "Last pixel of each frame in memory.");
     v.real("throughput_fps", steady_fps(run), "frames/s",
-           "(frames - 1) / time from the first frame's end to the last's; null for one frame.");
+           "Steady state: (frames - 2) / time from the first frame's end to that of the last but "
+           "one, since nothing is preprocessed while the last is blended; null below 3 frames.");
     v.truth("array_only", run.array_only,
             "The run was of the rasterisation array alone (--array-only).");
     v.end_section();
@@ -183,11 +184,14 @@ void AcceleratorResult::describe(StatsVisitor& visitor) const {
 
 std::optional<double> steady_fps(const AcceleratorResult& result) {
     const auto& frames = result.frames;
-    if (frames.size() < 2 || frames.back().finished == frames.front().finished) {
+    if (frames.size() < 3) {
         return {};
     }
-    const auto cycles = static_cast<double>(frames.back().finished - frames.front().finished);
-    return static_cast<double>(frames.size() - 1) * result.clock_ghz * 1e9 / cycles;
+    const Cycle cycles = frames[frames.size() - 2].finished - frames.front().finished;
+    if (cycles == 0) {
+        return {};
+    }
+    return ratio_of(frames.size() - 2, cycles) * result.clock_ghz * 1e9;
 }
 
 std::string limiting_stage(const AcceleratorResult& result) {

@@ -119,8 +119,8 @@ struct AcceleratorResult {
     void describe(StatsVisitor& visitor) const;
 };
 
-/// Frames per second once the pipeline is full: of all frames but the first, which starts alone.
-/// Empty for fewer than two frames.
+/// Frames per second while the pipeline is full: of all frames but the first, which starts alone, and
+/// the last, behind which no other is preprocessed. Empty for fewer than three frames.
 std::optional<double> steady_fps(const AcceleratorResult& result);
 
 /// Name of the stage (or the memory) with the largest busy share of the run.

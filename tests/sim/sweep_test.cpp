@@ -61,7 +61,7 @@ std::map<std::string, fs::file_time_type> finished_in(const std::string& out) {
 
 TEST(SweepRuns, AgreeWithSingleRuns) {
     const Folder folder;
-    const std::string file = study(folder, std::string(kTwelve) + "frames: 2\n");
+    const std::string file = study(folder, std::string(kTwelve) + "frames: 3\n");
     expect_success(sweep(file, folder / "o", {"--jobs", "2"}));
     const nlohmann::json written = nlohmann::json::parse(read_file(folder / "o/results.json"));
     ASSERT_EQ(written["runs"].size(), 12U);

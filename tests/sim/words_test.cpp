@@ -92,13 +92,15 @@ TEST(Laws, BreachesAreNamed) {
     EXPECT_NE(broken_law(result).find("777 and 1 of 2 tiles"), std::string::npos);
 }
 
-TEST(SteadyFps, IsOfAllFramesButTheFirst) {
+TEST(SteadyFps, IsOfAllFramesButTheFirstAndTheLast) {
     AcceleratorResult result;
     result.clock_ghz = 2;
     EXPECT_FALSE(steady_fps(result));
     result.frames = {{0, 1000}};
     EXPECT_FALSE(steady_fps(result));
-    result.frames = {{0, 1000}, {0, 1400}, {0, 2000}};
+    result.frames = {{0, 1000}, {0, 1400}};
+    EXPECT_FALSE(steady_fps(result));
+    result.frames = {{0, 1000}, {0, 1400}, {0, 2000}, {0, 2100}};
     EXPECT_DOUBLE_EQ(steady_fps(result).value(), 4e6); // 2 frames in 1000 cycles of 0.5 ns
 }
 
