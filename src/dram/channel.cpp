@@ -111,7 +111,7 @@ void Channel::admit(Ck date, Outcome& outcome) {
         }
     }
     while (state_.queues.read_ready(date)) {
-        const Access access = state_.queues.take_read();
+        const Access access = state_.queues.take_read(date);
         outcome.admitted.push_back(access.id);
         if (access.after_write && state_.queues.covered(access)) {
             ++stats_.forwarded;

@@ -42,6 +42,7 @@ struct Outcome {
 ///
 /// Modelled:
 /// * read and write queue, FR-FCFS and simpler schedulers, open and closed page
+/// * urgent reads, which enter the read queue before others
 /// * writes in batches between two watermarks, and at once when no read waits
 /// * forwarding of reads from queued writes, and merging of writes
 /// * all-bank and per-bank refresh

@@ -30,6 +30,8 @@ struct ControllerConfig {
     Refresh refresh = Refresh::AllBank;
     bool refresh_stagger = false;
     bool posted_writes = true;
+    double urgent_share =
+        0; ///< of the read queue, kept free for urgent reads; set by the requester
     void describe(ConfigVisitor& visitor);
 };
 

@@ -9,6 +9,7 @@
 #include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
 #include "tlm/scattered_records.hpp"
+#include "tlm/urgent.hpp"
 
 namespace degs::dram {
 namespace {
@@ -172,6 +173,7 @@ void Lpddr5::take_in(Arrival& arrival) {
     request.address = arrival.payload->get_address();
     request.bytes = arrival.payload->get_data_length();
     request.write = arrival.payload->is_write();
+    request.urgent = !request.write && arrival.payload->get_extension<Urgent>() != nullptr;
     request.id = arrival.id;
     if (const auto* scattered = arrival.payload->get_extension<Scattered>()) {
         request.records = scattered->records;

@@ -18,6 +18,7 @@ struct Access {
     std::uint8_t block = 0;  ///< of 64 bytes in the row
     std::uint8_t bursts = 1; ///< mask: which bursts of the block
     bool write = false;
+    bool urgent = false;      ///< a read: waits for room in the queue before those that are not
     bool after_write = false; ///< a read: an older write to the block may be waiting
 };
 

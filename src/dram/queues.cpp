@@ -16,8 +16,10 @@ unsigned entries(double share, int depth) {
 Queues::Queues(const ControllerConfig& config)
     : posted_writes_(config.posted_writes),
       write_high_(std::max(1U, entries(config.write_high, config.write_queue))),
-      write_low_(entries(config.write_low, config.write_queue)), reads_(config.read_queue),
-      writes_(config.write_queue) {}
+      write_low_(entries(config.write_low, config.write_queue)),
+      most_ordinary_(
+          std::max(1U, config.read_queue - entries(config.urgent_share, config.read_queue))),
+      reads_(config.read_queue), writes_(config.write_queue) {}
 
 bool Queues::push(Access access) {
     if (access.write) {
@@ -27,7 +29,7 @@ bool Queues::push(Access access) {
     }
     access.after_write = writes_of_hash_[hash(access)] != 0;
     after_writes_ += access.after_write ? 1 : 0;
-    reads_in_.push_back(access);
+    (access.urgent ? urgent_in_ : reads_in_).push_back(access);
     return access.after_write;
 }
 
@@ -57,7 +59,7 @@ void Queues::remove(unsigned slot) {
 
 std::uint64_t Queues::bursts_left() const {
     std::uint64_t bursts = reads_.bursts_left() + writes_.bursts_left();
-    for (const auto* waiting : {&reads_in_, &writes_in_}) {
+    for (const auto* waiting : {&urgent_in_, &reads_in_, &writes_in_}) {
         for (const Access& access : *waiting) {
             bursts += bursts_of(access.bursts);
         }

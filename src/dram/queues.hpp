@@ -14,7 +14,8 @@ namespace degs::dram {
 
 /// The read queue and the write queue of a channel, the accesses that wait for their date or for room
 /// in them, and the choice of the queue that is served. Reads go first. Writes go in batches between
-/// two watermarks, or when no read waits.
+/// two watermarks, or when no read waits. Urgent reads enter the read queue before others, which leave
+/// a share of it free for them; once in the queue, all are equal.
 class Queues {
 public:
     explicit Queues(const ControllerConfig& config);
@@ -24,8 +25,11 @@ public:
     /// The earliest date of an access that waits and for which there is room.
     Ck next_admission() const {
         Ck date = kNoDate;
-        if (!reads_in_.empty() && !reads_.full()) {
-            date = reads_in_.front().date;
+        if (!urgent_in_.empty() && !reads_.full()) {
+            date = urgent_in_.front().date;
+        }
+        if (!reads_in_.empty() && ordinary_fit()) {
+            date = std::min(date, reads_in_.front().date);
         }
         if (!writes_in_.empty() && !writes_.full()) {
             date = std::min(date, writes_in_.front().date);
@@ -33,16 +37,20 @@ public:
         return date;
     }
     bool write_ready(Ck date) const { return ready(writes_in_, writes_, date); }
-    bool read_ready(Ck date) const { return ready(reads_in_, reads_, date); }
-    /// Takes the first that waits; it then is enqueued, merged, or answered from a write.
+    bool read_ready(Ck date) const {
+        return ready(urgent_in_, reads_, date) ||
+               (ordinary_fit() && ready(reads_in_, reads_, date));
+    }
+    /// Takes the first that is ready; it then is enqueued, merged, or answered from a write.
     Access take_write() {
         const Access access = writes_in_.front();
         writes_in_.pop_front();
         return access;
     }
-    Access take_read() {
-        const Access access = reads_in_.front();
-        reads_in_.pop_front();
+    Access take_read(Ck date) {
+        Waiting& reads = ready(urgent_in_, reads_, date) ? urgent_in_ : reads_in_;
+        const Access access = reads.front();
+        reads.pop_front();
         after_writes_ -= access.after_write ? 1 : 0;
         return access;
     }
@@ -76,33 +84,37 @@ public:
     /// True if nothing is queued and nothing waits for a queue.
     bool idle() const;
     /// Accesses that wait for room in a queue, or for their date.
-    std::size_t waiting() const { return reads_in_.size() + writes_in_.size(); }
+    std::size_t waiting() const { return urgent_in_.size() + reads_in_.size() + writes_in_.size(); }
     /// Bursts of all accesses that have not been issued, whether they wait in a queue or for one.
     std::uint64_t bursts_left() const;
     /// Something waits for room in a full queue.
     bool held_up() const {
-        return (reads_.full() && !reads_in_.empty()) || (writes_.full() && !writes_in_.empty());
+        return (reads_.full() && !urgent_in_.empty()) || (!ordinary_fit() && !reads_in_.empty()) ||
+               (writes_.full() && !writes_in_.empty());
     }
     bool has_writes() const { return writes_.size() != 0 || !writes_in_.empty(); }
     /// Accesses that wait for room may be answered when they get in.
     bool answers_at_admission() const { return after_writes_ != 0 || !writes_in_.empty(); }
 
 private:
-    static bool ready(const std::deque<Access>& waiting, const Queue& queue, Ck date) {
+    using Waiting = std::deque<Access>;
+    static bool ready(const Waiting& waiting, const Queue& queue, Ck date) {
         return !waiting.empty() && !queue.full() && waiting.front().date <= date;
     }
+    bool ordinary_fit() const { return reads_.size() < most_ordinary_; }
     static std::size_t hash(const Access& access) {
         return (access.row * 37U + access.bank * 11U + access.block) % 256;
     }
 
     bool posted_writes_;
     unsigned write_high_, write_low_; // entries
+    unsigned most_ordinary_;          // in the read queue no more enter that are not urgent
     Queue reads_, writes_;
-    std::deque<Access> reads_in_, writes_in_; // wait for their date or for room
+    Waiting urgent_in_, reads_in_, writes_in_; // wait for their date or for room
     bool writing_ = false;
     // The number of waiting writes by hash. It shows at arrival that a read has nothing to wait for.
     std::array<std::uint16_t, 256> writes_of_hash_{};
-    std::size_t after_writes_ = 0; // reads in reads_in_ with after_write
+    std::size_t after_writes_ = 0; // waiting reads with after_write
 };
 
 } // namespace degs::dram

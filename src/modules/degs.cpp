@@ -105,7 +105,7 @@ void Degs::build_back_ends() {
 void Degs::build_memory() {
     front_end_->connect_memory(streams_, blocks_.fetchers);
     if (supply_) {
-        streams_.connect(supply_->records, stream_kinds::kSplatsRead);
+        streams_.connect_urgent(supply_->records, stream_kinds::kSplatsRead);
     }
     for (auto& unit : blocks_.pixel_buffers) {
         streams_.connect(unit->frame_buffer, stream_kinds::kFrameBuffer);

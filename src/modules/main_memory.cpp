@@ -146,7 +146,7 @@ std::unique_ptr<MainMemory> make_main_memory(const char* name, const MainMemoryC
         return std::make_unique<UnlimitedMemory>(name, time);
     }
     if (config.model == MemoryModel::Lpddr5) {
-        return std::make_unique<Lpddr5Memory>(name, config.lpddr5, time);
+        return std::make_unique<Lpddr5Memory>(name, config.channels(), time);
     }
     return std::make_unique<BusMemory>(name, config, time);
 }

@@ -29,6 +29,7 @@ struct StreamKind {
 struct MemoryStream {
     MemoryPort* port;
     StreamKind kind;
+    bool urgent = false; ///< the frame that is blended waits for its reads
 };
 
 /// The traffic of one initiator.

@@ -14,6 +14,11 @@ void MemoryStreams::build(const char* name, const MainMemoryConfig& config, cons
         own_ = make_main_memory(name, config, time, options.array_only);
     }
     memory_ = options.memory == nullptr ? own_.get() : options.memory;
+    for (const MemoryStream& stream : streams_) {
+        if (stream.urgent && config.priority == ReadPriority::Blending) {
+            stream.port->make_urgent();
+        }
+    }
     memory_->connect(streams_);
     if (time.timeline != nullptr) {
         watched_.resize(streams_.size());

@@ -16,6 +16,10 @@ public:
 
     /// Initiators are numbered, and ties in time resolved, in the order of these calls.
     void connect(MemoryPort& port, const StreamKind& kind) { streams_.push_back({&port, kind}); }
+    /// The same for reads that the frame waits for that is blended, see ReadPriority.
+    void connect_urgent(MemoryPort& port, const StreamKind& kind) {
+        streams_.push_back({&port, kind, true});
+    }
     /// Elaborates the memory that `config` describes for all connected ports, or binds them to that
     /// of `options`. With arrays alone neither latency nor bandwidth count.
     void build(const char* name, const MainMemoryConfig& config, const Timebase& time,

@@ -44,6 +44,9 @@ Completion MemoryPort::access(Process& process, tlm::tlm_command command, std::u
     if (accepts_late_) {
         payload.set_extension(&may_answer_late_);
     }
+    if (is_urgent_ && command == tlm::TLM_READ_COMMAND) {
+        payload.set_extension(&urgent_);
+    }
     const Cycle asked = process.local();
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     const sc_core::sc_time date = clock_->at(process.local());
@@ -51,6 +54,7 @@ Completion MemoryPort::access(Process& process, tlm::tlm_command command, std::u
     out->b_transport(payload, delay);
     payload.clear_extension(&timing_only_);
     payload.clear_extension(&may_answer_late_);
+    payload.clear_extension(&urgent_);
     // A memory that waits has moved the kernel on; a process must not stay more than a cycle behind.
     const auto catch_up = [&] {
         process.advance_to(std::max<Cycle>(clock_->floor(sc_core::sc_time_stamp()), 1) - 1);

@@ -14,6 +14,7 @@
 #include "tlm/memory.hpp"
 #include "tlm/process.hpp"
 #include "tlm/scattered_records.hpp"
+#include "tlm/urgent.hpp"
 
 namespace degs {
 
@@ -37,6 +38,9 @@ public:
 
     /// Lets the memory answer late, see MayAnswerLate; before the simulation starts.
     void accept_late_answers() { accepts_late_ = true; }
+
+    /// Marks all reads as Urgent; before the simulation starts.
+    void make_urgent() { is_urgent_ = true; }
 
     /// Reads or writes `bytes` whose values the model does not keep. The access leaves at the local
     /// date of the process, which does not move. Returns when the transfer is complete.
@@ -87,6 +91,8 @@ private:
     TimingOnly timing_only_;
     MayAnswerLate may_answer_late_;
     bool accepts_late_ = false;
+    Urgent urgent_;
+    bool is_urgent_ = false;
     Scattered scattered_;
     Observer observer_;
     Watcher watcher_;

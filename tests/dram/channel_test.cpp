@@ -70,6 +70,31 @@ TEST_P(Lpddr5Latency, RowPingPongInABankTakesTrcEach) {
     EXPECT_EQ(all, 100U * static_cast<dram::Ck>(reference.rc()));
 }
 
+// A hundred reads wait, a row cycle each. One that comes later waits for those in the queue at most.
+TEST_P(Lpddr5Latency, UrgentReadsWaitForTheQueueOnly) {
+    for (const double share : {0.0, 0.5, 1.0}) {
+        dram::Config rows = config({"controller.scheduler=fcfs", "controller.read_queue=16"});
+        rows.controller.urgent_share = share;
+        for (const bool urgent : {false, true}) {
+            ChannelBench bench(rows);
+            for (int i = 0; i < 100; ++i) {
+                bench.push(10, 5, i % 2 + 1U);
+            }
+            const dram::Ck asked = 1000;
+            bench.run(asked - 1);
+            const auto late = bench.push(asked, 5, 3, false, 1, 0, urgent);
+            bench.run_out();
+            const dram::Ck first = bench.answers[0];
+            const auto rc = static_cast<dram::Ck>(reference.rc());
+            // The column commands of rows so far; a read leaves the queue with its own.
+            const dram::Ck served = (asked - 1 - (first - hit())) / rc + 1;
+            const dram::Ck in_queue = share == 0.0 ? 16 : share == 0.5 ? 8 : 1;
+            EXPECT_EQ((bench.answers[late] - first) / rc, urgent ? served + in_queue : 100)
+                << share << ' ' << urgent;
+        }
+    }
+}
+
 TEST_P(Lpddr5Latency, OneGroupHasHalfTheBus) {
     ChannelBench bench(config());
     const dram::Ck all = span(bench, 401, [](int i) { return std::pair(i % 4 + 0U, 9U); });

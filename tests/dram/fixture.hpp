@@ -157,7 +157,7 @@ public:
     ChannelBench& operator=(const ChannelBench&) = delete;
     ~ChannelBench() = default;
     std::uint32_t push(dram::Ck date, unsigned bank, unsigned row, bool write = false,
-                       unsigned bursts = 1, unsigned block = 0) {
+                       unsigned bursts = 1, unsigned block = 0, bool urgent = false) {
         dram::Access access;
         access.date = date;
         access.id = next_id_++;
@@ -166,6 +166,7 @@ public:
         access.block = static_cast<std::uint8_t>(block);
         access.bursts = static_cast<std::uint8_t>(bursts);
         access.write = write;
+        access.urgent = urgent;
         channel.push(access);
         return access.id;
     }

@@ -59,6 +59,30 @@ TEST_P(Frames, PaintTheReferenceAndStrictAgrees) {
 }
 INSTANTIATE_TEST_SUITE_P(InFlight, Frames, ::testing::Values(1, 2, 3));
 
+// The next frame's preprocessing keeps the only channel busy, and the frame that is blended waits.
+TEST(Frames, BlendingMayReadFirst) {
+    std::vector<FrameWorkload> frames;
+    for (unsigned seed : {1U, 2U, 3U, 4U}) {
+        frames.push_back(random_frame(seed, 80, 64, 32, 3000));
+    }
+    DegsConfig config = frames_config(2);
+    config.memory.model = MemoryModel::Lpddr5;
+    config.memory.lpddr5.channels = 1;
+    const DegsRun age("age", config, pointers(frames));
+    config.memory.priority = ReadPriority::Blending;
+    const DegsRun exact("exact", config, pointers(frames));
+    const DegsRun strict("strict", config, pointers(frames), Fidelity::Strict);
+    sc_core::sc_start();
+    test::expect_sound(exact);
+    test::expect_reference(exact);
+    test::expect_same_statistics(exact, strict);
+    const AcceleratorResult before = result_of(age);
+    const AcceleratorResult result = result_of(exact);
+    // Nothing comes before the first frame; while it is blended, the second is preprocessed.
+    EXPECT_LT(result.frames[0].finished, before.frames[0].finished);
+    EXPECT_GT(result.frames[1].preprocessed, before.frames[1].preprocessed);
+}
+
 // A frame without any splat in view has no tile that could end it.
 TEST(Frames, EmptyOnesDoNotStopTheOthers) {
     std::vector<FrameWorkload> frames = three_frames();

@@ -91,6 +91,9 @@ void draw_changes(Dice& dice, Trial& trial, const std::vector<Key>& keys) {
         put_if_known(trial, keys, "memory.layout", "morton");
     }
     if (dice.chance(0.3)) {
+        put_if_known(trial, keys, "memory.priority", "blending");
+    }
+    if (dice.chance(0.3)) {
         put_if_known(trial, keys, "clusters", std::to_string(2 + dice.below(4)));
     }
 }

@@ -174,12 +174,12 @@ void Engine::build_memory() {
         streams_.connect(grouping_->lists, kGroupListsWritten);
     }
     for (std::size_t cluster = 0; cluster < projection_.size(); ++cluster) {
-        streams_.connect(projection_[cluster]->lists, kGroupListsRead);
-        streams_.connect(projection_[cluster]->shapes, kShapes);
-        streams_.connect(colour_[cluster]->sh, stream_kinds::kSh);
+        streams_.connect_urgent(projection_[cluster]->lists, kGroupListsRead);
+        streams_.connect_urgent(projection_[cluster]->shapes, kShapes);
+        streams_.connect_urgent(colour_[cluster]->sh, stream_kinds::kSh);
     }
     for (auto& fetcher : fetchers_) {
-        streams_.connect(fetcher->records, stream_kinds::kSplatsRead);
+        streams_.connect_urgent(fetcher->records, stream_kinds::kSplatsRead);
     }
     for (auto& buffer : image_buffers_) {
         streams_.connect(buffer->frame_buffer, stream_kinds::kFrameBuffer);

@@ -84,16 +84,16 @@ void TileFrontEnd::connect_memory(MemoryStreams& streams,
     }
     for (std::size_t i = 0; i < std::max(sorted.size(), fetchers.size()); ++i) {
         if (i < sorting_.size()) {
-            streams.connect(sorting_[i]->loader.lists, stream_kinds::kTileListsSorted);
-            streams.connect(sorting_[i]->lists, stream_kinds::kTileListsSorted);
+            streams.connect_urgent(sorting_[i]->loader.lists, stream_kinds::kTileListsSorted);
+            streams.connect_urgent(sorting_[i]->lists, stream_kinds::kTileListsSorted);
         }
         if (i < hierarchical_.size()) {
-            streams.connect(hierarchical_[i]->loader.lists, stream_kinds::kTileListsSorted);
-            streams.connect(hierarchical_[i]->lists, stream_kinds::kTileListsSorted);
-            streams.connect(hierarchical_[i]->chunks, stream_kinds::kTileListsSorted);
+            streams.connect_urgent(hierarchical_[i]->loader.lists, stream_kinds::kTileListsSorted);
+            streams.connect_urgent(hierarchical_[i]->lists, stream_kinds::kTileListsSorted);
+            streams.connect_urgent(hierarchical_[i]->chunks, stream_kinds::kTileListsSorted);
         }
         if (i < fetchers.size()) {
-            streams.connect(fetchers[i]->records, stream_kinds::kSplatsRead);
+            streams.connect_urgent(fetchers[i]->records, stream_kinds::kSplatsRead);
         }
     }
 }
