@@ -16,22 +16,21 @@ void MainMemoryConfig::describe(ConfigVisitor& visitor) {
     visitor.choice(
         "priority", priority, {"age", "blending"},
         "which reads wait for room in the queues of a channel first: the older ones, or "
-        "those of the frame that is blended before those of the next one's preprocessing");
+        "those of the frame that is blended before those of the next one's preprocessing; a "
+        "bus has no queues");
     visitor.real(
         "urgent_share", urgent_share, 0.0, 1.0,
         "share of a channel's read queue that is kept free for the frame that is blended; a "
         "read waits for at most as many of the others as there may be in the queue "
         "[assumed]");
     visitor.section("lpddr5", lpddr5, "the keys of configs/memory/*.yaml");
-    if (model == MemoryModel::Bus) {
-        visitor.unused("lpddr5", "model", "memory.model is bus");
-        visitor.unused("priority", "model", "memory.model is bus, which has no queues");
-        visitor.unused("urgent_share", "model", "memory.model is bus, which has no queues");
-        visitor.unused("layout", "model", "memory.model is bus, which has no addresses");
-        return;
-    }
     if (priority == ReadPriority::Age) {
         visitor.unused("urgent_share", "priority", "memory.priority is age");
+    }
+    if (model == MemoryModel::Bus) {
+        visitor.unused("lpddr5", "model", "memory.model is bus");
+        visitor.unused("layout", "model", "memory.model is bus, which has no addresses");
+        return;
     }
     constexpr const char* kReason = "memory.model is lpddr5, which has keys of its own";
     for (const char* key : {"bandwidth_gb_per_s", "latency_ns", "access_bytes"}) {

@@ -12,7 +12,8 @@ namespace degs {
 /// come. A stream that is granted tiles does not know which is its last one: kNoTile ends it.
 class TileEnd {
 public:
-    /// `granted_streams`: those whose end the block is told; 0: all tiles of the job come.
+    /// `granted_streams`: number of tile streams that end with kNoTile; 0 if tiles are not granted, so
+    /// that the block sees all tiles of the job.
     TileEnd(const RenderJob& job, std::size_t granted_streams)
         : job_(job), granted_streams_(granted_streams) {}
 
