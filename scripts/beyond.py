@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The machines of docs/beyond-the-paper.md against those of the paper and the baselines.
 
-    beyond.py run [FOLDER] [--only GROUP]... [--scene NAME]... [--jobs N]
+    beyond.py run [FOLDER] [--only GROUP]... [--memory SETTING]... [--scene NAME]... [--jobs N]
     beyond.py search SIZE [FOLDER]       `degs explore` of the study beyond-SIZE
     beyond.py picture FILE               throughput over area of the machines in docs/beyond.csv, as SVG
     beyond.py table GROUP TABLE          a Markdown table from docs/beyond.csv; TABLE: array, GB/s, memory
 
-`run` sweeps the designs of a group (64, 256, 1024, mechanisms) over the scenes of DEGS_SCENES that the
-search did not see, with cameras 2 (close-up) and 1 (small splats): the arrays alone, and whole accelerators on LPDDR5
-with 204.8 GB/s (or more) over a path of four frames. It goes on with what FOLDER has, and writes docs/beyond.csv, a row
-for each design, memory, scene and camera. Rows of other groups stay. `search` has the three other scenes at 720p. The
+`run` sweeps the designs of a group (64, 256, 1024, mechanisms, front, 4k) over the scenes of DEGS_SCENES that the
+search did not see, with cameras 2 (close-up) and 1 (small splats), in each setting of the group: `alone` (arrays), or
+the GB/s of an LPDDR5 memory for whole accelerators over a path of four frames (4k: one frame). It goes on with what
+FOLDER has, and writes docs/beyond.csv, a row for each design, setting, scene and camera. Other rows stay. `search` has the three other scenes at 720p. The
 program is DEGS_PROGRAM, or build/release/sim/degs."""
 import argparse
 import csv
@@ -29,23 +29,39 @@ SCENES = ["fruit-drops", "guitar", "seal", "skull", "st-peter"]
 SEARCHED = ["flowers", "flowers-small", "garden-crop"]
 CAMERAS = ["2", "1"]
 MEMORIES = {"204.8": ("lpddr5-6400x256", ""), "102.4": ("lpddr5-6400x128", ""),
-            "819.2": ("lpddr5-6400x256", ", channels: 64")}  # GB/s: a file of configs/memory, and other keys
+            "409.6": ("lpddr5-6400x256", ", channels: 32"), "819.2": ("lpddr5-6400x256", ", channels: 64")}  # GB/s: a file of configs/memory, and other keys
 NAMES = {"2": "close-up", "1": "small splats"}
 COLUMNS = ["group", "design", "memory", "scene", "camera", "utilization", "bound", "bounded_by", "conflict", "starved",
            "terminated", "throughput_fps", "latency_ms", "nj_per_frame", "area_mm2", "dram_gb_per_s", "limited_by"]
 BASELINES = ("gscore", "gbu", "gcc")
+PRIORITY = {"memory.priority": "blending"}
 # Designs of a group: name, file of configs, and keys over its values.
 GROUPS = {
     "64": [("degs-64", "degs-64", {}), ("degs-64-tuned", "degs-64-tuned", {}), ("degs-x-64", "degs-x-64", {}),
            *((f"{name}-64", f"{name}-64", {}) for name in BASELINES)],
-    "256": [("degs-256", "degs-256", {}), ("degs-x-256", "degs-x-256", {}), ("4 × gcc-64", "gcc-64", {"clusters": 4})],
-    "1024": [("degs-1024", "degs-1024", {}), ("degs-x-1024", "degs-x-1024", {})],
+    "256": [("degs-256", "degs-256", {}), ("degs-x-256", "degs-x-256", {}),
+            ("4 × gscore-64", "gscore-64", {"clusters": 4}), ("gbu-256", "gbu-256", {}),
+            ("4 × gcc-64", "gcc-64", {"clusters": 4})],
+    "1024": [("degs-1024", "degs-1024", {}), ("degs-x-1024", "degs-x-1024", {}),
+             ("16 × gcc-64", "gcc-64", {"clusters": 16})],
     "mechanisms": [("degs-x-64", "degs-x-64", {}),
                    ("pairs of segments", "degs-x-64", {"scheduler.reuse_cycles": 2, "array.writeback_cycles": 2}),
                    ("no conflicts", "degs-x-64", {"scheduler.reuse_cycles": 1, "array.writeback_cycles": 1})],
+    # The front end of degs-x-256 step by step, and what smaller records would bring.
+    "front": [("degs-256", "degs-256", {}), ("degs-256, priority", "degs-256", PRIORITY),
+              ("degs-x-256", "degs-x-256", {}),
+              ("without priority", "degs-x-256", {"memory.priority": "age"}),
+              ("without the cache", "degs-x-256", {"front.cache_bytes": 0}),
+              ("multicast for the cache", "degs-x-256", {"front.cache_bytes": 0, "front.multicast_window": 64}),
+              ("longest list first", "degs-x-256", {"tile_order": "longest_list"}),
+              ("records in Morton order", "degs-x-256", {"memory.layout": "morton"}),
+              ("list entries of 6 B", "degs-x-256", {"traffic.list_entry_bytes": 6}),
+              ("SH of 1 B", "degs-x-256", {"traffic.sh_value_bytes": 1})],
+    "4k": [(name, name, {}) for name in ("degs-64", "degs-x-64", "degs-256", "degs-x-256")],
 }
-SETTINGS = {"64": ["alone", "204.8"], "256": ["alone", "204.8"], "1024": ["819.2"],
-            "mechanisms": ["alone"]}
+SETTINGS = {"64": ["alone", "204.8", "102.4"], "256": ["alone", "204.8", "409.6"], "1024": ["819.2", "204.8"],
+            "mechanisms": ["alone"], "front": ["204.8"], "4k": ["204.8"]}
+ONLY_CAMERA = {"front": "1"}
 PICTURED = [("64", "204.8"), ("256", "204.8"), ("1024", "819.2")]
 ONLY_DEGS = [("256", "alone")]  # settings without baselines
 
@@ -57,9 +73,10 @@ def mean(values):
 
 def write_study(file, group, memory, scenes):
     """A study with the designs of a group behind one memory."""
-    lines = [f"study: beyond-{group}-{memory}", "reference: false", f"cameras: [{', '.join(CAMERAS)}]"]
+    lines = [f"study: beyond-{group}-{memory}", "reference: false", f"cameras: [{ONLY_CAMERA.get(group) or ', '.join(CAMERAS)}]"]
     lines += [f"scenes: [{', '.join(str((SCENES_AT / name / 'scene.ply').resolve()) for name in scenes)}]"]
-    lines += ["array_only: true"] if memory == "alone" else ["frames: 4"]
+    lines += ["array_only: true"] if memory == "alone" else [
+        "resolutions: 4k" if group == "4k" else "frames: 4"]
     lines.append("designs:")
     for name, config, keys in GROUPS[group]:
         if (group, memory) in ONLY_DEGS and not config.startswith("degs"):
@@ -69,12 +86,13 @@ def write_study(file, group, memory, scenes):
         for key, value in keys.items():
             section, _, rest = key.partition(".")
             sections.setdefault(section, []).append((rest, value))
+        priority = "".join(f"{rest}: {value}, " for rest, value in sections.pop("memory", []))
         for section, values in sections.items():
             inside = ", ".join(f"{rest}: {value}" for rest, value in values)
             lines.append(f"    {section}: " + (f"{{ {inside} }}" if values[0][0] else str(values[0][1])))
         if memory != "alone":
             file_name, keys = MEMORIES[memory]
-            lines.append("    memory: { model: lpddr5, lpddr5: { include: "
+            lines.append(f"    memory: {{ {priority}model: lpddr5, lpddr5: {{ include: "
                          f"{ROOT / 'configs/memory' / (file_name + '.yaml')}{keys} }} }}")
     Path(file).write_text("\n".join(lines) + "\n", encoding="utf-8")
 
@@ -113,7 +131,7 @@ def rows_of(group, memory, folder):
             with open(folder / f"reports/{number:06}{ending}.json", encoding="utf-8") as file:
                 return json.load(file)
         frame = report("")
-        path = frame if memory == "alone" else report("-path")
+        path = frame if memory == "alone" or group == "4k" else report("-path")
         bound, by = bound_of(frame) if memory == "alone" else ("", "")
         slots, dram = frame["slots"], path["dram"]
         rows.append({
@@ -134,15 +152,15 @@ def run(options):
     """All sweeps of the groups, then docs/beyond.csv."""
     folder = Path(options.folder or tempfile.mkdtemp())
     rows = []
-    groups = options.only or list(GROUPS)
-    for group in groups:
-        for memory in SETTINGS[group]:
-            name = f"{group}-{memory}"
-            folder.mkdir(parents=True, exist_ok=True)
-            write_study(folder / (name + ".yaml"), group, memory, options.scene or SCENES)
-            sweep(folder / (name + ".yaml"), folder / name, "--jobs", str(options.jobs))
-            rows += rows_of(group, memory, folder / name)
-    kept = [row for row in measured() if row["group"] not in groups] if MEASURED.exists() else []
+    done = [(group, memory) for group in options.only or list(GROUPS) for memory in SETTINGS[group]
+            if memory in (options.memory or SETTINGS[group])]
+    for group, memory in done:
+        name = f"{group}-{memory}"
+        folder.mkdir(parents=True, exist_ok=True)
+        write_study(folder / (name + ".yaml"), group, memory, options.scene or SCENES)
+        sweep(folder / (name + ".yaml"), folder / name, "--jobs", str(options.jobs))
+        rows += rows_of(group, memory, folder / name)
+    kept = [row for row in measured() if (row["group"], row["memory"]) not in done] if MEASURED.exists() else []
     with open(MEASURED, "w", encoding="utf-8", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         writer.writeheader()
@@ -198,15 +216,15 @@ def table_array(group):
 
 def table_whole(group, memory):
     """Throughput, per mm2 and per joule over the first design."""
-    headings = [f"LPDDR5, {memory} GB/s", "mm²"]
-    for camera in CAMERAS:
-        headings += [f"{NAMES[camera]}: fps", "×", "per mm²", "per J"]
     designs, rows = select(group, memory), []
     first = next(iter(designs.values()))
+    headings = [f"LPDDR5, {memory} GB/s", "mm²"]
+    for camera in first:
+        headings += [f"{NAMES[camera]}: fps", "×", "per mm²", "per J"]
     for design, views in designs.items():
-        area = float(views[CAMERAS[0]][0]["area_mm2"])
+        area = float(views[next(iter(first))][0]["area_mm2"])
         cells = [design, f"{area:.2f}"]
-        for camera in CAMERAS:
+        for camera in first:
             fps, energy = (column(views[camera], each) / column(first[camera], each)
                            for each in ("throughput_fps", "nj_per_frame"))
             per_area = fps / area * float(first[camera][0]["area_mm2"])
@@ -289,6 +307,7 @@ def main():
     runs = commands.add_parser("run")
     runs.add_argument("folder", nargs="?")
     runs.add_argument("--only", action="append", choices=list(GROUPS))
+    runs.add_argument("--memory", action="append", choices=["alone", *MEMORIES])
     runs.add_argument("--scene", action="append")
     searches = commands.add_parser("search")
     searches.add_argument("size")
