@@ -294,9 +294,10 @@ def picture(file):
                 out.append(f'<text x="{x - 6:.1f}" y="{y + 4:.1f}" text-anchor="end">{fps}</text>')
         for design, area, by in found:
             x, y = place(area, by[camera])
-            colour = "#2166ac" if "-x-" in design else "#b2182b" if "degs" in design else "#777777"
+            colour, shift = (("#2166ac", -5) if "-x-" in design else ("#b2182b", 5) if "degs" in design else
+                             ("#777777", 13))  # labels that are near each other stand apart
             out += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="4" fill="{colour}"/>',
-                    f'<text x="{x + 7:.1f}" y="{y + 4:.1f}" font-size="10">{design}</text>']
+                    f'<text x="{x + 6:.1f}" y="{y + shift:.1f}" font-size="10">{design}</text>']
     Path(file).write_text("\n".join(out + ["</svg>"]) + "\n", encoding="utf-8")
 
 
