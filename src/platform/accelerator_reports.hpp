@@ -10,8 +10,9 @@ namespace degs {
 namespace reports {
 constexpr const char* kConfig =
     "/DeGS/accelerator/config"; ///< error: problem() of the configuration
-constexpr const char* kOptions = "/DeGS/accelerator/options"; ///< error or warning
-constexpr const char* kClock = "/DeGS/accelerator/clock";     ///< error or warning
+constexpr const char* kOptions = "/DeGS/accelerator/options";   ///< error or warning
+constexpr const char* kClock = "/DeGS/accelerator/clock";       ///< error or warning
+constexpr const char* kProtocol = "/DeGS/accelerator/protocol"; ///< error of an AT target
 } // namespace reports
 
 /// Reports an error, which throws sc_core::sc_report unless the platform has chosen other actions,

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "platform/accelerator_reports.hpp"
 #include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
 
@@ -217,7 +219,10 @@ void AtRequester::take(Transaction& transaction, const tlm::tlm_phase& phase,
     } else if (phase == tlm::BEGIN_RESP && !transaction.answered) {
         answer(transaction, true, delay);
     } else if (phase <= tlm::END_RESP) {
-        SC_REPORT_ERROR(name(), "a target sent a phase that the base protocol does not allow here");
+        const std::string text =
+            std::string(name()) +
+            ": a target sent a phase that the base protocol does not allow here";
+        SC_REPORT_ERROR(reports::kProtocol, text.c_str());
     }
 }
 

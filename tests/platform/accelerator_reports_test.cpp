@@ -170,5 +170,40 @@ TEST(SmallRunAcceleratorOptions, AreKeys) {
     EXPECT_THROW(ConfigSource::from_overrides({"memory.transport=axi"}).load(options), InputError);
 }
 
+/// Ends a response that it has not begun.
+class EndingTarget : public sc_core::sc_module {
+public:
+    tlm_utils::simple_target_socket<EndingTarget> in;
+    explicit EndingTarget(const sc_core::sc_module_name& name)
+        : sc_core::sc_module(name), in("in") {
+        in.register_nb_transport_fw(this, &EndingTarget::forward);
+    }
+
+private:
+    tlm::tlm_sync_enum forward(tlm::tlm_generic_payload& /*payload*/, tlm::tlm_phase& phase,
+                               sc_core::sc_time& /*delay*/) {
+        phase = tlm::END_RESP;
+        return tlm::TLM_UPDATED;
+    }
+};
+
+TEST_F(SmallRunReports, APhaseThatTheBaseProtocolForbids) {
+    Accelerator::Options options;
+    options.memory.transport = MemoryGateway::Transport::At;
+    const GaussianCloud cloud = test_cloud();
+    Platform p("p", DegsConfig(), cloud, nullptr, options);
+    EndingTarget target("target");
+    p.accelerator.mem.bind(target.in);
+    p.host.script = [&](Host& host) {
+        program(host, cloud, test_camera());
+        host.render();
+    };
+    EXPECT_THROW(sc_core::sc_start(), sc_core::sc_report);
+    ASSERT_FALSE(reported().empty());
+    EXPECT_EQ(reported().front().type, "/DeGS/accelerator/protocol");
+    EXPECT_EQ(reported().front().severity, sc_core::SC_ERROR);
+    EXPECT_THAT(reported().front().text, HasSubstr("p.gateway"));
+}
+
 } // namespace
 } // namespace degs::test

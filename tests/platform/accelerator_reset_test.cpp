@@ -11,7 +11,7 @@
 namespace degs::test {
 namespace {
 
-enum class Bus { Annotated, Blocking, FourPhases };
+enum class Bus { Annotated, Blocking, FourPhases, Quantum };
 
 Accelerator::Options options_of(Bus bus, Fidelity fidelity) {
     Accelerator::Options options;
@@ -19,6 +19,8 @@ Accelerator::Options options_of(Bus bus, Fidelity fidelity) {
     if (bus == Bus::FourPhases) {
         options.memory.transport = MemoryGateway::Transport::At;
         options.memory.burst_bytes = 64;
+    } else if (bus == Bus::Quantum) {
+        options.memory.pacing = Pacing::Quantum;
     }
     return options;
 }
@@ -175,7 +177,7 @@ private:
 using Design = std::tuple<std::size_t, Bus, Fidelity>; // by number among accelerator_kinds()
 
 std::string design_name(const ::testing::TestParamInfo<Design>& design) {
-    constexpr const char* kBuses[] = {"Annotated", "Blocking", "FourPhases"};
+    constexpr const char* kBuses[] = {"Annotated", "Blocking", "FourPhases", "Quantum"};
     const bool strict = std::get<2>(design.param) == Fidelity::Strict;
     return accelerator_kinds()[std::get<0>(design.param)].name +
            std::string(kBuses[static_cast<std::size_t>(std::get<1>(design.param))]) +
@@ -187,22 +189,26 @@ class SmallRunReset : public ::testing::TestWithParam<Design> {};
 TEST_P(SmallRunReset, FramesAfterItAreThoseAfterPowerOn) {
     const auto& [kind, bus, fidelity] = GetParam();
     const bool quick = fidelity == Fidelity::Exact;
+    const sc_core::sc_time quantum(bus == Bus::Quantum ? 100 : 0, sc_core::SC_NS);
+    tlm::tlm_global_quantum::instance().set(quantum);
     const ResetBench bench(*accelerator_kinds()[kind].make(), bus, fidelity, quick ? 50 : 24);
     EXPECT_GT(bench.written, 0U);
     EXPECT_GT(bench.missing, bench.written / 10);
-    // An access that is on the bus takes 50 ns, and what is left of the frame 2 ps per cycle.
-    EXPECT_LT(bench.longest, sc_core::sc_time(60, sc_core::SC_NS) +
+    // An access that is on the bus, up to a quantum ahead, takes 50 ns, and what is left of the frame
+    // 2 ps per cycle.
+    EXPECT_LT(bench.longest, quantum + sc_core::sc_time(60, sc_core::SC_NS) +
                                  sc_core::sc_time::from_value(4 * bench.cycles()));
     RecordProperty("cycles", std::to_string(bench.cycles()));
     RecordProperty("longest_stop", bench.longest.to_string());
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, SmallRunReset,
-    ::testing::Combine(::testing::Range(std::size_t{0}, accelerator_kinds().size()),
-                       ::testing::Values(Bus::Annotated, Bus::Blocking, Bus::FourPhases),
-                       ::testing::Values(Fidelity::Exact, Fidelity::Strict)),
-    design_name);
+INSTANTIATE_TEST_SUITE_P(All, SmallRunReset,
+                         ::testing::Combine(::testing::Range(std::size_t{0},
+                                                             accelerator_kinds().size()),
+                                            ::testing::Values(Bus::Annotated, Bus::Blocking,
+                                                              Bus::FourPhases, Bus::Quantum),
+                                            ::testing::Values(Fidelity::Exact, Fidelity::Strict)),
+                         design_name);
 
 // What runs through several frames in hardware, such as whose turn it is among tile streams.
 TEST(SmallRunResetOfADesign, StreamsAndEnginesBeginAnew) {
