@@ -90,6 +90,35 @@ INSTANTIATE_TEST_SUITE_P(All, SmallRunAtAccelerator,
 
 using SmallRunAtPlatform = SmallRunAtAccelerator;
 
+// Two clusters share records that come late, captured for others and from the cache.
+TEST_F(SmallRunAtPlatform, ClustersShareRecordsThatComeLate) {
+    config.clusters = 2;
+    config.front.fifo_splats = 128;
+    config.front.multicast_window = 16;
+    config.front.cache_bytes = 4096;
+    Accelerator::Options strict_options = four_phases();
+    strict_options.fidelity = Fidelity::Strict;
+    AtPlatform exact("exact", config, cloud);
+    AtPlatform strict("strict", config, cloud, strict_options);
+    AtPlatform mixed("mixed", config, cloud);
+    Platform annotated("annotated", config, cloud, Timing::Annotated);
+    mixed.at.ending = Ending::Mixed;
+    std::uint64_t cycles[4] = {};
+    exact.host.script = frame(cycles[0]);
+    strict.host.script = frame(cycles[1]);
+    mixed.host.script = frame(cycles[2]);
+    annotated.host.script = frame(cycles[3]);
+    sc_core::sc_start();
+    EXPECT_TRUE(exact.host.finished && strict.host.finished && mixed.host.finished);
+    EXPECT_EQ(cycles[0], cycles[1]);
+    for (const AtPlatform* platform : {&exact, &strict, &mixed}) {
+        EXPECT_EQ(platform->pixels(camera), annotated.frame(camera));
+        EXPECT_EQ(platform->at.under_way, 0U);
+    }
+    // 50 ns and half a cycle at least lie between a request and its answer.
+    EXPECT_GE(cycles[0], cycles[3]);
+}
+
 TEST_F(SmallRunAtPlatform, StrictTakesTheSameTime) {
     Accelerator::Options strict_options = four_phases();
     strict_options.fidelity = Fidelity::Strict;
