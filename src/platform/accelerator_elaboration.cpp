@@ -38,10 +38,8 @@ const Accelerator::Options& Accelerator::checked(const Options& options) const {
         refuse(reports::kOptions, name(),
                "limits of 0 Gaussians or pixels leave nothing to render");
     }
-    if (options.memory.transport == MemoryGateway::Transport::At &&
-        options.memory.outstanding == 0) {
-        refuse(reports::kOptions, name(),
-               "memory.outstanding is 0, but an AT memory needs at least 1 transaction in flight");
+    if (const std::string wrong = MemoryGateway::problem(options.memory); !wrong.empty()) {
+        refuse(reports::kOptions, name(), wrong);
     }
     return options;
 }

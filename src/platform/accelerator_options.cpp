@@ -36,6 +36,9 @@ void Accelerator::Options::describe(ConfigVisitor& visitor) {
                 "at: the same of one stream");
     visit_count(visitor, "burst_bytes", memory.burst_bytes, 0,
                 "bytes; a power of two from 4 on, 0 cuts no access");
+    visitor.choice("burst_ends", memory.burst_ends, {"pieces", "full_bursts"},
+                   "where an access begins or ends inside of a burst: smaller transactions, or the "
+                   "whole burst, with byte enables if it is written");
     visitor.choice("pacing", memory.pacing, {"exact", "quantum", "annotated"},
                    "when accesses are issued");
     visitor.end_section();

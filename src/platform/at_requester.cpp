@@ -127,11 +127,7 @@ AtRequester::Transaction& AtRequester::make(const Payload& access, unsigned char
     part.sequence = sequence_++;
     part.by_phase = part.answered = false;
     part.set_command(access.get_command());
-    part.set_address(piece.address);
-    part.set_data_ptr(data + piece.offset);
-    part.set_data_length(piece.bytes);
-    part.set_streaming_width(piece.bytes);
-    part.set_byte_enable_ptr(nullptr);
+    part.burst.open(part, piece, data);
     part.set_dmi_allowed(false);
     part.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
     part.set_extension(access.get_extension<TimingOnly>());
@@ -145,6 +141,7 @@ void AtRequester::free(Payload* payload) {
 }
 
 void AtRequester::end_part(Transaction& transaction) {
+    transaction.burst.close(transaction);
     if (--transaction.access->left == 0) {
         end(*transaction.access);
     }

@@ -11,7 +11,7 @@
 #include <tlm>
 #include <tlm_utils/peq_with_get.h>
 
-#include "platform/burst_cutter.hpp"
+#include "platform/full_burst.hpp"
 
 namespace degs {
 
@@ -78,6 +78,7 @@ private:
         std::uint64_t sequence = 0;
         bool by_phase = false; // answered with BEGIN_RESP, so END_RESP is due
         bool answered = false;
+        FullBurst burst;
     };
     struct Queue { // of a rank, in the order of dates
         std::deque<Transaction*> waiting;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "platform/burst_cutter.hpp"
 
+#include <algorithm>
+
 #include "tlm/scattered_records.hpp"
 
 namespace degs {
@@ -18,17 +20,26 @@ std::uint64_t aligned_piece(std::uint64_t address, std::uint64_t burst, std::uin
 } // namespace
 
 std::vector<AccessPiece> cut_into_bursts(const tlm::tlm_generic_payload& access,
-                                         std::uint64_t burst_bytes) {
+                                         std::uint64_t burst_bytes, BurstEnds ends) {
+    const bool full = ends == BurstEnds::FullBursts && burst_bytes != 0;
     std::vector<AccessPiece> pieces;
     unsigned int offset = 0;
+    const auto add = [&](std::uint64_t address, std::uint64_t bytes, std::uint64_t lead,
+                         std::uint64_t tail) {
+        const auto count = [](std::uint64_t value) { return static_cast<unsigned int>(value); };
+        pieces.push_back({address, offset, count(bytes), count(lead), count(tail)});
+        offset += count(bytes);
+    };
     for_each_run(access, [&](std::uint64_t address, const unsigned char*, std::uint64_t bytes) {
         for (const std::uint64_t end = address + bytes; address != end;) {
             const std::uint64_t room = end - address;
-            const auto piece = static_cast<unsigned int>(
-                burst_bytes == 0 ? room : aligned_piece(address, burst_bytes, room));
-            pieces.push_back({address, offset, piece});
+            const std::uint64_t lead = full ? address % burst_bytes : 0;
+            const std::uint64_t piece = full ? std::min(room, burst_bytes - lead)
+                                        : burst_bytes == 0
+                                            ? room
+                                            : aligned_piece(address, burst_bytes, room);
+            add(address, piece, lead, full ? burst_bytes - lead - piece : 0);
             address += piece;
-            offset += piece;
         }
     });
     return pieces;

@@ -12,12 +12,21 @@ namespace degs {
 struct AccessPiece {
     std::uint64_t address = 0;
     unsigned int offset = 0, bytes = 0; ///< inside the data of the access, as TLM counts them
+    /// Bytes of the transaction in front of the piece and behind it; 0 unless ends are full bursts.
+    unsigned int lead = 0, tail = 0;
+    /// Bytes of the transaction, which begins at `address - lead`.
+    unsigned int length() const { return lead + bytes + tail; }
 };
+
+/// Where a run begins or ends inside of a burst. `Pieces`: it is cut into smaller naturally aligned
+/// transactions. `FullBursts`: the whole burst, with byte enables if it is written.
+enum class BurstEnds { Pieces, FullBursts };
 
 /// The pieces of an access: one per run of bytes that it moves, see Scattered. With `burst_bytes` > 0, a power of
 /// two, every run is cut into naturally aligned pieces of a power of two: whole bursts, and smaller ones
-/// where a run begins or ends inside of one.
+/// where a run begins or ends inside of one, unless `ends` says that their transactions are whole bursts, too.
 std::vector<AccessPiece> cut_into_bursts(const tlm::tlm_generic_payload& access,
-                                         std::uint64_t burst_bytes);
+                                         std::uint64_t burst_bytes,
+                                         BurstEnds ends = BurstEnds::Pieces);
 
 } // namespace degs

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "platform/full_burst.hpp"
 #include "tlm/scattered_records.hpp"
 
 namespace degs {
@@ -15,10 +16,8 @@ MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options&
                              const ClockDomain& clock)
     : sc_core::sc_module(name), out("out"), in_("in"), options_(options), clock_(clock),
       pacer_(options.transport == Transport::At ? Pacing::Exact : options.pacing, clock) {
-    const std::uint64_t burst = options.burst_bytes;
-    if (burst != 0 && (burst < 4 || (burst & (burst - 1)) != 0)) {
-        throw std::invalid_argument(std::string(this->name()) +
-                                    ": bytes of a burst must be a power of two from 4 on, or 0");
+    if (const std::string wrong = problem(options); !wrong.empty()) {
+        throw std::invalid_argument(std::string(this->name()) + ": " + wrong);
     }
     if (options.transport == Transport::At) {
         requester_ = std::make_unique<AtRequester>(
@@ -26,6 +25,24 @@ MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options&
             AtRequester::Limits{options.outstanding, options.outstanding_per_stream});
         out.register_nb_transport_bw(this, &MemoryGateway::backward);
     }
+}
+
+std::string MemoryGateway::problem(const Options& options) {
+    const std::uint64_t burst = options.burst_bytes;
+    if (burst != 0 && (burst < 4 || (burst & (burst - 1)) != 0)) {
+        return "memory.burst_bytes is " + std::to_string(burst) +
+               ", but must be a power of two from 4 on, or 0";
+    }
+    if (burst == 0 && options.burst_ends == BurstEnds::FullBursts) {
+        return "memory.burst_ends are full bursts, but memory.burst_bytes is 0, which cuts no "
+               "access into bursts";
+    }
+    if (options.transport == Transport::At &&
+        (options.outstanding == 0 || options.outstanding_per_stream == 0)) {
+        return std::string("memory.outstanding") + (options.outstanding == 0 ? "" : "_per_stream") +
+               " is 0, but an AT memory needs at least 1 transaction in flight";
+    }
+    return "";
 }
 
 void MemoryGateway::connect(const std::vector<MemoryStream>& streams) {
@@ -86,7 +103,7 @@ void MemoryGateway::note(tlm::tlm_response_status status) {
 std::shared_ptr<LateAnswer> MemoryGateway::start(int port,
                                                  const tlm::tlm_generic_payload& payload) {
     auto answer = std::make_shared<LateAnswer>();
-    const Pieces pieces = cut_into_bursts(payload, options_.burst_bytes);
+    const Pieces pieces = cut(payload);
     ++under_way_;
     const bool observed = payload.is_read() && of_scene_[port];
     requester_->start(static_cast<unsigned>(port), payload, pieces,
@@ -110,11 +127,11 @@ void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload,
     }
     ++under_way_;
     if (requester_) {
-        requester_->transport(rank, payload, cut_into_bursts(payload, options_.burst_bytes), delay);
+        requester_->transport(rank, payload, cut(payload), delay);
     } else if (options_.burst_bytes == 0 && payload.get_extension<Scattered>() == nullptr) {
         out->b_transport(payload, delay);
     } else {
-        access_pieces(payload, cut_into_bursts(payload, options_.burst_bytes), delay);
+        access_pieces(payload, cut(payload), delay);
     }
     end_access(delay);
 }
@@ -153,6 +170,7 @@ void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Piece
     payload.clear_extension(scattered);
     const sc_core::sc_time date = sc_core::sc_time_stamp() + delay;
     sc_core::sc_time done = date;
+    FullBurst burst;
     tlm::tlm_response_status status = tlm::TLM_OK_RESPONSE;
     for (const AccessPiece& piece : pieces) {
         if (detached_) { // while the last piece was on the bus
@@ -160,12 +178,10 @@ void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Piece
         }
         const sc_core::sc_time now = sc_core::sc_time_stamp();
         sc_core::sc_time wait = date > now ? date - now : sc_core::SC_ZERO_TIME;
-        payload.set_address(piece.address);
-        payload.set_data_ptr(data + piece.offset);
-        payload.set_data_length(piece.bytes);
-        payload.set_streaming_width(piece.bytes);
+        burst.open(payload, piece, data);
         payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
         out->b_transport(payload, wait);
+        burst.close(payload);
         done = std::max(done, sc_core::sc_time_stamp() + wait);
         status = status == tlm::TLM_OK_RESPONSE ? payload.get_response_status() : status;
     }

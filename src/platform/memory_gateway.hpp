@@ -37,10 +37,14 @@ public:
         /// Accesses are cut into naturally aligned transactions of a power of two up to this, see
         /// cut_into_bursts(); a power of two from 4 on, or 0, which cuts nothing.
         std::uint64_t burst_bytes = 0;
-        Pacing pacing = Pacing::Exact; ///< AT is exact
+        BurstEnds burst_ends = BurstEnds::Pieces; ///< FullBursts: only with `burst_bytes`
+        Pacing pacing = Pacing::Exact;            ///< AT is exact
     };
 
     tlm_utils::simple_initiator_socket<MemoryGateway> out;
+
+    /// What is wrong with options, as a sentence without its end; empty if nothing is.
+    static std::string problem(const Options& options);
 
     explicit MemoryGateway(const sc_core::sc_module_name& name);
     /// `clock` is that of the streams. Throws std::invalid_argument if an option is out of range.
@@ -90,6 +94,9 @@ public:
 
 private:
     using Pieces = std::vector<AccessPiece>;
+    Pieces cut(const tlm::tlm_generic_payload& access) const {
+        return cut_into_bursts(access, options_.burst_bytes, options_.burst_ends);
+    }
     void serve(int port, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
     void access(unsigned rank, tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
     std::shared_ptr<LateAnswer> start(int port, const tlm::tlm_generic_payload& payload);

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # systemc.sh BUILD COMPILER: builds the library and the tests of the accelerator on a platform with the SystemC under
 # the prefix DEGS_OTHER_SYSTEMC, where every warning is an error, also that of a deprecated call, and runs the tests.
+# DEGS_CCI_PREFIX, if set, is that of a SystemC CCI that was built with this SystemC; its parameters are tested then.
 # Keeps its build beside BUILD. Exits with 77 if no prefix is named.
 set -euo pipefail
 
@@ -17,7 +18,8 @@ other=$build-other-systemc
 cmake -S "$(cached CMAKE_HOME_DIRECTORY)" -B "$other" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O1 -g0" \
     -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_COMPILER_LAUNCHER="$(cached DEGS_CCACHE)" -DCMAKE_UNITY_BUILD=ON \
     -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 -DDEGS_BUILD_SIM=OFF -DDEGS_WARNINGS_AS_ERRORS=ON -DDEGS_BUILD_TESTS=ON \
-    -DCMAKE_PREFIX_PATH="$prefix" -DDEGS_SCENES="$(cached DEGS_SCENES)" >"$other.log" || { cat "$other.log"; exit 1; }
+    -DCMAKE_PREFIX_PATH="$prefix" -DDEGS_CCI_PREFIX="${DEGS_CCI_PREFIX:-}" \
+    -DDEGS_SCENES="$(cached DEGS_SCENES)" >"$other.log" || { cat "$other.log"; exit 1; }
 grep "degs: SystemC .*$prefix" "$other.log"
 cmake --build "$other" --target degs_platform_tests
 cd "$other"

@@ -53,7 +53,12 @@ private:
         if (payload.is_read()) {
             std::memcpy(payload.get_data_ptr(), here, payload.get_data_length());
         } else {
-            std::memcpy(here, payload.get_data_ptr(), payload.get_data_length());
+            const unsigned char* const enables = payload.get_byte_enable_ptr();
+            for (unsigned int i = 0; i < payload.get_data_length(); ++i) {
+                const bool enabled =
+                    enables == nullptr || enables[i % payload.get_byte_enable_length()] != 0;
+                here[i] = enabled ? payload.get_data_ptr()[i] : here[i];
+            }
         }
         payload.set_response_status(tlm::TLM_OK_RESPONSE);
         return true;
