@@ -100,8 +100,8 @@ RunResult simulate(const RunRequest& request, CachedView& view, const Stopwatch&
     const std::vector<FrameWorkload> workloads = view.frames(request.config.accelerator());
     std::optional<Reference>
         reference; // now if it needs Gaussians that are there, else after the run
-    const bool from_scene =
-        request.reference && view.has_cloud() && !workloads.front().projection.format.is_fp64();
+    const bool from_scene = request.reference && view.has_cloud() &&
+                            !workloads.front().projection.numbers.is_reference();
     if (from_scene && !request.sampling) {
         reference = view.reference(workloads.front());
     }

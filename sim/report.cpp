@@ -36,8 +36,9 @@ void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, S
     v.count("dropped", scene.dropped.total(), "Gaussians", "The sum of scene.dropped.");
     v.count("visible", workload.visible, "Gaussians", "Splats that at least one tile lists.");
     describe_culled(workload.culled, v);
-    v.text("projection", workload.projection.format.name(),
-           "Format in which the accelerator's splats were projected.");
+    v.text("projection", workload.projection.numbers.name(),
+           "Formats in which the accelerator's splats were projected, and those of "
+           "SH coefficients and depth keys if they are not the default.");
     v.text("order", name_of(workload.projection.order),
            "What splats are blended by: depth is view z, distance that to the camera.");
     v.text("antialiasing", workload.projection.compensated ? "on" : "off",

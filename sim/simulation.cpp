@@ -87,12 +87,12 @@ Reference make_reference(const FrameWorkload& workload) {
 }
 
 Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame, double& seconds) {
-    if (frame.projection.format.is_fp64()) {
+    if (frame.projection.numbers.is_reference()) {
         return make_reference(frame);
     }
     const Stopwatch clock;
     ProjectionOptions options = frame.projection;
-    options.format = NumberFormat();
+    options.numbers = ProjectionNumbers();
     const FrameWorkload exact =
         make_frame_workload(cloud, frame.camera, frame.tile_size, frame.tile_mode, options);
     seconds += clock.seconds();

@@ -40,7 +40,7 @@ AccuracyNumbers numbers_of(const std::string& text, const std::string& span_ends
 }
 
 ProjectionOptions projected_in(const NumberSet& set, ProjectionOptions options) {
-    options.format = set.projection;
+    options.numbers = set.projection_numbers();
     return options;
 }
 

@@ -22,14 +22,14 @@ struct Frame {
     const GaussianCloud* cloud = nullptr;
     FrameWorkload workload; ///< in double
     Image reference;
-    FrameWorkload projected; ///< in the format of the last set that has one of its own
+    FrameWorkload projected; ///< in the formats of the last set that has its own
 
     /// The frame as the hardware of a set sees it.
     const FrameWorkload& in(const NumberSet& set) {
-        if (set.projection.is_fp64()) {
+        if (set.projection_numbers().is_reference()) {
             return workload;
         }
-        if (projected.projection.format != set.projection) {
+        if (projected.projection.numbers != set.projection_numbers()) {
             projected =
                 make_frame_workload(*cloud, workload.camera, workload.tile_size, TileMode::Exact,
                                     projected_in(set, workload.projection));

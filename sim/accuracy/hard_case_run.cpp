@@ -100,10 +100,10 @@ Projected project_in(const Prepared& prepared, const ProjectionOptions& options,
 
 /// The scene as the hardware of a set sees it.
 const Projected& projected_for(const NumberSet& set, Prepared& prepared) {
-    if (set.projection.is_fp64()) {
+    if (set.projection_numbers().is_reference()) {
         return prepared.exact;
     }
-    const auto [at, added] = prepared.others.try_emplace(set.projection.name());
+    const auto [at, added] = prepared.others.try_emplace(set.projection_numbers().name());
     if (added) {
         at->second = project_in(prepared, projected_in(set, prepared.scene.projection),
                                 prepared.exact.workload.tile_size);

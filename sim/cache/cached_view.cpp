@@ -84,7 +84,7 @@ Reference CachedView::reference(const FrameWorkload& frame) {
     if (std::optional<Reference> kept = cache_.reference(frame_key(0), frame)) {
         return std::move(*kept);
     }
-    Reference made = frame.projection.format.is_fp64()
+    Reference made = frame.projection.numbers.is_reference()
                          ? make_reference(frame)
                          : make_reference(cloud(), frame, workload_s_);
     reference_made_ = made.render_s > kWorthKeeping;

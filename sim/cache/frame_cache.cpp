@@ -87,7 +87,7 @@ std::string frame_key(const std::string& scene, const Camera& camera, int tile_s
     BinaryWriter out;
     out.put(std::string("frame"));
     out.put(scene);
-    put_view(out, camera, options, options.format.name());
+    put_view(out, camera, options, options.numbers.name());
     out.put(tile_size);
     out.put(mode);
     return out.bytes;
@@ -98,7 +98,7 @@ std::string reference_key(const std::string& scene, const FrameWorkload& frame) 
     BinaryWriter out;
     out.put(std::string("reference"));
     out.put(scene);
-    put_view(out, frame.camera, frame.projection, NumberFormat().name());
+    put_view(out, frame.camera, frame.projection, ProjectionNumbers().name());
     out.put(frame.tile_mode);
     out.put(frame.tile_mode == TileMode::Exact ? 0 : frame.tile_size);
     return out.bytes;

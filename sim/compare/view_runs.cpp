@@ -12,7 +12,7 @@
 namespace degs::sim {
 namespace {
 
-/// Frames depend on these: the rules, the format of the projection (empty for fp64, whose frames are
+/// Frames depend on these: the rules, the formats of the projection (empty for those of the reference, whose frames
 /// the reference's and come first), the side of a tile and the tile mode.
 using FrameKind = std::tuple<RuleKind, std::string, int, TileMode>;
 
@@ -24,7 +24,7 @@ std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedC
     for (std::size_t c : configs) {
         const AcceleratorConfig& config = all[c].config.accelerator();
         const ProjectionOptions rules = projection_of(config.data_path(), traits.antialiased);
-        groups[{rule_kind(rules), rules.format.is_fp64() ? "" : rules.format.name(),
+        groups[{rule_kind(rules), rules.numbers.is_reference() ? "" : rules.numbers.name(),
                 config.tile_size_px(), config.tile_mode()}]
             .push_back(c);
     }

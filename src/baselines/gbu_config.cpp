@@ -42,6 +42,7 @@ void GbuConfig::describe(ConfigVisitor& visitor) {
                     "px; grows with the PEs like the tiles of DeGS [assumed]");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
+    pipeline.require_records(visitor, traffic.sh_value_bytes, traffic.list_entry_bytes);
     visitor.section("projection", projection, "GSCore's culling and conversion units");
     visitor.section("binning", binning, "tile lists");
     visitor.section("sorting", sorting, "GSCore's hierarchical sorting units");

@@ -33,6 +33,7 @@ void GscoreConfig::describe(ConfigVisitor& visitor) {
         "end; beyond the paper");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
+    pipeline.require_records(visitor, traffic.sh_value_bytes, traffic.list_entry_bytes);
     visitor.section("projection", projection, "culling and conversion units");
     visitor.section("binning", binning, "tile lists");
     visitor.section("sorting", sorting, "hierarchical sorting units");

@@ -27,6 +27,30 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
     visitor.end_section();
 }
 
+void PipelineConfig::require_records(ConfigVisitor& visitor, int sh_value_bytes,
+                                     int list_entry_bytes) const {
+    const ProjectionNumbers stored = options(SpanEnds::Exact, 0).projection;
+    const ProjectionNumbers untouched;
+    const auto require_sh = [&](const NumberFormat& format, const char* key) {
+        const int bytes = (format.storage_bits() + 7) / 8;
+        visitor.require(format == untouched.sh_dc || bytes <= sh_value_bytes,
+                        {"traffic.sh_value_bytes",
+                         "must hold an SH coefficient of " + format.name(),
+                         std::to_string(bytes),
+                         {key}});
+    };
+    require_sh(stored.sh_dc, "pipeline.formats.sh_dc");
+    require_sh(stored.sh_rest, "pipeline.formats.sh_rest");
+    constexpr int kLeastIndexBits = 16;
+    const NumberFormat& key = stored.depth_key;
+    const int bytes = (key.storage_bits() + kLeastIndexBits + 7) / 8;
+    visitor.require(key == untouched.depth_key || bytes <= list_entry_bytes,
+                    {"traffic.list_entry_bytes",
+                     "must hold a depth key of " + key.name() + " and an index of 16 bits at least",
+                     std::to_string(bytes),
+                     {"pipeline.formats.depth_key"}});
+}
+
 int PipelineConfig::pixel_bits() const {
     return degs::pixel_bits(formats.applied_to(set_of(numbers)));
 }

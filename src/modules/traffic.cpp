@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/traffic.hpp"
 
+#include "config/error.hpp"
+
 namespace degs {
 
 void TrafficConfig::describe(ConfigVisitor& visitor) {
@@ -28,12 +30,28 @@ std::uint64_t times(std::uint64_t count, int bytes) {
     return count * bytes;
 }
 
+/// List entries with a depth key of fewer bits hold an index in the rest; the default entry has 32
+/// bits for either.
+void require_indices(const TrafficConfig& traffic, const FrameWorkload& frame) {
+    const NumberFormat& key = frame.projection.numbers.depth_key;
+    const int bits = 8 * traffic.list_entry_bytes - key.storage_bits();
+    if (key != ProjectionNumbers().depth_key && bits < 32 &&
+        frame.splats.size() > std::uint64_t{1} << bits) {
+        throw InputError("A frame has " + std::to_string(frame.splats.size()) +
+                         " visible splats, but list entries of " +
+                         std::to_string(traffic.list_entry_bytes) + " B with depth keys " +
+                         key.name() + " leave " + std::to_string(bits) +
+                         " bits for the index; raise traffic.list_entry_bytes.");
+    }
+}
+
 } // namespace
 
 MemoryMap::MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame,
                      const MemoryBases& bases)
     : geometry(bases.geometry), sh(bases.sh), splats(bases.workspace),
       frame_buffer(bases.frame_buffer) {
+    require_indices(traffic, frame);
     if (!bases.given) {
         sh = geometry + aligned(times(frame.gaussians, traffic.geometry_bytes));
         splats = sh + aligned(frame.gaussians * traffic.sh_bytes(frame.sh_degree));

@@ -33,9 +33,9 @@ struct DataPathOptions {
     int delta = 0; ///< px added at both ends that are not exact, in place of a number set's own
     StopRule stop = StopRule::Refuse;
     std::optional<NumberSet> set = std::nullopt; ///< in place of `numbers`: any formats
-    /// The format in which its frames are projected (ProjectionOptions::format). The data path
+    /// The formats in which its frames are projected (ProjectionOptions::numbers). The data path
     /// itself takes splats as they are.
-    NumberFormat projection = {};
+    ProjectionNumbers projection = {};
     RenderingRules rules = {}; ///< likewise
     /// test() forms exponents so; nothing: as a completed square.
     std::optional<ExponentGemm> gemm = std::nullopt;
@@ -50,7 +50,7 @@ NumberSet set_of(Arithmetic arithmetic);
 /// ends. Throws InputError, which lists the names, for any other.
 DataPathOptions named_numbers(const std::string& name);
 /// The same with parts changed ("key=value" of NumberSet::describe). fp32 and fp64 stay the
-/// machine's own operations if the projection alone is.
+/// machine's own operations if projection, SH coefficients and depth keys alone are.
 DataPathOptions named_numbers(const std::string& name, const std::vector<std::string>& assignments);
 /// The formats, span ends and projection of any set.
 DataPathOptions options_of(const NumberSet& set);

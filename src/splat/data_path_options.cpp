@@ -37,7 +37,7 @@ DataPathOptions options_of(const NumberSet& set) {
     options.ends = set.ends;
     options.delta = set.delta;
     options.set = set;
-    options.projection = set.projection;
+    options.projection = set.projection_numbers();
     return options;
 }
 
@@ -60,7 +60,7 @@ DataPathOptions named_numbers(const std::string& name,
     DataPathOptions options = options_of(set);
     const bool same =
         std::all_of(assignments.begin(), assignments.end(), [](const std::string& assignment) {
-            return assignment.rfind("projection=", 0) == 0;
+            return NumberSet::makes_splats(assignment.substr(0, assignment.find('=')));
         });
     if (same) {
         options.set.reset();

@@ -177,11 +177,14 @@ void project_all(const GaussianCloud& cloud, const Binner& binner, FrameWorkload
 }
 
 /// Positions in near-to-far order. Bits of positive floats order like their values; the position
-/// in the low half makes the order of equal depths that of the cloud.
-std::vector<std::uint64_t> depth_order(const std::vector<ProjectedSplat>& splats) {
+/// in the low half makes the order of equal keys that of the cloud. `format` is one that fits
+/// floats; rounding keeps the order, and what lies beyond it is infinite or its last value.
+std::vector<std::uint64_t> depth_order(const std::vector<ProjectedSplat>& splats,
+                                       const NumberFormat& format) {
+    const Rounder key_of(format);
     std::vector<std::uint64_t> keys(splats.size());
     for (std::size_t i = 0; i < splats.size(); ++i) {
-        const auto depth = static_cast<float>(splats[i].depth);
+        const auto depth = static_cast<float>(key_of(splats[i].depth));
         std::uint32_t bits = 0;
         std::memcpy(&bits, &depth, sizeof bits);
         keys[i] = static_cast<std::uint64_t>(bits) << 32 | i;
@@ -244,7 +247,8 @@ FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& came
 
     Binner binner(grid, mode);
     project_all(cloud, binner, work);
-    const std::vector<std::uint64_t> order = depth_order(work.splats);
+    const std::vector<std::uint64_t> order =
+        depth_order(work.splats, work.projection.numbers.depth_key);
     reorder(work.splats, order);
     reorder(work.tiles_touched, order);
     fill_lists(binner, work);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "splat/numbers/stored_sh.hpp"
 #include "splat/pixel_index.hpp"
 #include "splat/spherical_harmonics.hpp"
 
@@ -62,7 +63,7 @@ public:
           k_(n_, camera, options), alpha_min_(options.alpha_min),
           cut_(options.cut < kNoCut ? value_of(n_(options.cut))
                                     : std::numeric_limits<double>::infinity()),
-          order_(options.order), compensated_(options.compensated) {}
+          order_(options.order), compensated_(options.compensated), stored_sh_(options.numbers) {}
 
     Cull project_anywhere(std::size_t index, ProjectedSplat& out) const override;
     Cull shade(std::size_t index, ProjectedSplat& out) const override;
@@ -100,6 +101,7 @@ private:
     double alpha_min_, cut_;
     SplatOrder order_;
     bool compensated_;
+    StoredSh stored_sh_;
 };
 
 /// Rotation matrix of a quaternion in slot order w, x, y, z. Dividing by |q|^2 makes it orthonormal
@@ -212,7 +214,10 @@ Cull ProjectorIn<Numbers>::shade(std::size_t index, ProjectedSplat& out) const {
     if (cloud_.sh_degree > 0) { // without higher bands the colour has no direction
         direction = direction * (k_.one / root_of(dot(direction, direction)));
     }
-    const Vector sum = evaluate_sh(n_, cloud_.sh_degree, cloud_.sh_of(index), direction);
+    StoredSh::Values stored;
+    const float* const coefficients =
+        stored_sh_.read(cloud_.sh_of(index), cloud_.sh_degree, stored);
+    const Vector sum = evaluate_sh(n_, cloud_.sh_degree, coefficients, direction);
     const double rgb[] = {value_of(k_.half + sum.x), value_of(k_.half + sum.y),
                           value_of(k_.half + sum.z)};
     const bool finite = std::isfinite(rgb[0] + rgb[1] + rgb[2]);
@@ -228,10 +233,10 @@ std::unique_ptr<Projector> make_projector(const GaussianCloud& cloud, const Came
                                           const ProjectionOptions& options) {
     using Double = MachineNumbers<double>;
     using Single = MachineNumbers<float>;
-    if (options.format.is_fp64()) {
+    if (options.numbers.format.is_fp64()) {
         return std::make_unique<ProjectorIn<Double>>(cloud, camera, options, Double());
     }
-    if (options.format == parse_format("fp32")) {
+    if (options.numbers.format == parse_format("fp32")) {
         return std::make_unique<ProjectorIn<Single>>(cloud, camera, options, Single());
     }
     return make_rounding_projector(cloud, camera, options);
@@ -240,7 +245,7 @@ std::unique_ptr<Projector> make_projector(const GaussianCloud& cloud, const Came
 std::unique_ptr<Projector> make_rounding_projector(const GaussianCloud& cloud, const Camera& camera,
                                                    const ProjectionOptions& options) {
     return std::make_unique<ProjectorIn<RoundedNumbers>>(cloud, camera, options,
-                                                         RoundedNumbers(options.format));
+                                                         RoundedNumbers(options.numbers.format));
 }
 
 Cull Projector::project(std::size_t index, ProjectedSplat& out) const {

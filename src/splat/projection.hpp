@@ -7,7 +7,7 @@
 
 #include "splat/camera.hpp"
 #include "splat/gaussian.hpp"
-#include "splat/numbers/number_format.hpp"
+#include "splat/numbers/projection_numbers.hpp"
 
 namespace degs {
 
@@ -30,7 +30,7 @@ struct ProjectionOptions {
     /// that splats thinner than a pixel keep their weight when the low-pass filter widens them
     /// (Mip-Splatting; option `antialiasing` of the original code).
     bool compensated = false;
-    NumberFormat format; ///< every operation is rounded to it; fp64 and fp32 are native
+    ProjectionNumbers numbers; ///< in which formats, and what lists are sorted by
 };
 
 /// The smallest ratio of determinants that counts, as in the original code.

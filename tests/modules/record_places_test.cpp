@@ -6,6 +6,7 @@
 #include <numeric>
 #include <random>
 
+#include "config/error.hpp"
 #include "tests/modules/run_fixture.hpp"
 
 namespace degs {
@@ -82,6 +83,29 @@ TEST(RecordPlaces, OnlyAddressesFollowTheOrder) {
     EXPECT_EQ(bytes(runs[2]->result()), bytes(runs[3]->result()));
     EXPECT_NE(runs[2]->result().dram_activity->all.accesses,
               runs[3]->result().dram_activity->all.accesses);
+}
+
+// Entries of 4 B with keys of 16 bits hold indices below 65 536.
+TEST(MemoryMaps, RefuseIndicesThatEntriesDoNotHold) {
+    FrameWorkload frame;
+    frame.projection.numbers.depth_key = parse_format("ue4m12b3");
+    TrafficConfig traffic;
+    traffic.list_entry_bytes = 4;
+    frame.splats.resize(65535);
+    EXPECT_NO_THROW(MemoryMap(traffic, frame));
+    frame.splats.resize(65536);
+    EXPECT_NO_THROW(MemoryMap(traffic, frame));
+    frame.splats.resize(65537);
+    try {
+        const MemoryMap map(traffic, frame);
+        ADD_FAILURE() << map.lists;
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(),
+                     "A frame has 65537 visible splats, but list entries of 4 B with depth keys "
+                     "ue4m12b3 leave 16 bits for the index; raise traffic.list_entry_bytes.");
+    }
+    frame.projection.numbers = {};
+    EXPECT_NO_THROW(MemoryMap(traffic, frame)); // as entries of any size with fp32 keys
 }
 
 } // namespace

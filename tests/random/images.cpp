@@ -67,7 +67,7 @@ std::string differs(std::size_t frame, const char* from, const Image& a, const I
 bool is_exact(const DataPathOptions& options, bool spans) {
     const bool fp64 = options.numbers == Arithmetic::Fp64 || options.numbers == Arithmetic::Ideal;
     return fp64 && !options.set && options.stop == StopRule::Refuse &&
-           options.projection.is_fp64() && (!spans || options.ends == SpanEnds::Exact);
+           options.projection.is_reference() && (!spans || options.ends == SpanEnds::Exact);
 }
 
 /// Frames of which the wrong image of the first is enough to say.

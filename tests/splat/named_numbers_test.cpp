@@ -104,16 +104,16 @@ TEST(NamedNumbers, MistakesAreNamed) {
 // fp32 and fp64 keep the machine's own operations if splats alone come from elsewhere.
 TEST(NamedNumbers, ProjectionIsNoPartOfTheDataPath) {
     for (const char* name : {"fp32", "fp64", "ideal"}) {
-        EXPECT_EQ(named_numbers(name).projection, parse_format("fp64"));
+        EXPECT_EQ(named_numbers(name).projection.format, parse_format("fp64"));
     }
     for (const char* name : {"fp16", "paper", "tuned"}) {
-        EXPECT_EQ(named_numbers(name).projection, parse_format("fp32"));
+        EXPECT_EQ(named_numbers(name).projection.format, parse_format("fp32"));
     }
     const DataPathOptions native = named_numbers("fp32", {"projection=bf16"});
-    EXPECT_EQ(native.projection, parse_format("bf16"));
+    EXPECT_EQ(native.projection.format, parse_format("bf16"));
     EXPECT_FALSE(native.set);
     const DataPathOptions changed = named_numbers("fp64", {"projection=fp32", "alpha=uq0.12"});
-    EXPECT_EQ(changed.projection, parse_format("fp32"));
+    EXPECT_EQ(changed.projection.format, parse_format("fp32"));
     ASSERT_TRUE(changed.set);
     EXPECT_EQ(changed.set->alpha, parse_format("uq0.12"));
     EXPECT_THROW(named_numbers("tuned", {"projection=ue8m20"}), InputError);

@@ -144,7 +144,7 @@ FrameWorkload near_pair(const std::string& format) {
     test::add_gaussian(cloud, {0.03, 0.01, 3}, {0.3F, 0.3F, 0.3F}, upright, 0.6F,
                        {0.9F, 0.1F, 0.1F});
     ProjectionOptions options;
-    options.format = parse_format(format);
+    options.numbers.format = parse_format(format);
     return make_frame_workload(cloud, test::make_camera(32, 32, 40), 32, TileMode::Exact, options);
 }
 

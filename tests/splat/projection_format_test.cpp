@@ -14,7 +14,7 @@ using test::make_camera;
 
 ProjectionOptions in(const std::string& format) {
     ProjectionOptions options;
-    options.format = parse_format(format);
+    options.numbers.format = parse_format(format);
     return options;
 }
 

@@ -30,6 +30,7 @@ void Config::describe(ConfigVisitor& visitor) {
                     "[assumed]");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
+    pipeline.require_records(visitor, traffic.sh_value_bytes, traffic.list_entry_bytes);
     visitor.section("grouping", grouping, "Stage I: depth groups");
     visitor.section("projection", projection, "Stage II: projection of groups");
     visitor.section("colour", colour, "Stage III: mask, SH, exact order");

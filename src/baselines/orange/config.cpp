@@ -59,6 +59,7 @@ void Config::describe(ConfigVisitor& visitor) {
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("gemm", gemm, "the product of matrices that forms exponents");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
+    pipeline.require_records(visitor, traffic.sh_value_bytes, traffic.list_entry_bytes);
     visitor.section("projection", projection,
                     "projection, at the rate of GSCore's units; it does not compete for the vector "
                     "units [assumed]");

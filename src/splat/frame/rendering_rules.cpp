@@ -64,14 +64,15 @@ void RenderingRules::describe(ConfigVisitor& visitor) {
         "(reference code); 9: KHR_gaussian_splatting");
 }
 
-ProjectionOptions RenderingRules::options(bool antialiased, const NumberFormat& format) const {
+ProjectionOptions RenderingRules::options(bool antialiased,
+                                          const ProjectionNumbers& numbers) const {
     ProjectionOptions options;
     options.dilation = low_pass;
     options.cut = cut;
     options.order = order;
     options.compensated =
         antialiasing == Antialiasing::On || (antialiasing == Antialiasing::Scene && antialiased);
-    options.format = format;
+    options.numbers = numbers;
     return options;
 }
 

@@ -30,9 +30,9 @@ struct RenderingRules {
 
     /// A preset other than the present one replaces the rules before they are visited.
     void describe(ConfigVisitor& visitor);
-    /// The options that project a scene in a format; `antialiased` is what the file of the scene says
+    /// The options that project a scene in such formats; `antialiased` is what the file of the scene says
     /// (SceneTraits::antialiased).
-    ProjectionOptions options(bool antialiased, const NumberFormat& format = {}) const;
+    ProjectionOptions options(bool antialiased, const ProjectionNumbers& numbers = {}) const;
 };
 
 /// "inria", "khr", in the order of RuleSet.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "splat/numbers/number_set.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "config/config_words.hpp"
 #include "config/error.hpp"
@@ -13,12 +15,33 @@ using S = NumberSet;
 constexpr bool kSigned = true;
 constexpr bool kUnsigned = false;
 
+/// A format of what projection and sorting read, no stage of the data path.
+struct MemoryFormat {
+    const char* key;
+    NumberFormat NumberSet::*format;
+    bool is_signed;
+    const char* meaning;
+};
+constexpr MemoryFormat kMemoryFormats[] = {
+    {"sh_dc", &S::sh_dc, kSigned, "SH coefficients of degree 0 in memory; fp64: as the scene has"},
+    {"sh_rest", &S::sh_rest, kSigned,
+     "SH coefficients of higher degrees in memory; fp64: likewise"},
+    {"depth_key", &S::depth_key, kUnsigned,
+     "depth by which lists are sorted; equal keys stay in the order of their indices"}};
+
 NumberFormat with_sign(NumberFormat format) {
     format.has_sign = true;
     return format;
 }
 
 void require_ranges(const NumberSet& set, ConfigVisitor& visitor) {
+    for (const MemoryFormat& stored : kMemoryFormats) {
+        const NumberFormat& format = set.*stored.format;
+        visitor.require(!stored.is_signed || format.has_sign,
+                        {stored.key, "must have a sign", with_sign(format).name()});
+        visitor.require(stored.is_signed || !format.is_fp64(),
+                        {stored.key, "must be no finer than fp32", "fp32"});
+    }
     for (const NumberStage& stage : number_stages()) {
         const NumberFormat& format = set.*stage.format;
         visitor.require(!stage.is_signed || format.has_sign,
@@ -86,6 +109,9 @@ void NumberSet::describe(ConfigVisitor& visitor) {
     for (const NumberStage& stage : number_stages()) {
         describe_format(visitor, stage.key, this->*stage.format, stage.meaning);
     }
+    for (const MemoryFormat& stored : kMemoryFormats) {
+        describe_format(visitor, stored.key, this->*stored.format, stored.meaning);
+    }
     visitor.choice("derivation", derivation, {"reference", "literal"},
                    "descriptor in double, or in its own formats");
     visitor.choice("vertical", vertical, {"squared", "stepwise", "ratio"},
@@ -104,6 +130,12 @@ void NumberSet::describe(ConfigVisitor& visitor) {
     visitor.section("sqrt", sqrt, "table of sqrt(1 - x)");
     visitor.section("exp", exp, "table of the exponential");
     require_ranges(*this, visitor);
+}
+
+bool NumberSet::makes_splats(const std::string& key) {
+    return key == "projection" ||
+           std::any_of(std::begin(kMemoryFormats), std::end(kMemoryFormats),
+                       [&key](const MemoryFormat& stored) { return key == stored.key; });
 }
 
 double NumberSet::q_limit() const {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "splat/numbers/lookup_table.hpp"
-#include "splat/numbers/number_format.hpp"
+#include "splat/numbers/projection_numbers.hpp"
 
 namespace degs {
 
@@ -42,6 +42,10 @@ enum class Exponent { Natural, Binary };
 struct NumberSet {
     std::string name;
     std::string meaning; ///< a sentence for people
+
+    // What projection and sorting read from memory (ProjectionNumbers).
+    NumberFormat sh_dc, sh_rest;
+    NumberFormat depth_key = ProjectionNumbers().depth_key;
 
     NumberFormat projection; ///< every value and operation that makes splats (ProjectionOptions)
 
@@ -87,6 +91,10 @@ struct NumberSet {
 
     /// q' at which alpha is 1/255: 2 ln 255 or log2 255.
     double q_limit() const;
+    /// The formats that make and order splats.
+    ProjectionNumbers projection_numbers() const { return {projection, sh_dc, sh_rest, depth_key}; }
+    /// Does a key of describe() choose one of them, and nothing in the data path?
+    static bool makes_splats(const std::string& key);
     /// Every part that a configuration may change: stages, orders of operations, tables; `ends` and
     /// `delta` are for a run to choose. Also makes the function of `exp` that of `exponent`.
     void describe(ConfigVisitor& visitor);

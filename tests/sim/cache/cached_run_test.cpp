@@ -205,7 +205,13 @@ TEST(FrameCache, FindsFramesByEverythingTheyDependOn) {
     other.compensated = true;
     EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
     other = options;
-    other.format = parse_format("fp16");
+    other.numbers.format = parse_format("fp16");
+    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
+    other = options;
+    other.numbers.sh_rest = parse_format("q1.7");
+    EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
+    other = options;
+    other.numbers.depth_key = parse_format("fp16");
     EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
     // A card of a scene says how the scene wants to be drawn.
     sim::SceneCard card;

@@ -69,7 +69,7 @@ inline Counts counted_run(const sim::RunConfig& config, const FrameWorkload& fra
 inline FrameWorkload frame_for(const sim::RunConfig& config, const GaussianCloud& cloud,
                                const Camera& camera) {
     ProjectionOptions options;
-    options.format = config.accelerator().data_path().projection;
+    options.numbers = config.accelerator().data_path().projection;
     return make_frame_workload(cloud, camera, config.accelerator().tile_size_px(),
                                config.accelerator().tile_mode(), options);
 }

@@ -132,7 +132,7 @@ TEST(RenderingRules, ACutEndsWhatReachesFurther) {
     const Camera camera = wide_camera();
     for (const char* const format : {"fp64", "fp32", "fp16"}) {
         ProjectionOptions plain, cut;
-        plain.format = cut.format = parse_format(format);
+        plain.numbers.format = cut.numbers.format = parse_format(format);
         cut.cut = 9;
         int nearer = 0, same = 0;
         for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -162,9 +162,9 @@ void expect_follows(const std::string& format, int p) {
     int compared = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
         ProjectedSplat exact, rounded;
-        options.format = NumberFormat();
+        options.numbers.format = NumberFormat();
         const Cull wanted = project_anywhere(cloud, i, camera, options, exact);
-        options.format = parse_format(format);
+        options.numbers.format = parse_format(format);
         if (wanted != Cull::None ||
             project_anywhere(cloud, i, camera, options, rounded) != Cull::None ||
             exact.depth > 3 * brute_project(cloud, i, camera).depth) {
@@ -252,10 +252,12 @@ TEST(RenderingRules, AFileDecidesWhereTheRulesLeaveItToTheScene) {
     EXPECT_TRUE(rules.options(false).compensated);
     rules.order = SplatOrder::Distance;
     rules.low_pass = 0.1;
-    const ProjectionOptions options = rules.options(false, parse_format("fp16"));
+    ProjectionNumbers numbers;
+    numbers.format = parse_format("fp16");
+    const ProjectionOptions options = rules.options(false, numbers);
     EXPECT_EQ(options.order, SplatOrder::Distance);
     EXPECT_EQ(options.dilation, 0.1);
-    EXPECT_EQ(options.format, parse_format("fp16"));
+    EXPECT_EQ(options.numbers.format, parse_format("fp16"));
     EXPECT_EQ(RenderingRules().options(false).dilation, ProjectionOptions().dilation);
 }
 
