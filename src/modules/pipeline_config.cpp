@@ -29,7 +29,7 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
 
 void PipelineConfig::require_records(ConfigVisitor& visitor, int sh_value_bytes,
                                      int list_entry_bytes) const {
-    const ProjectionNumbers stored = options(SpanEnds::Exact, 0).projection;
+    const ProjectionNumbers stored = formats.applied_to(set_of(numbers)).projection_numbers();
     const ProjectionNumbers untouched;
     const auto require_sh = [&](const NumberFormat& format, const char* key) {
         const int bytes = (format.storage_bits() + 7) / 8;
