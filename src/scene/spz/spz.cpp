@@ -147,6 +147,11 @@ private:
         }
         decode_streams(table, streams);
         const bool has = (header_.flags & kSpzHasRecords) != 0;
+        if (!has && table > kSpz4HeaderBytes) {
+            fail_file(where_, std::to_string(table - kSpz4HeaderBytes) +
+                                  " bytes lie between its header and its table of contents, and "
+                                  "its flags announce no records.");
+        }
         return has ? parse_spz_records(where_,
                                        file_.substr(kSpz4HeaderBytes, table - kSpz4HeaderBytes))
                    : SpzRecords{};

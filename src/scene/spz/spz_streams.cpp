@@ -56,6 +56,10 @@ private:
                                    (state_.msg == nullptr ? "zlib names no reason" : state_.msg) +
                                    ").");
         }
+        if (code == Z_STREAM_END && rest_.substr(0, 2) == "\x1f\x8b") {
+            inflateReset(&state_); // members one behind the other are one text, as for gzip(1)
+            return;
+        }
         ended_ = code == Z_STREAM_END;
         if (ended_ && rest_.find_first_not_of('\0') != std::string_view::npos) {
             fail_file(where(), std::to_string(rest_.size()) +

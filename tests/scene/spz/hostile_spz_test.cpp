@@ -116,6 +116,38 @@ TEST(HostileSpz, ContainersThatLie) {
 }
 
 /// Every bit of small files, and bytes of the inflated data: loads or complains, nothing else.
+TEST(HostileSpz, MembersOfGzipAreOneText) {
+    for (const std::uint32_t version : {1U, 2U, 3U}) {
+        const SpzBuilder spz = SpzBuilder::scene(version, 5, 1);
+        const GaussianCloud whole = decode_spz("one.spz", spz.file()).cloud;
+        const std::string plain = spz.inflated();
+        std::string members;
+        for (std::size_t at = 0; at < plain.size(); at += 11) {
+            members += SpzBuilder::gzip(plain.substr(at, 11)) + SpzBuilder::gzip("");
+        }
+        const GaussianCloud cloud = decode_spz("many.spz", members + std::string(3, '\0')).cloud;
+        EXPECT_EQ(cloud.means, whole.means);
+        EXPECT_EQ(cloud.sh, whole.sh);
+        EXPECT_THAT(complaint_about_spz(members + "x"), IsSentenceWith("1 bytes follow"));
+        EXPECT_THAT(complaint_about_spz(members + SpzBuilder::gzip("x")),
+                    IsSentenceWith("holds more bytes"));
+        EXPECT_THAT(complaint_about_spz(members.substr(0, members.size() - 1)),
+                    IsSentenceWith("ends too early"));
+    }
+}
+
+TEST(HostileSpz, RecordsThatNoFlagAnnounces) {
+    for (const std::uint32_t version : {3U, 4U}) {
+        SpzBuilder spz = SpzBuilder::scene(version, 5, 1);
+        spz.records = SpzBuilder::record(0xADBE0003, SpzBuilder::u32(4));
+        spz.flags = 2;
+        EXPECT_EQ(decode_spz("good.spz", spz.file()).cloud.size(), 5U);
+        spz.flags = 0;
+        EXPECT_THAT(complaint_about_spz(spz.file()),
+                    IsSentenceWith(version == 4 ? "12 bytes lie between" : "holds more bytes"));
+    }
+}
+
 TEST(HostileSpz, FlippedBitsLoadOrComplain) {
     int loaded = 0, refused = 0;
     const auto attempt = [&](const std::string& bytes) {
