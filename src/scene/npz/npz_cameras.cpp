@@ -29,8 +29,13 @@ NpyArray square_matrices(const ZipArchive& archive, const std::string& name, std
 
 /// The same for all cameras, or one for each.
 int side_of(const ZipArchive& archive, const NpyArray& array, const std::string& name,
-            std::uint64_t camera) {
-    const double side = array.size() == 0 ? 0 : array.at(array.size() > camera ? camera : 0);
+            std::uint64_t camera, std::uint64_t cameras) {
+    if (array.size() > 1 && array.size() != cameras) {
+        fail_file(archive.path(), "its array '" + name + "' holds " + std::to_string(array.size()) +
+                                      " numbers; allowed are one, or one for each of its " +
+                                      std::to_string(cameras) + " cameras.");
+    }
+    const double side = array.size() == 0 ? 0 : array.at(array.size() == 1 ? 0 : camera);
     if (!(side >= 1 && side <= kMaxCameraSide) || side != std::floor(side)) {
         fail_file(archive.path(),
                   "its array '" + name + "' must hold whole numbers from 1 to 65536.");
@@ -85,8 +90,8 @@ std::vector<Camera> read_npz_cameras(const ZipArchive& archive, std::vector<std:
         Camera camera;
         camera.id = static_cast<int>(i);
         camera.name = "view " + std::to_string(i);
-        camera.width = side_of(archive, width, "width", i);
-        camera.height = side_of(archive, height, "height", i);
+        camera.width = side_of(archive, width, "width", i, viewmats.shape[0]);
+        camera.height = side_of(archive, height, "height", i, viewmats.shape[0]);
         camera.fx = intrinsics.at(9 * i);
         camera.fy = intrinsics.at(9 * i + 4);
         if (!(camera.fx > 0 && camera.fy > 0 && std::isfinite(camera.fx + camera.fy))) {

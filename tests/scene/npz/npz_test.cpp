@@ -286,6 +286,7 @@ TEST(HostileNpz, CamerasThatLie) {
     EXPECT_THAT(with("width", "()", {0}), IsSentenceWith("'width' must hold"));
     EXPECT_THAT(with("width", "()", {NAN}), IsSentenceWith("'width' must hold"));
     EXPECT_THAT(with("height", "()", {1e9F}), IsSentenceWith("'height' must hold"));
+    EXPECT_THAT(with("width", "(2,)", {64, 64}), IsSentenceWith("'width' holds 2 numbers"));
     EXPECT_THAT(with("height", "(0,)", {}), IsSentenceWith("'height' must hold"));
     EXPECT_THAT(with("Ks", "(1, 9)", std::vector<float>(9)), IsSentenceWith("(C, 3, 3)"));
     EXPECT_THAT(with("Ks", "(1, 3, 3)", std::vector<float>(9)), IsSentenceWith("focal"));
