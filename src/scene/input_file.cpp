@@ -5,11 +5,15 @@
 
 #include "config/error.hpp"
 #include "config/nearby_file.hpp"
+#include "config/visible_text.hpp"
 
 namespace degs {
 namespace {
 
 std::uint64_t checked_size(const std::string& path) {
+    if (path.find('\0') != std::string::npos) { // the system would not see what follows
+        throw InputError("The name of a file holds a zero: '" + visible(path) + "'.");
+    }
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (status.type() == std::filesystem::file_type::not_found) {

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "config/error.hpp"
+#include "config/grouped_number.hpp"
+#include "scene/activation_scan.hpp"
 #include "scene/cameras/camera_file.hpp"
 #include "scene/cameras/orbit_camera.hpp"
 #include "scene/dynamic/dynamic_scene.hpp"
@@ -26,8 +28,39 @@ std::string name_of(const fs::path& file) {
     if (is_training_output(absolute.string())) {
         return absolute.parent_path().parent_path().parent_path().filename().string();
     }
-    return file.stem() == "scene" ? absolute.parent_path().filename().string()
-                                  : file.stem().string();
+    return file.stem() == "scene" || file.filename() == "meta.json"
+               ? absolute.parent_path().filename().string()
+               : file.stem().string();
+}
+
+constexpr std::uint64_t kWorthANote = 100; ///< one Gaussian in so many is dropped
+
+std::string reasons_of(const SanitizeReport& dropped) {
+    return grouped(dropped.non_finite) + " hold NaN or infinity, " +
+           grouped(dropped.zero_rotation) + " a rotation of length zero, " +
+           grouped(dropped.bad_scale) + " a negative scale, " + grouped(dropped.bad_opacity) +
+           " an opacity outside 0 to 1";
+}
+
+/// Rows of zeros or NaN are what an export could not write, and say nothing of the others. Scales and
+/// opacities out of their ranges in half of a file or more say that all were misread.
+void judge_dropped(Scene& scene, std::uint64_t total) {
+    const SanitizeReport& dropped = scene.dropped;
+    const std::string count = grouped(dropped.total()) + " of the " + grouped(total) +
+                              " Gaussians of the file cannot be drawn";
+    if (dropped.total() == total) {
+        fail_file(scene.source, "none of the " + grouped(total) +
+                                    " Gaussians can be drawn: " + reasons_of(dropped) + ".");
+    }
+    if (2 * (dropped.bad_scale + dropped.bad_opacity) >= total) {
+        fail_file(scene.source,
+                  count + ": " + reasons_of(dropped) +
+                      "; they seem to be logarithms and logits, where the format has linear "
+                      "scales and opacities.");
+    }
+    if (dropped.total() > 0 && kWorthANote * dropped.total() >= total) {
+        scene.notes.push_back(count + " and were dropped: " + reasons_of(dropped) + ".");
+    }
 }
 
 void sanitize_scene(Scene& scene) {
@@ -36,15 +69,7 @@ void sanitize_scene(Scene& scene) {
         fail_file(scene.source, "the scene holds no Gaussians; at least one is needed.");
     }
     scene.dropped = sanitize(scene.cloud);
-    if (scene.cloud.empty()) {
-        const SanitizeReport& d = scene.dropped;
-        fail_file(scene.source, "none of the " + std::to_string(before) +
-                                    " Gaussians can be drawn: " + std::to_string(d.non_finite) +
-                                    " hold NaN or infinity, " + std::to_string(d.zero_rotation) +
-                                    " a rotation of length zero, " + std::to_string(d.bad_scale) +
-                                    " a negative scale and " + std::to_string(d.bad_opacity) +
-                                    " an opacity outside 0 to 1.");
-    }
+    judge_dropped(scene, before);
 }
 
 std::string point_text(const glm::dvec3& point) {
@@ -84,6 +109,14 @@ SceneContent content_of(const SceneSpec& spec) {
     }
     SpacetimeCloud scene = read_spacetime_ply(file);
     SceneContent content;
+    ActivationScan scan;
+    for (const SpacetimeGaussian& g : scene) {
+        scan.add_opacity(g.opacity);
+        scan.add_scale(std::min({g.log_scale.x, g.log_scale.y, g.log_scale.z}));
+    }
+    if (scan.looks_activated() && scene.size() >= kFewestToJudge) {
+        content.notes.emplace_back(kActivatedNote);
+    }
     if (const std::uint64_t dropped = sanitize(scene); dropped > 0) {
         content.notes.push_back(std::to_string(dropped) +
                                 " Gaussians hold NaN or infinity and are left out at all times.");

@@ -10,6 +10,8 @@
 
 namespace degs {
 
+struct SceneContent;
+
 /// What a scene file says about how its Gaussians want to be drawn. The defaults are those of the
 /// original 3DGS code, which says nothing.
 struct SceneTraits {
@@ -17,6 +19,15 @@ struct SceneTraits {
     /// (Mip-Splatting): SPZ flag 1, `SplatRenderMode: mip` of a PLY.
     bool antialiased = false;
 };
+
+/// For files whose colours are linear: nothing is converted.
+constexpr const char* kLinearColoursNote = "The colours are linear: the image is in linear light, "
+                                           "too, and looks dark where it is shown as "
+                                           "sRGB.";
+
+/// Takes over how a scene was trained, as PlayCanvas' programs call it: "default", "antialiased" (also
+/// "mip") or "2dgs". The latter and unknown words add a note; `key` is what the file calls it.
+void take_render_model(const std::string& key, const std::string& model, SceneContent& content);
 
 /// All that one scene file holds, before anything is dropped.
 struct SceneContent {

@@ -12,7 +12,9 @@
 #include "scene/npz/npz.hpp"
 #include "scene/npz/npz_cameras.hpp"
 #include "scene/ply/ply.hpp"
+#include "scene/ply/ply_camera.hpp"
 #include "scene/sog/sog.hpp"
+#include "scene/sog/sog_files.hpp"
 #include "scene/splat_file/splat_file.hpp"
 #include "scene/spz/spz.hpp"
 #include "scene/spz/spz_write.hpp"
@@ -66,6 +68,12 @@ std::string head_of(const std::string& path) {
     return head;
 }
 
+/// The JSON texts of unbundled SOG scenes begin like a glTF.
+bool is_json_of_sog(std::string_view head, const std::string& path) {
+    return is_gltf(head) && !starts_with(head, "glTF") && extension_of(path) != ".gltf" &&
+           kind_of_json(path) != SceneJson::Other;
+}
+
 /// InputError for a file of no format.
 const SceneFormat& format_of(const std::string& path) {
     const std::string head = head_of(path);
@@ -73,6 +81,10 @@ const SceneFormat& format_of(const std::string& path) {
     const std::vector<SceneFormat>& formats = scene_formats();
     auto format = std::find_if(formats.begin(), formats.end(),
                                [&](const SceneFormat& f) { return f.matches(head); });
+    if (is_json_of_sog(head, path)) {
+        format = std::find_if(formats.begin(), formats.end(),
+                              [](const SceneFormat& f) { return f.read == read_sog; });
+    }
     if (format == formats.end()) {
         format = std::find_if(formats.begin(), formats.end(),
                               [&](const SceneFormat& f) { return has_extension(f, extension); });
@@ -104,7 +116,7 @@ const std::vector<SceneFormat>& scene_formats() {
          {".ply"},
          [](std::string_view head) { return starts_with(head, "ply"); },
          read_ply,
-         nullptr,
+         read_ply_cameras,
          nullptr,
          [](const GaussianCloud& cloud, const std::vector<Camera>&, const SceneTraits& traits,
             const std::string& path) {
@@ -137,7 +149,9 @@ const std::vector<SceneFormat>& scene_formats() {
         {"SOG",
          {".sog"},
          [](std::string_view head) { return is_zip_of(head, ".webp", "meta.json"); },
-         read_sog},
+         read_sog,
+         nullptr,
+         sog_external_files},
         {"NPZ",
          {".npz"},
          [](std::string_view head) { return is_zip_of(head, ".npy", ".npy"); },

@@ -173,6 +173,7 @@ TEST(HostileCompressedPly, LiesAreOneSentence) {
         return complaint_about_compressed(replaced(good, from, to));
     };
     EXPECT_THAT(complain("chunk 2", "chunk 1"), IsSentenceWith("too few"));
+    EXPECT_THAT(complain("chunk 2", "chunk 3"), IsSentenceWith("too many"));
     EXPECT_THAT(complain("vertex 300", "vertex 4000000000"), IsSentenceWith("too few"));
     EXPECT_THAT(complain("sh 300", "sh 299"), IsSentenceWith("element 'sh'"));
     EXPECT_THAT(complain("chunk 2", "chunk 99999999999"), IsSentenceWith("truncated"));

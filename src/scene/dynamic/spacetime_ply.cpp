@@ -118,6 +118,7 @@ SpacetimeCloud read_spacetime_ply(const std::string& path) {
             }
         }
     }
+    rows.finish();
     return scene;
 }
 

@@ -2,8 +2,11 @@
 #include "scene/gltf/gltf_model.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "config/error.hpp"
 #include "config/visible_text.hpp"
@@ -97,17 +100,40 @@ void load(GltfFile& file, const GltfSource& source, Allowed& allowed) {
     } catch (const std::exception& failure) {
         error = failure.what();
     }
+    if (error.find("\"asset\" object not found") != std::string::npos) {
+        error = "it has no asset with a version in it, and version 2 is read";
+    }
     if (!loaded || !error.empty()) { // some errors drop an object and let the load succeed
         file.fail("the glTF library refuses the file: " + first_line(error) + ".");
     }
 }
 
+/// Major and minor of "2.0"; nothing for other texts.
+std::optional<std::pair<int, int>> parse_version(const std::string& text) {
+    std::pair<int, int> version;
+    const char* const end = text.data() + text.size();
+    const auto major = std::from_chars(text.data(), end, version.first);
+    if (major.ec != std::errc() || major.ptr == end || *major.ptr != '.' || text[0] == '-') {
+        return std::nullopt;
+    }
+    const auto minor = std::from_chars(major.ptr + 1, end, version.second);
+    const bool good = minor.ec == std::errc() && minor.ptr == end && version.second >= 0;
+    return good ? std::optional(version) : std::nullopt;
+}
+
+/// Files of a later minor version are read unless they say that they need it.
 void check_version(const GltfFile& file) {
-    for (const std::string& version : {file.model.asset.version, file.model.asset.minVersion}) {
-        if (!version.empty() && version.rfind("2.", 0) != 0) {
-            file.fail("this is a glTF of version '" + first_line(version.substr(0, 20)) +
-                      "'; version 2 is read.");
-        }
+    const std::string& version = file.model.asset.version;
+    const std::string& least = file.model.asset.minVersion;
+    const auto parsed = parse_version(version);
+    if (!parsed || parsed->first != 2) {
+        file.fail("this is a glTF of version '" + first_line(version.substr(0, 20)) +
+                  "'; version 2 is read.");
+    }
+    const auto needed = parse_version(least);
+    if (!least.empty() && (!needed || *needed > std::pair(2, 0))) {
+        file.fail("its minVersion says that a reader of glTF of version '" +
+                  first_line(least.substr(0, 20)) + "' is needed; version 2.0 is read.");
     }
 }
 

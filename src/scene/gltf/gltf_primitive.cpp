@@ -53,8 +53,7 @@ void check_extension(GltfFile& file, const tinygltf::Value& extension) {
     const tinygltf::Value* const space = member_of(extension, "colorSpace");
     if (space != nullptr && space->IsString() &&
         space->Get<std::string>() == "lin_rec709_display") {
-        file.note("The colours are linear (lin_rec709_display): the image is in linear light, too, "
-                  "and looks dark where it is shown as sRGB.");
+        file.note(kLinearColoursNote);
     }
 }
 

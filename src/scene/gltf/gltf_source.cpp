@@ -2,12 +2,14 @@
 #include "scene/gltf/gltf_source.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <limits>
 
 #include "config/visible_text.hpp"
 #include "scene/input_file.hpp"
+#include "scene/scene_folder.hpp"
 
 namespace degs {
 namespace {
@@ -108,6 +110,7 @@ GlbChunk check_glb(GltfSource& source) {
             std::to_string(chunks.size() - kept) +
             " chunk(s) of the GLB that are neither JSON nor its data are ignored.");
     }
+    source.bin_bytes = has_bin ? chunks[1].bytes : 0;
     source.bytes.resize(chunks[kept - 1].end());
     put_little_endian(source.bytes, 8, source.bytes.size());
     return chunks[0];
@@ -132,33 +135,52 @@ std::string percent_decoded(const std::string& uri) {
     return text;
 }
 
-/// Links are followed first, so that one that leads out of the folder does not help.
-bool is_inside(const fs::path& folder, const fs::path& file) {
-    const fs::path relative = file.lexically_relative(folder);
-    return !relative.empty() && *relative.begin() != "..";
-}
-
 std::string external_file(const GltfSource& source, std::size_t index) {
     const GltfBuffer& buffer = source.buffers[index];
     const std::string which =
         "buffer " + std::to_string(index) + " lies in '" + visible(buffer.uri.substr(0, 200)) + "'";
-    const fs::path name = percent_decoded(buffer.uri);
+    const std::string file = file_in_scene_folder(source.path, percent_decoded(buffer.uri), which);
     std::error_code error;
-    const fs::path folder = fs::canonical(fs::absolute(source.path).parent_path(), error);
-    const fs::path file = fs::weakly_canonical(folder / name, error);
-    if (error || name.is_absolute() || !is_inside(folder, file)) {
-        fail_file(source.path, which + "; only files in the folder of the scene are read.");
-    }
-    if (!fs::is_regular_file(file, error)) {
-        fail_file(source.path, which + ", and there is no such file.");
-    }
     const std::uint64_t size = fs::file_size(file, error);
     if (error || size < buffer.bytes) {
         fail_file(source.path, which + ", which has " + std::to_string(error ? 0 : size) +
                                    " bytes; its byteLength is " + std::to_string(buffer.bytes) +
                                    ".");
     }
-    return file.string();
+    return file;
+}
+
+/// Types of data: URIs that the library decodes; the first two are those of the specification.
+void check_data_uri(const GltfSource& source, std::size_t index) {
+    const std::string& uri = source.buffers[index].uri;
+    for (const char* const type :
+         {"application/octet-stream", "application/gltf-buffer", "text/plain"}) {
+        if (uri.rfind(std::string("data:") + type + ";base64,", 0) == 0) {
+            return;
+        }
+    }
+    constexpr std::size_t kMostType = 100;
+    const std::size_t end = std::min({uri.find(','), uri.size(), kMostType});
+    fail_file(source.path, "buffer " + std::to_string(index) + " is a data URI of the type '" +
+                               visible(uri.substr(5, end - 5)) +
+                               "'; allowed are 'application/octet-stream;base64' and "
+                               "'application/gltf-buffer;base64'.");
+}
+
+/// The specification lets the BIN chunk be up to 3 bytes longer than its buffer, to end at a
+/// multiple of 4.
+void check_bin_chunk(const GltfSource& source) {
+    if (source.buffers.empty() || !source.buffers[0].uri.empty() || source.bin_bytes == 0) {
+        return;
+    }
+    const std::uint64_t declared = source.buffers[0].bytes;
+    constexpr std::uint64_t kMostPadding = 3;
+    if (source.bin_bytes > declared + kMostPadding) {
+        fail_file(source.path, "the BIN chunk of the GLB has " + std::to_string(source.bin_bytes) +
+                                   " bytes, and the byteLength of its buffer is " +
+                                   std::to_string(declared) +
+                                   "; at most 3 bytes may be left over.");
+    }
 }
 
 /// Sizes are added up before anything is allocated.
@@ -179,6 +201,9 @@ void check_buffers(GltfSource& source) {
                                        " has no uri; only the first buffer of a GLB needs none.");
         }
         const bool in_file = !buffer.uri.empty() && !is_data_uri(buffer.uri);
+        if (is_data_uri(buffer.uri)) {
+            check_data_uri(source, i);
+        }
         source.external.push_back(in_file ? external_file(source, i) : std::string{});
     }
 }
@@ -186,7 +211,11 @@ void check_buffers(GltfSource& source) {
 } // namespace
 
 bool is_data_uri(const std::string& uri) {
-    return uri.rfind("data:", 0) == 0;
+    const std::string scheme = "data:"; // in either case
+    return uri.size() >= scheme.size() &&
+           std::equal(scheme.begin(), scheme.end(), uri.begin(), [](char a, char b) {
+               return a == std::tolower(static_cast<unsigned char>(b));
+           });
 }
 
 GltfSource read_gltf_source(const std::string& path) {
@@ -202,6 +231,7 @@ GltfSource read_gltf_source(const std::string& path) {
     source.buffers =
         scan_gltf_json(path, source.bytes.data() + json.begin, source.bytes.data() + json.end());
     check_buffers(source);
+    check_bin_chunk(source);
     return source;
 }
 

@@ -16,8 +16,9 @@ struct GltfBuffer {
 
 struct GltfSource {
     std::string path;
-    std::vector<char> bytes; ///< the JSON text, or a GLB of a JSON and at most one BIN chunk
-    bool binary = false;     ///< a GLB
+    std::vector<char> bytes;     ///< the JSON text, or a GLB of a JSON and at most one BIN chunk
+    bool binary = false;         ///< a GLB
+    std::uint64_t bin_bytes = 0; ///< of the BIN chunk; 0: there is none
     std::vector<GltfBuffer> buffers;
     std::vector<std::string>
         external; ///< canonical names of the buffers' files, empty where it has none

@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <optional>
 
+#include "scene/activation_scan.hpp"
 #include "scene/archive/zip_archive.hpp"
 #include "scene/input_file.hpp"
 #include "scene/npz/nearest_points.hpp"
@@ -100,13 +101,14 @@ private:
 
     void read_scales_and_opacities() {
         const NpyArray scales = require("scales", 3), opacities = require("opacities", 1);
-        bool raw = false;
-        for (std::uint64_t i = 0; i < scales.size() && !raw; ++i) {
-            raw = scales.at(i) < 0;
+        ActivationScan scan;
+        for (std::uint64_t i = 0; i < scales.size() && scan.looks_activated(); ++i) {
+            scan.add_scale(scales.at(i));
         }
-        for (std::uint64_t i = 0; i < count_ && !raw; ++i) {
-            raw = opacities.at(i) < 0 || opacities.at(i) > 1;
+        for (std::uint64_t i = 0; i < count_ && scan.looks_activated(); ++i) {
+            scan.add_opacity(opacities.at(i));
         }
+        const bool raw = !scan.looks_activated();
         if (!raw) {
             content_.notes.emplace_back(
                 "No scale is negative and no opacity outside 0 to 1, so both "

@@ -133,12 +133,20 @@ private:
         for (std::size_t i = 0; i < used; ++i) {
             require(element, kBounds[i], PlyType::Float32, "float");
         }
-        if (element.count < vertex_.count / kChunkRows + (vertex_.count % kChunkRows != 0)) {
+        const std::uint64_t needed =
+            vertex_.count / kChunkRows + (vertex_.count % kChunkRows != 0 ? 1 : 0);
+        const auto refuse_chunks = [&](const char* how_many) {
             fail_file(file_.path(), "the file has " + std::to_string(element.count) +
-                                        " chunks of 256 Gaussians, too few for its " +
+                                        " chunks of 256 Gaussians, too " + how_many + " for its " +
                                         std::to_string(vertex_.count) + " Gaussians.");
+        };
+        if (element.count < needed) {
+            refuse_chunks("few");
         }
-        PlyRows rows = rows_of(element);
+        PlyRows rows = rows_of(element); // checks the size
+        if (element.count > needed) {
+            refuse_chunks("many");
+        }
         std::vector<PlyColumn> columns;
         for (std::size_t i = 0; i < used; ++i) {
             columns.push_back(rows.column(kBounds[i]));
@@ -198,6 +206,7 @@ private:
             }
             unpack(chunks_[i / kChunkRows], packed, i);
         });
+        rows.finish();
     }
 
     /// ASCII files may hold any number.

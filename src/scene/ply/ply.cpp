@@ -2,10 +2,13 @@
 #include "scene/ply/ply.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
+#include "scene/activation_scan.hpp"
 #include "scene/ply/compressed_ply.hpp"
+#include "scene/ply/ply_camera.hpp"
 #include "scene/ply/ply_comments.hpp"
 #include "scene/ply/ply_header.hpp"
 #include "scene/ply/ply_rows.hpp"
@@ -51,8 +54,11 @@ public:
                 }
             });
         }
+        rows_.finish();
         return std::move(cloud_);
     }
+    /// After read(). A few Gaussians say nothing.
+    bool looks_activated() const { return activated_ && count_ >= kFewestToJudge; }
 
 private:
     void allocate(const PlySplatLayout& layout) {
@@ -113,8 +119,25 @@ private:
         for (const Binding<float>& binding : floats_) {
             copy(strip, binding, first, rows);
         }
+        if (activated_.load(std::memory_order_relaxed)) {
+            scan(first, rows);
+        }
         for (std::size_t i = first; i < first + rows; ++i) {
             activate(i);
+        }
+    }
+
+    /// The first strip mostly decides.
+    void scan(std::size_t first, std::size_t rows) {
+        ActivationScan found;
+        for (std::size_t i = first; i < first + rows; ++i) {
+            found.add_opacity(cloud_.opacities[i]);
+            for (int axis = 0; axis < scales_; ++axis) {
+                found.add_scale(cloud_.scales[i][axis]);
+            }
+        }
+        if (!found.looks_activated()) {
+            activated_.store(false, std::memory_order_relaxed);
         }
     }
 
@@ -160,6 +183,7 @@ private:
     int scales_;
     bool rgb_;
     GaussianCloud cloud_;
+    std::atomic<bool> activated_{true};
     std::vector<float> filters_;
     std::vector<Binding<double>> means_;
     std::vector<Binding<float>> floats_;
@@ -172,12 +196,18 @@ SceneContent read_ply(const std::string& path) {
     const PlyHeader header = read_ply_header(file);
     SceneContent content;
     read_ply_comments(header.comments, content);
+    read_ply_metadata(file, header, content);
+    file.seek(header.data_begin);
     if (is_compressed_ply(header)) {
         content.cloud = read_compressed_ply(file, header);
         return content;
     }
     const PlySplatLayout layout = find_splat_layout(path, header, content.notes);
-    content.cloud = CloudReader(file, header, layout).read();
+    CloudReader reader(file, header, layout);
+    content.cloud = reader.read();
+    if (reader.looks_activated()) {
+        content.notes.emplace_back(kActivatedNote);
+    }
     content.traits.antialiased = content.traits.antialiased || layout.has_filter_3d;
     return content;
 }

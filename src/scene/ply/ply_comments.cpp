@@ -41,17 +41,7 @@ std::optional<std::string> last_value(const std::vector<std::string>& comments,
 
 void read_ply_comments(const std::vector<std::string>& comments, SceneContent& content) {
     if (const auto mode = last_value(comments, "splatrendermode")) {
-        if (*mode == "mip") {
-            content.traits.antialiased = true;
-        } else if (*mode == "2dgs") {
-            content.notes.emplace_back("The file was trained for the renderer of 2D Gaussian "
-                                       "Splatting; here its discs are drawn like other Gaussians.");
-        } else if (*mode != "default") {
-            content.notes.push_back(
-                "The comment 'SplatRenderMode: " + visible(mode->substr(0, 40)) +
-                "' is unknown (known are default, mip and 2dgs) and was passed "
-                "over.");
-        }
+        take_render_model("SplatRenderMode", *mode, content);
     }
     if (const auto antialiased = last_value(comments, "antialiased")) {
         if (*antialiased == "1" || *antialiased == "true") {

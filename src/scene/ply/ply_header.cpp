@@ -57,6 +57,7 @@ public:
     explicit HeaderParser(InputFile& file) : file_(file) {
         text_.resize(std::min<std::uint64_t>(file.remaining(), kMaxHeaderBytes));
         file.read_exactly(text_.data(), text_.size());
+        find_line_end();
     }
 
     PlyHeader parse() {
@@ -81,9 +82,20 @@ private:
         fail_file(file_.path(), "line " + std::to_string(line_) + " of the header: " + sentence);
     }
 
+    /// What ends the first line ends all of them. The CR of CRLF counts as a blank, but the one of LFCR
+    /// must not be taken for the first byte of the data.
+    void find_line_end() {
+        constexpr const char* kBreaks = "\r\n";
+        const std::size_t begin = std::min(text_.find_first_of(kBreaks), text_.size());
+        const std::size_t end = std::min(text_.find_first_not_of(kBreaks, begin), text_.size());
+        const std::string_view breaks = std::string_view(text_).substr(begin, end - begin);
+        reversed_ = breaks == "\n\r";
+        line_end_ = !breaks.empty() && breaks.find('\n') == std::string_view::npos ? '\r' : '\n';
+    }
+
     std::string_view raw_line() {
         const std::string_view rest = std::string_view(text_).substr(cursor_);
-        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        const std::size_t end = std::min(rest.find(line_end_), rest.size());
         ++line_;
         if (end > kMaxLine) {
             fail("the line is longer than the " + std::to_string(kMaxLine) +
@@ -94,7 +106,8 @@ private:
                                         std::to_string(text_.size()) +
                                         " bytes; the file is truncated or not a PLY file.");
         }
-        cursor_ += std::min(end + 1, rest.size());
+        const bool skip = reversed_ && end + 1 < rest.size() && rest[end + 1] == '\r';
+        cursor_ += std::min(end + (skip ? 2 : 1), rest.size());
         return rest.substr(0, end);
     }
 
@@ -207,6 +220,8 @@ private:
     std::string text_;
     std::size_t cursor_ = 0;
     std::size_t line_ = 0;
+    char line_end_ = '\n';
+    bool reversed_ = false; ///< lines end with LF and CR, in this order
     std::size_t properties_ = 0;
     PlyHeader header_;
 };

@@ -44,9 +44,10 @@ struct PlyHeader {
     const PlyElement* find(const std::string& element) const;
 };
 
-/// Parses the header and leaves the file at the first byte of data. Accepts CRLF, comments,
-/// obj_info, padding and both families of type names; every mistake is an InputError with its line.
-/// Limits: 1 MiB of header, 4096 characters per line, 4096 properties, 64 elements.
+/// Parses the header and leaves the file at the first byte of data. Accepts every kind of line
+/// end (LF, CRLF, CR, LFCR), comments, obj_info, padding and both families of type names; every
+/// mistake is an InputError with its line. Limits: 1 MiB of header, 4096 characters per line, 4096
+/// properties, 64 elements.
 PlyHeader read_ply_header(InputFile& file);
 
 /// InputError if the `remaining` bytes of the file are too few for the rows that `element` claims.

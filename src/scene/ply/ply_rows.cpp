@@ -56,29 +56,70 @@ std::string_view PlyWords::next() {
             word_[length++] = c;
         } else if (length > 0) {
             break;
+        } else {
+            line_ += c == '\n' || c == '\r' ? 1 : 0;
         }
     }
     return {word_.data(), length};
 }
 
+bool PlyWords::at_end() {
+    for (char c = 0; peek(c); ++begin_) {
+        if (!is_blank(c)) {
+            return false;
+        }
+        line_ += c == '\n' || c == '\r' ? 1 : 0;
+    }
+    return true;
+}
+
 PlyRows::PlyRows(InputFile& file, const PlyHeader& header, const PlyElement& element)
-    : file_(&file), element_(&element), format_(header.format), words_(file), current_(&element) {
+    : file_(&file), header_(&header), next_(header.elements.data()), format_(header.format),
+      words_(file) {
     swap_ =
         format_ != PlyFormat::Ascii && (format_ == PlyFormat::BigEndian) != host_is_big_endian();
-    for (const PlyElement& earlier : header.elements) {
-        if (&earlier == element_) {
-            break;
-        }
-        check_size(earlier);
-        skip_element(earlier);
-    }
-    check_size(element);
-    current_ = element_;
+    move_to(element);
+}
+
+void PlyRows::move_to(const PlyElement& later) {
+    skip_to(&later);
+    check_size(later);
+    next_ = &later + 1;
+    element_ = current_ = &later;
     row_ = 0;
     lay_out();
 }
 
+void PlyRows::skip_to(const PlyElement* end) {
+    for (; next_ != end; ++next_) {
+        check_size(*next_);
+        skip_element(*next_);
+    }
+}
+
+void PlyRows::finish() {
+    const std::uint64_t at = file_->size() - words_.remaining(); // binary files have no words
+    const PlyElement* const end = header_->elements.data() + header_->elements.size();
+    if (words_.remaining() > 0 && !(format_ == PlyFormat::Ascii && words_.at_end())) {
+        skip_to(end);
+    }
+    std::uint64_t left = format_ == PlyFormat::Ascii ? 0 : file_->remaining();
+    while (format_ == PlyFormat::Ascii && !words_.next().empty()) {
+        ++left;
+    }
+    if (left > 0) {
+        fail_file(file_->path(),
+                  std::to_string(left) + (format_ == PlyFormat::Ascii ? " value(s)" : " byte(s)") +
+                      " are left over behind its last element " + in_quotes(end[-1].name) +
+                      " (the rows read end at byte " + std::to_string(at) + " of " +
+                      std::to_string(file_->size()) + ")" +
+                      "; the header and the data do not agree, so that all values may be misread.");
+    }
+}
+
 void PlyRows::lay_out() {
+    columns_.clear();
+    row_bytes_ = 0;
     for (const PlyProperty& property : element_->properties) {
         const PlyType type = format_ == PlyFormat::Ascii ? PlyType::Float64 : property.type;
         columns_.push_back({type, row_bytes_});
@@ -138,6 +179,22 @@ void PlyRows::skip_row() {
             file_->skip(size_of(property.type));
         }
     }
+    end_row();
+}
+
+/// Rows may share a line, or take several. One that begins behind another and goes on in the next line
+/// shows that a row has a value too many or too few, and all that follow would be shifted.
+void PlyRows::end_row() {
+    const bool behind = row_begun_ && row_ > 0 && row_line_ == last_line_;
+    if (behind && words_.line() != row_line_) {
+        fail_file(file_->path(),
+                  "row " + std::to_string(row_) + " of element " + in_quotes(current_->name) +
+                      " begins in the line of the row before it and ends in another "
+                      "one, so that a line holds more values than its " +
+                      std::to_string(current_->properties.size()) + " properties take.");
+    }
+    last_line_ = words_.line();
+    row_begun_ = false;
 }
 
 void PlyRows::skip_binary_list(const PlyProperty& list) {
@@ -191,10 +248,13 @@ void PlyRows::read_ascii_row(char* destination) {
             std::memcpy(destination + columns_[i].offset, &value, sizeof value);
         }
     }
+    end_row();
 }
 
 double PlyRows::next_number(const PlyProperty& property) {
     const std::string_view word = words_.next();
+    row_line_ = row_begun_ ? row_line_ : words_.line();
+    row_begun_ = true;
     if (word.empty()) {
         fail_at(property,
                 "the file ends here, before the rows its header promises; it is truncated.");

@@ -6,15 +6,15 @@
 #include <cmath>
 
 #include "config/visible_text.hpp"
-#include "scene/archive/zip_archive.hpp"
 #include "scene/input_file.hpp"
+#include "scene/scene_folder.hpp"
+#include "scene/sog/sog_files.hpp"
 #include "scene/sog/sog_meta.hpp"
 #include "scene/sog/webp_image.hpp"
 
 namespace degs {
 namespace {
 
-constexpr std::uint64_t kMaxMetaBytes = 1 << 20;
 constexpr std::uint64_t kMaxImageBytes = std::uint64_t{1} << 30;
 constexpr std::uint64_t kPixelsPerByte = 16;   ///< of the archive; real scenes have 0.1
 constexpr std::uint64_t kFreePixels = 1 << 16; ///< allowed in any case
@@ -27,17 +27,27 @@ double unfolded(double value) {
     return std::copysign(std::expm1(std::abs(value)), value);
 }
 
+/// Names of all images that the scene has.
+std::vector<std::string> image_names(const SogMeta& meta) {
+    std::vector<std::string> names{meta.means_low, meta.means_high, meta.scales, meta.quats,
+                                   meta.sh0};
+    if (meta.degree != 0) {
+        names.insert(names.end(), {meta.centroids, meta.labels});
+    }
+    return names;
+}
+
 class SogReader {
 public:
-    explicit SogReader(const std::string& path) : archive_(path) {}
+    explicit SogReader(const std::string& path) : path_(path), files_(open_sog_files(path)) {}
 
     SceneContent read() {
-        meta_ = parse_sog_meta(archive_.path(), archive_.read("meta.json", kMaxMetaBytes));
-        limit_ = archive_.bytes() * kPixelsPerByte + kFreePixels;
+        meta_ = parse_sog_meta(path_, files_->meta());
+        limit_ = files_->bytes(image_names(meta_)) * kPixelsPerByte + kFreePixels;
         if (meta_.count == 0 || meta_.count > limit_) {
-            fail_file(archive_.path(), "its meta.json claims " + std::to_string(meta_.count) +
-                                           " Gaussians; allowed are 1 to " +
-                                           std::to_string(limit_) + " in an archive of this size.");
+            fail_file(path_, "its meta.json claims " + std::to_string(meta_.count) +
+                                 " Gaussians; allowed are 1 to " + std::to_string(limit_) +
+                                 " in an archive of this size.");
         }
         read_means();
         read_scales();
@@ -52,6 +62,13 @@ public:
             read_rest(palette, labels);
         }
         content_.traits.antialiased = meta_.antialiased;
+        take_render_model("model", meta_.model, content_);
+        if (unread_) {
+            content_.notes.push_back("Its images have room for many more than the " +
+                                     std::to_string(meta_.count) +
+                                     " Gaussians of its meta.json; what lies behind these was not "
+                                     "read.");
+        }
         if (lossy_) {
             content_.notes.emplace_back("An image of the archive was compressed with losses, which "
                                         "SOG forbids; its values are not those of the scene.");
@@ -64,17 +81,18 @@ private:
     RgbaImage image(const std::string& name) {
         RgbaImage decoded = open(name, limit_);
         if (decoded.pixels() < meta_.count) {
-            fail_file(archive_.path(), "its image '" + visible_name(name) + "' has " +
-                                           std::to_string(decoded.pixels()) +
-                                           " pixels, fewer than its " +
-                                           std::to_string(meta_.count) + " Gaussians.");
+            fail_file(path_, "its image '" + visible_name(name) + "' has " +
+                                 std::to_string(decoded.pixels()) + " pixels, fewer than its " +
+                                 std::to_string(meta_.count) + " Gaussians.");
         }
+        constexpr std::uint64_t kPaddedRows = 4; // sides are multiples of 4
+        const std::uint64_t row = std::max(decoded.width, 1);
+        unread_ = unread_ || decoded.pixels() - meta_.count >= kPaddedRows * row;
         return decoded;
     }
 
     RgbaImage open(const std::string& name, std::uint64_t limit) {
-        RgbaImage decoded =
-            decode_webp(archive_.path(), name, archive_.read(name, kMaxImageBytes), limit);
+        RgbaImage decoded = decode_webp(path_, name, files_->read(name, kMaxImageBytes), limit);
         lossy_ = lossy_ || decoded.lossy;
         return decoded;
     }
@@ -91,7 +109,7 @@ private:
         const int degree = static_cast<int>(rest - kRest.begin());
         if (palette.width % kPaletteColumns != 0 || rest == kRest.end() ||
             (meta_.degree > 0 && meta_.degree != degree)) {
-            fail_file(archive_.path(),
+            fail_file(path_,
                       "its image '" + visible_name(meta_.centroids) + "' is " +
                           std::to_string(palette.width) +
                           " pixels wide; a palette of degree 1, 2 or 3 has 192, 512 or 960.");
@@ -203,10 +221,12 @@ private:
         }
     }
 
-    ZipArchive archive_;
+    std::string path_;
+    std::unique_ptr<SogFiles> files_;
     SogMeta meta_;
     std::uint64_t limit_ = 0; ///< pixels of an image
     bool lossy_ = false;
+    bool unread_ = false; ///< an image goes on for rows behind the Gaussians
     SceneContent content_;
 };
 
@@ -214,6 +234,17 @@ private:
 
 SceneContent read_sog(const std::string& path) {
     return SogReader(path).read();
+}
+
+std::vector<std::string> sog_external_files(const std::string& path) {
+    std::vector<std::string> files;
+    if (kind_of_json(path) == SceneJson::Sog) {
+        const SogMeta meta = parse_sog_meta(path, open_sog_files(path)->meta());
+        for (const std::string& name : image_names(meta)) {
+            files.push_back(file_in_scene_folder(path, name, "one of its images"));
+        }
+    }
+    return files;
 }
 
 } // namespace degs

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/input_file.hpp"
+#include "scene/scene_folder.hpp"
 
 namespace degs {
 namespace {
@@ -24,8 +25,10 @@ public:
         }
         version_2_ = version != nullptr && *version == 2;
         meta_.antialiased = root_.contains("antialias") && root_["antialias"] == true;
+        take_model();
         meta_.count = version_2_ ? whole(root_, "count") : shape_of_means();
         const Json& means = section("means");
+        check_bounds(means, 3);
         for (int axis = 0; axis < 3; ++axis) {
             meta_.low[axis] = number(means, "mins", axis);
             meta_.high[axis] = number(means, "maxs", axis);
@@ -43,6 +46,16 @@ public:
     }
 
 private:
+    void take_model() {
+        if (!root_.contains("model")) {
+            return;
+        }
+        if (!root_["model"].is_string()) {
+            fail("has a 'model' that is no text");
+        }
+        meta_.model = root_["model"].get<std::string>();
+    }
+
     [[noreturn]] void fail(const std::string& what) const {
         fail_file(where_, "its meta.json " + what + ", so this is no SOG scene.");
     }
@@ -85,12 +98,26 @@ private:
         return finite(object[name][index], name);
     }
 
+    /// Longer lists would belong to something that is not known here.
+    void check_bounds(const Json& object, std::size_t numbers) const {
+        for (const char* const name : {"mins", "maxs"}) {
+            if (object.contains(name) && object[name].size() > numbers) {
+                fail(std::string("has a list '") + name + "' of more than " +
+                     std::to_string(numbers) + " numbers");
+            }
+        }
+    }
+
     std::string file(const Json& object, const char* name, std::size_t index) const {
         if (!object.contains("files") || !object["files"].is_array() ||
             object["files"].size() <= index || !object["files"][index].is_string()) {
             fail(std::string("needs the names of images in '") + name + ".files'");
         }
-        return object["files"][index].get<std::string>();
+        std::string called = object["files"][index].get<std::string>();
+        if (has_control_characters(called)) {
+            fail(std::string("has a name with a control character in '") + name + ".files'");
+        }
+        return called;
     }
 
     /// Bytes beyond a shorter code book stand for its last value.
@@ -124,6 +151,8 @@ private:
             meta_.opacity = between(0, 1);
             return;
         }
+        check_bounds(scales, 3);
+        check_bounds(sh0, 4);
         for (std::size_t i = 0; i < 3; ++i) {
             meta_.scale[i] = between(number(scales, "mins", i), number(scales, "maxs", i));
             meta_.colour[i] = between(number(sh0, "mins", i), number(sh0, "maxs", i));

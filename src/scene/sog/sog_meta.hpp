@@ -22,7 +22,8 @@ struct SogMeta {
     ByteTable rest{};                  ///< higher coefficients
     int degree = 0;                    ///< 0..3; of version 1 it follows from the images: -1
     std::uint64_t palette = 0;         ///< entries; of version 1 as many as the image has
-    bool antialiased = false;
+    bool antialiased = false;          ///< as older files say it
+    std::string model = "default";     ///< as splat-transform says it; see take_render_model()
     /// Names of the images: means low and high bytes, scales, quats, sh0, and of degree 1 and more
     /// centroids and labels.
     std::string means_low, means_high, scales, quats, sh0, centroids, labels;

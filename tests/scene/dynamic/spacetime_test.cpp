@@ -70,6 +70,18 @@ TEST(Spacetime, WritesWhatItReads) {
     EXPECT_NE(load_scene(folder.path("s.ply")).cloud.means, synthetic.cloud.means);
 }
 
+TEST(HostileSpacetime, BytesBehindTheLastRow) {
+    const test::Folder folder;
+    const std::string path = folder.path("s.ply");
+    write_spacetime_ply(make_spacetime({"dynamic", 100, 3, {}}), path);
+    std::string bytes = test::bytes_of(path);
+    const std::string end = "end_header\n";
+    bytes.insert(bytes.find(end) + end.size(), 1, '\r');
+    folder.write("s.ply", bytes);
+    EXPECT_THAT(test::complaint([&] { load_scene(path); }),
+                test::IsSentenceWith("1 byte(s) are left over"));
+}
+
 TEST(Spacetime, SyntheticSceneMovesInPartsAndStaysInParts) {
     const auto dynamic = open_dynamic_scene("synthetic:dynamic,gaussians=4000");
     ASSERT_NE(dynamic, nullptr);

@@ -97,7 +97,7 @@ const Damage kDamages[] = {
      },
      "all buffers together may have 4294967295 bytes."},
     {"Version", [](Json& j) { j["asset"]["version"] = "9.9"; }, "a glTF of version '9.9'"},
-    {"MinVersion", [](Json& j) { j["asset"]["minVersion"] = "3.0"; }, "a glTF of version '3.0'"},
+    {"MinVersion", [](Json& j) { j["asset"]["minVersion"] = "3.0"; }, "glTF of version '3.0'"},
     {"RequiredExtension", [](Json& j) { j["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
      "requires the extension 'KHR_draco_mesh_compression', which is not read."},
     {"MatrixOfThree",

@@ -217,6 +217,79 @@ TEST(Sog, SaysWhatItHadToGuess) {
     EXPECT_THAT(content.notes[1], IsSentenceWith("beyond the palette"));
 }
 
+TEST(Sog, ModelsAreThoseOfSplatTransform) {
+    const auto with_model = [](const std::string& members) {
+        SogBuilder made;
+        const std::string from = "\"antialias\":true,";
+        made.meta.replace(made.meta.find(from), from.size(), members);
+        return content_of(made.file());
+    };
+    EXPECT_FALSE(with_model("").traits.antialiased);
+    EXPECT_TRUE(with_model("\"model\":\"antialiased\",").traits.antialiased);
+    EXPECT_TRUE(with_model("\"antialias\":true,\"model\":\"default\",").traits.antialiased);
+    EXPECT_FALSE(with_model("\"model\":\"default\",").traits.antialiased);
+    EXPECT_TRUE(with_model("\"model\":\"default\",").notes.empty());
+    EXPECT_THAT(with_model("\"model\":\"2dgs\",").notes,
+                testing::ElementsAre(IsSentenceWith("2D Gaussian Splatting")));
+    EXPECT_THAT(with_model("\"model\":\"warp\",").notes,
+                testing::ElementsAre(IsSentenceWith("'model: warp' of the file is unknown")));
+    EXPECT_THAT(test::complaint([&] { with_model("\"model\":2,"); }), IsSentenceWith("no text"));
+}
+
+/// The files of the scene in a folder of their own; returns the name of meta.json.
+std::string unbundled(const SogBuilder& made, const test::Folder& folder) {
+    for (const auto& [name, content] : made.archive().files) {
+        folder.write("scene/" + name, content);
+    }
+    return folder.path("scene/meta.json");
+}
+
+TEST(Sog, UnbundledScenesAreReadFromTheirFolder) {
+    const SogBuilder made;
+    const test::Folder folder;
+    const std::string meta = unbundled(made, folder);
+    expect_decoded(made, read_scene_file(meta).cloud);
+    EXPECT_EQ(load_scene(meta).name, "scene");
+    EXPECT_EQ(scene_external_files(meta).size(), 7U);
+    EXPECT_TRUE(scene_external_files(folder.write("a.sog", made.file())).empty());
+    std::filesystem::rename(meta, folder.path("scene/other.json"));
+    expect_decoded(made, read_scene_file(folder.path("scene/other.json")).cloud);
+}
+
+TEST(HostileSog, UnbundledScenesStayInTheirFolder) {
+    SogBuilder made;
+    const test::Folder folder;
+    folder.write("out.webp", made.archive().files[1].second);
+    const auto refusal = [&](const std::string& name) {
+        SogBuilder bad = made;
+        const std::string from = "\"u.webp\"";
+        bad.meta.replace(bad.meta.find(from), from.size(), "\"" + name + "\"");
+        const std::string meta = unbundled(bad, folder);
+        return test::complaint([&] { read_scene_file(meta); });
+    };
+    EXPECT_EQ(refusal("u.webp"), "");
+    EXPECT_THAT(refusal("../out.webp"), IsSentenceWith("only files in the folder of the scene"));
+    EXPECT_THAT(refusal("/etc/hostname"), IsSentenceWith("only files in the folder of the scene"));
+    EXPECT_THAT(refusal("none.webp"), IsSentenceWith("there is no such file"));
+    EXPECT_THAT(refusal("u.webp\\u0000"), IsSentenceWith("control character"));
+    EXPECT_THAT(refusal("u.webp\\n"), IsSentenceWith("control character"));
+}
+
+TEST(HostileSog, StreamedScenesAreNamed) {
+    const test::Folder folder;
+    const std::string levels =
+        R"({"version":1,"lodLevels":3,"filenames":["0_0/meta.json"],"tree":{"lods":{}}})";
+    for (const char* const name : {"lod-meta.json", "renamed.json"}) {
+        const std::string path = folder.write(name, levels);
+        EXPECT_THAT(test::complaint([&] { load_scene(path); }),
+                    IsSentenceWith("a streamed SOG scene"));
+    }
+    test::ZipBuilder zip;
+    zip.files.emplace_back("lod-meta.json", levels);
+    EXPECT_THAT(test::complaint([&] { content_of(zip.file()); }),
+                IsSentenceWith("a streamed SOG scene"));
+}
+
 TEST(Sog, SkullIsThePlyThatWasMadeFromIt) {
     DEGS_NEEDS_SCENE("skull");
     const std::string folder = (test::scenes() / "skull").string();
@@ -233,6 +306,17 @@ TEST(Sog, SkullIsThePlyThatWasMadeFromIt) {
         for (int k = 0; k < 48; ++k) {
             ASSERT_NEAR(sog.cloud.sh_of(i)[k], ply.cloud.sh_of(i)[k], 1e-6);
         }
+    }
+}
+
+TEST(HostileSog, ImagesThatGoOnBehindTheGaussiansAreAWarning) {
+    for (const int count : {12, 1}) { // of 20 pixels in rows of 5 or 2
+        SogBuilder made;
+        made.width = count == 12 ? 5 : 2;
+        made.height = count == 12 ? 4 : 10;
+        made.count = count;
+        made.meta = made.meta_2();
+        EXPECT_EQ(content_of(made.file()).notes.size(), count == 12 ? 0U : 1U);
     }
 }
 
@@ -254,6 +338,7 @@ TEST(HostileSog, LiesAreOneSentence) {
     EXPECT_THAT(with_meta("\"count\":19", "\"count\":-1"), IsSentenceWith("whole number 'count'"));
     EXPECT_THAT(with_meta("\"count\":19", "\"count\":4000000000"), IsSentenceWith("allowed are"));
     EXPECT_THAT(with_meta("[-1,-2,0.5]", "[-1,-2]"), IsSentenceWith("'mins'"));
+    EXPECT_THAT(with_meta("[-1,-2,0.5]", "[-1,-2,0.5,1]"), IsSentenceWith("more than 3 numbers"));
     EXPECT_THAT(with_meta("[-1,-2,0.5]", "[-1,-2,1e999]"), IsSentenceWith("so this is no SOG"));
     EXPECT_THAT(with_meta("[-1,-2,0.5]", "[-1,-2,\"x\"]"), IsSentenceWith("finite numbers"));
     EXPECT_THAT(with_meta("\"means\"", "\"mean\""), IsSentenceWith("'means'"));

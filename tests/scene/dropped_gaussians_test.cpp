@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes much of which cannot be drawn, and values that look as if they had been activated already.
+#include "scene/scene.hpp"
+
+#include "tests/scene/gltf/glb_builder.hpp"
+#include "tests/scene/ply_builder.hpp"
+#include "tests/scene/scene_fixture.hpp"
+
+namespace degs {
+namespace {
+
+using test::IsSentenceWith;
+using test::PlyBuilder;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+/// `zeros` of `rows` rows hold nothing but zeros, as a truncated export does.
+std::string ply_with_zeros(int rows, int zeros) {
+    PlyBuilder ply = PlyBuilder::splat();
+    for (int row = 0; row < rows; ++row) {
+        ply.add_row([&](const std::string&) { return row < zeros ? 0.0 : -0.5; });
+    }
+    return ply.file();
+}
+
+Scene scene_of(const std::string& name, const std::string& bytes) {
+    const test::Folder folder;
+    return load_scene(folder.write(name, bytes));
+}
+
+std::string refusal_of(const std::string& name, const std::string& bytes) {
+    return test::complaint([&] { scene_of(name, bytes); });
+}
+
+TEST(DroppedGaussians, NearlyAllAreAWarning) {
+    const Scene scene = scene_of("a.ply", ply_with_zeros(300, 299));
+    EXPECT_EQ(scene.cloud.size(), 1U);
+    EXPECT_THAT(scene.notes, Contains(IsSentenceWith("299 of the 300 Gaussians of the file")));
+}
+
+TEST(DroppedGaussians, ManyAreAWarningAndFewAreCounted) {
+    const Scene many = scene_of("a.ply", ply_with_zeros(100, 1));
+    EXPECT_THAT(many.notes, Contains(IsSentenceWith("1 of the 100 Gaussians of the file cannot")));
+    EXPECT_EQ(many.dropped.total(), 1U);
+    const Scene few = scene_of("a.ply", ply_with_zeros(101, 1));
+    EXPECT_THAT(few.notes, Not(Contains(HasSubstr("dropped"))));
+    EXPECT_EQ(few.dropped.total(), 1U);
+    EXPECT_THAT(scene_of("a.ply", ply_with_zeros(12, 5)).notes, Contains(HasSubstr("5 of the 12")));
+}
+
+TEST(DroppedGaussians, LogarithmsInAGltfAreNamed) {
+    test::Glb glb = test::two_splats();
+    glb.attribute("SCALE") = glb.add({0.1F, 0.2F, 0.3F, -1, -2, -3}, "VEC3");
+    EXPECT_THAT(refusal_of("a.glb", glb.bytes()), IsSentenceWith("seem to be logarithms"));
+}
+
+std::string ply_of(double opacity, double scale, const std::string& format) {
+    PlyBuilder ply = PlyBuilder::splat();
+    ply.format = format;
+    for (int row = 0; row < 200; ++row) {
+        ply.add_row([&](const std::string& name) {
+            return name == "opacity" ? opacity : name.rfind("scale_", 0) == 0 ? scale : 0.25;
+        });
+    }
+    return ply.file();
+}
+
+TEST(DroppedGaussians, ActivatedValuesOfAPlyAreAWarning) {
+    for (const char* const format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+        EXPECT_THAT(scene_of("a.ply", ply_of(0.9, 0.2, format)).notes,
+                    Contains(IsSentenceWith("seems to hold both as they are")));
+        EXPECT_THAT(scene_of("a.ply", ply_of(0.9, -2, format)).notes,
+                    Not(Contains(HasSubstr("as they are"))));
+        EXPECT_THAT(scene_of("a.ply", ply_of(3, 0.2, format)).notes,
+                    Not(Contains(HasSubstr("as they are"))));
+    }
+}
+
+TEST(DroppedGaussians, ActivatedDiscsAreAWarning) {
+    PlyBuilder ply = PlyBuilder::splat();
+    ply.remove("scale_2");
+    for (int row = 0; row < 4; ++row) {
+        ply.add_row([](const std::string&) { return 0.5; });
+    }
+    EXPECT_THAT(scene_of("a.ply", ply.file()).notes, Contains(HasSubstr("as they are")));
+}
+
+} // namespace
+} // namespace degs
