@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "config/ratio.hpp"
+#include "config/visible_text.hpp"
 #include "sim/text/words.hpp"
 #include "splat/numbers/saturation.hpp"
 
@@ -35,7 +36,7 @@ std::vector<std::string> hazard_warnings(const AcceleratorResult& run) {
 
 void print_warnings(const std::vector<std::string>& warnings) {
     for (const std::string& warning : warnings) {
-        std::cerr << "degs: warning: " << warning << '\n';
+        std::cerr << "degs: warning: " << visible(warning) << '\n';
     }
 }
 

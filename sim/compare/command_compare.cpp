@@ -6,6 +6,7 @@
 #include "sim/commands.hpp"
 #include "sim/compare/compare_session.hpp"
 #include "sim/compare/comparison_output.hpp"
+#include "sim/sweep/study_options.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/view_options.hpp"
 #include "sim/warnings.hpp"
@@ -14,37 +15,22 @@ namespace degs::sim {
 namespace {
 
 struct CompareOptions {
-    std::vector<std::string> configs, overrides, scenes;
-    std::string cameras = "0";
-    std::string camera_file;
-    std::string resolutions;
-    std::optional<int> width;
-    PathRequest path;
-    bool array_only = false;
-    bool no_reference = false;
-    std::optional<std::string> within;
-    std::uint64_t seed = 1;
+    std::vector<std::string> configs, overrides;
+    ViewOptions views;
     int jobs = 1;
     std::string out = "out";
 };
 
 CompareRequest request_of(const CompareOptions& options) {
+    LoadedConfigs loaded = load_compared(options.configs, options.overrides, options.views.quick);
+    replace_views(options.views, loaded.views);
     CompareRequest request;
-    request.configs = load_configs(options.configs, options.overrides);
-    check_scenes(options.scenes);
-    request.scenes = options.scenes;
-    request.cameras = parse_cameras(options.cameras);
-    request.camera_file = options.camera_file;
-    if (!options.resolutions.empty()) {
-        request.sizes = parse_resolutions(options.resolutions);
-    } else {
-        request.sizes = {ImageSize{options.width, {}}};
-    }
-    request.path = options.path;
-    request.array_only = options.array_only;
-    request.reference = !options.no_reference;
-    request.sampling = sampling_for_runs(options.within, options.seed, options.path.frames);
+    request.configs = std::move(loaded.configs);
+    put_views(loaded.views, request);
+    request.sampling =
+        sampling_for_runs(options.views.within, options.views.seed, request.path.frames);
     request.jobs = options.jobs;
+    cameras_by_scene(request); // a mistake is found before anything runs
     return request;
 }
 
@@ -70,37 +56,12 @@ void run(const CompareOptions& options) {
 void add_what_options(CLI::App& command, CompareOptions& options) {
     command
         .add_option("config", options.configs,
-                    "configuration files (YAML), each as FILE or NAME=FILE; the others are "
-                    "compared with the first")
+                    "configuration files (YAML), each as FILE or NAME=FILE, or studies without "
+                    "axes; the others are compared with the first")
         ->type_name("FILE")
         ->required();
-    command
-        .add_option("--scene", options.scenes,
-                    "scene file, or synthetic:NAME[,gaussians=N][,seed=N]; may be repeated")
-        ->type_name("SCENE")
-        ->required()
-        ->take_all()
-        ->expected(1);
-    command
-        .add_option("--camera,--cameras", options.cameras,
-                    "positions in the scene's list of cameras, from 0: 0,2 or all")
-        ->type_name("LIST")
-        ->capture_default_str();
-    add_camera_file_option(command, options.camera_file);
-    CLI::Option* resolution =
-        command
-            .add_option("--resolution", options.resolutions,
-                        "720p, 1080p, 2k, 4k, 8k, or several separated by commas; else the "
-                        "cameras' own")
-            ->type_name("NAMES");
-    command.add_option("--width", options.width, "image width in pixels; the views are scaled")
-        ->excludes(resolution);
-    add_path_options(command, options.path);
-    add_sampling_options(command, options.within, options.seed);
+    add_study_view_options(command, options.views);
     add_addressed_overrides_option(command, options.overrides);
-    command.add_flag("--array-only", options.array_only,
-                     "the rasterisation arrays alone: sorted lists are there at once, and memory "
-                     "is unlimited");
 }
 
 } // namespace
@@ -110,8 +71,6 @@ void add_compare_command(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("compare", "compare accelerators on the same frames");
     add_what_options(*command, *options);
-    command->add_flag("--no-reference", options->no_reference,
-                      "do not render the double-precision images to compare with");
     command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
+#include <utility>
 
+#include "config/config_words.hpp"
 #include "config/error.hpp"
+#include "scene/scene.hpp"
 #include "sim/compare/addressed_overrides.hpp"
-#include "sim/sweep/study_file.hpp"
 
 namespace degs::sim {
 namespace {
@@ -27,17 +30,72 @@ Named named(const std::string& word) {
     return {word.substr(0, at), word.substr(at + 1)};
 }
 
-/// Each design of a study is a configuration of its own.
-void add_drafts(std::vector<StudyDesign>& drafts, const std::string& word) {
-    const Named file = named(word);
-    const ConfigNode tree = ConfigSource::from_file(file.file).tree();
-    if (!is_study(tree)) {
-        drafts.push_back({file.name, tree});
-        return;
+/// The first key in which the views of two studies differ; empty if there is none.
+std::string first_difference(const StudyViews& a, const StudyViews& b) {
+    const std::pair<const char*, bool> keys[] = {
+        {"scenes", a.scenes == b.scenes},
+        {"cameras", a.cameras == b.cameras},
+        {"camera_file", a.camera_file == b.camera_file},
+        {"resolutions", a.resolutions == b.resolutions},
+        {"width", a.width == b.width},
+        {"frames", a.path.frames == b.path.frames},
+        {"path_step", a.path.step_degrees == b.path.step_degrees},
+        {"array_only", a.array_only == b.array_only},
+        {"reference", a.reference == b.reference}};
+    for (const auto& [key, same] : keys) {
+        if (!same) {
+            return key;
+        }
     }
-    check_designs_only(tree);
-    for (StudyDesign& design : read_designs(tree)) {
-        drafts.push_back(std::move(design));
+    return "";
+}
+
+/// Throws InputError if two studies say different things of the views.
+void check_same_views(const std::string& first, const StudyViews& a, const std::string& second,
+                      const StudyViews& b) {
+    const std::string key = first_difference(a, b);
+    if (!key.empty()) {
+        throw InputError("The studies " + config_words::quote(first) + " and " +
+                         config_words::quote(second) + " differ in " + config_words::quote(key) +
+                         ", so they cannot be compared on the same views; compare them one by "
+                         "one, or give both the same value.");
+    }
+}
+
+/// Configurations before they are loaded.
+struct Drafts {
+    std::vector<StudyDesign> designs;
+    StudyViews views;
+    std::string study; ///< the file that says the views; empty: none
+
+    /// Each design of a study is a configuration of its own.
+    void add(const std::string& word, bool quick) {
+        const Named file = named(word);
+        const ConfigNode tree = ConfigSource::from_file(file.file).tree();
+        if (!is_study(tree)) {
+            designs.push_back({file.name, tree});
+            return;
+        }
+        check_designs_only(tree);
+        for (StudyDesign& design : read_designs(tree)) {
+            designs.push_back(std::move(design));
+        }
+        const StudyViews own = read_study_views(tree, file.file, quick);
+        if (!study.empty()) {
+            check_same_views(study, views, file.file, own);
+        }
+        study = file.file;
+        views = own;
+    }
+};
+
+void check_names(const std::vector<StudyDesign>& drafts) {
+    for (const StudyDesign& draft : drafts) {
+        const auto same = [&draft](const StudyDesign& other) { return other.name == draft.name; };
+        if (std::count_if(drafts.begin(), drafts.end(), same) > 1) {
+            throw InputError("Two configurations are called " + config_words::quote(draft.name) +
+                             "; NAME=FILE keeps them apart.");
+        }
     }
 }
 
@@ -74,39 +132,84 @@ std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string
     return sampling;
 }
 
-std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
-                                      const std::vector<std::string>& overrides) {
-    std::vector<StudyDesign> drafts;
+LoadedConfigs load_compared(const std::vector<std::string>& words,
+                            const std::vector<std::string>& overrides, bool quick) {
+    Drafts drafts;
     for (const std::string& word : words) {
         if (named(word).name.empty()) {
             throw InputError("The configuration '" + word +
                              "' has an empty name; FILE or NAME=FILE is needed.");
         }
-        add_drafts(drafts, word);
+        drafts.add(word, quick);
     }
-    const auto count = [&drafts](const std::string& name) {
-        return std::count_if(drafts.begin(), drafts.end(),
-                             [&name](const StudyDesign& draft) { return draft.name == name; });
-    };
-    for (const StudyDesign& draft : drafts) {
-        if (count(draft.name) > 1) {
-            throw InputError("Two configurations are called '" + draft.name +
-                             "'; NAME=FILE keeps them apart.");
-        }
+    if (quick && drafts.study.empty()) {
+        throw InputError("--quick needs a study with a section 'quick'.");
     }
+    check_names(drafts.designs);
     std::vector<std::string> names;
-    names.reserve(drafts.size());
-    for (const StudyDesign& draft : drafts) {
+    names.reserve(drafts.designs.size());
+    for (const StudyDesign& draft : drafts.designs) {
         names.push_back(draft.name);
     }
     check_addressees(overrides, names);
-    std::vector<NamedConfig> configs;
-    configs.reserve(drafts.size());
-    for (const StudyDesign& draft : drafts) {
-        configs.push_back({draft.name, load_run_config(ConfigSource::from_tree(
-                                           draft.tree, overrides_of(draft.name, overrides)))});
+    LoadedConfigs loaded;
+    loaded.views = drafts.views;
+    loaded.study = drafts.study;
+    for (const StudyDesign& draft : drafts.designs) {
+        loaded.configs.push_back(
+            {draft.name, load_run_config(ConfigSource::from_tree(
+                             draft.tree, overrides_of(draft.name, overrides)))});
     }
-    return configs;
+    return loaded;
+}
+
+std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
+                                      const std::vector<std::string>& overrides) {
+    LoadedConfigs loaded = load_compared(words, overrides);
+    const std::string key = first_difference(StudyViews(), loaded.views);
+    if (!key.empty()) {
+        throw InputError(loaded.study + ": key " + config_words::quote(key) +
+                         " of a study is for 'degs sweep' and 'degs compare'; this command takes "
+                         "its views from its options.");
+    }
+    return std::move(loaded.configs);
+}
+
+void put_views(const StudyViews& views, CompareRequest& request) {
+    if (views.scenes.empty()) {
+        throw InputError(
+            "The command names no scene: --scene is needed, or a study with 'scenes'.");
+    }
+    check_scenes(views.scenes);
+    request.scenes = views.scenes;
+    request.camera_file = views.camera_file;
+    request.cameras = parse_cameras(views.cameras);
+    if (views.resolutions.empty()) {
+        request.sizes = {ImageSize{views.width, {}}};
+    } else {
+        request.sizes = parse_resolutions(views.resolutions);
+    }
+    request.path = views.path;
+    request.array_only = views.array_only;
+    request.reference = views.reference;
+}
+
+std::vector<std::vector<int>> cameras_by_scene(const CompareRequest& request) {
+    std::vector<std::vector<int>> cameras;
+    for (const std::string& scene : request.scenes) {
+        const int count = static_cast<int>(camera_count(scene, request.camera_file));
+        std::vector<int> all(count);
+        std::iota(all.begin(), all.end(), 0);
+        cameras.push_back(request.cameras.value_or(all));
+        for (const int camera : cameras.back()) {
+            if (camera >= count) {
+                throw InputError("Camera " + std::to_string(camera) + " does not exist: scene '" +
+                                 scene + "' has " + std::to_string(count) +
+                                 " camera(s), numbered from 0.");
+            }
+        }
+    }
+    return cameras;
 }
 
 std::optional<std::vector<int>> parse_cameras(const std::string& text) {

@@ -9,6 +9,7 @@
 
 #include "sim/run_config.hpp"
 #include "sim/sampling/sampling_request.hpp"
+#include "sim/sweep/study_file.hpp"
 #include "sim/view.hpp"
 
 namespace degs::sim {
@@ -36,13 +37,34 @@ struct CompareRequest {
     int jobs = 1;                            ///< simulations at a time
 };
 
+/// Configurations, and what the studies among their files say of views.
+struct LoadedConfigs {
+    std::vector<NamedConfig> configs;
+    StudyViews views;
+    std::string study; ///< the file that says the views; empty: none
+};
+
 /// Loads configurations, each written as FILE or NAME=FILE; without a name it is called like
 /// the file without folder and extension. A file with a list `points` is a study: every
-/// point is a configuration, called by its key `name`. An override is "path=value" for all
+/// point is a configuration, called by its key `name`, and its views count, or with `quick` those of
+/// its section 'quick'; several studies must have the same ones. An override is "path=value" for all
 /// or "NAME:path=value" for one. Throws InputError for every mistake, also for a name that is
 /// empty, unknown or given twice.
+LoadedConfigs load_compared(const std::vector<std::string>& words,
+                            const std::vector<std::string>& overrides, bool quick = false);
+
+/// The same for commands that have views of their own: InputError for a study that says something of
+/// views.
 std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
                                       const std::vector<std::string>& overrides);
+
+/// Takes the views into the request. Throws InputError if there is no scene, and for mistakes in
+/// what they say.
+void put_views(const StudyViews& views, CompareRequest& request);
+
+/// The cameras of each scene of the request, in its order. Throws InputError if one of them cannot be
+/// opened or does not have a camera that is asked for.
+std::vector<std::vector<int>> cameras_by_scene(const CompareRequest& request);
 
 /// "0,1,2" or "all", which is empty. Throws InputError for anything else and for a number given twice.
 std::optional<std::vector<int>> parse_cameras(const std::string& text);

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/error.hpp"
 #include "sim/compare/comparison_output.hpp"
 #include "sim/process/interruption.hpp"
 
@@ -53,6 +54,9 @@ Comparison CompareSession::run() {
         interrupted_ = !runs_.run_scene(s, request_.cameras);
     }
     interrupted_ = !runs_.finish();
+    if (unwritten_) {
+        throw FailureError(*unwritten_);
+    }
     if (!found_.empty()) {
         write(); // with failures that came after the last run
     }
@@ -66,6 +70,12 @@ void CompareSession::end(const ViewRun& run, ChildOutcome&& outcome) {
         if (!found_.empty()) {
             write();
         }
+    } catch (const InputError& why) {
+        unwritten_ =
+            Failure{kUserError, "The results of " + run.name + " were not kept: " + why.what() +
+                                    " The comparison stopped after " + progress_.words() + "."};
+        runs_.stop();
+        return;
     } catch (...) {
         fail(request_.configs[run.config].name, run.words, failure_of(std::current_exception()));
     }

@@ -32,7 +32,8 @@ public:
     CompareSession& operator=(const CompareSession&) = delete;
 
     /// Returns when all is done or Ctrl-C has come. A mistake in one scene, camera or configuration
-    /// costs the views or runs concerned; the comparison and failure() report it.
+    /// costs the views or runs concerned; the comparison and failure() report it. Throws FailureError as
+    /// soon as results cannot be written, because the others would be simulated in vain.
     Comparison run();
     /// The failure that kept the comparison from being complete.
     std::optional<Failure> failure() const;
@@ -62,7 +63,8 @@ private:
     std::map<std::pair<std::size_t, std::size_t>, Found> found_; ///< by view and configuration
     std::vector<FailedRun> failed_;
     std::vector<std::string> warnings_;
-    std::vector<Failure> failures_; ///< the same with their codes
+    std::optional<Failure> unwritten_; ///< results that could not be written
+    std::vector<Failure> failures_;    ///< the same with their codes
     RunProgress progress_;
     bool interrupted_ = false;
     ViewRuns runs_; ///< the last, because it calls back

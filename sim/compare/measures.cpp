@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "config/config_words.hpp"
 #include "config/error.hpp"
 #include "config/ratio.hpp"
 #include "config/statistics_document.hpp"
@@ -16,45 +17,52 @@ struct MeasureRule {
     const char* name;      ///< null: that of the class of slots
     const char* statistic; ///< of a report, which describes it; null: not one of them alone
     bool mean;
+    Direction better;
     const char* unit = nullptr; ///< this and the next: where no statistic describes it
     const char* sentence = nullptr;
 };
 
+constexpr Direction kNone = Direction::None;
+constexpr Direction kLeast = Direction::Minimise;
+constexpr Direction kMost = Direction::Maximise;
+
 constexpr std::array<MeasureRule, kMeasures> kRules{{
-    {"cycles", "timing.cycles", false},
-    {"preprocessing_cycles", "timing.preprocessing_cycles", false},
-    {"latency_ms", "timing.latency_ms", true},
-    {"fps", "timing.fps", true},
-    {"throughput_fps", "timing.throughput_fps", true},
-    {nullptr, nullptr, false}, // nine classes of slots
-    {nullptr, nullptr, false},
-    {nullptr, nullptr, false},
-    {nullptr, nullptr, false},
-    {nullptr, nullptr, false},
-    {nullptr, nullptr, false},
-    {nullptr, nullptr, false},
-    {nullptr, nullptr, false},
-    {nullptr, nullptr, false},
-    {"slots.utilization", "slots.utilization", true},
-    {"slots.frame_utilization", "slots.frame_utilization", true},
-    {"dram.bytes_read", "dram.bytes_read", false},
-    {"dram.bytes_written", "dram.bytes_written", false},
-    {"dram.utilization", "dram.utilization", false},
-    {"area_mm2", "area.mm2", false},
-    {"energy.nj_per_frame", "energy.nj_per_frame", true},
-    {"energy.nj_per_pixel", "energy.nj_per_pixel", true},
-    {"energy.average_power_w", "energy.average_power_w", true},
-    {"ratio.latency", nullptr, true, "", "Latency of the first configuration / latency."},
-    {"ratio.throughput", nullptr, true, "", "Throughput / that of the first configuration."},
-    {"ratio.latency_per_mm2", nullptr, true, "", "ratio.latency x area of the first / area."},
-    {"ratio.throughput_per_mm2", nullptr, true, "", "ratio.throughput x area of the first / area."},
-    {"ratio.energy", nullptr, true, "",
+    {"cycles", "timing.cycles", false, kLeast},
+    {"preprocessing_cycles", "timing.preprocessing_cycles", false, kLeast},
+    {"latency_ms", "timing.latency_ms", true, kLeast},
+    {"fps", "timing.fps", true, kMost},
+    {"throughput_fps", "timing.throughput_fps", true, kMost},
+    {nullptr, nullptr, false, kMost}, // nine classes of slots, of which the first is useful
+    {nullptr, nullptr, false, kLeast},
+    {nullptr, nullptr, false, kLeast},
+    {nullptr, nullptr, false, kLeast},
+    {nullptr, nullptr, false, kLeast},
+    {nullptr, nullptr, false, kLeast},
+    {nullptr, nullptr, false, kLeast},
+    {nullptr, nullptr, false, kLeast},
+    {nullptr, nullptr, false, kLeast},
+    {"slots.utilization", "slots.utilization", true, kMost},
+    {"slots.frame_utilization", "slots.frame_utilization", true, kMost},
+    {"dram.bytes_read", "dram.bytes_read", false, kLeast},
+    {"dram.bytes_written", "dram.bytes_written", false, kLeast},
+    {"dram.utilization", "dram.utilization", false, kNone}, // a busy bus may be used well or ill
+    {"area_mm2", "area.mm2", false, kLeast},
+    {"energy.nj_per_frame", "energy.nj_per_frame", true, kLeast},
+    {"energy.nj_per_pixel", "energy.nj_per_pixel", true, kLeast},
+    {"energy.average_power_w", "energy.average_power_w", true, kLeast},
+    {"ratio.latency", nullptr, true, kMost, "", "Latency of the first configuration / latency."},
+    {"ratio.throughput", nullptr, true, kMost, "", "Throughput / that of the first configuration."},
+    {"ratio.latency_per_mm2", nullptr, true, kMost, "",
+     "ratio.latency x area of the first / area."},
+    {"ratio.throughput_per_mm2", nullptr, true, kMost, "",
+     "ratio.throughput x area of the first / area."},
+    {"ratio.energy", nullptr, true, kMost, "",
      "Frames per joule / that of the first configuration, each frame alone."},
-    {"ratio.energy_per_mm2", nullptr, true, "", "ratio.energy x area of the first / area."},
-    {"image.psnr_db", "image.psnr_db", false},
-    {"image.ssim", "image.ssim", false},
-    {"image.max_abs_error", "image.max_abs_error", false},
-    {"host.sim_s", "host.sim_s", false},
+    {"ratio.energy_per_mm2", nullptr, true, kMost, "", "ratio.energy x area of the first / area."},
+    {"image.psnr_db", "image.psnr_db", false, kMost},
+    {"image.ssim", "image.ssim", false, kMost},
+    {"image.max_abs_error", "image.max_abs_error", false, kLeast},
+    {"host.sim_s", "host.sim_s", false, kNone},
 }};
 
 const MeasureRule& rule_of(Measure measure) {
@@ -97,6 +105,49 @@ void read_slots(const SlotAccount& slots, Measures& measures) {
     }
 }
 
+/// Whether `part` stands in `name` between dots and underscores.
+bool has_word(const std::string& name, const std::string& part) {
+    const auto ends = [&name](std::size_t at) {
+        return at == 0 || at == name.size() || std::string("._").find(name[at]) < 2 ||
+               std::string("._").find(name[at - 1]) < 2;
+    };
+    for (std::size_t at = name.find(part); at != std::string::npos; at = name.find(part, at + 1)) {
+        if (ends(at) && ends(at + part.size())) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// The names of which `word` is a part, as "latency" is of "latency_ms"; else the one that it most
+/// likely misspells.
+std::vector<std::string> meant_by(const std::string& word, const std::vector<std::string>& names) {
+    constexpr std::size_t kMostSuggestions = 3;
+    std::vector<std::string> meant;
+    for (const std::string& name : names) {
+        if (!word.empty() && meant.size() < kMostSuggestions && has_word(name, word)) {
+            meant.push_back(name);
+        }
+    }
+    const std::string near = config_words::nearest(word, names);
+    if (meant.empty() && !near.empty()) {
+        meant.push_back(near);
+    }
+    return meant;
+}
+
+/// "'a', 'b' or 'c'".
+std::string alternatives(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t n = 0; n < names.size(); ++n) {
+        text += n == 0 ? "" : n + 1 == names.size() ? " or " : ", ";
+        text += config_words::quote(names[n]);
+    }
+    return text;
+}
+
+constexpr const char* kWhereListed = "'degs config --stats --of compare' lists the measures.";
+
 } // namespace
 
 std::vector<Statistic> measure_statistics(const std::vector<Statistic>& report) {
@@ -128,6 +179,34 @@ std::string name_of(Measure measure) {
 
 bool has_mean(Measure measure) {
     return rule_of(measure).mean;
+}
+
+Direction direction_of(Measure measure) {
+    return rule_of(measure).better;
+}
+
+std::string direction_words(Direction direction) {
+    return direction == Direction::Minimise   ? "smaller is better"
+           : direction == Direction::Maximise ? "larger is better"
+                                              : "";
+}
+
+Measure measure_named(const std::string& name, const std::string& place) {
+    std::optional<Measure> found;
+    std::vector<std::string> names;
+    for_each_measure([&](Measure measure) {
+        names.push_back(name_of(measure));
+        if (name_of(measure) == name) {
+            found = measure;
+        }
+    });
+    if (!found) {
+        const std::string meant = alternatives(meant_by(name, names));
+        throw InputError(place + " names " + config_words::quote(name) + ", which is no measure" +
+                         (meant.empty() ? "" : "; did you mean " + meant + "?") +
+                         (meant.empty() ? "; " : " ") + kWhereListed);
+    }
+    return *found;
 }
 
 Measures measures_of(const RunResult& result) {

@@ -68,6 +68,9 @@ constexpr Measure slot_measure(std::size_t slot_class) {
     return static_cast<Measure>(index_of(Measure::Useful) + slot_class);
 }
 
+/// Which values of a measure are better.
+enum class Direction { None, Minimise, Maximise };
+
 /// A number for each measure; one that does not exist is empty, never 0.
 class Measures {
 public:
@@ -83,6 +86,15 @@ private:
 std::string name_of(Measure measure);
 /// Whether its geometric mean over views says something.
 bool has_mean(Measure measure);
+
+/// None for what is neither good nor bad by itself, and for what the simulating machine decides.
+Direction direction_of(Measure measure);
+/// "smaller is better", "larger is better"; empty without a direction.
+std::string direction_words(Direction direction);
+
+/// The measure that a column of results.csv is called after. Throws InputError, which begins with `place`
+/// and suggests measures, if there is none.
+Measure measure_named(const std::string& name, const std::string& place);
 
 /// The keys of a run with their units and meanings, without values. `report` is the list of what a
 /// run reports, where most of them are described.

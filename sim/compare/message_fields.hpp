@@ -34,13 +34,13 @@ private:
     static const std::string& text(const std::string& value) { return value; }
     static std::string text(int value) { return std::to_string(value); }
     static std::string text(std::size_t value) { return std::to_string(value); }
-    /// Sentences end at the ends of lines.
+    /// Sentences may have any character, because names of files may; each comes after its size.
     static std::string text(const std::vector<std::string>& values) {
-        std::string lines;
+        std::string list;
         for (const std::string& value : values) {
-            lines += value + "\n";
+            list += text(value.size()) + "\n" + value + "\n";
         }
-        return lines;
+        return list;
     }
     static std::string text(const std::vector<std::pair<std::string, double>>& values) {
         std::string lines;
@@ -103,20 +103,26 @@ private:
     static void take(const std::string&, const std::string& text, std::string& value) {
         value = text;
     }
-    static void take(const std::string&, const std::string& text,
+    static void take(const std::string& name, const std::string& text,
                      std::vector<std::string>& values) {
         values.clear();
-        std::istringstream lines(text);
-        for (std::string line; std::getline(lines, line);) {
-            values.push_back(line);
+        for (std::size_t at = 0; at < text.size();) {
+            const std::size_t line = std::min(text.find('\n', at), text.size());
+            std::size_t bytes = 0;
+            take(name, text.substr(at, line - at), bytes);
+            const std::size_t left = text.size() - line;
+            if (left < 2 || bytes > left - 2 || text[line + 1 + bytes] != '\n') {
+                fail("'" + name + "' is cut off");
+            }
+            values.push_back(text.substr(line + 1, bytes));
+            at = line + 1 + bytes + 1;
         }
     }
     static void take(const std::string& name, const std::string& text,
                      std::vector<std::pair<std::string, double>>& values) {
-        std::vector<std::string> lines;
-        take(name, text, lines);
         values.clear();
-        for (const std::string& line : lines) {
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
             const std::size_t space = std::min(line.find(' '), line.size());
             double value = 0;
             take(name, line.substr(0, space), value);

@@ -44,7 +44,7 @@ struct RunSummary {
 RunSummary summary_of(const RunResult& result, int camera);
 
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 7;
+constexpr int kSummaryVersion = 8;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

@@ -62,6 +62,8 @@ public:
     bool run_scene(std::size_t scene, const std::optional<std::vector<int>>& cameras);
     /// Waits for all runs; false after Ctrl-C.
     bool finish();
+    /// Makes no more runs, as after Ctrl-C. For hooks.
+    void stop() { pool_.stop(); }
     /// Runs of a view on which every configuration is wanted.
     std::size_t per_view() const;
 

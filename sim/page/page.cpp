@@ -43,8 +43,11 @@ ordered_json measures_json() {
     ordered_json list = ordered_json::array();
     for (const Statistic& measure : measure_statistics(report)) {
         if (!is_of_host(measure.path)) {
-            list.push_back(
-                {{"name", measure.path}, {"unit", measure.unit}, {"sentence", measure.sentence}});
+            const Direction better = direction_of(measure_named(measure.path, "The page"));
+            list.push_back({{"name", measure.path},
+                            {"unit", measure.unit},
+                            {"sentence", measure.sentence},
+                            {"better", direction_words(better)}});
         }
     }
     return list;

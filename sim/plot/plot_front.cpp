@@ -36,7 +36,7 @@ std::string front_svg(const std::string& title, const std::string& x_label,
     const LogAxis y = axis_of(points, &FrontPoint::y, kChartBottom, kFrontTop);
     draw_log_axes(svg, x, y);
     Svg::Points steps;
-    for (const FrontPoint& point : points) { // the front goes down from left to right
+    for (const FrontPoint& point : points) { // from the best in x; each holds until the next
         if (point.on_front) {
             if (!steps.empty()) {
                 steps.emplace_back(x.at(point.x), steps.back().second);

@@ -48,7 +48,7 @@ struct UtilizationPanel {
 /// Utilization over the number of PEs, which doubles from tick to tick; two panels side by side.
 std::string utilization_svg(const std::string& title, const std::vector<UtilizationPanel>& panels);
 
-/// A design in two goals, both > 0 and better if smaller.
+/// A design in two goals, both > 0.
 struct FrontPoint {
     double x = 0, y = 0;
     bool on_front = false; ///< no other is better in both
@@ -56,7 +56,7 @@ struct FrontPoint {
 };
 
 /// Designs in two goals on logarithmic axes with the front of those that nobody beats; in the order
-/// of x.
+/// of x, the best first. The labels say which values are better.
 std::string front_svg(const std::string& title, const std::string& x_label,
                       const std::string& y_label, const std::vector<FrontPoint>& points);
 

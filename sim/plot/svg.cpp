@@ -40,9 +40,19 @@ std::string valid_utf8(const std::string& text) {
     return nlohmann::json::parse(quoted).get<std::string>();
 }
 
+/// XML has no U+FFFE and U+FFFF, which become U+FFFD.
+std::string without_non_characters(std::string text) {
+    for (const char* none : {"\xef\xbf\xbe", "\xef\xbf\xbf"}) {
+        for (std::size_t at = text.find(none); at != std::string::npos; at = text.find(none, at)) {
+            text[at + 2] = '\xbd';
+        }
+    }
+    return text;
+}
+
 std::string escaped(const std::string& text) {
     std::string result;
-    for (char c : valid_utf8(text)) {
+    for (char c : without_non_characters(valid_utf8(text))) {
         switch (c) {
         case '&':
             result += "&amp;";

@@ -197,7 +197,7 @@ bool ChildPool::start(const ChildJob& job) {
 }
 
 bool ChildPool::wait_for_fewer_than(std::size_t count, const StoppingSignals& signals) {
-    while (running_.size() >= count) {
+    while (!stopped_ && running_.size() >= count) {
         std::vector<pollfd> files; // one per child, then the signals
         for (const auto& child : running_) {
             files.push_back({child->file(), POLLIN, 0});
@@ -208,14 +208,17 @@ bool ChildPool::wait_for_fewer_than(std::size_t count, const StoppingSignals& si
             running_.clear();
             return false;
         }
-        for (std::size_t i = running_.size(); any && i-- > 0;) {
+        for (std::size_t i = running_.size(); any && !stopped_ && i-- > 0;) {
             if (files[i].revents != 0 && running_[i]->read()) {
                 take(i);
             }
         }
         tell_watcher();
     }
-    return true;
+    if (stopped_) {
+        running_.clear();
+    }
+    return !stopped_;
 }
 
 void ChildPool::take(std::size_t place) {

@@ -58,6 +58,9 @@ public:
     bool start(const ChildJob& job);
     /// Waits for all children.
     bool finish();
+    /// Kills the children, and makes this call and all later ones return false. For `watcher`, which is
+    /// called during calls.
+    void stop() { stopped_ = true; }
 
 private:
     class Child;
@@ -70,6 +73,7 @@ private:
     ChildWatcher watcher_;
     std::vector<std::unique_ptr<Child>> running_;
     std::size_t started_ = 0, ended_ = 0;
+    bool stopped_ = false;
 };
 
 /// Runs every job in a pool of its own and returns when all have ended, or false after a signal.

@@ -2,8 +2,6 @@
 // degs explore: the designs of a study that nobody beats.
 #include <memory>
 
-#include "config/config_words.hpp"
-#include "config/error.hpp"
 #include "config/visible_text.hpp"
 #include "sim/commands.hpp"
 #include "sim/sweep/search_output.hpp"
@@ -23,29 +21,11 @@ struct ExploreOptions {
     std::string out = "out";
 };
 
-Measure measure_named(const std::string& name) {
-    std::optional<Measure> found;
-    std::vector<std::string> names;
-    for_each_measure([&](Measure measure) {
-        names.push_back(name_of(measure));
-        if (name_of(measure) == name) {
-            found = measure;
-        }
-    });
-    if (!found) {
-        const std::string meant = config_words::nearest(name, names);
-        throw InputError(
-            "--goals names " + config_words::quote(name) + ", which is no measure" +
-            (meant.empty() ? "" : "; did you mean " + config_words::quote(meant) + "?") +
-            " 'degs config --stats --of compare' lists them.");
-    }
-    return *found;
-}
-
 void run(ExploreOptions& options) {
     for (std::size_t g = 0; g < options.goals.size(); ++g) {
-        options.search.goals.at(g) = measure_named(options.goals[g]);
+        options.search.goals.at(g) = measure_named(options.goals[g], "--goals");
     }
+    check_goals(options.search);
     StudyPlan plan = plan_study(study_of(options.study));
     plan.request.jobs = options.jobs;
     std::optional<Failure> failure;
@@ -71,7 +51,8 @@ void add_explore_command(CLI::App& program) {
     add_study_options(*command, options->study);
     command
         ->add_option("--goals", options->goals,
-                     "two measures that shall be small, as in the columns of results.csv")
+                     "two measures, as in the columns of results.csv; each is made small or large, "
+                     "whichever is better")
         ->type_name("NAME,NAME")
         ->delimiter(',')
         ->expected(2)

@@ -72,10 +72,11 @@ void submit(const SweepOptions& options, const StudyPlan& plan) {
     array.name = file_name("degs-" + plan.name);
     array.command = command_of(options);
     array.command.insert(array.command.end(),
-                         {"--out", options.out, "--jobs", std::to_string(options.jobs)});
+                         {"--out=" + options.out, "--jobs", std::to_string(options.jobs)});
     array.options = options.sbatch;
     array.processors = options.jobs;
     array.parts = std::min<std::size_t>(options.tasks, plan.points.size());
+    array.logs = (std::filesystem::path(options.out) / "slurm").string();
     slurm_script(array); // a mistake in the options is found before anything is written
     const PointStore store(options.out, plan);
     for (std::size_t k = 1; k <= array.parts; ++k) {
@@ -94,7 +95,6 @@ void submit(const SweepOptions& options, const StudyPlan& plan) {
         return;
     }
     const OutputFolder logs(store.folder().path("slurm"), {});
-    array.logs = store.folder().path("slurm");
     store.folder().write_text("slurm.sh", slurm_script(array));
     const std::string job = submit_script(store.folder().path("slurm.sh"));
     print("job " + visible(job) + ": " + grouped(array.tasks.size()) + " tasks for " +
@@ -117,6 +117,28 @@ std::string plan_text(const StudyPlan& plan) {
     return text;
 }
 
+/// Which points are missing and why, as far as the folder tells.
+std::string missing_words(const SweepResults& results, const OutputFolder& folder) {
+    namespace fs = std::filesystem;
+    std::string text = grouped(results.missing) + " points are missing";
+    if (results.damaged != 0) {
+        text += ", " + grouped(results.damaged) + " of them because their files are damaged";
+    }
+    std::error_code none;
+    if (fs::exists(folder.path("slurm.sh"), none)) {
+        const bool logs =
+            fs::directory_iterator(folder.path("slurm"), none) != fs::directory_iterator();
+        text +=
+            logs
+                ? "; the tasks of the job array have failed or not ended yet, and 'slurm/K.log' in "
+                  "the folder has what they printed"
+                : "; no task of the job array has written a 'slurm/K.log', so none has started, "
+                  "and "
+                  "'squeue' or 'sacct' says why";
+    }
+    return text + "; 'degs sweep' without --collect runs them.";
+}
+
 /// Results of all points, whoever ran them. Throws FailureError if some are missing or failed.
 void collect(const StudyPlan& plan, const PointStore& store) {
     const SweepResults results = read_results(plan, store);
@@ -128,9 +150,7 @@ void collect(const StudyPlan& plan, const PointStore& store) {
           "all numbers and plots: " + visible(store.folder().path("")) + "\n");
     print_warnings(results.warnings);
     if (results.missing != 0) {
-        throw FailureError({kUserError, grouped(results.missing) +
-                                            " points are missing; 'degs sweep' without --collect "
-                                            "runs them."});
+        throw FailureError({kUserError, missing_words(results, store.folder())});
     }
     if (!results.failed.empty()) {
         throw FailureError(results.failed.front().failure);

@@ -12,6 +12,7 @@
 
 #include "config/config_words.hpp"
 #include "config/error.hpp"
+#include "sim/cache/digest.hpp"
 #include "sim/compare/message_fields.hpp"
 #include "sim/report.hpp"
 #include "sim/sweep/sweep_results.hpp"
@@ -24,7 +25,13 @@ using config_words::quote;
 using nlohmann::ordered_json;
 
 constexpr const char* kState = "study.json";
-constexpr int kPointVersion = 1;
+constexpr const char* kStudySchema = "degs-study";
+constexpr int kPointVersion = 2;
+constexpr const char* kPointFile = ".point";
+constexpr const char* kFailedFile = ".failed";
+constexpr const char* kReportFile = ".json";
+constexpr const char* kReportOfPath = "-path.json";
+constexpr const char* kChecksumWord = "checksum ";
 
 /// Empty if there is no such file.
 std::optional<std::string> read_whole(const std::string& path) {
@@ -35,7 +42,7 @@ std::optional<std::string> read_whole(const std::string& path) {
 }
 
 ordered_json state_of(const StudyPlan& plan) {
-    return {{"schema", {{"name", "degs-study"}, {"version", kPointVersion}}},
+    return {{"schema", {{"name", kStudySchema}, {"version", kPointVersion}}},
             {"tool", tool_json()},
             {"study", plan.name},
             {"points", plan.points.size()},
@@ -47,36 +54,52 @@ ordered_json state_of(const StudyPlan& plan) {
                      "; choose another folder with --out, or remove this one.");
 }
 
-/// "the study 'buffers' of 36 points", as far as the file says.
-std::string study_words(const std::string& state) {
-    const ordered_json json = ordered_json::parse(state, nullptr, false);
-    if (!json.is_object() || !json.contains("study") || !json.contains("points")) {
-        return "a study that cannot be read";
-    }
-    const ordered_json& name = json["study"];
-    return "the study " + quote(name.is_string() ? name.get<std::string>() : name.dump()) + " of " +
-           json["points"].dump() + " points";
-}
-
 /// Before anything is written to it.
-std::string checked(const std::string& folder, const StudyPlan& plan) {
+std::string checked(const std::string& folder) {
     const fs::path path(folder);
     const std::optional<std::string> state = read_whole((path / kState).string());
-    if (state && *state != json_text(state_of(plan))) {
-        refuse(folder, "holds " + study_words(*state) +
-                           ", which differs from this one in its points or in the program's "
-                           "version");
+    if (state) {
+        const ordered_json json = ordered_json::parse(*state, nullptr, false);
+        const bool ours = json.is_object() && json.contains("schema") &&
+                          json["schema"].is_object() && json["schema"].contains("name") &&
+                          json["schema"]["name"] == kStudySchema;
+        if (!ours) {
+            refuse(folder, "holds a " + quote(kState) + " that is not a study's");
+        }
     }
     std::error_code none;
-    std::vector<std::string> ours = sweep_files();
-    ours.insert(ours.end(), {"points", "reports", "compare.json"});
-    for (const std::string& file : ours) {
+    std::vector<std::string> results = sweep_files();
+    results.insert(results.end(), {"points", "reports", "compare.json"});
+    for (const std::string& file : results) {
         if (!state && fs::exists(path / file, none)) {
             refuse(folder, "holds " + quote(file) + ", but no " + quote(kState) +
                                " that says which study it is of");
         }
     }
     return folder;
+}
+
+/// The line that ends a file of the store.
+std::string checksum_line(const std::string& text) {
+    Digest digest;
+    digest.add(text);
+    return kChecksumWord + digest.text() + "\n";
+}
+
+std::string sealed(const std::string& text) {
+    return text + checksum_line(text);
+}
+
+/// What was sealed; empty if a byte of it has changed.
+std::optional<std::string> unsealed(const std::string& file) {
+    const std::size_t bytes = checksum_line("").size();
+    if (file.size() < bytes) {
+        return {};
+    }
+    std::string text = file.substr(0, file.size() - bytes);
+    return file.compare(text.size(), bytes, checksum_line(text)) == 0
+               ? std::optional(std::move(text))
+               : std::nullopt;
 }
 
 std::string file_of(std::size_t point, const char* ending) {
@@ -95,8 +118,8 @@ void remove_partial(const fs::path& folder) {
 }
 
 /// The fields of a point's file.
-template <class Fields>
-void each_part(Fields& fields, std::string& frame, std::string& path) {
+template <class Fields, class Text>
+void each_part(Fields& fields, Text& frame, Text& path) {
     fields("frame", frame);
     fields("path", path);
 }
@@ -104,28 +127,33 @@ void each_part(Fields& fields, std::string& frame, std::string& path) {
 } // namespace
 
 PointStore::PointStore(const std::string& folder, const StudyPlan& plan)
-    : folder_(checked(folder, plan), sweep_files()), points_(folder_.path("points"), {}),
-      reports_(folder_.path("reports"), {}), digest_(plan.digest) {
-    if (!fs::exists(folder_.path(kState))) {
-        folder_.write_json(kState, state_of(plan));
+    : folder_(checked(folder), sweep_files()), points_(folder_.path("points"), {}),
+      reports_(folder_.path("reports"), {}) {
+    for (const StudyPoint& point : plan.points) {
+        keys_.push_back(point.key);
+    }
+    const ordered_json state = state_of(plan);
+    if (read_whole(folder_.path(kState)) != json_text(state)) {
+        folder_.write_json(kState, state);
     }
 }
 
-std::string PointStore::heading() const {
-    return "degs-point " + std::to_string(kPointVersion) + " " + digest_;
+std::string PointStore::heading(std::size_t point) const {
+    return "degs-point " + std::to_string(kPointVersion) + " " + keys_[point];
 }
 
 std::string PointStore::report_of(std::size_t point) {
-    return "reports/" + file_of(point, ".json");
+    return "reports/" + file_of(point, kReportFile);
 }
 
 std::optional<StoredPoint> PointStore::read(std::size_t point) const {
-    const std::optional<std::string> text = read_whole(points_.path(file_of(point, ".point")));
+    const std::optional<std::string> file = read_whole(points_.path(keys_[point] + kPointFile));
+    const std::optional<std::string> text = file ? unsealed(*file) : std::nullopt;
     if (!text) {
         return {};
     }
     try {
-        MessageReader reader(heading(), *text);
+        MessageReader reader(heading(point), *text);
         std::string frame;
         std::string path;
         each_part(reader, frame, path);
@@ -135,13 +163,19 @@ std::optional<StoredPoint> PointStore::read(std::size_t point) const {
             found.path = summary_from(path);
         }
         return found;
-    } catch (const std::runtime_error&) { // cut off when the machine stopped
+    } catch (const std::runtime_error&) { // of another version
         return {};
     }
 }
 
+bool PointStore::is_damaged(std::size_t point) const {
+    std::error_code none;
+    return fs::exists(points_.path(keys_[point] + kPointFile), none) && !read(point);
+}
+
 std::optional<Failure> PointStore::failure(std::size_t point) const {
-    const std::optional<std::string> text = read_whole(points_.path(file_of(point, ".failed")));
+    const std::optional<std::string> file = read_whole(points_.path(keys_[point] + kFailedFile));
+    const std::optional<std::string> text = file ? unsealed(*file) : std::nullopt;
     if (!text || text->size() < 2) {
         return {};
     }
@@ -149,31 +183,41 @@ std::optional<Failure> PointStore::failure(std::size_t point) const {
 }
 
 void PointStore::keep(std::size_t point, const StoredPoint& found) const {
-    StoredPoint kept = found;
-    reports_.write_text(file_of(point, ".json"), found.frame.report);
-    kept.frame.report.clear();
-    std::string frame = message_of(kept.frame);
-    std::string path;
-    if (kept.path) {
-        reports_.write_text(file_of(point, "-path.json"), kept.path->report);
-        kept.path->report.clear();
-        path = message_of(*kept.path);
-    }
-    MessageWriter writer(heading());
+    const std::string frame = message_of(found.frame);
+    const std::string path = found.path ? message_of(*found.path) : "";
+    MessageWriter writer(heading(point));
     each_part(writer, frame, path);
-    points_.write_text(file_of(point, ".point"), writer.message);
+    points_.write_text(keys_[point] + kPointFile, sealed(writer.message));
     std::error_code none;
-    fs::remove(points_.path(file_of(point, ".failed")), none);
+    fs::remove(points_.path(keys_[point] + kFailedFile), none);
 }
 
 void PointStore::keep_failure(std::size_t point, const Failure& failure) const {
-    points_.write_text(file_of(point, ".failed"),
-                       std::to_string(failure.code) + " " + failure.sentence);
+    points_.write_text(keys_[point] + kFailedFile,
+                       sealed(std::to_string(failure.code) + " " + failure.sentence));
+}
+
+void PointStore::put_reports(std::size_t point, const std::optional<StoredPoint>& found) const {
+    const auto put = [this](const std::string& file, const std::string* report) {
+        std::error_code none;
+        if (report == nullptr) {
+            fs::remove(reports_.path(file), none);
+        } else if (read_whole(reports_.path(file)) != *report) {
+            reports_.write_text(file, *report);
+        }
+    };
+    put(file_of(point, kReportFile), found ? &found->frame.report : nullptr);
+    put(file_of(point, kReportOfPath), found && found->path ? &found->path->report : nullptr);
 }
 
 void PointStore::sweep_up() const {
     for (const OutputFolder* folder : {&folder_, &points_, &reports_}) {
         remove_partial(folder->path(""));
+    }
+    std::error_code none;
+    for (std::size_t point = keys_.size();
+         fs::remove(reports_.path(file_of(point, kReportFile)), none); ++point) {
+        fs::remove(reports_.path(file_of(point, kReportOfPath)), none);
     }
 }
 

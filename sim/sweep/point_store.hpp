@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/compare/run_summary.hpp"
 #include "sim/failure.hpp"
@@ -13,39 +14,46 @@
 
 namespace degs::sim {
 
-/// What the runs of a point have found; the reports lie beside it.
+/// What the runs of a point have found, with their reports.
 struct StoredPoint {
     RunSummary frame;
     std::optional<RunSummary> path; ///< if the study has a camera path
 };
 
-/// Several processes may use the folder at once, on this machine or others: a point has the same
-/// content whoever ran it.
+/// Points are found by their keys, so studies may share a folder, and a point that one of them has
+/// finished is finished for all. Several processes may use the folder at once, on this machine or
+/// others: a point has the same content whoever ran it.
 class PointStore {
 public:
-    /// Creates the folder or goes on with it. Throws InputError if it holds another study, results
-    /// of another kind, or cannot be written.
+    /// Creates the folder or goes on with it. Throws InputError if it holds results of another kind, or
+    /// cannot be written.
     PointStore(const std::string& folder, const StudyPlan& plan);
 
     const OutputFolder& folder() const { return folder_; }
-    /// What is known of a point; empty if it has not been finished by this program and plan.
+    /// What is known of a point; empty if it has not been finished, or if its file is damaged.
     std::optional<StoredPoint> read(std::size_t point) const;
+    /// Whether the point has a file that is damaged.
+    bool is_damaged(std::size_t point) const;
     /// Why a point failed when it was last tried.
     std::optional<Failure> failure(std::size_t point) const;
 
-    /// Writes the reports, then the point, which is finished with that.
+    /// Writes the point, which is finished with that. Throws InputError if that is not possible.
     void keep(std::size_t point, const StoredPoint& found) const;
     void keep_failure(std::size_t point, const Failure& failure) const;
+    /// Puts the reports of the point beside the results, numbered as the plan does it; without a
+    /// point, removes those of another study. Files that have the content already stay as they are.
+    void put_reports(std::size_t point, const std::optional<StoredPoint>& found) const;
     /// The frame's report relative to the folder.
     static std::string report_of(std::size_t point);
-    /// Removes what killed processes left half written. Nobody else may be writing.
+    /// Removes what killed processes left half written, and reports of points beyond those of the
+    /// plan. Nobody else may be writing.
     void sweep_up() const;
 
 private:
-    std::string heading() const;
+    std::string heading(std::size_t point) const;
 
     OutputFolder folder_, points_, reports_;
-    std::string digest_;
+    std::vector<std::string> keys_; ///< by point
 };
 
 } // namespace degs::sim

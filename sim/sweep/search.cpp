@@ -6,11 +6,27 @@
 #include <numeric>
 #include <utility>
 
+#include "config/config_words.hpp"
 #include "config/error.hpp"
 #include "sim/sweep/sweep_session.hpp"
 
 namespace degs::sim {
 namespace {
+
+constexpr int kFramesOfThroughput = 3; ///< docs/compare.md
+
+/// Goals are geometric means on logarithmic axes.
+void check_value(const std::string& design, Measure goal, const std::optional<double>& value) {
+    if (!value) {
+        throw InputError("'" + design + "' has no " + name_of(goal) + ", so it cannot be a goal.");
+    }
+    if (!(*value > 0) || std::isinf(*value)) {
+        throw InputError("'" + design + "' has the " + name_of(goal) + " " +
+                         config_words::number(*value) +
+                         ", but a goal must be above 0 and finite, because it is the geometric "
+                         "mean over the views.");
+    }
+}
 
 /// The goals of the plan's variants, by their numbers in the rung; empty for those that failed.
 std::vector<std::optional<Goals>> goals_of(const StudyPlan& part, const SweepResults& results,
@@ -21,10 +37,7 @@ std::vector<std::optional<Goals>> goals_of(const StudyPlan& part, const SweepRes
         ++views[row.config];
         for (std::size_t g = 0; g < options.goals.size(); ++g) {
             const std::optional<double>& value = row.measures[options.goals.at(g)];
-            if (!value || !(*value > 0)) {
-                throw InputError("'" + part.variants[row.config].name + "' has no " +
-                                 name_of(options.goals.at(g)) + ", so it cannot be a goal.");
-            }
+            check_value(part.variants[row.config].name, options.goals.at(g), value);
             logs[row.config].at(g) += std::log(*value);
         }
     }
@@ -77,7 +90,7 @@ std::vector<std::size_t> survivors(const Rung& rung, const StudyPlan& plan,
                                    const SearchOptions& options) {
     std::vector<Goals> goals;
     for (const Candidate& candidate : rung.candidates) {
-        goals.push_back(candidate.goals);
+        goals.push_back(costs_of(candidate.goals, options));
     }
     const std::size_t count = std::max(options.least, goals.size() / options.share);
     std::vector<std::size_t> variants{plan.baseline};
@@ -91,8 +104,59 @@ std::vector<std::size_t> survivors(const Rung& rung, const StudyPlan& plan,
 
 } // namespace
 
+void check_goals(const SearchOptions& options) {
+    std::vector<std::string> allowed;
+    for_each_measure([&allowed](Measure measure) {
+        if (direction_of(measure) != Direction::None) {
+            allowed.push_back(name_of(measure));
+        }
+    });
+    for (const Measure goal : options.goals) {
+        if (direction_of(goal) == Direction::None) {
+            throw InputError("--goals names '" + name_of(goal) +
+                             "', of which neither small nor large values are better; allowed are " +
+                             config_words::list(allowed) + ".");
+        }
+    }
+    if (options.goals[0] == options.goals[1]) {
+        throw InputError("--goals names '" + name_of(options.goals[0]) +
+                         "' twice, but a search needs two different measures.");
+    }
+}
+
+void check_goals(const SearchOptions& options, const CompareRequest& request) {
+    const auto starts = [](Measure goal, const char* section) {
+        return name_of(goal).rfind(section, 0) == 0;
+    };
+    for (const Measure goal : options.goals) {
+        const bool path = starts(goal, "throughput_") || starts(goal, "ratio.throughput");
+        const std::string lack =
+            path && request.path.frames < kFramesOfThroughput
+                ? "needs a camera path of at least 3 frames ('frames' of the study, or --frames)"
+            : starts(goal, "image.") && (!request.reference || request.sampling)
+                ? "needs reference images, which this study does not make"
+            : starts(goal, "dram.") && request.array_only ? "does not exist for the arrays alone"
+                                                          : "";
+        if (!lack.empty()) {
+            throw InputError("The study has no " + name_of(goal) + ", so it cannot be a goal; it " +
+                             lack + ".");
+        }
+    }
+}
+
+Goals costs_of(const Goals& goals, const SearchOptions& options) {
+    Goals costs = goals;
+    for (std::size_t g = 0; g < goals.size(); ++g) {
+        if (direction_of(options.goals.at(g)) == Direction::Maximise) {
+            costs.at(g) = -goals.at(g);
+        }
+    }
+    return costs;
+}
+
 Search search(const StudyPlan& plan, const SearchOptions& options, const std::string& out,
               std::optional<Failure>& failure) {
+    check_goals(options, plan.request);
     Search found;
     std::vector<std::size_t> variants(plan.variants.size());
     std::iota(variants.begin(), variants.end(), 0);

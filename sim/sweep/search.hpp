@@ -17,7 +17,7 @@
 
 namespace degs::sim {
 
-/// Two measures that shall be small.
+/// Two numbers. The functions below take them as costs, which shall be small.
 using Goals = std::array<double, 2>;
 
 /// Positions of those that no other beats: none is at least as good in both goals and better in one.
@@ -38,6 +38,15 @@ struct SearchOptions {
     std::size_t least = 8; ///< designs that go on at least
     std::array<Measure, 2> goals{Measure::AreaMm2, Measure::LatencyMs};
 };
+
+/// Throws InputError for a goal without a direction, and for one that is given twice.
+void check_goals(const SearchOptions& options);
+
+/// Throws InputError for a goal that runs of this request do not have.
+void check_goals(const SearchOptions& options, const CompareRequest& request);
+
+/// The goals as costs: the smaller, the better, and ratios of two costs are those of the goals.
+Goals costs_of(const Goals& goals, const SearchOptions& options);
 
 /// A design in a rung.
 struct Candidate {

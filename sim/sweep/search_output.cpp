@@ -17,25 +17,26 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::vector<Goals> goals_in(const Rung& rung) {
-    std::vector<Goals> goals;
+std::vector<Goals> costs_in(const Rung& rung, const SearchOptions& options) {
+    std::vector<Goals> costs;
     for (const Candidate& candidate : rung.candidates) {
-        goals.push_back(candidate.goals);
+        costs.push_back(costs_of(candidate.goals, options));
     }
-    return goals;
+    return costs;
 }
 
-/// The last rung in the order of the first goal.
+/// The last rung in the order of the first goal, the best first.
 std::vector<FrontPoint> points_of(const StudyPlan& plan, const Rung& rung,
+                                  const SearchOptions& options,
                                   std::vector<std::size_t>& variants) {
-    const std::vector<std::size_t> front = pareto_front(goals_in(rung));
+    const std::vector<Goals> costs = costs_in(rung, options);
+    const std::vector<std::size_t> front = pareto_front(costs);
     std::vector<std::size_t> order(rung.candidates.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
         order[i] = i;
     }
-    std::sort(order.begin(), order.end(), [&rung](std::size_t a, std::size_t b) {
-        return std::make_pair(rung.candidates[a].goals, a) <
-               std::make_pair(rung.candidates[b].goals, b);
+    std::sort(order.begin(), order.end(), [&costs](std::size_t a, std::size_t b) {
+        return std::make_pair(costs[a], a) < std::make_pair(costs[b], b);
     });
     std::vector<FrontPoint> points;
     for (const std::size_t position : order) {
@@ -118,6 +119,10 @@ ordered_json search_json(const StudyPlan& plan, const Search& search,
     json["tool"] = tool_json();
     json["study"] = plan.name;
     json["goals"] = {name_of(options.goals[0]), name_of(options.goals[1])};
+    json["better"] = ordered_json::array();
+    for (const Measure goal : options.goals) {
+        json["better"].push_back(direction_of(goal) == Direction::Maximise ? "larger" : "smaller");
+    }
     json["skipped"] = ordered_json::array();
     for (const SkippedVariant& skipped : plan.skipped) {
         json["skipped"].push_back({{"name", skipped.variant.name}, {"why", skipped.why}});
@@ -127,6 +132,11 @@ ordered_json search_json(const StudyPlan& plan, const Search& search,
         json["rungs"].push_back(rung_json(plan, search, r, options));
     }
     return json;
+}
+
+/// "fps (larger is better)".
+std::string goal_words(Measure goal) {
+    return name_of(goal) + " (" + direction_words(direction_of(goal)) + ")";
 }
 
 /// The values of a design that are not those of its file: "span.count=4 packing.bytes=8192".
@@ -140,10 +150,10 @@ std::string changes_of(const StudyVariant& variant) {
 void write_search(const StudyPlan& plan, const Search& search, const SearchOptions& options,
                   const OutputFolder& folder) {
     std::vector<std::size_t> variants;
-    const std::vector<FrontPoint> points = points_of(plan, search.rungs.back(), variants);
+    const std::vector<FrontPoint> points = points_of(plan, search.rungs.back(), options, variants);
     folder.write_text("front.csv", front_csv(plan, options, points, variants));
-    folder.write_text("front.svg", front_svg(plan.name, name_of(options.goals[0]),
-                                             name_of(options.goals[1]), points));
+    folder.write_text("front.svg", front_svg(plan.name, goal_words(options.goals[0]),
+                                             goal_words(options.goals[1]), points));
     folder.write_json("explore.json", search_json(plan, search, options));
 }
 
@@ -164,7 +174,7 @@ std::string search_text(const StudyPlan& plan, const Search& search, const Searc
         text += grouped(plan.skipped.size()) + " designs cannot be built\n";
     }
     std::vector<std::size_t> variants;
-    const std::vector<FrontPoint> points = points_of(plan, search.rungs.back(), variants);
+    const std::vector<FrontPoint> points = points_of(plan, search.rungs.back(), options, variants);
     TextTable table({"front", name_of(options.goals[0]), name_of(options.goals[1])});
     for (std::size_t p = 0; p < points.size(); ++p) {
         if (points[p].on_front || points[p].baseline) {
@@ -173,7 +183,8 @@ std::string search_text(const StudyPlan& plan, const Search& search, const Searc
                        three_digits(points[p].x), three_digits(points[p].y)});
         }
     }
-    return text + "\n" + table.text();
+    return text + goal_words(options.goals[0]) + "; " + goal_words(options.goals[1]) + "\n\n" +
+           table.text();
 }
 
 } // namespace degs::sim

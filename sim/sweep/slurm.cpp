@@ -60,13 +60,28 @@ std::string shell_word(const std::string& word) {
     return quoted + "'";
 }
 
+std::string slurm_name(const std::string& name) {
+    std::string pattern;
+    for (const char c : name) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '\\' || code < 0x20 || code == 0x7f) {
+            throw InputError("The output folder " + config_words::quote(name) +
+                             " has a backslash or a control character in its name, with which "
+                             "Slurm cannot name the files of its tasks; choose another with "
+                             "--out.");
+        }
+        pattern += c == '%' ? "%%" : std::string(1, c);
+    }
+    return pattern;
+}
+
 std::string slurm_script(const SlurmArray& array) {
     std::string text = "#!/bin/sh\n"
                        "#SBATCH --job-name=" +
                        array.name + "\n#SBATCH --array=" + task_list(array.tasks) +
                        "\n#SBATCH --cpus-per-task=" + std::to_string(array.processors) +
                        "\n#SBATCH --requeue\n#SBATCH --open-mode=append\n#SBATCH --output=" +
-                       shell_word(array.logs + "/%a.log") + "\n";
+                       shell_word(slurm_name(array.logs) + "/%a.log") + "\n";
     for (const std::string& option : array.options) {
         if (option.find_first_of("\r\n") != std::string::npos || option.rfind('-', 0) != 0) {
             throw InputError("--sbatch is " + config_words::quote(option) +

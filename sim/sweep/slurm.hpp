@@ -24,8 +24,12 @@ std::string task_list(const std::vector<std::size_t>& tasks);
 /// A word of a shell command, in quotes if it must be.
 std::string shell_word(const std::string& word);
 
+/// A name of a file where Slurm expands patterns such as %a. Throws InputError for what no pattern can
+/// say: a backslash, which turns all patterns off, and control characters.
+std::string slurm_name(const std::string& name);
+
 /// The script for sbatch. A task whose node is lost is put back into the queue. Throws InputError
-/// for an option that is more than one line.
+/// for an option that is more than one line, and for a folder that Slurm cannot name.
 std::string slurm_script(const SlurmArray& array);
 
 /// Hands the script to sbatch and returns the number of the job. Throws FailureError with what

@@ -19,7 +19,7 @@ using config_words::quote;
 using Kind = ConfigNode::Kind;
 
 constexpr int kMostFramesOfStudy = 10000; ///< as --frames
-/// What `degs compare` cannot do; the views of a study it takes from its own options.
+/// What `degs compare` cannot do.
 const std::vector<std::string> kSweepKeys{"axes", "combine", "baseline"};
 const std::vector<std::string> kStudyKeys{"study",     "points",      "designs",   "axes",
                                           "combine",   "baseline",    "scenes",    "cameras",
@@ -89,7 +89,7 @@ std::string beside(const fs::path& folder, const std::string& name) {
     return own ? name : (folder / name).lexically_normal().string();
 }
 
-void read_views(const ConfigNode& tree, const fs::path& folder, Study& study) {
+void read_views(const ConfigNode& tree, const fs::path& folder, StudyViews& study) {
     if (const ConfigNode* scenes = tree.find("scenes")) {
         for (const std::string& scene : words_of(*scenes)) {
             study.scenes.push_back(beside(folder, scene));
@@ -124,7 +124,7 @@ void read_views(const ConfigNode& tree, const fs::path& folder, Study& study) {
 }
 
 /// The views of the section 'quick', which replace those of the study. False if there is none.
-bool read_quick(const ConfigNode& tree, const fs::path& folder, Study& study) {
+bool read_quick(const ConfigNode& tree, const fs::path& folder, StudyViews& study) {
     const ConfigNode* const quick = tree.find("quick");
     if (quick == nullptr) {
         return false;
@@ -193,6 +193,9 @@ std::vector<StudyDesign> read_designs(const ConfigNode& tree) {
         if (name == nullptr) {
             throw InputError(point.place + ": a point of a study needs a key 'name'.");
         }
+        if (name->kind != Kind::kScalar || name->text.empty()) {
+            throw InputError(name->place + ": key 'name' of a design must be a word.");
+        }
         designs.push_back({name->text, point});
     }
     if (list.kind != Kind::kList || designs.empty()) {
@@ -210,6 +213,18 @@ void check_designs_only(const ConfigNode& tree) {
                              " of a study is for 'degs sweep', which runs all of its points.");
         }
     }
+}
+
+StudyViews read_study_views(const ConfigNode& tree, const std::string& file, bool quick) {
+    const fs::path folder = fs::path(file).parent_path();
+    StudyViews views;
+    read_views(tree, folder, views);
+    StudyViews few = views;
+    const bool has_few = read_quick(tree, folder, few);
+    if (quick && !has_few) {
+        throw InputError(file + ": --quick needs a section 'quick' in the study.");
+    }
+    return quick ? few : views;
 }
 
 Study read_study(const std::string& file, bool quick) {
@@ -232,14 +247,8 @@ Study read_study(const std::string& file, bool quick) {
     take(tree, "combine", config_scalar::Choice{combinations}, combine);
     study.one_at_a_time = combine == 1;
     take(tree, "baseline", config_scalar::Text{}, study.baseline);
-    const fs::path folder = fs::path(file).parent_path();
-    read_views(tree, folder, study);
-    Study few = study;
-    const bool has_few = read_quick(tree, folder, few);
-    if (quick && !has_few) {
-        throw InputError(file + ": --quick needs a section 'quick' in the study.");
-    }
-    return quick ? few : study;
+    static_cast<StudyViews&>(study) = read_study_views(tree, file, quick);
+    return study;
 }
 
 } // namespace degs::sim

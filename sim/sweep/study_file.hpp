@@ -18,13 +18,8 @@ struct StudyDesign {
     ConfigNode tree;
 };
 
-struct Study {
-    std::string name;
-    std::vector<StudyDesign> designs;
-    std::vector<std::string> overrides; ///< of the designs, see overrides_of(); not of the file
-    std::vector<Axis> axes;
-    bool one_at_a_time = false; ///< an axis varies while the others keep the design's own values
-    std::string baseline;       ///< name of a design; empty: the first
+/// What is run of each design, and on which views.
+struct StudyViews {
     std::vector<std::string> scenes; ///< as they are loaded
     std::string cameras = "0";       ///< positions, or "all"
     std::string camera_file;         ///< empty: the scenes' own
@@ -33,6 +28,15 @@ struct Study {
     PathRequest path;
     bool array_only = false;
     bool reference = true;
+};
+
+struct Study : StudyViews {
+    std::string name;
+    std::vector<StudyDesign> designs;
+    std::vector<std::string> overrides; ///< of the designs, see overrides_of(); not of the file
+    std::vector<Axis> axes;
+    bool one_at_a_time = false; ///< an axis varies while the others keep the design's own values
+    std::string baseline;       ///< name of a design; empty: the first
     std::optional<SamplingRequest> sampling;
 };
 
@@ -42,9 +46,12 @@ bool is_study(const ConfigNode& tree);
 /// The designs of a study. Throws InputError for one without a name and for an empty list.
 std::vector<StudyDesign> read_designs(const ConfigNode& tree);
 
-/// Throws InputError if a study has axes or a baseline, for which `degs sweep` is needed. Views are
-/// no mistake; `degs compare` takes those of its options.
+/// Throws InputError if a study has axes or a baseline, for which `degs sweep` is needed.
 void check_designs_only(const ConfigNode& tree);
+
+/// The views of the study in `file`, whose content is `tree`, or with `quick` those of its section
+/// 'quick'. Throws InputError for mistakes in either, and if there is no section that is asked for.
+StudyViews read_study_views(const ConfigNode& tree, const std::string& file, bool quick);
 
 /// Reads a study; a configuration is a study of one design. Paths in it are relative to the file.
 /// Throws InputError for what can be seen without loading designs and scenes.

@@ -15,31 +15,37 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
         ->type_name("FILE")
         ->required();
     add_addressed_overrides_option(command, options.overrides);
+    add_study_view_options(command, options);
+}
+
+void add_study_view_options(CLI::App& command, ViewOptions& options) {
     command
         .add_option("--scene", options.scenes,
-                    "scenes in place of the study's: a file, or "
+                    "scenes, in place of those of a study: a file, or "
                     "synthetic:NAME[,gaussians=N][,seed=N]; may be repeated")
         ->type_name("SCENE")
         ->take_all()
         ->expected(1);
     command
-        .add_option("--camera", options.cameras,
-                    "cameras in place of the study's: positions in the scene's list, from 0: 0,2 "
-                    "or all")
+        .add_option(
+            "--camera,--cameras", options.cameras,
+            "positions in the scene's list of cameras, from 0: 0,2 or all; in place of those "
+            "of a study")
         ->type_name("LIST");
     add_camera_file_option(command, options.camera_file);
     CLI::Option* resolution =
         command
-            .add_option("--resolution", options.resolutions,
-                        "in place of the study's: 720p, 1080p, 2k, 4k, 8k, or several separated "
-                        "by commas")
+            .add_option(
+                "--resolution", options.resolutions,
+                "720p, 1080p, 2k, 4k, 8k, or several separated by commas; in place of those "
+                "of a study")
             ->type_name("NAMES");
     command.add_option("--width", options.width, "image width in pixels; the views are scaled")
         ->excludes(resolution)
         ->check(CLI::PositiveNumber);
     add_path_options(command, options.path);
     command.add_flag("--quick", options.quick,
-                     "the few views that the study's section 'quick' names");
+                     "the few views that the section 'quick' of the study names");
     command.add_flag("--array-only", options.array_only,
                      "the rasterisation arrays alone: sorted lists are there at once, and memory "
                      "is unlimited");
@@ -55,38 +61,48 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
     });
 }
 
+void replace_views(const ViewOptions& options, StudyViews& views) {
+    if (!options.scenes.empty()) {
+        views.scenes = options.scenes;
+    }
+    if (!options.cameras.empty()) {
+        views.cameras = options.cameras;
+    }
+    if (!options.camera_file.empty()) {
+        views.camera_file = options.camera_file;
+    }
+    if (!options.resolutions.empty() || options.width) {
+        views.resolutions = options.resolutions;
+        views.width = options.width;
+    }
+    if (options.has_frames) {
+        views.path.frames = options.path.frames;
+    }
+    if (options.has_step) {
+        views.path.step_degrees = options.path.step_degrees;
+    }
+    views.array_only = views.array_only || options.array_only;
+    views.reference = views.reference && !options.no_reference;
+}
+
 Study study_of(const StudyOptions& options) {
     Study study = read_study(options.file, options.quick);
     study.overrides = options.overrides;
-    if (!options.scenes.empty()) {
-        study.scenes = options.scenes;
-    }
-    if (!options.cameras.empty()) {
-        study.cameras = options.cameras;
-    }
-    if (!options.camera_file.empty()) {
-        study.camera_file = options.camera_file;
-    }
-    if (!options.resolutions.empty() || options.width) {
-        study.resolutions = options.resolutions;
-        study.width = options.width;
-    }
-    if (options.has_frames) {
-        study.path.frames = options.path.frames;
-    }
-    if (options.has_step) {
-        study.path.step_degrees = options.path.step_degrees;
-    }
-    study.array_only = study.array_only || options.array_only;
-    study.reference = study.reference && !options.no_reference;
+    replace_views(options, study);
     study.sampling = sampling_for_runs(options.within, options.seed, study.path.frames);
     return study;
 }
 
 std::vector<std::string> words_of(const StudyOptions& options) {
-    std::vector<std::string> words{options.file};
+    // A name that begins with '-' would be read as an option.
+    std::vector<std::string> words{options.file.rfind('-', 0) == 0 ? "./" + options.file
+                                                                   : options.file};
     const auto add = [&words](const char* option, const std::string& value) {
-        words.insert(words.end(), {option, value});
+        if (value.rfind('-', 0) == 0) {
+            words.push_back(std::string(option) + "=" + value);
+        } else {
+            words.insert(words.end(), {option, value});
+        }
     };
     for (const std::string& text : options.overrides) {
         add("--set", text);

@@ -14,10 +14,8 @@
 
 namespace degs::sim {
 
-/// A study's file, and what replaces the values of its designs and the views that it states.
-struct StudyOptions {
-    std::string file;
-    std::vector<std::string> overrides;
+/// What replaces the views that a study states.
+struct ViewOptions {
     std::vector<std::string> scenes;
     std::string cameras, camera_file, resolutions;
     std::optional<int> width;
@@ -28,7 +26,19 @@ struct StudyOptions {
     bool quick = false, array_only = false, no_reference = false;
 };
 
+/// A study's file, and what replaces the values of its designs and its views.
+struct StudyOptions : ViewOptions {
+    std::string file;
+    std::vector<std::string> overrides;
+};
+
 void add_study_options(CLI::App& command, StudyOptions& options);
+
+/// The options of ViewOptions.
+void add_study_view_options(CLI::App& command, ViewOptions& options);
+
+/// Puts what the options say in the place of what the study says.
+void replace_views(const ViewOptions& options, StudyViews& views);
 
 /// The options as words of a command line, the file first.
 std::vector<std::string> words_of(const StudyOptions& options);

@@ -2,13 +2,16 @@
 #include "sim/sweep/study_plan.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <cstdint>
+#include <limits>
+
+#include <nlohmann/json.hpp>
 
 #include "config/config_document.hpp"
 #include "config/error.hpp"
-#include "scene/scene.hpp"
 #include "sim/cache/digest.hpp"
 #include "sim/compare/run_summary.hpp"
+#include "sim/output_folder.hpp"
 #include "sim/report.hpp"
 #include "sim/sweep/study_variants.hpp"
 #include "sim/text/words.hpp"
@@ -16,83 +19,104 @@
 namespace degs::sim {
 namespace {
 
-std::vector<int> cameras_of(const std::string& scene, const CompareRequest& request) {
-    const int count = static_cast<int>(camera_count(scene, request.camera_file));
-    std::vector<int> cameras(count);
-    std::iota(cameras.begin(), cameras.end(), 0);
-    for (int camera : request.cameras.value_or(std::vector<int>{})) {
-        if (camera >= count) {
-            throw InputError("Camera " + std::to_string(camera) + " does not exist: scene '" +
-                             scene + "' has " + std::to_string(count) +
-                             " camera(s), numbered from 0.");
-        }
-    }
-    return request.cameras.value_or(cameras);
+/// The product of whole numbers, or the largest there is.
+std::uint64_t bounded_product(std::uint64_t a, std::uint64_t b) {
+    std::uint64_t product = 0;
+    return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<std::uint64_t>::max()
+                                                  : product;
 }
 
-void plan_views(const Study& study, StudyPlan& plan) {
-    CompareRequest& request = plan.request;
-    if (study.scenes.empty()) {
-        throw InputError("The study names no scene; it needs 'scenes', or --scene.");
+/// How many variants the axes make of one design, before those that coincide are taken together.
+std::uint64_t combinations_of(const Study& study) {
+    std::uint64_t sum = 1;
+    std::uint64_t product = 1;
+    for (const Axis& axis : study.axes) {
+        sum += axis.positions.size();
+        product = bounded_product(product, axis.positions.size());
     }
-    check_scenes(study.scenes);
-    request.scenes = study.scenes;
-    request.camera_file = study.camera_file;
-    request.cameras = parse_cameras(study.cameras);
-    if (study.resolutions.empty()) {
-        request.sizes = {ImageSize{study.width, {}}};
-    } else {
-        request.sizes = parse_resolutions(study.resolutions);
+    return study.one_at_a_time ? sum : product;
+}
+
+/// Nothing is listed before, because the points might not fit into memory.
+void check_size(const Study& study, std::uint64_t views) {
+    const std::uint64_t points =
+        bounded_product(bounded_product(study.designs.size(), combinations_of(study)), views);
+    if (points > kMostPoints) {
+        const bool endless = points == std::numeric_limits<std::uint64_t>::max();
+        throw InputError("The study has " + std::string(endless ? "more than " : "") +
+                         grouped(points) + " points; at most " + grouped(kMostPoints) +
+                         " are allowed.");
     }
-    request.path = study.path;
-    request.array_only = study.array_only;
-    request.reference = study.reference;
-    request.sampling = study.sampling;
-    for (std::size_t scene = 0; scene < request.scenes.size(); ++scene) {
-        for (int camera : cameras_of(request.scenes[scene], request)) {
-            for (std::size_t size = 0; size < request.sizes.size(); ++size) {
+}
+
+void plan_points(const std::vector<std::vector<int>>& cameras, StudyPlan& plan) {
+    for (std::size_t scene = 0; scene < cameras.size(); ++scene) {
+        for (int camera : cameras[scene]) {
+            for (std::size_t size = 0; size < plan.request.sizes.size(); ++size) {
                 for (std::size_t v = 0; v < plan.variants.size(); ++v) {
                     plan.points.push_back({v, scene, size, camera});
                 }
             }
         }
     }
-    if (plan.points.size() > kMostPoints) {
-        throw InputError("The study has " + grouped(plan.points.size()) + " points; at most " +
-                         grouped(kMostPoints) + " are allowed.");
-    }
 }
 
-std::string digest_of(const StudyPlan& plan) {
+std::vector<std::string> digests_of_scenes(const CompareRequest& request) {
+    std::vector<std::string> digests;
+    for (const std::string& scene : request.scenes) {
+        Digest digest;
+        digest.add_scene(scene);
+        if (!request.camera_file.empty()) {
+            digest.add_cameras(request.camera_file);
+        }
+        digest.add(request.camera_file);
+        digests.push_back(digest.text());
+    }
+    return digests;
+}
+
+/// What all runs of a request have in common.
+std::string run_options(const CompareRequest& request) {
+    std::string text = std::to_string(request.path.frames);
+    if (request.path.frames > 1) {
+        text += " of " + as_typed(request.path.step_degrees);
+    }
+    text += request.array_only ? " array_only" : "";
+    text += request.reference && !request.sampling ? " reference" : "";
+    if (const std::optional<SamplingRequest>& sampling = request.sampling) {
+        text += " within " + as_typed(sampling->within) + " " + sampling->measure + " " +
+                std::to_string(sampling->seed);
+    }
+    return text;
+}
+
+/// Gives every point its key, and the plan its digest. A point has the same key in every study.
+void identify(StudyPlan& plan) {
     const CompareRequest& request = plan.request;
-    Digest digest;
-    digest.add(tool_json().dump() + std::to_string(kSummaryVersion));
-    digest.add(plan.name + "\n" + plan.variants[plan.baseline].name);
+    const std::string program = tool_json().dump() + std::to_string(kSummaryVersion);
+    const std::string options = run_options(request);
+    std::vector<std::string> designs;
     for (std::size_t v = 0; v < plan.variants.size(); ++v) {
-        digest.add(plan.variants[v].name);
-        digest.add(resolved(request.configs[v].config).dump());
+        designs.push_back(json_text(resolved(request.configs[v].config)));
+    }
+    Digest all;
+    all.add(plan.name + "\n" + plan.variants[plan.baseline].name);
+    for (StudyPoint& point : plan.points) {
+        const ImageSize& size = request.sizes[point.size];
+        Digest digest;
+        digest.add(program);
+        digest.add(designs[point.variant]);
+        digest.add(plan.scene_digests[point.scene]);
+        digest.add(std::to_string(point.camera) + " " + std::to_string(size.width.value_or(0)) +
+                   "x" + std::to_string(size.height.value_or(0)));
+        digest.add(options);
+        point.key = digest.text();
+        all.add(point.key + plan.variants[point.variant].name);
     }
     for (const SkippedVariant& skipped : plan.skipped) {
-        digest.add(skipped.variant.name);
+        all.add(skipped.variant.name);
     }
-    for (const std::string& scene : request.scenes) {
-        digest.add_scene(scene);
-    }
-    digest.add_file(request.camera_file);
-    for (const ImageSize& size : request.sizes) {
-        digest.add(std::to_string(size.width.value_or(0)) + "x" +
-                   std::to_string(size.height.value_or(0)));
-    }
-    digest.add(std::to_string(request.path.frames) + " " + as_typed(request.path.step_degrees));
-    digest.add(std::to_string(request.array_only) + std::to_string(request.reference));
-    if (const std::optional<SamplingRequest>& sampling = request.sampling) {
-        digest.add("within " + as_typed(sampling->within) + " " + sampling->measure + " " +
-                   std::to_string(sampling->seed));
-    }
-    for (const StudyPoint& point : plan.points) {
-        digest.add(std::to_string(point.camera));
-    }
-    return digest.text();
+    plan.digest = all.text();
 }
 
 } // namespace
@@ -100,9 +124,18 @@ std::string digest_of(const StudyPlan& plan) {
 StudyPlan plan_study(const Study& study) {
     StudyPlan plan;
     plan.name = study.name;
+    put_views(study, plan.request);
+    plan.request.sampling = study.sampling;
+    const std::vector<std::vector<int>> cameras = cameras_by_scene(plan.request);
+    std::uint64_t views = 0;
+    for (const std::vector<int>& of_scene : cameras) {
+        views += of_scene.size() * plan.request.sizes.size();
+    }
+    check_size(study, views);
     plan_variants(study, plan);
-    plan_views(study, plan);
-    plan.digest = digest_of(plan);
+    plan_points(cameras, plan);
+    plan.scene_digests = digests_of_scenes(plan.request);
+    identify(plan);
     return plan;
 }
 
@@ -138,7 +171,7 @@ StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variant
             part.points.push_back(point);
         }
     }
-    part.digest = digest_of(part);
+    identify(part);
     return part;
 }
 

@@ -28,6 +28,7 @@ struct SkippedVariant {
 struct StudyPoint {
     std::size_t variant = 0, scene = 0, size = 0; ///< positions in the plan and its request
     int camera = 0;                               ///< position in the scene's list
+    std::string key{}; ///< of everything that decides its results, 32 hexadecimal digits
 };
 
 struct StudyPlan {
@@ -37,17 +38,18 @@ struct StudyPlan {
     std::size_t baseline = 0; ///< a variant
     std::vector<SkippedVariant> skipped;
     CompareRequest request; ///< one configuration for each variant; the points say on which views
-    std::vector<StudyPoint> points; ///< views in the outer, variants in the inner loop
-    std::string digest; ///< of all points and of the program's version, 32 hexadecimal digits
+    std::vector<StudyPoint> points;         ///< views in the outer, variants in the inner loop
+    std::vector<std::string> scene_digests; ///< with their cameras
+    std::string digest;                     ///< of all points, 32 hexadecimal digits
 };
 
-/// Most points of a study.
+/// Most points of a study, with those that cannot be built.
 constexpr std::size_t kMostPoints = 100000;
 
 /// Expands the designs and axes, checks every variant, and lists the cameras of each scene. The
 /// baseline is the design that the study names with the values of its own file; it is added in
 /// front if the axes do not have it. Throws InputError if a key, unit, name, scene or camera does
-/// not exist, and if no variant can be built.
+/// not exist, if there are more than kMostPoints points, and if no variant can be built.
 StudyPlan plan_study(const Study& study);
 
 /// The same views of some of a plan's variants, in images with sides that are `divisor` times

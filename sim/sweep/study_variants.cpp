@@ -190,10 +190,6 @@ private:
             throw InputError("The study has the point " + quote(made.name) +
                              " twice; a value of an axis is given twice.");
         }
-        if (names_.size() > kMostPoints) {
-            throw InputError("The study has more than " + grouped(kMostPoints) +
-                             " points; fewer are allowed.");
-        }
         try {
             plan_.request.configs.push_back({made.name, load_run_config(ConfigSource::from_tree(
                                                             std::move(tree), design.overrides))});

@@ -237,7 +237,12 @@ SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
     std::set<std::string> known;
     for (std::size_t p = 0; p < plan.points.size(); ++p) {
         std::optional<StoredPoint> found = store.read(p);
+        store.put_reports(p, found);
         if (found) {
+            found->frame.report.clear(); // all of them would take much memory
+            if (found->path) {
+                found->path->report.clear();
+            }
             for (const std::string& sentence : found->frame.warnings) {
                 if (known.insert(sentence).second) {
                     results.warnings.push_back(sentence);
@@ -250,6 +255,7 @@ SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
             results.failed.push_back({p, *failure});
         } else {
             ++results.missing;
+            results.damaged += store.is_damaged(p) ? 1 : 0;
         }
     }
     std::vector<std::string> names;

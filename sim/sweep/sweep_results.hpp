@@ -30,9 +30,11 @@ struct SweepResults {
     std::vector<std::size_t> points; ///< by row of the comparison
     std::vector<FailedPoint> failed;
     std::size_t missing = 0;           ///< points that are neither finished nor failed
+    std::size_t damaged = 0;           ///< of these, those whose file is damaged
     std::vector<std::string> warnings; ///< sentences, each once
 };
 
+/// Reads the points, and puts their reports in place.
 SweepResults read_results(const StudyPlan& plan, const PointStore& store);
 
 /// results.json, results.csv, index.html and host.csv. All but the last depend only on the study.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "config/error.hpp"
 #include "sim/process/interruption.hpp"
 
 namespace degs::sim {
@@ -58,6 +59,9 @@ bool SweepSession::run() {
         interrupted_ = interrupted_ || !runs_.run_scene(scene, cameras);
     }
     interrupted_ = !runs_.finish();
+    if (unwritten_) {
+        throw FailureError(*unwritten_);
+    }
     return !interrupted_;
 }
 
@@ -80,19 +84,28 @@ std::map<std::size_t, std::vector<int>> SweepSession::cameras_by_scene() const {
 
 void SweepSession::end(const ViewRun& run, ChildOutcome&& outcome) {
     const bool good = !outcome.failure;
-    bool over = true;
     try {
-        over = take(run, std::move(outcome));
-    } catch (...) {
-        fail(place_of(run), failure_of(std::current_exception()));
-    }
-    if (over) {
-        progress_.ended(run.name, run.clock.seconds(), good);
-        set_interruption_sentence(interruption().sentence);
-        if (finished_) {
-            finished_();
+        if (take(run, std::move(outcome))) {
+            progress_.ended(run.name, run.clock.seconds(), good);
+            set_interruption_sentence(interruption().sentence);
+            if (finished_) {
+                finished_();
+            }
         }
+    } catch (const InputError& why) {
+        stop(run, why.what());
     }
+}
+
+void SweepSession::stop(const ViewRun& run, const std::string& why) {
+    const auto entry = pending_.find(place_of(run));
+    const std::string lost =
+        entry == pending_.end()
+            ? "The results could not be written: "
+            : "Point " + std::to_string(entry->second.point + 1) + " was not kept: ";
+    unwritten_ = Failure{kUserError, lost + why + " The sweep stopped with " + progress_.words() +
+                                         " done; the same command goes on with the others."};
+    runs_.stop();
 }
 
 bool SweepSession::take(const ViewRun& run, ChildOutcome&& outcome) {
@@ -105,7 +118,13 @@ bool SweepSession::take(const ViewRun& run, ChildOutcome&& outcome) {
         return true;
     }
     Pending& pending = entry->second;
-    RunSummary summary = summary_from(outcome.output);
+    RunSummary summary;
+    try {
+        summary = summary_from(outcome.output);
+    } catch (...) {
+        fail(entry->first, failure_of(std::current_exception()));
+        return true;
+    }
     if (run.path) {
         pending.found.path = std::move(summary);
     } else {
@@ -127,13 +146,13 @@ void SweepSession::fail(const Place& place, const Failure& failure) {
         return;
     }
     const std::size_t point = entry->second.point;
-    pending_.erase(entry);
     failures_[point] = failure;
     try {
         store_.keep_failure(point, failure);
-    } catch (...) { // the disk is full, say; the sentence above is the one to report
-        failures_[point] = failure;
+    } catch (const InputError& full) {
+        throw InputError(failure.sentence + " " + full.what());
     }
+    pending_.erase(entry);
 }
 
 void SweepSession::fail_where(const Failure& failure,

@@ -31,7 +31,8 @@ public:
     SweepSession(const StudyPlan& plan, const PointStore& store, PointRange range,
                  std::function<void()> finished = {});
 
-    /// False after Ctrl-C. A point that fails costs the others nothing.
+    /// False after Ctrl-C. A point that fails costs the others nothing. Throws FailureError as soon as
+    /// a point cannot be kept, because the others would be simulated in vain.
     bool run();
     /// The worst failure, or the interruption.
     std::optional<Failure> failure() const;
@@ -50,6 +51,8 @@ private:
     void end(const ViewRun& run, ChildOutcome&& outcome);
     /// True when the point is finished.
     bool take(const ViewRun& run, ChildOutcome&& outcome);
+    /// `why` is a sentence about a file that could not be written.
+    void stop(const ViewRun& run, const std::string& why);
     void fail(const Place& place, const Failure& failure);
     void fail_where(const Failure& failure, const std::function<bool(const Place&)>& concerned);
     std::map<std::size_t, std::vector<int>> cameras_by_scene() const;
@@ -62,6 +65,7 @@ private:
     std::map<std::size_t, Failure> failures_; ///< by point
     RunProgress progress_{"point"};
     bool interrupted_ = false;
+    std::optional<Failure> unwritten_;
     ViewRuns runs_; ///< the last, because it calls back
 };
 

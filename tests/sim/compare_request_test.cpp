@@ -53,7 +53,8 @@ TEST(LoadConfigs, AFileMayHaveAnEqualsSign) {
 }
 
 TEST(LoadConfigs, AStudyIsAListOfConfigurations) {
-    const auto points = load_configs({config("studies/bandwidth")}, {"degs-64@51.2:clock_ghz=2"});
+    const auto points =
+        load_compared({config("studies/bandwidth")}, {"degs-64@51.2:clock_ghz=2"}).configs;
     ASSERT_EQ(points.size(), 9U);
     EXPECT_EQ(points[0].name, "degs-64@204.8");
     EXPECT_EQ(points[2].name, "degs-64@51.2");

@@ -202,20 +202,36 @@ TEST(CompareCommand, AllConfigurationsOnOneView) {
 
 TEST(CompareCommand, AFailureIsNamedAndTheRestReported) {
     const Folder folder;
+    std::ofstream(folder / "broken.ply") << "ply\n";
+    write_camera(folder / "cameras.json", {0, 0, -3});
     const Outcome outcome = compare({config("degs-64")}, folder / "c",
-                                    {"--width", "64", "--scene", folder / "absent.ply"});
+                                    {"--width", "64", "--scene", folder / "broken.ply"});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_EQ(lines_of(outcome.err), 1U) << outcome.err;
-    EXPECT_NE(outcome.err.find("absent.ply"), std::string::npos);
+    EXPECT_NE(outcome.err.find("broken.ply"), std::string::npos);
     EXPECT_NE(outcome.out.find("failed: "), std::string::npos) << outcome.out;
     const nlohmann::json written = comparison_in(folder / "c");
     EXPECT_EQ(written["runs"].size(), 1U);
-    // Cameras, too: the second is not there.
-    const Outcome camera =
-        compare({config("degs-64")}, folder / "d", {"--width", "64", "--cameras", "0,77"});
-    EXPECT_EQ(camera.code, 2);
-    EXPECT_NE(camera.err.find("Camera 77"), std::string::npos) << camera.err;
-    EXPECT_EQ(comparison_in(folder / "d")["runs"].size(), 1U);
+}
+
+// What can be seen before is refused before anything runs.
+TEST(HostileCompare, ChecksAllScenesAndCamerasFirst) {
+    const Folder folder;
+    write_camera(folder / "one.json", {0, 0, -3});
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--cameras", "0,77"},
+          {"--scene", folder / "absent.ply"},
+          {"--scene", "synthetic:single", "--cameras", "1,5"},
+          {"--camera-file", folder / "one.json", "--cameras", "0,1"},
+          {"--camera-file", folder / "absent.json"},
+          {"--scene", "synthetic:no-such-scene"}}) {
+        std::vector<std::string> all{"compare",      config("degs-64"), "--scene",
+                                     kComparedScene, "--width",         "64",
+                                     "--out",        folder / "d"};
+        all.insert(all.end(), more.begin(), more.end());
+        expect_mistake(degs(all), "");
+        EXPECT_FALSE(fs::exists(folder / "d"));
+    }
 }
 
 /// The program in the background, its messages in a file.

@@ -117,7 +117,7 @@ TEST(Explore, GoesOnInItsFolder) {
     const std::string file = space(folder);
     EXPECT_EQ(explore(file, folder / "out").code, 0);
     const std::string before = read_file(folder / "out/explore.json");
-    fs::remove(folder / "out/points/000001.point");
+    fs::remove(fs::directory_iterator(folder / "out/points")->path());
     const Outcome again = explore(file, folder / "out");
     EXPECT_EQ(again.code, 0) << again.err;
     EXPECT_EQ(read_file(folder / "out/explore.json"), before);
@@ -128,11 +128,72 @@ TEST(Explore, RefusesWhatItCannotSearch) {
     expect_mistake(explore(space(folder, ""), folder / "a"), "needs 'width' or 'resolutions'");
     expect_mistake(explore(space(folder), folder / "b", {"--goals", "area_mm2,latency"}),
                    "latency");
-    const Outcome missing =
-        explore(space(folder), folder / "c", {"--goals", "throughput_fps,latency_ms"});
-    EXPECT_EQ(missing.code, 2);
-    EXPECT_NE(missing.err.find("has no throughput_fps, so it cannot be a goal"), std::string::npos)
-        << missing.err;
+    const auto refuses = [&folder](const std::string& goals, const std::string& words,
+                                   const std::vector<std::string>& more = {}) {
+        std::vector<std::string> options{"--goals", goals};
+        options.insert(options.end(), more.begin(), more.end());
+        expect_mistake(explore(space(folder), folder / "c", options), words);
+        EXPECT_FALSE(fs::exists(folder / "c"));
+    };
+    refuses("throughput_fps,latency_ms", "has no throughput_fps, so it cannot be a goal");
+    refuses("area_mm2,image.ssim", "needs reference images", {"--no-reference"});
+    refuses("area_mm2,dram.bytes_read", "for the arrays alone", {"--array-only"});
+    refuses("area_mm2,dram.utilization", "neither small nor large values are better; allowed are ");
+    refuses("host.sim_s,area_mm2", "neither small nor large values are better; allowed are ");
+    refuses("fps,fps", "twice");
+    refuses("area_mm2,design", "which is no measure; 'degs config --stats --of compare' lists");
+    refuses("latency,area_mm2",
+            "which is no measure; did you mean 'latency_ms', 'ratio.latency' or "
+            "'ratio.latency_per_mm2'? 'degs config");
+    refuses("area_mm2,area", "did you mean 'area_mm2'? 'degs");
+    refuses("area_mm2,fsp", "did you mean 'fps'? 'degs");
+}
+
+// What is good when it is large gives the front of what is good when it is small.
+TEST(Explore, MakesGoalsLargeWhereThatIsBetter) {
+    const Folder folder;
+    const std::string file = space(folder);
+    const auto names_on_front = [&](const std::string& goals, const std::string& out) {
+        EXPECT_EQ(explore(file, folder / out, {"--goals", goals}).code, 0);
+        std::vector<std::string> designs;
+        for (const std::string& line : csv_rows(read_file(folder / (out + "/front.csv")))) {
+            std::vector<std::string> row;
+            std::istringstream cells(line);
+            for (std::string cell; std::getline(cells, cell, ',');) {
+                row.push_back(cell);
+            }
+            if (row.size() == 8 && row[6] == "1") {
+                designs.push_back(row[1] + " " + row[2] + " " + row[3]);
+            }
+        }
+        return designs;
+    };
+    const auto slow = names_on_front("area_mm2,latency_ms", "latency");
+    EXPECT_GE(slow.size(), 2U);
+    EXPECT_EQ(names_on_front("area_mm2,fps", "fps"), slow);
+    EXPECT_EQ(names_on_front("area_mm2,ratio.latency", "ratio"), slow);
+    auto turned = names_on_front("fps,area_mm2", "turned"); // the fastest comes first
+    std::reverse(turned.begin(), turned.end());
+    EXPECT_EQ(turned, slow);
+    const auto explored = nlohmann::json::parse(read_file(folder / "fps/explore.json"));
+    EXPECT_EQ(explored["better"], nlohmann::json({"smaller", "larger"}));
+    EXPECT_NE(read_file(folder / "fps/front.svg").find("fps (larger is better)"),
+              std::string::npos);
+}
+
+TEST(Measures, KnowTheirDirection) {
+    EXPECT_EQ(direction_of(measure_named("slots.useful", "")), Direction::Maximise);
+    EXPECT_EQ(direction_of(measure_named("slots.boundary", "")), Direction::Minimise);
+    EXPECT_EQ(direction_of(measure_named("slots.drain", "")), Direction::Minimise);
+    EXPECT_EQ(direction_of(measure_named("image.psnr_db", "")), Direction::Maximise);
+    EXPECT_EQ(direction_of(measure_named("image.max_abs_error", "")), Direction::Minimise);
+    EXPECT_EQ(direction_of(measure_named("energy.nj_per_frame", "")), Direction::Minimise);
+    EXPECT_EQ(direction_of(measure_named("host.sim_s", "")), Direction::None);
+    for_each_measure([](Measure m) { // ratios are so made that above 1 is better
+        if (name_of(m).rfind("ratio.", 0) == 0) {
+            EXPECT_EQ(direction_of(m), Direction::Maximise) << name_of(m);
+        }
+    });
 }
 
 } // namespace

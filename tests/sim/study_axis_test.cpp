@@ -246,7 +246,7 @@ TEST(HostileStudies, Axes) {
          "two axes, 'clock_ghz' and 'b'");
     EXPECT_THAT(mistake_with("  clock_ghz: 0.0001..0.4 +0.0001\n"
                              "  packing.bytes: 10000..14000 +1\n"),
-                HasSubstr("more than 100 000 points"));
+                HasSubstr("16 004 000 points; at most 100 000 are allowed"));
 }
 
 TEST(HostileStudies, Files) {

@@ -15,7 +15,8 @@
       of: (run) => { const t = data.variants[run.variant].values[k]; return numeric && t !== null ? Number(t) : t; } };
   });
   const measureColumns = data.measures.map((m, i) => ({
-    name: m.name, unit: m.unit, kind: "measure", numeric: true, sentence: m.sentence,
+    name: m.name, unit: m.unit, kind: "measure", numeric: true,
+    sentence: m.better ? `${m.sentence} (${m.better})` : m.sentence,
     of: (run) => infinite(run.measures[i]) })).filter((c) => data.runs.some((run) => c.of(run) !== null));
   const stageNames = [...new Set(data.runs.flatMap((run) => Object.keys(run.stages)))];
   const stageColumns = stageNames.map((stage) => ({
