@@ -17,13 +17,6 @@
 namespace degs::sim {
 namespace {
 
-void check_positive(const char* option, std::optional<int> value) {
-    if (value && *value < 1) {
-        throw InputError(std::string(option) + " is " + std::to_string(*value) +
-                         ", but an image needs at least 1 pixel.");
-    }
-}
-
 /// `sides` in double, so that no product of two int overflows.
 void check_pixels(double width, double height) {
     if (width * height > static_cast<double>(kMostPixels)) {
@@ -52,6 +45,13 @@ std::string in_small_letters(std::string text) {
 }
 
 } // namespace
+
+void check_positive(const char* option, std::optional<int> value) {
+    if (value && *value < 1) {
+        throw InputError(std::string(option) + " is " + std::to_string(*value) +
+                         ", but an image needs at least 1 pixel.");
+    }
+}
 
 std::optional<int> camera_position(const std::string& text) {
     int value = 0;

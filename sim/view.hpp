@@ -47,6 +47,9 @@ struct PathRequest {
     double step_degrees = kPathStepDegrees;
 };
 
+/// Throws InputError, which names the option, for a number of pixels below 1.
+void check_positive(const char* option, std::optional<int> value);
+
 /// Loads the scene and resizes the camera. Throws InputError.
 View load_view(const ViewRequest& request);
 /// What can be refused before the scene is loaded. Throws InputError.

@@ -181,6 +181,7 @@ void put_views(const StudyViews& views, CompareRequest& request) {
             "The command names no scene: --scene is needed, or a study with 'scenes'.");
     }
     check_scenes(views.scenes);
+    check_positive("--width", views.width);
     request.scenes = views.scenes;
     request.camera_file = views.camera_file;
     request.cameras = parse_cameras(views.cameras);

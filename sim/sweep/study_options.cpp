@@ -41,8 +41,7 @@ void add_study_view_options(CLI::App& command, ViewOptions& options) {
                 "of a study")
             ->type_name("NAMES");
     command.add_option("--width", options.width, "image width in pixels; the views are scaled")
-        ->excludes(resolution)
-        ->check(CLI::PositiveNumber);
+        ->excludes(resolution);
     add_path_options(command, options.path);
     command.add_flag("--quick", options.quick,
                      "the few views that the section 'quick' of the study names");

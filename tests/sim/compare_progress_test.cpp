@@ -56,9 +56,11 @@ TEST(CompareProgress, KnowsTheTotalOfAllCamerasWhenScenesAreLoaded) {
 
 TEST(CompareProgress, TakesBackRunsThatAreNotPossible) {
     const Folder folder;
+    std::ofstream(folder / "broken.ply") << "ply\n";
+    write_camera(folder / "cameras.json", {0, 0, -3});
     const std::vector<std::string> lines =
-        lines_in(degs(small_comparison(folder / "c", {"--scene", folder / "absent.ply", "--scene",
-                                                      kSmallScene, "--camera", "7,0"}))
+        lines_in(degs(small_comparison(folder / "c", {"--scene", folder / "broken.ply", "--scene",
+                                                      kSmallScene, "--camera", "0"}))
                      .err);
     ASSERT_EQ(lines.size(), 3U); // the last one is the failure
     EXPECT_EQ(lines[1].rfind("2 of 2 runs done", 0), 0U) << lines[1];

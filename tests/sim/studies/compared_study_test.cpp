@@ -95,7 +95,7 @@ TEST(HostileComparedStudy, Mistakes) {
     refuses({study_of_two(folder, std::string(kViews) + "combine: product\n")}, "'combine'");
     refuses({study_of_two(folder, std::string(kViews) + "frames: none\n")}, "'frames'");
     std::ofstream(folder / "named.yaml")
-        << "designs: [{name: [x], include: " << config("degs-16") << "}]\n";
+        << "designs: [{include: " << config("degs-16") << ", name: [x]}]\n";
     refuses({folder / "named.yaml"}, "'name' of a design must be a word");
 }
 

@@ -133,8 +133,8 @@ TEST(PointFiles, DependOnTheContentOfTheScene) {
     write_camera(folder / "cameras.json", {0, 0, -3});
     write_ply(folder / "s.ply", {Splat()});
     const std::string file = folder / "study.yaml";
-    std::ofstream(file) << "designs: [{name: d, include: " << config("degs-16")
-                        << "}]\nscenes: s.ply\n";
+    std::ofstream(file) << "designs: [{include: " << config("degs-16")
+                        << ", name: d}]\nscenes: s.ply\n";
     EXPECT_EQ(runs_of(file, folder / "o"), 1U);
     EXPECT_EQ(runs_of(file, folder / "o"), 0U);
     write_ply(folder / "s.ply", {Splat(), Splat()});
