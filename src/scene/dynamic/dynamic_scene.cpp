@@ -88,20 +88,23 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 /// '*' stands for any characters; every other character for itself.
 bool matches_pattern(std::string_view name, std::string_view pattern) {
-    const std::size_t star = pattern.find('*');
-    if (star == std::string_view::npos) {
-        return name == pattern;
-    }
-    if (name.substr(0, star) != pattern.substr(0, star)) {
-        return false;
-    }
-    const std::string_view rest = pattern.substr(star + 1);
-    for (std::size_t at = std::min(star, name.size()); at <= name.size(); ++at) {
-        if (matches_pattern(name.substr(at), rest)) {
-            return true;
+    constexpr std::size_t kNone = std::string_view::npos;
+    std::size_t at = 0, in = 0, star = kNone, after_star = 0;
+    while (at < name.size()) {
+        if (in < pattern.size() && pattern[in] == '*') {
+            star = in++;
+            after_star = at;
+        } else if (in < pattern.size() && pattern[in] == name[at]) {
+            ++in;
+            ++at;
+        } else if (star != kNone) { // only the last star has to take more: those before are settled
+            in = star + 1;
+            at = ++after_star;
+        } else {
+            return false;
         }
     }
-    return false;
+    return pattern.find_first_not_of('*', in) == kNone;
 }
 
 bool has_scene_extension(const fs::path& file) {
