@@ -83,8 +83,10 @@ void describe_image(const RunResult& result, StatsVisitor& v) {
                  "hexadecimal."},
                 checksum(result.accelerator.images));
     if (v.wants(!error)) {
-        v.text("why", "the run was asked not to render the reference (--no-reference)",
-               "Only with --no-reference, when the first three are null.");
+        v.text("why",
+               result.sampling ? "a sample of the tiles leaves most of the image undrawn"
+                               : "the run was asked not to render the reference (--no-reference)",
+               "Only with --no-reference or from a sample, when the first three are null.");
     }
     v.end_section();
 }

@@ -28,6 +28,9 @@ std::size_t columns_of_environment() {
         const std::string words = text;
         const auto [rest, error] =
             std::from_chars(words.data(), words.data() + words.size(), columns);
+        if (error == std::errc::result_out_of_range && *rest == '\0') {
+            return kUnlimited;
+        }
         if (error != std::errc() || rest != words.data() + words.size()) {
             return 0;
         }
@@ -95,8 +98,8 @@ std::string folded_line(std::string line, std::size_t width, std::size_t indent)
 } // namespace
 
 std::size_t output_columns() {
-    if (const std::size_t columns = columns_of_environment(); columns >= kNarrowest) {
-        return columns;
+    if (const std::size_t columns = columns_of_environment(); columns > 0) {
+        return std::max(kNarrowest, columns);
     }
     if (::isatty(STDOUT_FILENO) == 0) {
         return kUnlimited;

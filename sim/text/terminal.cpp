@@ -34,10 +34,13 @@ std::string scene_line(const RunResult& result) {
     const auto& reference = result.workload.reference;
     const std::uint64_t fragments =
         reference ? reference->fragments : result.accelerator.fragments();
-    const std::uint64_t pixels = std::uint64_t{1} * result.camera.width * result.camera.height;
+    // The reference shows the first frame, and the accelerator counts those of all frames.
+    const std::size_t frames = reference ? 1 : result.accelerator.frames.size();
+    const std::uint64_t pixels = result.camera.pixels() * std::max<std::size_t>(frames, 1);
     return scene_words(result.scene) + kDot + grouped(result.workload.visible) + " visible" + kDot +
-           scaled(fragments) + " fragments (" + three_digits(ratio_of(fragments, pixels)) +
-           " per pixel)";
+           scaled(fragments) + " fragments " +
+           (frames > 1 ? "in " + std::to_string(frames) + " frames " : "") + "(" +
+           three_digits(ratio_of(fragments, pixels)) + " per pixel)";
 }
 
 std::string design_line(const RunResult& result) {
@@ -101,6 +104,27 @@ std::string memory_line(const AcceleratorResult& run) {
            percent(run.memory_utilization, 0) + " % of " +
            config_words::number(run.memory_gb_per_s) + " GB/s" +
            (run.row_hit_rate ? kDot + ("row hits " + percent(*run.row_hit_rate, 0) + " %") : "");
+}
+
+/// The buffers that came nearest to their capacity; empty if the design reports none with cells.
+std::string buffers_line(const AcceleratorResult& run) {
+    constexpr std::size_t kMostBuffers = 4;
+    std::vector<const BufferUse*> buffers;
+    for (const BufferUse& buffer : run.buffers) {
+        if (buffer.depth != 0) {
+            buffers.push_back(&buffer);
+        }
+    }
+    std::stable_sort(buffers.begin(), buffers.end(), [](const BufferUse* a, const BufferUse* b) {
+        return ratio_of(a->high_water, a->depth) > ratio_of(b->high_water, b->depth);
+    });
+    buffers.resize(std::min(buffers.size(), kMostBuffers));
+    std::string line;
+    for (const BufferUse* buffer : buffers) {
+        line += (line.empty() ? "fullest " : kDot) + buffer->name + " " +
+                grouped(buffer->high_water) + " of " + grouped(buffer->depth);
+    }
+    return line.empty() ? line : line + " cells";
 }
 
 /// Per frame, with the blocks that take the most.
@@ -215,6 +239,9 @@ std::string summary(const RunResult& result, const std::string& image_path) {
                 {"memory", memory_line(run)},
                 {"energy", energy_line(run)},
                 {"image", image_line(result, image_path)}};
+    if (const std::string buffers = buffers_line(run); !buffers.empty()) {
+        block.insert(block.begin() + 6, {"buffers", buffers}); // behind the stages
+    }
     if (result.changes) {
         block.push_back({"changes", changes_words(*result.changes)});
     }
