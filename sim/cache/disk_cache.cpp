@@ -39,13 +39,35 @@ std::uint64_t checksum_of(const char* key_and_content, std::size_t bytes) {
     return XXH3_64bits(key_and_content, bytes);
 }
 
-/// A file in memory; empty if it cannot be read.
+/// Whether this user alone can have written it.
+bool is_own(const struct stat& status) {
+    return status.st_uid == ::geteuid() && (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+}
+
+/// Whether the name is one that file_of() gives.
+bool is_entry_name(const std::string& name) {
+    constexpr std::size_t kDigits = 32;
+    return name.size() == kDigits + std::char_traits<char>::length(kEnding) &&
+           name.find_first_not_of("0123456789abcdef") == kDigits &&
+           name.compare(kDigits, std::string::npos, kEnding) == 0;
+}
+
+/// Whether the name is one that put() gives to an entry that it writes.
+bool is_draft_name(const std::string& name) {
+    constexpr std::size_t kLetters = 6;
+    return name.size() == kLetters + std::char_traits<char>::length(kDraft) &&
+           name.compare(kLetters, std::string::npos, kDraft) == 0;
+}
+
+/// A file of this user in memory; empty if it cannot be read or is too large.
 class Mapping {
 public:
-    explicit Mapping(const std::string& name) {
-        const int file = ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
+    Mapping(const std::string& name, std::uint64_t most_bytes) {
+        // A pipe would block, and a link leads to a file that is not the user's.
+        const int file = ::open(name.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
         struct stat status {};
-        if (file >= 0 && ::fstat(file, &status) == 0 && status.st_size > 0) {
+        if (file >= 0 && ::fstat(file, &status) == 0 && is_own(status) && S_ISREG(status.st_mode) &&
+            status.st_size > 0 && static_cast<std::uint64_t>(status.st_size) <= most_bytes) {
             void* const at = ::mmap(nullptr, static_cast<std::size_t>(status.st_size), PROT_READ,
                                     MAP_PRIVATE | MAP_POPULATE, file, 0);
             if (at != MAP_FAILED) {
@@ -109,6 +131,16 @@ struct FoundFile {
 DiskCache::DiskCache(std::string folder, std::uint64_t most_bytes)
     : folder_(std::move(folder)), most_bytes_(most_bytes) {}
 
+std::string DiskCache::distrust(const std::string& folder) {
+    struct stat status {};
+    if (::stat(folder.c_str(), &status) != 0) {
+        return "";
+    }
+    return status.st_uid != ::geteuid() ? "another user owns it"
+           : !is_own(status)            ? "others may write to it (chmod go-w changes that)"
+                                        : "";
+}
+
 std::string DiskCache::file_of(const std::string& key) const {
     Digest digest;
     digest.add(key);
@@ -119,7 +151,10 @@ bool DiskCache::find(
     const std::string& key,
     const std::function<bool(const char* content, std::size_t bytes)>& read) const {
     const std::string name = file_of(key);
-    const Mapping file(name);
+    if (!distrust(folder_).empty()) {
+        return false;
+    }
+    const Mapping file(name, most_bytes_);
     if (file.data() == nullptr) {
         return false;
     }
@@ -139,7 +174,14 @@ void DiskCache::put(const std::string& key, const std::string& content) const {
         return;
     }
     std::error_code error;
-    fs::create_directories(folder_, error);
+    const fs::path parent = fs::path(folder_).parent_path();
+    if (!parent.empty()) {
+        fs::create_directories(parent, error);
+    }
+    ::mkdir(folder_.c_str(), S_IRWXU);
+    if (!distrust(folder_).empty()) {
+        return;
+    }
     make_room(content.size());
     std::string draft = (fs::path(folder_) / "XXXXXX").string() + kDraft;
     const int file = ::mkstemps(draft.data(), static_cast<int>(std::strlen(kDraft)));
@@ -173,18 +215,22 @@ void DiskCache::make_room(std::uint64_t bytes) const {
     const auto now = fs::file_time_type::clock::now();
     for (fs::directory_iterator at(folder_, error), end; !error && at != end; at.increment(error)) {
         std::error_code gone; // another process may remove it
-        const std::string ending = at->path().extension().string();
+        const std::string name = at->path().filename().string();
+        const bool entry = is_entry_name(name), draft = is_draft_name(name);
+        if ((!entry && !draft) || !at->is_regular_file(gone) || at->is_symlink(gone)) {
+            continue; // the user's
+        }
         const FoundFile file{at->path(), at->last_write_time(gone),
                              gone ? 0 : static_cast<std::uint64_t>(at->file_size(gone))};
-        if (gone || (ending != kEnding && ending != kDraft)) {
+        if (gone) {
             continue;
         }
-        if (ending == kDraft && now - file.used > kDraftLife) { // of a process that was killed
+        if (draft && now - file.used > kDraftLife) { // of a process that was killed
             fs::remove(file.path, gone);
             continue;
         }
         total += file.bytes;
-        if (ending == kEnding) {
+        if (entry) {
             files.push_back(file);
         }
     }

@@ -18,8 +18,12 @@ public:
     /// when all together exceed `most_bytes`.
     DiskCache(std::string folder, std::uint64_t most_bytes);
 
+    /// Why the entries of a folder cannot be trusted: others own it or may write it. Empty if only this user
+    /// does, and if it does not exist.
+    static std::string distrust(const std::string& folder);
+
     /// Calls `read` with the content of the entry and returns what it returns; false without an entry. An
-    /// entry that `read` refuses is removed.
+    /// entry that `read` refuses is removed. Only regular files of this user are read.
     bool find(const std::string& key,
               const std::function<bool(const char* content, std::size_t bytes)>& read) const;
     /// Adds an entry, unless it alone exceeds a quarter of the cache.

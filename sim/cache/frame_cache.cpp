@@ -9,6 +9,8 @@
 #include "config/error.hpp"
 #include "sim/cache/binary.hpp"
 #include "sim/cache/digest.hpp"
+#include "sim/cache/entry_checks.hpp"
+#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {
@@ -56,7 +58,7 @@ void pass_camera(Stream& stream, Value& camera) {
 
 template <class Stream, class Value>
 void pass_facts(Stream& stream, Value& facts) {
-    stream.pass(facts.gaussians, facts.sh_degree, facts.dropped, facts.traits);
+    stream.pass(facts.gaussians, facts.sh_degree, facts.dropped);
 }
 
 /// Lists of numbers of 8 bytes come before those of 4, so that all of them lie at their multiples.
@@ -109,7 +111,15 @@ std::string reference_key(const std::string& scene, const FrameWorkload& frame) 
 FrameCache FrameCache::of_user() {
     const std::string folder = users_folder();
     const std::uint64_t bytes = most_bytes();
-    return folder.empty() || bytes == 0 ? FrameCache() : FrameCache(DiskCache(folder, bytes));
+    if (folder.empty() || bytes == 0) {
+        return {};
+    }
+    const std::string why = DiskCache::distrust(folder);
+    if (!why.empty()) {
+        print_warnings({"The cache '" + folder + "' is not used: " + why + "."});
+        return {};
+    }
+    return FrameCache(DiskCache(folder, bytes));
 }
 
 FrameCache::FrameCache(DiskCache disk) : disk_(std::move(disk)) {
@@ -135,6 +145,9 @@ std::optional<SceneCard> FrameCache::scene(const std::string& scene_key) const {
         BinaryReader in(content, bytes);
         std::uint64_t notes = 0, cameras = 0;
         pass_facts(in, card.facts);
+        std::uint8_t antialiased = 0; // not every byte is a bool
+        in.get(antialiased);
+        card.facts.traits.antialiased = antialiased == 1;
         in.get(notes);
         for (; notes > 0 && in.good(); --notes) {
             in.get(card.facts.notes.emplace_back());
@@ -143,7 +156,7 @@ std::optional<SceneCard> FrameCache::scene(const std::string& scene_key) const {
         for (; cameras > 0 && in.good(); --cameras) {
             pass_camera(in, card.cameras.emplace_back());
         }
-        return in.complete();
+        return in.complete() && antialiased <= 1 && is_sound(card);
     };
     return on() && disk_->find("scene " + scene_key, read) ? std::optional(std::move(card))
                                                            : std::nullopt;
@@ -155,6 +168,7 @@ void FrameCache::keep(const std::string& scene_key, const SceneCard& card) const
     }
     BinaryWriter out;
     pass_facts(out, card.facts);
+    out.put(std::uint8_t{card.facts.traits.antialiased ? std::uint8_t{1} : std::uint8_t{0}});
     out.put(std::uint64_t{card.facts.notes.size()});
     for (const std::string& note : card.facts.notes) {
         out.put(note);
@@ -177,7 +191,7 @@ std::optional<FrameWorkload> FrameCache::frame(const std::string& scene_key, con
     const auto read = [&frame](const char* content, std::size_t bytes) {
         BinaryReader in(content, bytes);
         pass_frame(in, frame);
-        return in.complete();
+        return in.complete() && is_sound(frame);
     };
     const bool found =
         on() && disk_->find(frame_key(scene_key, camera, tile_size, mode, options), read);
@@ -201,10 +215,10 @@ void FrameCache::keep(const std::string& scene_key, const FrameWorkload& frame) 
 std::optional<Reference> FrameCache::reference(const std::string& scene_key,
                                                const FrameWorkload& frame) const {
     Reference reference;
-    const auto read = [&reference](const char* content, std::size_t bytes) {
+    const auto read = [&reference, &frame](const char* content, std::size_t bytes) {
         BinaryReader in(content, bytes);
         pass_reference(in, reference);
-        return in.complete();
+        return in.complete() && is_sound(reference, frame);
     };
     return on() && disk_->find(reference_key(scene_key, frame), read)
                ? std::optional(std::move(reference))

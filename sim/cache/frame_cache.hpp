@@ -22,7 +22,8 @@ struct SceneCard {
 class FrameCache {
 public:
     /// In the folder that DEGS_CACHE names, else in degs of XDG_CACHE_HOME, else in ~/.cache/degs; at most
-    /// DEGS_CACHE_BYTES, by default 4 GiB. An empty DEGS_CACHE, or no such folder: no cache. Throws
+    /// DEGS_CACHE_BYTES, by default 4 GiB. An empty DEGS_CACHE, or no such folder: no cache. A folder that
+    /// others own or may write is not used, with a warning. Throws
     /// InputError if DEGS_CACHE_BYTES is not a number.
     static FrameCache of_user();
     /// One that keeps nothing.

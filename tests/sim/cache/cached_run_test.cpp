@@ -215,6 +215,8 @@ TEST(FrameCache, FindsFramesByEverythingTheyDependOn) {
     EXPECT_FALSE(found("scene", 16, TileMode::Exact, other));
     // A card of a scene says how the scene wants to be drawn.
     sim::SceneCard card;
+    card.facts.gaussians = scene.cloud.size();
+    card.cameras = scene.cameras;
     card.facts.traits.antialiased = true;
     cache.keep("scene", card);
     ASSERT_TRUE(cache.scene("scene"));

@@ -109,14 +109,24 @@ TEST(DiskCache, LeavesOtherFilesAndYoungDraftsAlone) {
     const Folder folder;
     fs::create_directories(folder / "c");
     std::ofstream(folder / "c/notes.txt") << std::string(5000, 'x');
-    std::ofstream(folder / "c/young.draft") << "x";
-    std::ofstream(folder / "c/old.draft") << "x";
-    fs::last_write_time(folder / "c/old.draft",
-                        fs::file_time_type::clock::now() - std::chrono::hours(2));
+    const std::vector<const char*> of_the_user{"c/notes.entry", "c/old.draft", "c/0123.entry"};
+    for (const char* name : of_the_user) {
+        std::ofstream(folder / name) << std::string(5000, 'x');
+    }
+    std::ofstream(folder / "c/young1.draft") << "x";
+    std::ofstream(folder / "c/oldOne.draft") << "x";
+    for (const fs::path& file : files_in(folder / "c")) {
+        if (file.filename() != "young1.draft") {
+            fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(2));
+        }
+    }
     DiskCache(folder / "c", 4000).put("a", "content");
     EXPECT_TRUE(fs::exists(folder / "c/notes.txt"));
-    EXPECT_TRUE(fs::exists(folder / "c/young.draft"));
-    EXPECT_FALSE(fs::exists(folder / "c/old.draft"));
+    EXPECT_TRUE(fs::exists(folder / "c/young1.draft"));
+    EXPECT_FALSE(fs::exists(folder / "c/oldOne.draft"));
+    for (const char* name : of_the_user) {
+        EXPECT_TRUE(fs::exists(folder / name)) << name;
+    }
 }
 
 TEST(DiskCache, DoesNothingWhereNothingCanBeWritten) {
