@@ -12,6 +12,7 @@
 #include "sim/text/standard_output.hpp"
 #include "sim/text/terminal.hpp"
 #include "sim/text/words.hpp"
+#include "sim/trace/tile_maps.hpp"
 #include "sim/view_options.hpp"
 #include "sim/warnings.hpp"
 
@@ -115,11 +116,15 @@ void add_rule_options(CLI::App& command, RenderingRules& rules) {
 void run(const RenderOptions& options) {
     const Stopwatch wall;
     const View view = load_view(options.view);
-    const OutputFolder out(options.out, {"image.exr", "image.png", "render.json"});
+    const OutputFolder out(options.out, image_result_files("render.json"));
     const RenderResult result = render(options, view);
-    write_exr(result.image, out.path("image.exr"));
-    write_png(result.image, out.path("image.png"));
-    out.write_json("render.json", render_json(result, wall.seconds()));
+    out.replace(
+        [&] {
+            write_exr(result.image, out.path("image.exr"));
+            write_png(result.image, out.path("image.png"));
+            out.write_json("render.json", render_json(result, wall.seconds()));
+        },
+        old_tile_maps(out, {}));
     const std::uint64_t fragments = result.workload.reference->fragments;
     print_warnings(result.scene.notes);
     print(layout({{"scene", scene_words(result.scene) + " · " + grouped(result.workload.visible) +

@@ -126,6 +126,20 @@ RunResult simulate(const RunRequest& request, CachedView& view, const Stopwatch&
     return result;
 }
 
+void write_results(const RunOptions& options, const RunRequest& request, const RunResult& result,
+                   const OutputFolder& out, const std::optional<OutputFolder>& maps) {
+    const AcceleratorResult& run = result.accelerator;
+    write_exr(run.images.front(), out.path("image.exr"));
+    write_png(run.images.front(), out.path("image.png"));
+    out.write_json("report.json", report(result));
+    if (request.recording.timeline) {
+        write_trace({run.name, run.clock_ghz, run.timeline, spans_of(run)}, options.trace.file);
+    }
+    if (maps) {
+        write_tile_maps(result, *maps);
+    }
+}
+
 void run(const RunOptions& options) {
     const Stopwatch since_start;
     if (options.fidelity == kAnalytic) {
@@ -135,7 +149,7 @@ void run(const RunOptions& options) {
     const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
     CachedView view(options.view, options.path,
                     options.no_cache ? FrameCache() : FrameCache::of_user());
-    const OutputFolder out(options.out, {"image.exr", "image.png", "report.json"});
+    const OutputFolder out(options.out, image_result_files("report.json"));
     const Fidelity fidelity = options.fidelity == "strict" ? Fidelity::Strict : Fidelity::Exact;
     RunRequest request;
     request.config = config;
@@ -143,23 +157,15 @@ void run(const RunOptions& options) {
     request.build.array_only = options.array_only;
     request.reference = !options.no_reference;
     request.sampling = sampling;
-    request.recording.timeline = timeline_of(options.trace);
     std::optional<OutputFolder> maps;
     if (!options.maps.empty()) {
         maps.emplace(options.maps, tile_map_files());
         request.recording.tiles = true;
     }
+    request.recording.timeline = timeline_of(options.trace);
     const RunResult result = simulate(request, view, since_start);
-    write_exr(result.accelerator.images.front(), out.path("image.exr"));
-    write_png(result.accelerator.images.front(), out.path("image.png"));
-    out.write_json("report.json", report(result));
-    if (request.recording.timeline) {
-        const AcceleratorResult& run = result.accelerator;
-        write_trace({run.name, run.clock_ghz, run.timeline, spans_of(run)}, options.trace.file);
-    }
-    if (maps) {
-        write_tile_maps(result, *maps);
-    }
+    out.replace([&] { write_results(options, request, result, out, maps); },
+                old_tile_maps(out, maps));
     print_warnings(result.warnings);
     print(summary(result, out.path("image.exr")) + (options.explain ? explanation(result) : ""));
 }

@@ -103,13 +103,18 @@ void add_generate(CLI::App& scene) {
         if (!options->gaussians.empty()) {
             spec += ",gaussians=" + options->gaussians;
         }
-        write_scene(load_scene(spec), options->out);
-        // A PLY file has all times, other formats the first alone.
-        if (options->profile == kSyntheticDynamic &&
-            std::filesystem::path(options->out).extension() == ".ply") {
-            write_spacetime_ply(make_spacetime(parse_synthetic(spec.substr(spec.find(':') + 1))),
-                                options->out);
-        }
+        const Scene made = load_scene(spec);
+        write_scene(options->out, scene_words(facts_of(made)), made.cameras, [&] {
+            // A PLY file has all times, other formats the first alone.
+            if (options->profile == kSyntheticDynamic &&
+                std::filesystem::path(options->out).extension() == ".ply") {
+                const std::string profile = spec.substr(spec.find(':') + 1);
+                write_spacetime_ply(make_spacetime(parse_synthetic(profile)), options->out);
+            } else {
+                print_warnings(
+                    write_scene_file(made.cloud, made.cameras, made.traits, options->out));
+            }
+        });
     });
 }
 

@@ -60,15 +60,16 @@ void run(const SocOptions& options) {
     const OutputFolder out(options.out, {"soc.json", "soc.svg"});
     request.timeline = timeline_of(options.trace);
     const SocResult result = run_soc(request, view);
-    out.write_json("soc.json", soc_json(request, view, result));
-    out.write_text("soc.svg", soc_svg(request.config.accelerator().name +
-                                          ": frame latency under competing traffic",
-                                      result.points));
-    if (request.timeline) {
+    out.replace([&] {
         const AcceleratorConfig& config = request.config.accelerator();
-        write_trace({config.name, config.clock_ghz, result.timeline, result.frames},
-                    options.trace.file);
-    }
+        out.write_json("soc.json", soc_json(request, view, result));
+        out.write_text("soc.svg", soc_svg(config.name + ": frame latency under competing traffic",
+                                          result.points));
+        if (request.timeline) {
+            write_trace({config.name, config.clock_ghz, result.timeline, result.frames},
+                        options.trace.file);
+        }
+    });
     print(soc_words(request, view, result));
 }
 

@@ -10,7 +10,7 @@ namespace degs::sim {
 constexpr int kSuccess = 0;
 constexpr int kInternalError = 1; ///< the model or the machine failed
 constexpr int kUserError = 2;     ///< command line, configuration, scene or output folder
-constexpr int kInterrupted = 130; ///< Ctrl-C or SIGTERM, as shells report it
+constexpr int kOfSignals = 128;   ///< plus the number of the signal that ended the program
 
 /// Why something was not done.
 struct Failure {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "config/error.hpp"
+#include "config/input_files.hpp"
 #include "config/ratio.hpp"
 #include "scene/image_io.hpp"
 #include "sim/stopwatch.hpp"
@@ -119,6 +120,8 @@ void check_view(const ViewRequest& request) {
     if (request.scene.empty()) {
         throw InputError("The scene has an empty name; a file or synthetic:NAME is needed.");
     }
+    remember_input(request.scene); // those that another process reads, too
+    remember_input(request.camera_file);
 }
 
 Camera camera_of(const ViewRequest& request, const Scene& scene) {

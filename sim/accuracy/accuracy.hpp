@@ -84,6 +84,8 @@ struct SceneAccuracyRequest {
 /// One row per scene, resolution and set. Throws InputError.
 std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
                                         const OutputFolder& out);
+/// The paths of the error images that an earlier measurement left beside its accuracy.json.
+std::vector<std::string> old_error_images(const OutputFolder& out);
 
 /// PSNR over the height of images, a panel per scene and camera, a line per set; rows of single
 /// Gaussians are left out. Empty if nothing is left.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole images of number sets against the double-precision reference.
 #include <cmath>
+#include <filesystem>
+#include <regex>
 
 #include "scene/image_io.hpp"
 #include "sim/accuracy/accuracy.hpp"
@@ -149,6 +151,22 @@ std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
         }
     }
     return rows;
+}
+
+std::vector<std::string> old_error_images(const OutputFolder& out) {
+    std::vector<std::string> paths;
+    std::error_code error;
+    if (!std::filesystem::exists(out.path("accuracy.json"), error)) {
+        return paths;
+    }
+    const std::regex form("error-[0-9]+-.*-[0-9]+x[0-9]+-.*\\.exr");
+    for (std::filesystem::directory_iterator at(out.path(""), error), end; !error && at != end;
+         at.increment(error)) {
+        if (std::regex_match(at->path().filename().string(), form)) {
+            paths.push_back(at->path().string());
+        }
+    }
+    return paths;
 }
 
 } // namespace degs::sim

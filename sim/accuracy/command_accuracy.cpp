@@ -111,14 +111,27 @@ SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
     return request;
 }
 
-void write(const std::vector<AccuracyRow>& rows, const OutputFolder& out) {
-    out.write_json("accuracy.json", accuracy_json(rows));
-    print(accuracy_table(rows) + "all numbers: " + visible(out.path("accuracy.json")) + "\n");
-    const std::string plot = accuracy_svg(rows);
-    if (!plot.empty()) {
-        out.write_text("accuracy.svg", plot);
-        print("plot: " + visible(out.path("accuracy.svg")) + "\n");
-    }
+/// What the folder receives; in both cases the results of the other are replaced.
+const std::vector<std::string> kAccuracyFiles{"accuracy.json", "accuracy.svg"};
+
+/// Writes what `measure` returns, together with the files that it writes.
+template <class Measure>
+void write_accuracy(const OutputFolder& out, const Measure& measure) {
+    std::string words;
+    out.replace(
+        [&] {
+            const std::vector<AccuracyRow> rows = measure();
+            const std::string plot = accuracy_svg(rows);
+            out.write_json("accuracy.json", accuracy_json(rows));
+            words =
+                accuracy_table(rows) + "all numbers: " + visible(out.path("accuracy.json")) + "\n";
+            if (!plot.empty()) {
+                out.write_text("accuracy.svg", plot);
+                words += "plot: " + visible(out.path("accuracy.svg")) + "\n";
+            }
+        },
+        old_error_images(out));
+    print(words);
 }
 
 void run_hard(const AccuracyOptions& options) {
@@ -139,8 +152,10 @@ void run_hard(const AccuracyOptions& options) {
     request.tile_size = options.tile_size;
     const OutputFolder out(options.out, {"hard_cases.json", "hard_cases.md"});
     const std::vector<HardResult> results = run_hard_cases(request, out.path(""));
-    out.write_json("hard_cases.json", hard_case_json(results));
-    out.write_text("hard_cases.md", hard_case_markdown(results));
+    out.replace([&] {
+        out.write_json("hard_cases.json", hard_case_json(results));
+        out.write_text("hard_cases.md", hard_case_markdown(results));
+    });
     print(hard_case_table(results) + "all numbers: " + visible(out.path("hard_cases.json")) + "\n");
 }
 
@@ -168,8 +183,10 @@ void run_speed(const AccuracyOptions& options) {
     const SpeedRequest request = speed_request(options);
     const OutputFolder out(options.out, {"speed.json", "speed.svg"});
     const SpeedResult result = measure_speed(request);
-    out.write_json("speed.json", speed_json(result));
-    out.write_text("speed.svg", speed_svg(result));
+    out.replace([&] {
+        out.write_json("speed.json", speed_json(result));
+        out.write_text("speed.svg", speed_svg(result));
+    });
     print(speed_table(result) + "all numbers: " + visible(out.path("speed.json")) +
           "\nplot: " + visible(out.path("speed.svg")) + "\n");
 }
@@ -185,8 +202,8 @@ void run(const AccuracyOptions& options) {
     }
     if (options.single_gaussian) {
         const SingleGaussianRequest request = single_request(options);
-        const OutputFolder out(options.out, {"accuracy.json"});
-        write(measure_single_gaussians(request), out);
+        const OutputFolder out(options.out, kAccuracyFiles);
+        write_accuracy(out, [&] { return measure_single_gaussians(request); });
         return;
     }
     if (options.scenes.empty()) {
@@ -195,8 +212,8 @@ void run(const AccuracyOptions& options) {
             "needed.");
     }
     const SceneAccuracyRequest request = scene_request(options);
-    const OutputFolder out(options.out, {"accuracy.json", "accuracy.svg"});
-    write(measure_scenes(request, out), out);
+    const OutputFolder out(options.out, kAccuracyFiles);
+    write_accuracy(out, [&] { return measure_scenes(request, out); });
 }
 
 std::string set_words() {

@@ -3,12 +3,14 @@
 
 #include <cinttypes>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <new>
 #include <vector>
 
 #include <xxhash.h>
 
+#include "config/input_files.hpp"
 #include "scene/cameras/camera_file.hpp"
 #include "scene/dynamic/dynamic_scene.hpp"
 #include "scene/scene_formats.hpp"
@@ -35,14 +37,18 @@ void Digest::add(const std::string& text) {
 
 void Digest::add_file(const std::string& name) {
     constexpr std::size_t kBlock = 1U << 20;
-    std::ifstream file(name, std::ios::binary);
-    std::vector<char> block(kBlock);
     std::uint64_t size = 0;
-    while (file) {
-        file.read(block.data(), static_cast<std::streamsize>(kBlock));
-        const auto got = static_cast<std::size_t>(file.gcount());
-        XXH3_128bits_update(state_.get(), block.data(), got);
-        size += got;
+    std::error_code error;
+    if (std::filesystem::is_regular_file(name, error)) { // others may block, or never end
+        remember_input(name);
+        std::ifstream file(name, std::ios::binary);
+        std::vector<char> block(kBlock);
+        while (file) {
+            file.read(block.data(), static_cast<std::streamsize>(kBlock));
+            const auto got = static_cast<std::size_t>(file.gcount());
+            XXH3_128bits_update(state_.get(), block.data(), got);
+            size += got;
+        }
     }
     XXH3_128bits_update(state_.get(), &size, sizeof size);
 }

@@ -14,7 +14,8 @@ public:
     Digest();
     /// Texts that follow each other are kept apart.
     void add(const std::string& text);
-    /// The content of a file; one that does not exist or cannot be read has none.
+    /// The content of a file; one that is no regular file or cannot be read has
+    /// none.
     void add_file(const std::string& name);
     /// A scene with the files in which its cameras may be, see docs/cameras.md: the name and the content.
     /// InputError if it has options that no scene has.

@@ -10,6 +10,7 @@
 #include "config/error.hpp"
 #include "sim/compare/comparison_output.hpp"
 #include "sim/process/interruption.hpp"
+#include "sim/process/stopping_signals.hpp"
 
 namespace degs::sim {
 namespace {
@@ -66,10 +67,13 @@ Comparison CompareSession::run() {
 void CompareSession::end(const ViewRun& run, ChildOutcome&& outcome) {
     const bool good = !outcome.failure;
     try {
-        take(run, std::move(outcome));
-        if (!found_.empty()) {
-            write();
-        }
+        // A report of this comparison does not stand beside the tables of an earlier one.
+        out_.replace([&] {
+            take(run, std::move(outcome));
+            if (!found_.empty()) {
+                write();
+            }
+        });
     } catch (const InputError& why) {
         unwritten_ =
             Failure{kUserError, "The results of " + run.name + " were not kept: " + why.what() +
@@ -164,17 +168,14 @@ void CompareSession::write() const {
     out_.write_text(kIndex, comparison_page(request_.configs, now));
     for (const auto& [file, picture] : {std::pair(kSlots, slots_picture(now)),
                                         std::pair(kUtilization, utilization_picture(now))}) {
-        std::error_code ignored;
-        if (picture.empty()) { // one of an earlier comparison would mislead
-            std::filesystem::remove(out_.path(file), ignored);
-        } else {
+        if (!picture.empty()) {
             out_.write_text(file, picture);
         }
     }
 }
 
 Failure CompareSession::interruption() const {
-    return {kInterrupted,
+    return {interruption_code(),
             "Interrupted after " + progress_.words() +
                 (found_.empty() ? "." : "; what they found is in '" + out_.path("") + "'.")};
 }

@@ -54,17 +54,28 @@ void measure_curve(MemoryTraffic& traffic, const MemoryOptions& options, MemoryF
     }
 }
 
+void write_results(const MemoryOptions& options, const MemoryFacts& facts,
+                   const OutputFolder& out) {
+    if (!options.no_curve) {
+        std::vector<LoadPoint> points;
+        for (const TrafficResult& each : facts.curve) {
+            points.push_back(point_of(each, facts.memory));
+        }
+        out.write_text("latency.svg",
+                       load_latency_svg(facts.memory.name + ": " + options.shape.pattern +
+                                            ", latency over load",
+                                        points));
+    }
+    out.write_json("memory.json", memory_json(facts));
+}
+
 void run(const MemoryOptions& options) {
     const Stopwatch wall;
     MemoryFacts facts;
     facts.memory = load(options);
     facts.shape = options.shape;
     const dram::Config& config = facts.memory;
-    std::vector<std::string> files{"memory.json"};
-    if (!options.no_curve) {
-        files.emplace_back("latency.svg");
-    }
-    const OutputFolder out(options.out, files);
+    const OutputFolder out(options.out, {"memory.json", "latency.svg"});
     dram::Lpddr5 memory("memory", config, Timebase(), config.channels);
     if (std::uint64_t{4} * options.shape.request_bytes > memory.channels().mapping().capacity()) {
         throw InputError("Requests of " + std::to_string(options.shape.request_bytes) +
@@ -75,17 +86,9 @@ void run(const MemoryOptions& options) {
     facts.saturated = traffic.measure(options.requests, 0);
     if (!options.no_curve) {
         measure_curve(traffic, options, facts, progress);
-        std::vector<LoadPoint> points;
-        for (const TrafficResult& each : facts.curve) {
-            points.push_back(point_of(each, config));
-        }
-        out.write_text("latency.svg",
-                       load_latency_svg(facts.memory.name + ": " + options.shape.pattern +
-                                            ", latency over load",
-                                        points));
     }
     facts.wall_s = wall.seconds();
-    out.write_json("memory.json", memory_json(facts));
+    out.replace([&] { write_results(options, facts, out); });
     print(memory_words(facts));
 }
 

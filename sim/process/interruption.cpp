@@ -10,11 +10,21 @@
 #include <unistd.h>
 
 #include "config/visible_text.hpp"
+#include "scene/output_file.hpp"
 
 namespace degs::sim {
 namespace {
 
-constexpr std::array<int, 2> kSignals{SIGINT, SIGTERM};
+struct Ending {
+    int signal;
+    bool spoken; ///< the other ones come when nobody reads any more, or ask for no answer
+};
+constexpr std::array<Ending, 6> kEndings{{{SIGINT, true},
+                                          {SIGTERM, true},
+                                          {SIGHUP, false},
+                                          {SIGQUIT, false},
+                                          {SIGPIPE, false},
+                                          {SIGXCPU, true}}};
 constexpr std::size_t kLongest = 512;
 
 /// Two, so that a signal finds one whole while the other is written.
@@ -29,9 +39,14 @@ void write_text(const char* text) {
 
 /// Calls only what a signal handler may. SA_RESETHAND has put the default back, which acts when
 /// this returns.
-void speak(int signal) {
-    write_text(before);
-    write_text(sentence.load());
+void end_on(int signal) {
+    drop_partial_files();
+    for (const Ending& ending : kEndings) {
+        if (ending.signal == signal && ending.spoken) {
+            write_text(before);
+            write_text(sentence.load());
+        }
+    }
     std::raise(signal);
 }
 
@@ -39,15 +54,17 @@ void speak(int signal) {
 
 void announce_interruption() {
     before = ::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "";
-    for (const int signal : kSignals) {
+    for (const Ending& ending : kEndings) {
         struct sigaction action {};
-        ::sigaction(signal, nullptr, &action);
+        ::sigaction(ending.signal, nullptr, &action);
         if (action.sa_handler != SIG_IGN) {
-            action.sa_handler = speak;
+            action.sa_handler = end_on;
             action.sa_flags = static_cast<int>(SA_RESETHAND);
-            ::sigaction(signal, &action, nullptr);
+            ::sigaction(ending.signal, &action, nullptr);
         }
     }
+    // A file that reaches the limit of its size fails like one on a full disk, with a sentence.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void set_interruption_sentence(const std::string& text) {
@@ -61,11 +78,11 @@ void set_interruption_sentence(const std::string& text) {
 }
 
 void keep_interruption_quiet() {
-    for (const int signal : kSignals) {
+    for (const Ending& ending : kEndings) {
         struct sigaction action {};
-        ::sigaction(signal, nullptr, &action);
-        if (action.sa_handler == speak) {
-            std::signal(signal, SIG_DFL);
+        ::sigaction(ending.signal, nullptr, &action);
+        if (action.sa_handler == end_on) {
+            std::signal(ending.signal, SIG_DFL);
         }
     }
 }

@@ -7,7 +7,18 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
+#include "sim/failure.hpp"
+
 namespace degs::sim {
+namespace {
+
+int last_signal = SIGINT;
+
+} // namespace
+
+int interruption_code() {
+    return kOfSignals + last_signal;
+}
 
 StoppingSignals::StoppingSignals() {
     sigset_t held;
@@ -35,6 +46,7 @@ bool StoppingSignals::take() const {
     signalfd_siginfo info{};
     bool any = false;
     while (::read(file_, &info, sizeof info) == sizeof info) {
+        last_signal = static_cast<int>(info.ssi_signo);
         any = true;
     }
     return any;

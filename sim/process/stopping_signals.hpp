@@ -16,7 +16,8 @@ public:
 
     /// Readable when a signal has arrived.
     int file() const { return file_; }
-    /// Whether a signal has arrived; takes it, so that it does nothing else.
+    /// Whether a signal has arrived; takes it, so that it does nothing else, and remembers it for
+    /// interruption_code().
     bool take() const;
     /// Signals act again as before; for a forked child.
     void restore() const;
@@ -25,5 +26,9 @@ private:
     sigset_t before_{};
     int file_ = -1;
 };
+
+/// The exit code of a program that the signal ends which was taken last, by default SIGINT: the one that
+/// shells show, 130 or 143.
+int interruption_code();
 
 } // namespace degs::sim

@@ -43,19 +43,22 @@ SceneJson vector_json(const glm::dvec3& v) {
 void write_scene(const std::string& file, const std::string& words,
                  const std::vector<Camera>& cameras, const std::function<void()>& write) {
     const OutputFolder folder(folder_of(file), {std::filesystem::path(file).filename().string()});
-    write();
-    print(visible(file) + ": " + visible(words) + "\n");
     const std::string beside = folder.path("cameras.json");
-    if (std::filesystem::exists(beside)) {
-        print(visible(beside) + ": exists already and stays as it is\n");
-        return;
-    }
-    SceneJson list = SceneJson::array();
-    for (const Camera& camera : cameras) {
-        list.push_back(camera_json(camera));
-    }
-    folder.write_json("cameras.json", list);
-    print(visible(beside) + ": " + std::to_string(cameras.size()) + " camera(s)\n");
+    std::string said = visible(file) + ": " + visible(words) + "\n" + visible(beside) + ": ";
+    folder.replace([&] {
+        write();
+        if (std::filesystem::exists(beside)) {
+            said += "exists already and stays as it is\n";
+            return;
+        }
+        SceneJson list = SceneJson::array();
+        for (const Camera& camera : cameras) {
+            list.push_back(camera_json(camera));
+        }
+        folder.write_json("cameras.json", list);
+        said += std::to_string(cameras.size()) + " camera(s)\n";
+    });
+    print(said);
 }
 
 void write_scene(const Scene& scene, const std::string& file) {
@@ -106,6 +109,7 @@ SceneJson view_info_json(const Scene& scene, const Camera& camera) {
 
 void write_preview(const Scene& scene, const Camera& camera, const std::string& file) {
     constexpr int kTileSide = 16;
+    refuse_output_in_use(file);
     const Progress progress("rendering the preview");
     ReferenceCounts counts;
     write_png(

@@ -6,6 +6,7 @@
 
 #include "config/error.hpp"
 #include "sim/process/interruption.hpp"
+#include "sim/process/stopping_signals.hpp"
 
 namespace degs::sim {
 
@@ -171,9 +172,9 @@ void SweepSession::fail_where(const Failure& failure,
 }
 
 Failure SweepSession::interruption() const {
-    return {kInterrupted, "Interrupted after " + progress_.words() +
-                              "; the same command goes on with the others in '" +
-                              store_.folder().path("") + "'."};
+    return {interruption_code(), "Interrupted after " + progress_.words() +
+                                     "; the same command goes on with the others in '" +
+                                     store_.folder().path("") + "'."};
 }
 
 std::optional<Failure> SweepSession::failure() const {

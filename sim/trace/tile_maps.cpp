@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "config/ratio.hpp"
@@ -14,6 +15,7 @@
 namespace degs::sim {
 namespace {
 
+constexpr const char* kLayers = "tiles.exr";
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct Measured {
@@ -191,7 +193,7 @@ Image map_over(const TileMaps& maps, const TileMap& map, const std::string& subt
 }
 
 std::vector<std::string> tile_map_files() {
-    std::vector<std::string> files{"tiles.exr"};
+    std::vector<std::string> files{kLayers};
     const auto add = [&files](const std::string& name) {
         files.push_back(name + ".png");
         files.push_back(name + "_over_image.png");
@@ -218,7 +220,18 @@ void write_tile_maps(const RunResult& result, const OutputFolder& out) {
                   out.path(map.name + "_over_image.png"));
         layers.push_back({map.name, map.values.data()});
     }
-    write_exr(layers, maps.tiles_x, maps.tiles_y, out.path("tiles.exr"));
+    write_exr(layers, maps.tiles_x, maps.tiles_y, out.path(kLayers));
+}
+
+std::vector<std::string> old_tile_maps(const OutputFolder& out,
+                                       const std::optional<OutputFolder>& maps) {
+    std::vector<std::string> paths = maps ? maps->paths() : std::vector<std::string>();
+    if (std::filesystem::exists(out.path(kLayers))) { // else files of such names may be the user's
+        for (const std::string& file : tile_map_files()) {
+            paths.push_back(out.path(file));
+        }
+    }
+    return paths;
 }
 
 } // namespace degs::sim

@@ -10,6 +10,7 @@
 #include "config/config_words.hpp"
 #include "config/config_yaml.hpp"
 #include "config/error.hpp"
+#include "config/input_files.hpp"
 #include "config/nearby_file.hpp"
 
 namespace degs {
@@ -30,6 +31,9 @@ std::string read_bytes(const fs::path& path, const std::string& place) {
     if (fs::is_directory(path, ignored)) {
         throw InputError(name + " is a directory; a YAML file is expected.");
     }
+    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) { // reading may never end
+        throw InputError(name + " is not a regular file; a YAML file is expected.");
+    }
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     if (!file) {
@@ -42,6 +46,7 @@ std::string read_bytes(const fs::path& path, const std::string& place) {
     std::string bytes(kLargestConfigBytes + 1, '\0');
     file.read(bytes.data(), bytes.size());
     bytes.resize(file.gcount());
+    remember_input(path.string());
     if (bytes.size() > kLargestConfigBytes) {
         throw InputError(name + " is longer than " + std::to_string(kLargestConfigBytes) +
                          " bytes, the most that is allowed.");

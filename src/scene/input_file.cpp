@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "config/error.hpp"
+#include "config/input_files.hpp"
 #include "config/nearby_file.hpp"
 #include "config/visible_text.hpp"
 
@@ -55,6 +56,7 @@ InputFile::InputFile(const std::string& path)
     if (!stream_) {
         fail_file(path, "the file cannot be opened for reading.");
     }
+    remember_input(path);
 }
 
 void InputFile::seek(std::uint64_t position) {

@@ -9,6 +9,7 @@
 #include "sim/cache/cached_view.hpp"
 #include "sim/compare/measures.hpp"
 #include "sim/process/child_process.hpp"
+#include "sim/process/stopping_signals.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
 #include "splat/images/image_difference.hpp"
@@ -174,7 +175,7 @@ private:
         SpeedOutcome outcome;
         outcome.pass(message);
         if (!message.complete()) { // a signal has come
-            throw FailureError({kInterrupted, "Interrupted; nothing has been written."});
+            throw FailureError({interruption_code(), "Interrupted; nothing has been written."});
         }
         return outcome;
     }
