@@ -75,7 +75,13 @@ public:
 
     /// Dates never fall per direction, and are later than any `until` so far. True if the answer
     /// may come as soon as the queues have it, not only with the data.
-    bool push(const Access& access) { return state_.queues.push(access); }
+    bool push(const Access& access) { return state_.queues.push(marked(access)); }
+    /// The access as push() takes it in.
+    Access marked(const Access& access) const { return state_.queues.marked(access); }
+    /// Takes an access of marked().
+    void push_marked(const Access& access) { state_.queues.push(access); }
+    /// An access of this kind that came now would get into its queue at once.
+    bool welcomes(Queues::Kind kind) const { return state_.queues.welcomes(kind); }
     void run(Ck until, Outcome& outcome);
     /// The earliest date at which something happens if nothing more comes.
     Ck next_date() { return std::min(choice().date, next_admission()); }

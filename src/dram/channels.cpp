@@ -40,6 +40,7 @@ Channels::Channels(const Config& config)
     due_.assign(count, kNoDate);
     live_.assign(count, 0);
     asked_.assign(count, 0);
+    futures_.resize(count);
 }
 
 void Channels::split(const Request& request, std::uint32_t id) {
@@ -73,6 +74,8 @@ void Channels::split_run(Access access, std::uint64_t address, std::uint64_t byt
 }
 
 void Channels::push_access(unsigned channel, const Access& access) {
+    const Access marked = channels_[channel].marked(access);
+    futures_[channel].push(marked);
     const bool early = channels_[channel].push(access);
     writes_somewhere_ = writes_somewhere_ || access.write;
     if ((access.id & kPredicted) != 0) {
@@ -135,7 +138,9 @@ void Channels::run_channel(std::size_t channel, Ck until) {
     }
     for (const Answer& answer : outcome_.answers) {
         if ((answer.id & kPredicted) != 0) {
-            take_prediction(channel, answer);
+            if (!futures_[channel].holds()) {
+                take_prediction(channel, answer);
+            }
             continue;
         }
         --live_[channel];
@@ -172,6 +177,7 @@ std::vector<Ck> Channels::predict(Ck known) {
     for (std::size_t c = 0; c < size(); ++c) {
         if (asked_[c] != 0) {
             run_channel(c, known); // may answer some already
+            futures_[c].follow(channels_[c], known);
             predict_channel(c);
         }
     }
@@ -180,16 +186,10 @@ std::vector<Ck> Channels::predict(Ck known) {
 }
 
 void Channels::predict_channel(std::size_t channel) {
-    if (copy_ == nullptr) {
-        copy_ = std::make_unique<Channel>(channels_[channel]);
-    } else {
-        *copy_ = channels_[channel];
-    }
-    copy_->observe({});
     while (asked_[channel] != 0) {
         outcome_.answers.clear();
         outcome_.admitted.clear();
-        copy_->run(copy_->next_date(), outcome_);
+        futures_[channel].step(outcome_);
         for (const Answer& answer : outcome_.answers) {
             take_prediction(channel, answer);
         }

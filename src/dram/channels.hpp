@@ -9,6 +9,7 @@
 #include "config/config.hpp"
 #include "dram/channel.hpp"
 #include "dram/energy.hpp"
+#include "dram/future.hpp"
 #include "dram/mapping.hpp"
 #include "tlm/scattered_records.hpp"
 
@@ -112,7 +113,7 @@ private:
     bool writes_somewhere_ = false;
     std::uint32_t first_ticket_ = 0; // ids of the requests in predictions_
     std::vector<Ck> predictions_;
-    std::unique_ptr<Channel> copy_; // for predictions
+    std::vector<Future> futures_; // by channel: for predictions
     Outcome outcome_;
 };
 

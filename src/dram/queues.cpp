@@ -21,13 +21,12 @@ Queues::Queues(const ControllerConfig& config)
           std::max(1U, config.read_queue - entries(config.urgent_share, config.read_queue))),
       reads_(config.read_queue), writes_(config.write_queue) {}
 
-bool Queues::push(Access access) {
+bool Queues::push(const Access& access) {
     if (access.write) {
         ++writes_of_hash_[hash(access)];
         writes_in_.push_back(access);
         return posted_writes_;
     }
-    access.after_write = writes_of_hash_[hash(access)] != 0;
     after_writes_ += access.after_write ? 1 : 0;
     (access.urgent ? urgent_in_ : reads_in_).push_back(access);
     return access.after_write;

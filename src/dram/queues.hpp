@@ -20,8 +20,30 @@ class Queues {
 public:
     explicit Queues(const ControllerConfig& config);
 
-    /// Dates never fall per direction. True if the answer may come as soon as the queues have it.
-    bool push(Access access);
+    /// The access with `after_write` as it is when the access arrives.
+    Access marked(Access access) const {
+        access.after_write = !access.write && writes_of_hash_[hash(access)] != 0;
+        return access;
+    }
+    /// Takes an access of marked(). Dates never fall per direction. True if the answer may come as
+    /// soon as the queues have it.
+    bool push(const Access& access);
+    /// What waits separately; accesses of one kind get in in the order of their arrival.
+    enum Kind : std::uint8_t { kWrite, kUrgentRead, kRead, kKinds };
+    static Kind kind_of(const Access& access) {
+        return access.write ? kWrite : access.urgent ? kUrgentRead : kRead;
+    }
+    /// An access of this kind that came now would get into its queue at once.
+    bool welcomes(Kind kind) const {
+        switch (kind) {
+        case kWrite:
+            return writes_in_.empty() && !writes_.full();
+        case kUrgentRead:
+            return urgent_in_.empty() && !reads_.full();
+        default:
+            return reads_in_.empty() && ordinary_fit();
+        }
+    }
     /// The earliest date of an access that waits and for which there is room.
     Ck next_admission() const {
         Ck date = kNoDate;
