@@ -8,7 +8,6 @@
 #include <set>
 #include <utility>
 
-#include "baselines/gbu_config.hpp"
 #include "config/error.hpp"
 #include "config/ratio.hpp"
 #include "modules/analytic/expected_work.hpp"
@@ -242,14 +241,13 @@ std::size_t listed_tiles(const FrameWorkload& frame) {
 }
 
 /// Why tiles of this design cannot be taken out of their order; empty if they can.
-std::string kept_between_tiles(const AcceleratorConfig& config, const BuildOptions& options) {
-    const auto* gbu = dynamic_cast<const GbuConfig*>(&config);
-    if (gbu == nullptr || gbu->reuse_cache.bytes == 0 || options.array_only) {
+std::string coupled(const TileCoupling& coupling) {
+    if (coupling.empty()) {
         return {};
     }
-    return "The reuse cache of this design keeps records between neighbouring tiles, of which a "
-           "sample has few (reuse_cache.bytes=0 takes it out); all tiles are simulated, and the "
-           "results are exact.";
+    return coupling.cause +
+           (coupling.remedy.empty() ? "" : " (" + coupling.remedy + " takes it out)") +
+           "; all tiles are simulated, and the results are exact.";
 }
 
 std::string too_few(std::size_t tiles, std::size_t needed) {
@@ -292,7 +290,7 @@ SampledResult run_sampled(const AcceleratorConfig& config,
     SampledResult sampled;
     SamplingFacts& facts = sampled.facts;
     facts.request = request;
-    facts.refusal = kept_between_tiles(config, options);
+    facts.refusal = coupled(config.tile_coupling(options.array_only));
     if (!facts.refusal.empty()) {
         return sampled;
     }

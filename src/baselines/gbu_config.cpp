@@ -36,6 +36,15 @@ void GbuConfig::Cache::describe(ConfigVisitor& visitor) {
                     "0: none");
 }
 
+TileCoupling GbuConfig::tile_coupling(bool array_only) const {
+    if (reuse_cache.bytes == 0 || array_only) {
+        return {};
+    }
+    return {"The reuse cache of this design keeps records between neighbouring tiles, of which a "
+            "sample has few",
+            "reuse_cache.bytes=0"};
+}
+
 void GbuConfig::describe(ConfigVisitor& visitor) {
     describe_common(visitor);
     visitor.integer("tile_size", tile_size, 4, 1024,

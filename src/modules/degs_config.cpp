@@ -173,6 +173,23 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
     advise_depths(visitor);
 }
 
+TileCoupling DegsConfig::tile_coupling(bool array_only) const {
+    if (clusters > 1 || array_only) {
+        return TileCoupling::of_clusters(clusters);
+    }
+    if (front.cache_bytes != 0) {
+        return {"The shared cache of this design keeps records between neighbouring tiles, of "
+                "which a sample has few",
+                "front.cache_bytes=0"};
+    }
+    if (front.multicast_window != 0) {
+        return {"Fetchers of this design share records of neighbouring tiles, of which a sample "
+                "has few",
+                "front.multicast_window=0"};
+    }
+    return {};
+}
+
 void DegsConfig::require_sizes(ConfigVisitor& visitor) const {
     pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), streams(),
                                {"tile_size", "slicing.interleave"}, kMostContexts / clusters);

@@ -43,6 +43,23 @@ struct BuildOptions {
     MainMemory* memory = nullptr;
 };
 
+/// Something of a design that makes the time of a tile depend on which other tiles run before it or
+/// beside it, so that a sample of tiles does not stand for the frame. Empty: nothing does.
+struct TileCoupling {
+    std::string cause;  ///< subject and verb of a sentence: "The reuse cache keeps records ..."
+    std::string remedy; ///< an assignment that takes it out; empty if there is none
+
+    bool empty() const { return cause.empty(); }
+    /// Of a design whose clusters take tiles in turn; empty for one cluster.
+    static TileCoupling of_clusters(int clusters) {
+        if (clusters == 1) {
+            return {};
+        }
+        return {"The clusters of this design compete for memory while each has a tile of its own",
+                "clusters=1"};
+    }
+};
+
 /// The configuration of any accelerator. A new accelerator derives one of these and joins
 /// accelerator_kinds(); docs/adding-an-accelerator.md is a worked example.
 struct AcceleratorConfig {
@@ -75,6 +92,8 @@ struct AcceleratorConfig {
     virtual DataPathOptions data_path() const = 0;
     /// Tiles whose pixels are on chip at a time.
     virtual int tile_contexts() const = 0;
+    /// What makes tiles depend on each other; with `array_only` memory takes no time.
+    virtual TileCoupling tile_coupling(bool array_only) const = 0;
     /// Record layouts of the streams that all accelerators have.
     virtual TrafficConfig records() const = 0;
     /// The blocks of the design and what they cost. A run reports the activity of each of them.

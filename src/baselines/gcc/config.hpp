@@ -43,6 +43,9 @@ struct Config : AcceleratorConfig {
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return clusters * contexts(); }
+    TileCoupling tile_coupling(bool /*array_only*/) const override {
+        return TileCoupling::of_clusters(clusters);
+    }
     TrafficConfig records() const override { return traffic.common(); }
     cost::BillOfMaterials bill() const override;
     void read_floats() override {

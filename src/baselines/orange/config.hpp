@@ -63,6 +63,7 @@ struct Config : AcceleratorConfig {
     TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override;
     int tile_contexts() const override { return cores.count * contexts(); }
+    TileCoupling tile_coupling(bool /*array_only*/) const override { return {}; }
     TrafficConfig records() const override { return traffic; }
     cost::BillOfMaterials bill() const override;
     RecordOrder record_order() const override { return memory.layout; }

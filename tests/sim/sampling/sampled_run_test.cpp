@@ -127,6 +127,28 @@ TEST(SmallRunSampledOnce, IsExactWhereASampleCannotBeNarrowEnough) {
     expect_exact({"--within", "0.1%"}, "is not to be had");
 }
 
+TEST(SmallRunSampledOnce, IsExactWhereTilesDependOnEachOther) {
+    const std::pair<const char*, std::vector<std::string>> designs[] = {
+        {"clusters=1", {"degs-64", "clusters=2"}},
+        {"clusters=1", {"gcc-64", "clusters=2"}},
+        {"clusters=1", {"gscore-64", "clusters=2"}},
+        {"clusters=1", {"degs-x-256"}},
+        {"front.cache_bytes=0", {"degs-x-256", "clusters=1"}},
+        {"front.multicast_window=0", {"degs-64", "front.multicast_window=64"}}};
+    for (const auto& [remedy, design] : designs) {
+        SCOPED_TRACE(design.back());
+        const Folder folder;
+        std::vector<std::string> more{"--within", "5%"};
+        for (std::size_t i = 1; i < design.size(); ++i) {
+            more.insert(more.end(), {"--set", design[i]});
+        }
+        const Outcome outcome = degs(small_run(design.front(), folder / "out", more));
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_NE(outcome.err.find(remedy), std::string::npos) << outcome.err;
+        EXPECT_FALSE(report_in(folder / "out").contains("sampling"));
+    }
+}
+
 TEST(SmallRunSampledOnce, TakesGbuWithoutItsReuseCacheOnly) {
     const std::vector<std::string> sampled{"--fidelity", "sampled:40%"};
     const Folder folder;
