@@ -137,6 +137,7 @@ struct RowSweepConfig : AcceleratorConfig {
     TileMode tile_mode() const override { return TileMode::Exact; }
     DataPathOptions data_path() const override { return PipelineConfig{}.data_path(); }
     int tile_contexts() const override { return parts.pixel_buffer.contexts(tile_pixels()); }
+    TileCoupling tile_coupling(bool /*array_only*/) const override { return {}; }
     PixelBuffer::TilePixels tile_pixels() const {
         return {tile_size, PipelineConfig{}.pixel_bits()};
     }
