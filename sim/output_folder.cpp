@@ -41,14 +41,16 @@ bool same_output(const std::string& a, const std::string& b) {
 } // namespace
 
 void refuse_output_in_use(const std::string& path) {
+    const auto refuse = [&path](const std::string& other, const char* why) {
+        throw InputError("The output file '" + path + "' would replace '" + other + "', which " +
+                         why);
+    };
     if (const std::optional<std::string> input = input_at(path)) {
-        throw InputError("The output file '" + path + "' would replace '" + *input +
-                         "', which this command reads; choose another name.");
+        refuse(*input, "this command reads; choose another name.");
     }
     for (const std::string& claimed : claimed_outputs()) {
         if (same_output(path, claimed)) {
-            throw InputError("The output file '" + path + "' would replace '" + claimed +
-                             "', which this command writes as well; choose another name.");
+            refuse(claimed, "this command writes as well; choose another name.");
         }
     }
 }
