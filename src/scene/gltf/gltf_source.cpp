@@ -139,7 +139,7 @@ std::string external_file(const GltfSource& source, std::size_t index) {
     const GltfBuffer& buffer = source.buffers[index];
     const std::string which =
         "buffer " + std::to_string(index) + " lies in '" + visible(buffer.uri.substr(0, 200)) + "'";
-    const std::string file = file_in_scene_folder(source.path, percent_decoded(buffer.uri), which);
+    std::string file = file_in_scene_folder(source.path, percent_decoded(buffer.uri), which);
     std::error_code error;
     const std::uint64_t size = fs::file_size(file, error);
     if (error || size < buffer.bytes) {
