@@ -105,12 +105,15 @@ inline std::string without_progress(const std::string& text) {
     return rest;
 }
 
-/// Nothing on stderr but, for scenes without cameras, where the generated view is.
-inline void expect_success(const Outcome& outcome) {
+/// Nothing on stderr but, for scenes without cameras, where the generated view is, and a line with
+/// the words of `warning` if there are any.
+inline void expect_success(const Outcome& outcome, const std::string& warning = "") {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find(warning), std::string::npos) << outcome.err;
     std::istringstream lines(outcome.err);
     for (std::string line; std::getline(lines, line);) {
-        EXPECT_NE(line.find("the generated view is at"), std::string::npos) << line;
+        const bool warned = !warning.empty() && line.find(warning) != std::string::npos;
+        EXPECT_TRUE(warned || line.find("the generated view is at") != std::string::npos) << line;
     }
 }
 

@@ -86,7 +86,8 @@ TEST(SceneCommand, ConvertsWithoutTheUndrawable) {
     bad.rotation = {0, 0, 0, 0};
     write_ply(folder / "in.ply", {Splat{}, bad});
     write_camera(folder / "cameras.json", {0, 0, -3});
-    expect_success(degs({"scene", "convert", folder / "in.ply", "--out", folder / "out.ply"}));
+    expect_success(degs({"scene", "convert", folder / "in.ply", "--out", folder / "out.ply"}),
+                   "1 of the 2 Gaussians of the file cannot be drawn and were dropped");
     const Outcome info = degs({"scene", "info", folder / "out.ply"});
     EXPECT_NE(info.out.find("1 Gaussian,"), std::string::npos) << info.out;
 }
