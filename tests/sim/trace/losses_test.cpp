@@ -19,7 +19,7 @@ std::string line_of(const std::string& text, const std::string& name) {
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
         if (line.rfind(name + " ", 0) == 0) {
-            return line.substr(name.size() + 2);
+            return line.substr(line.find_first_not_of(' ', name.size()));
         }
     }
     ADD_FAILURE() << "no line '" << name << "' in\n" << text;
