@@ -203,12 +203,18 @@ TEST_F(HostileConfig, DeepNestingAndManyKeysEnd) {
     EXPECT_EQ(error_of(many), here(4097) + "key 'k4096': more than 4096 keys in one section.");
 }
 
-TEST_F(HostileConfig, EndlessFileEnds) {
+TEST_F(HostileConfig, DevicesAreNoConfigurations) {
     if (!std::filesystem::exists("/dev/zero")) {
         GTEST_SKIP() << "this system has no /dev/zero";
     }
-    EXPECT_EQ(error_of_path("/dev/zero"), "configuration file '/dev/zero' is longer than 1048576 "
-                                          "bytes, the most that is allowed.");
+    EXPECT_EQ(error_of_path("/dev/zero"),
+              "configuration file '/dev/zero' is not a regular file; a YAML file is expected.");
+}
+
+TEST_F(HostileConfig, HugeFilesAreNotRead) {
+    const std::string path = write("huge.yaml", std::string((1 << 20) + 1, ' '));
+    EXPECT_EQ(error_of_path(path), "configuration file '" + path +
+                                       "' is longer than 1048576 bytes, the most that is allowed.");
 }
 
 TEST_F(HostileConfig, LongAndUnprintableValuesStayOneShortLine) {
