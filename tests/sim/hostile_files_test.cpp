@@ -107,7 +107,9 @@ TEST(HostileEnd, PartialFilesOfKilledRunsGoAndOthersStay) {
 }
 
 // A full disk keeps what was there before.
-TEST(HostileEnd, ALimitOfFileSizesIsAFullDisk) {
+// Not among the tests under the address sanitizer, which takes an exception behind a simulation for a
+// mistake because it does not know the stacks of SystemC's processes.
+TEST(FullDisk, ALimitOfFileSizesIsOne) {
     const Folder folder;
     const std::string out = folder / "out";
     expect_success(degs(little_run(out)));
