@@ -7,6 +7,7 @@
 #include "sim/stopwatch.hpp"
 #include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
+#include "tlm/set_access.hpp"
 
 namespace degs::sim {
 
@@ -120,9 +121,8 @@ bool MemoryTraffic::send(std::size_t line) {
     tlm::tlm_generic_payload* payload = new_payload();
     payload->acquire();
     payload->get_extension<Birth>()->date = date;
-    payload->set_command(item.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
-    payload->set_address(item.address);
-    payload->set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
+    set_access(*payload, item.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND, item.address,
+               no_data_.data(), shape_.request_bytes);
     tlm::tlm_phase phase = tlm::BEGIN_REQ;
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
     const auto answer = out[line]->nb_transport_fw(*payload, phase, delay);
@@ -176,9 +176,6 @@ tlm::tlm_generic_payload* MemoryTraffic::new_payload() {
     }
     payloads_.push_back(std::make_unique<tlm::tlm_generic_payload>(&manager_));
     tlm::tlm_generic_payload* payload = payloads_.back().get();
-    payload->set_data_ptr(no_data_.data());
-    payload->set_data_length(shape_.request_bytes);
-    payload->set_streaming_width(shape_.request_bytes);
     payload->set_extension(new Birth);
     payload->set_extension(new TimingOnly);
     return payload;

@@ -50,7 +50,10 @@ public:
 
 private:
     struct Manager : tlm::tlm_mm_interface {
-        void free(tlm::tlm_generic_payload* payload) override { free_list.push_back(payload); }
+        void free(tlm::tlm_generic_payload* payload) override {
+            payload->reset(); // of extensions that belong to whoever it passed
+            free_list.push_back(payload);
+        }
         std::vector<tlm::tlm_generic_payload*> free_list;
     };
     struct Birth : tlm::tlm_extension<Birth> { // when a request was made

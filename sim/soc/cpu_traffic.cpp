@@ -5,6 +5,7 @@
 
 #include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
+#include "tlm/set_access.hpp"
 
 namespace degs::sim {
 
@@ -56,11 +57,8 @@ void CpuTraffic::move_line() {
     TimingOnly timing_only;
     tlm::tlm_generic_payload payload;
     payload.set_extension(&timing_only);
-    payload.set_command(write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND);
-    payload.set_address(next_address());
-    payload.set_data_ptr(line_.data());
-    payload.set_data_length(kLineBytes);
-    payload.set_streaming_width(kLineBytes);
+    set_access(payload, write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND, next_address(),
+               line_.data(), kLineBytes);
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
     out->b_transport(payload, delay);
     payload.clear_extension(&timing_only);

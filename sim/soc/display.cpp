@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tlm/has_process.hpp"
+#include "tlm/set_access.hpp"
 
 namespace degs::sim {
 
@@ -45,11 +46,7 @@ sc_core::sc_time Display::fetch_row(std::uint64_t address) {
         const auto bytes = static_cast<unsigned int>(
             std::min<std::size_t>(config_.request_bytes, row_.size() - at));
         tlm::tlm_generic_payload payload;
-        payload.set_read();
-        payload.set_address(address + at);
-        payload.set_data_ptr(row_.data() + at);
-        payload.set_data_length(bytes);
-        payload.set_streaming_width(bytes);
+        set_access(payload, tlm::TLM_READ_COMMAND, address + at, row_.data() + at, bytes);
         sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
         out->b_transport(payload, delay);
         there = std::max(there, sc_core::sc_time_stamp() + delay);

@@ -8,6 +8,7 @@
 #include "config/error.hpp"
 #include "platform/scene_copy.hpp"
 #include "tlm/has_process.hpp"
+#include "tlm/set_access.hpp"
 
 namespace degs::sim {
 
@@ -39,11 +40,7 @@ std::uint32_t SocHost::access(tlm::tlm_command command, std::uint32_t offset, st
         bytes[i] = value >> 8 * i & 0xFFU;
     }
     tlm::tlm_generic_payload payload;
-    payload.set_command(command);
-    payload.set_address(registers_ + offset);
-    payload.set_data_ptr(bytes.data());
-    payload.set_data_length(4);
-    payload.set_streaming_width(4);
+    set_access(payload, command, registers_ + offset, bytes.data(), bytes.size());
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
     out->b_transport(payload, delay);
     sc_core::wait(delay);
@@ -63,10 +60,8 @@ void SocHost::debug(tlm::tlm_command command, std::uint64_t address,
     constexpr std::size_t kPiece = 1U << 24U;
     for (std::size_t at = 0; at < data.size(); at += kPiece) {
         tlm::tlm_generic_payload payload;
-        payload.set_command(command);
-        payload.set_address(address + at);
-        payload.set_data_ptr(data.data() + at);
-        payload.set_data_length(static_cast<unsigned int>(std::min(kPiece, data.size() - at)));
+        set_access(payload, command, address + at, data.data() + at,
+                   std::min(kPiece, data.size() - at));
         if (out->transport_dbg(payload) != payload.get_data_length()) {
             throw std::runtime_error("the memory has no debug transport at address " +
                                      std::to_string(address + at));

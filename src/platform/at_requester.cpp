@@ -128,8 +128,6 @@ AtRequester::Transaction& AtRequester::make(const Payload& access, unsigned char
     part.by_phase = part.answered = false;
     part.set_command(access.get_command());
     part.burst.open(part, piece, data);
-    part.set_dmi_allowed(false);
-    part.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
     part.set_extension(access.get_extension<TimingOnly>());
     return part;
 }
@@ -187,7 +185,6 @@ void AtRequester::send() {
 
 void AtRequester::request(Transaction& transaction) {
     requesting_ = &transaction;
-    transaction.acquire(); // until answered
     tlm::tlm_phase phase = tlm::BEGIN_REQ;
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
     switch (out_->nb_transport_fw(transaction, phase, delay)) {
@@ -252,8 +249,7 @@ void AtRequester::finish() {
         }
         --under_way_;
         --queues_[transaction->rank].under_way;
-        end_part(*transaction);
-        transaction->release();
+        end_part(*transaction); // which may give it back
     }
     send();
 }

@@ -3,18 +3,16 @@
 
 #include <algorithm>
 
+#include "tlm/set_access.hpp"
+
 namespace degs {
 
 void FullBurst::open(tlm::tlm_generic_payload& payload, const AccessPiece& piece,
                      unsigned char* data) {
-    payload.set_address(piece.address - piece.lead);
-    payload.set_data_length(piece.length());
-    payload.set_streaming_width(piece.length());
-    payload.set_byte_enable_ptr(nullptr);
-    payload.set_byte_enable_length(0);
+    set_access(payload, payload.get_command(), piece.address - piece.lead, data + piece.offset,
+               piece.length());
     if (piece.length() == piece.bytes) {
         data_ = nullptr;
-        payload.set_data_ptr(data + piece.offset);
         return;
     }
     data_ = data + piece.offset;

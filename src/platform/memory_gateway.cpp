@@ -6,6 +6,7 @@
 
 #include "platform/full_burst.hpp"
 #include "tlm/scattered_records.hpp"
+#include "tlm/set_access.hpp"
 
 namespace degs {
 
@@ -179,17 +180,13 @@ void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Piece
         const sc_core::sc_time now = sc_core::sc_time_stamp();
         sc_core::sc_time wait = date > now ? date - now : sc_core::SC_ZERO_TIME;
         burst.open(payload, piece, data);
-        payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
         out->b_transport(payload, wait);
         burst.close(payload);
         done = std::max(done, sc_core::sc_time_stamp() + wait);
         status = status == tlm::TLM_OK_RESPONSE ? payload.get_response_status() : status;
     }
     payload.set_extension(scattered);
-    payload.set_address(address);
-    payload.set_data_ptr(data);
-    payload.set_data_length(bytes);
-    payload.set_streaming_width(bytes);
+    set_access(payload, payload.get_command(), address, data, bytes);
     payload.set_response_status(status);
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     delay = done > now ? done - now : sc_core::SC_ZERO_TIME;

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "modules/traffic.hpp"
+#include "tlm/set_access.hpp"
 
 namespace degs {
 namespace {
@@ -32,23 +33,12 @@ void append(std::vector<unsigned char>& bytes, float value) {
     }
 }
 
-void prepare(tlm::tlm_generic_payload& payload, std::uint64_t address, unsigned char* data,
-             std::uint64_t bytes) {
-    payload.set_command(tlm::TLM_READ_COMMAND);
-    payload.set_address(address);
-    payload.set_data_ptr(data);
-    payload.set_data_length(static_cast<unsigned int>(bytes));
-    payload.set_streaming_width(static_cast<unsigned int>(bytes));
-    payload.set_byte_enable_ptr(nullptr);
-    payload.set_dmi_allowed(false);
-    payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
-}
-
 tlm::tlm_response_status read_timed(MemoryGateway& memory, std::uint64_t address,
                                     unsigned char* data, std::uint64_t bytes) {
     for (std::uint64_t at = 0; at < bytes; at += kTimedPiece) {
         tlm::tlm_generic_payload payload;
-        prepare(payload, address + at, data + at, std::min(kTimedPiece, bytes - at));
+        set_access(payload, tlm::TLM_READ_COMMAND, address + at, data + at,
+                   std::min(kTimedPiece, bytes - at));
         sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
         memory.transport(payload, delay);
         sc_core::wait(delay);
@@ -67,7 +57,7 @@ tlm::tlm_response_status read(MemoryGateway& memory, std::uint64_t address, std:
         const std::uint64_t piece = std::min(kDebugPiece, bytes - at);
         out.resize(at + piece);
         tlm::tlm_generic_payload payload;
-        prepare(payload, address + at, out.data() + at, piece);
+        set_access(payload, tlm::TLM_READ_COMMAND, address + at, out.data() + at, piece);
         const std::uint64_t got = std::min<std::uint64_t>(memory.debug(payload), piece);
         const auto status =
             read_timed(memory, address + at + got, out.data() + at + got, piece - got);

@@ -5,23 +5,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "tlm/set_access.hpp"
+
 namespace degs {
-namespace {
-
-/// Makes `payload` an access to `bytes` bytes; TLM-2.0 has 32 bits for their number.
-void set_access(tlm::tlm_generic_payload& payload, tlm::tlm_command command, std::uint64_t address,
-                unsigned char* data, std::uint64_t bytes) {
-    const auto length = static_cast<unsigned int>(bytes);
-    payload.set_command(command);
-    payload.set_address(address);
-    payload.set_data_ptr(data);
-    payload.set_data_length(length);
-    payload.set_streaming_width(length);
-    payload.set_response_status(tlm::TLM_INCOMPLETE_RESPONSE);
-}
-
-} // namespace
-
 Completion MemoryPort::access(Process& process, tlm::tlm_command command, std::uint64_t address,
                               unsigned char* data, std::uint64_t bytes,
                               const ScatteredRecords* records) {
