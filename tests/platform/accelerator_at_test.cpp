@@ -22,7 +22,7 @@ struct AtPlatform : Platform {
                const Accelerator::Options& options = four_phases())
         : Platform(name, config, cloud, nullptr, options),
           at((std::string(name) + "_memory").c_str(), kMemoryBytes) {
-        accelerator.mem.bind(at.in);
+        mem().bind(at.in);
         std::vector<unsigned char> geometry;
         std::vector<unsigned char> sh;
         encode_scene(cloud, geometry, sh);
@@ -167,8 +167,8 @@ TEST_F(SmallRunAtPlatform, OurLpddr5GivesTheSameBytesThroughBothInterfaces) {
     const Timebase time{ClockDomain(1.0), Fidelity::Exact};
     dram::Lpddr5 lt_memory("lt_memory", {}, time, 1);
     dram::Lpddr5 at_memory("at_memory", {}, time, 1);
-    lt.accelerator.mem.bind(lt_memory.in[0]);
-    at.accelerator.mem.bind(at_memory.in[0]);
+    lt.mem().bind(lt_memory.in[0]);
+    at.mem().bind(at_memory.in[0]);
     std::uint64_t cycles = 0;
     std::vector<unsigned char> lt_bytes(plain.frame(camera).size());
     std::vector<unsigned char> at_bytes = lt_bytes;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <random>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,6 +16,7 @@
 #include <tlm_utils/simple_target_socket.h>
 
 #include "platform/accelerator.hpp"
+#include "tests/platform/protocol/base_protocol_monitor.hpp"
 #include "tlm/has_process.hpp"
 
 namespace degs::test {
@@ -61,6 +63,7 @@ private:
             }
         }
         payload.set_response_status(tlm::TLM_OK_RESPONSE);
+        payload.set_dmi_allowed(true); // which initiators take back before the next request
         return true;
     }
     void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
@@ -175,12 +178,14 @@ struct Platform {
     Platform(const char* name, const AcceleratorConfig& config, const GaussianCloud& cloud,
              std::unique_ptr<PlainMemory> with, const Accelerator::Options& options = {})
         : accelerator(name, config, options), memory(std::move(with)),
+          monitor((std::string(name) + "_monitor").c_str()),
           host((std::string(name) + "_host").c_str()), irq((std::string(name) + "_irq").c_str()) {
         accelerator.irq.bind(irq);
         host.irq.bind(irq);
         host.out.bind(accelerator.registers);
+        accelerator.mem.bind(monitor.in);
         if (memory) {
-            accelerator.mem.bind(memory->in);
+            mem().bind(memory->in);
             std::vector<unsigned char> geometry;
             std::vector<unsigned char> sh;
             encode_scene(cloud, geometry, sh);
@@ -188,6 +193,14 @@ struct Platform {
             std::copy(sh.begin(), sh.end(), memory->bytes.begin() + kSh);
         }
     }
+    Platform(const Platform&) = delete;
+    Platform& operator=(const Platform&) = delete;
+    ~Platform() {
+        EXPECT_EQ(monitor.broken(false), broken)
+            << (monitor.violations(false).empty() ? "" : monitor.violations(false).front());
+    }
+    /// The accelerator's memory socket, behind a monitor of the protocol.
+    tlm::tlm_initiator_socket<>& mem() { return monitor.out; }
     std::vector<unsigned char> frame(const Camera& camera, std::uint64_t at = kFrame,
                                      int pixel_bytes = 4) const {
         const auto begin = memory->bytes.begin() + static_cast<std::ptrdiff_t>(at);
@@ -195,6 +208,9 @@ struct Platform {
     }
     Accelerator accelerator;
     std::unique_ptr<PlainMemory> memory;
+    BaseProtocolMonitor monitor;
+    std::set<Rule>
+        broken; ///< what the protocol is expected to suffer: nothing, but for targets that are wrong
     Host host;
     sc_core::sc_signal<bool> irq;
 };

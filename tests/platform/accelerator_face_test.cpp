@@ -64,7 +64,7 @@ TEST_P(SmallRunFace, RendersTheSameBytesOnLpddr5) {
     Platform plain("plain", *config, cloud, Timing::Immediate);
     Platform p("accelerator", *config, cloud, nullptr);
     dram::Lpddr5 memory("lpddr5", dram::Config(), Timebase(), 1);
-    p.accelerator.mem.bind(memory.in[0]);
+    p.mem().bind(memory.in[0]);
     const auto debug = [&](tlm::tlm_command command, std::uint64_t address,
                            std::vector<unsigned char>& bytes) {
         tlm::tlm_generic_payload payload;

@@ -193,7 +193,8 @@ TEST_F(SmallRunReports, APhaseThatTheBaseProtocolForbids) {
     const GaussianCloud cloud = test_cloud();
     Platform p("p", DegsConfig(), cloud, nullptr, options);
     EndingTarget target("target");
-    p.accelerator.mem.bind(target.in);
+    p.mem().bind(target.in);
+    p.broken = {Rule::Phase};
     p.host.script = [&](Host& host) {
         program(host, cloud, test_camera());
         host.render();

@@ -40,7 +40,7 @@ struct ResetPlatform : Platform {
         accelerator.reset_n.bind(reset_n);
         if (bus == Bus::FourPhases) {
             at = std::make_unique<AtMemory>((name + "_at_memory").c_str(), kMemoryBytes);
-            accelerator.mem.bind(at->in);
+            mem().bind(at->in);
             std::vector<unsigned char> geometry;
             std::vector<unsigned char> sh;
             encode_scene(cloud, geometry, sh);

@@ -54,8 +54,8 @@ TEST(AcceleratorOnATrainedScene, RendersTheImageOfAClosedJobThroughLtAndAt) {
     at_memory.ending = Ending::Mixed;
     Platform lt("lt", config, scene.cloud, nullptr);
     Platform at("at", config, scene.cloud, nullptr, four_phases);
-    lt.accelerator.mem.bind(lt_memory.in);
-    at.accelerator.mem.bind(at_memory.in);
+    lt.mem().bind(lt_memory.in);
+    at.mem().bind(at_memory.in);
     put(scene.cloud, lt_memory.bytes);
     put(scene.cloud, at_memory.bytes);
     lt.host.script = at.host.script = [&](Host& host) {
@@ -95,8 +95,8 @@ TEST(AcceleratorOnATrainedScene, AtTakesNearlyTheTimeOfAnnotatedLt) {
     at_memory.aligned_only = true;
     Platform lt("lt", config, scene.cloud, nullptr);
     Platform at("at", config, scene.cloud, nullptr, four_phases);
-    lt.accelerator.mem.bind(lt_memory.in);
-    at.accelerator.mem.bind(at_memory.in);
+    lt.mem().bind(lt_memory.in);
+    at.mem().bind(at_memory.in);
     put(scene.cloud, lt_memory.bytes);
     put(scene.cloud, at_memory.bytes);
     std::uint64_t lt_cycles = 0;

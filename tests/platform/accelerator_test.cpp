@@ -112,7 +112,9 @@ TEST_F(SmallRunAccelerator, StrictRendersTheSameInTheSameTime) {
     other.irq.bind(irq);
     host.irq.bind(irq);
     host.out.bind(other.registers);
-    other.mem.bind(memory.in);
+    BaseProtocolMonitor monitor("monitor");
+    other.mem.bind(monitor.in);
+    monitor.out.bind(memory.in);
     std::vector<std::uint64_t> cycles;
     const auto script = [&](Host& h) {
         for (int frame = 0; frame < 2; ++frame) {

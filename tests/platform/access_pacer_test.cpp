@@ -94,7 +94,7 @@ struct SharedPlatform {
         Accelerator::Options options;
         options.memory.pacing = pacing;
         p = std::make_unique<Platform>(name.c_str(), DegsConfig(), cloud, nullptr, options);
-        p->accelerator.mem.bind(memory.in[0]);
+        p->mem().bind(memory.in[0]);
         if (order == Order::AcceleratorFirst) {
             add_cpu(name);
         }

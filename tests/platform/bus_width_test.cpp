@@ -14,15 +14,17 @@ template <unsigned int BITS>
 struct WidePlatform {
     WidePlatform(const std::string& name, const GaussianCloud& cloud, bool at)
         : accelerator(name.c_str(), DegsConfig(), options(at)),
-          to_wide((name + "_to_wide").c_str()), to_narrow((name + "_to_narrow").c_str()),
-          registers((name + "_registers").c_str()), host_side((name + "_host_side").c_str()),
-          host((name + "_host").c_str()), irq((name + "_irq").c_str()) {
+          monitor((name + "_monitor").c_str()), to_wide((name + "_to_wide").c_str()),
+          to_narrow((name + "_to_narrow").c_str()), registers((name + "_registers").c_str()),
+          host_side((name + "_host_side").c_str()), host((name + "_host").c_str()),
+          irq((name + "_irq").c_str()) {
         accelerator.irq.bind(irq);
         host.irq.bind(irq);
         host.out.bind(host_side.in);
         host_side.out.bind(registers.in);
         registers.out.bind(accelerator.registers);
-        accelerator.mem.bind(to_wide.in);
+        accelerator.mem.bind(monitor.in);
+        monitor.out.bind(to_wide.in);
         to_wide.out.bind(to_narrow.in);
         if (at) {
             phases = std::make_unique<AtMemory>((name + "_memory").c_str(), kMemoryBytes);
@@ -47,7 +49,10 @@ struct WidePlatform {
     }
     std::vector<unsigned char>& bytes() { return phases ? phases->bytes : plain->bytes; }
 
+    ~WidePlatform() { EXPECT_TRUE(monitor.violations(false).empty()); }
+
     Accelerator accelerator;
+    BaseProtocolMonitor monitor;
     BusWidth<32, BITS> to_wide;
     BusWidth<BITS, 32> to_narrow, registers;
     BusWidth<32, BITS> host_side;

@@ -59,7 +59,7 @@ struct LtStyle {
         : memory((name + "_memory").c_str(), kStyleMemory, 2),
           platform(name.c_str(), scene, camera, paced(pacing)),
           cpu((name + "_cpu").c_str(), kStyleLines, 100, &platform.turn), quantum_ns(quantum) {
-        platform.p.accelerator.mem.bind(memory.in[0]);
+        platform.p.mem().bind(memory.in[0]);
         cpu.out.bind(memory.in[1]);
     }
     static MemoryGateway::Options paced(Pacing pacing) {
@@ -91,7 +91,7 @@ TEST(CodingStyles, CostSpeedAndError) {
     bus.latency_ns = BusyMemory::kLatencyNs;
     Memory own_memory("own_memory", bus, time, 1);
     StylePlatform own("own", scene, camera, LtStyle::paced(Pacing::Annotated));
-    own.p.accelerator.mem.bind(own_memory.in[0]);
+    own.p.mem().bind(own_memory.in[0]);
     const auto poke = [&](std::uint64_t address, std::vector<unsigned char>& data) {
         tlm::tlm_generic_payload payload;
         payload.set_command(tlm::TLM_WRITE_COMMAND);
@@ -116,7 +116,7 @@ TEST(CodingStyles, CostSpeedAndError) {
     AtMemory at_memory("at_memory", kStyleMemory);
     at_memory.accept = sc_core::sc_time(64 / BusyMemory::kBytesPerNs, sc_core::SC_NS);
     StylePlatform at("at", scene, camera, four_phases);
-    at.p.accelerator.mem.bind(at_memory.in);
+    at.p.mem().bind(at_memory.in);
 
     sc_core::sc_start(sc_core::SC_ZERO_TIME);
     poke(0, geometry);

@@ -40,6 +40,7 @@ public:
     sc_core::sc_time accept = sc_core::SC_ZERO_TIME; ///< BEGIN_REQ to END_REQ
     std::uint64_t refused_from = ~std::uint64_t{0};  ///< accesses that reach this address fail
     bool has_debug = true;
+    bool out_of_order = false; ///< latencies of one to four times `latency`, in turn
     bool aligned_only =
         false; ///< complains of accesses that are not naturally aligned powers of two
     unsigned under_way = 0, most_under_way = 0;
@@ -86,6 +87,8 @@ private:
                                      sc_core::sc_time& delay) {
         EXPECT_EQ(requesting_, nullptr) << "BEGIN_REQ before the END_REQ of the last one";
         EXPECT_TRUE(payload.has_mm());
+        EXPECT_EQ(payload.get_ref_count(), 1) << "the initiator's";
+        EXPECT_FALSE(payload.is_dmi_allowed());
         EXPECT_EQ(payload.get_response_status(), tlm::TLM_INCOMPLETE_RESPONSE);
         EXPECT_EQ(payload.get_streaming_width(), payload.get_data_length());
         const std::uint64_t length = payload.get_data_length();
@@ -97,21 +100,23 @@ private:
         payload.acquire();
         const Ending how =
             ending == Ending::Mixed ? static_cast<Ending>(requests % 5) : ending; // Four..Completed
+        const sc_core::sc_time here =
+            latency * (out_of_order ? 4.0 - static_cast<double>(requests % 4) : 1.0);
         ++requests;
         if (how == Ending::Completed) {
             move(payload);
             leave(payload);
-            delay = latency;
+            delay = here;
             return tlm::TLM_COMPLETED;
         }
         if (how == Ending::AnswerAtOnce && responding_ == nullptr) {
             move(payload);
-            respond(payload, latency);
+            respond(payload, here);
             phase = tlm::BEGIN_RESP;
-            delay = latency;
+            delay = here;
             return tlm::TLM_UPDATED;
         }
-        answers_.notify(payload, latency);
+        answers_.notify(payload, here);
         if (how == Ending::RequestAtOnce) {
             phase = tlm::END_REQ;
             delay = accept;
@@ -161,11 +166,16 @@ private:
         const std::uint64_t end = payload.get_address() + payload.get_data_length();
         const bool good = end <= bytes.size() && end <= refused_from;
         payload.set_response_status(good ? tlm::TLM_OK_RESPONSE : tlm::TLM_ADDRESS_ERROR_RESPONSE);
+        payload.set_dmi_allowed(good); // which initiators take back before the next request
         if (good) {
             unsigned char* const here = bytes.data() + payload.get_address();
-            std::memcpy(payload.is_read() ? payload.get_data_ptr() : here,
-                        payload.is_read() ? here : payload.get_data_ptr(),
-                        payload.get_data_length());
+            const unsigned char* const enables = payload.get_byte_enable_ptr();
+            for (unsigned int i = 0; i < payload.get_data_length(); ++i) {
+                if (enables == nullptr || enables[i % payload.get_byte_enable_length()] != 0) {
+                    (payload.is_read() ? payload.get_data_ptr()[i] : here[i]) =
+                        payload.is_read() ? here[i] : payload.get_data_ptr()[i];
+                }
+            }
         }
         return good;
     }
