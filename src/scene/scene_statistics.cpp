@@ -115,7 +115,7 @@ std::uint64_t pixels_inside(const ProjectedSplat& splat, const Camera& camera) {
     std::uint64_t pixels = 0;
     for (int y = box.y0; y <= box.y1; ++y) {
         const double dy = y - splat.mu_y;
-        const double reach = splat.q_threshold - dy * dy / splat.cov_c;
+        const double reach = splat.q_end() - dy * dy / splat.cov_c;
         if (reach >= 0) {
             const double centre = splat.mu_x + splat.cov_b / splat.cov_c * dy;
             const double half = std::sqrt(splat.det / splat.cov_c * reach);

@@ -16,7 +16,7 @@ namespace degs {
 /// The image columns (unclipped) of the bounding box of the splat's ellipse.
 inline PixelRange columns_of_box(const ProjectedSplat& splat) {
     constexpr double kLimit = 1 << 30;
-    const double reach = std::sqrt(splat.q_threshold * splat.cov_a);
+    const double reach = std::sqrt(splat.q_end() * splat.cov_a);
     return {index_within(std::ceil(splat.mu_x - reach), -kLimit, kLimit),
             index_within(std::floor(splat.mu_x + reach), -kLimit, kLimit)};
 }

@@ -50,10 +50,10 @@ SpanRecord<T> derive(const ProjectedSplat& splat) {
     record.c_prime = rounded<T>(1.0 / splat.cov_c);
     record.inverse_a = rounded<T>(splat.det / splat.cov_c);
     record.a = rounded<T>(splat.cov_c / splat.det);
-    record.q_threshold = rounded<T>(splat.q_threshold);
-    record.limit = rounded<T>(kQLimit - splat.q_cut_off);
+    record.q_threshold = rounded<T>(splat.q_end());
+    record.limit = rounded<T>(kQLimit - splat.q_cut_off + (splat.q_end() - splat.q_threshold));
     record.fold = rounded<T>(2.0 * std::log(splat.opacity));
-    const double reach = std::sqrt(splat.q_threshold * splat.cov_c);
+    const double reach = std::sqrt(splat.q_end() * splat.cov_c);
     record.rows = {nearest_pixel(std::ceil(splat.mu_y - reach)),
                    nearest_pixel(std::floor(splat.mu_y + reach))};
     record.columns = columns_of_box(splat);
@@ -61,7 +61,7 @@ SpanRecord<T> derive(const ProjectedSplat& splat) {
 }
 
 ColumnRecord derive_columns(const ProjectedSplat& splat) {
-    const double reach = std::sqrt(splat.q_threshold * splat.cov_c);
+    const double reach = std::sqrt(splat.q_end() * splat.cov_c);
     return {rounded<float>(splat.cov_b / splat.cov_a), rounded<float>(1.0 / splat.cov_a),
             rounded<float>(splat.det / splat.cov_a),
             rounded<float>(splat.cov_b / splat.cov_c * reach)};
@@ -311,8 +311,15 @@ private:
             products_[i] = {test.x - x, test.y + i - y, test.mask,
                             at(test.context, test.row + i, test.column)};
         }
-        product_(products_.data(), rows, gemm_[test.splat].row(x, y), blends_[test.splat], refuse_,
-                 pixels_, outcomes);
+        const GemmSplat<T>& splat = gemm_[test.splat];
+        BlendRecord<T> record = blends_[test.splat];
+        if (splat.cut) {
+            constexpr int kPixels = 32; // of a mask
+            record.limit +=
+                splat.margin(x, y, std::max(std::abs(test.x - x), std::abs(test.x + kPixels - x)),
+                             std::max(std::abs(test.y - y), std::abs(test.y + rows - y)));
+        }
+        product_(products_.data(), rows, splat.row(x, y), record, refuse_, pixels_, outcomes);
     }
     std::size_t at(int context, int row, int column) {
         return rows_.ready(context, row, pixels_) + column;

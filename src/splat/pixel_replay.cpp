@@ -39,7 +39,7 @@ double reference_alpha(const FrameWorkload& work, const ProjectedSplat& s, int x
     const double u = x - s.mu_x - s.cov_b / s.cov_c * dy;
     const double q = s.conic_a() * u * u + dy * dy / s.cov_c;
     const double alpha = std::min(kAlphaMax, s.opacity * std::exp(-0.5 * q));
-    const bool cut = s.q_cut_off > 0 && q > s.q_threshold;
+    const bool cut = s.q_cut_off > 0 && q > s.q_end();
     return cut || alpha < work.projection.alpha_min ? 0 : alpha;
 }
 

@@ -257,8 +257,8 @@ Cull Projector::project(std::size_t index, ProjectedSplat& out) const {
 }
 
 PixelBox pixel_box(const ProjectedSplat& splat, int width, int height) {
-    const double reach_x = std::sqrt(splat.q_threshold * splat.cov_a);
-    const double reach_y = std::sqrt(splat.q_threshold * splat.cov_c);
+    const double reach_x = std::sqrt(splat.q_end() * splat.cov_a);
+    const double reach_y = std::sqrt(splat.q_end() * splat.cov_c);
     const double wide_x = reach_x + pixel_slack(std::abs(splat.mu_x) + reach_x);
     const double wide_y = reach_y + pixel_slack(std::abs(splat.mu_y) + reach_y);
     PixelBox box;

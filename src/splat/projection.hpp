@@ -8,6 +8,7 @@
 #include "splat/camera.hpp"
 #include "splat/gaussian.hpp"
 #include "splat/numbers/projection_numbers.hpp"
+#include "splat/pixel_rules.hpp"
 
 namespace degs {
 
@@ -51,6 +52,9 @@ struct ProjectedSplat {
     double depth = 0;             ///< what it is ordered by, scene units; see SplatOrder
     std::uint32_t id = 0;         ///< index in the cloud
 
+    /// Largest q inside: Q_th, with kCutMargin where a cut ends the splat. Pixel tests and everything that bounds
+    /// them use this one.
+    double q_end() const { return q_cut_off > 0 ? q_threshold + kCutMargin : q_threshold; }
     double conic_a() const { return cov_c / det; }
     double conic_b() const { return -cov_b / det; }
     double conic_c() const { return cov_a / det; }

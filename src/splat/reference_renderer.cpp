@@ -31,7 +31,8 @@ struct SplatTerms {
     double conic_a, slope, inverse_c, det_over_c, q_limit;
     explicit SplatTerms(const ProjectedSplat& s)
         : conic_a(s.conic_a()), slope(s.cov_b / s.cov_c), inverse_c(1.0 / s.cov_c),
-          det_over_c(s.det / s.cov_c), q_limit(s.q_threshold + (s.q_cut_off > 0 ? 0 : kQMargin)) {}
+          det_over_c(s.det / s.cov_c),
+          q_limit(s.q_cut_off > 0 ? s.q_end() : s.q_threshold + kQMargin) {}
 };
 
 /// One tile at a time, in double precision.

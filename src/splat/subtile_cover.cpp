@@ -10,8 +10,8 @@ OrientedBox::OrientedBox(const ProjectedSplat& splat) : mu_x_(splat.mu_x), mu_y_
     const double root = std::hypot(half_difference, splat.cov_b);
     const double largest = 0.5 * (splat.cov_a + splat.cov_c) + root;
     // The other eigenvalue is det / largest, because mid - root loses all digits for needles.
-    major_ = std::sqrt(splat.q_threshold * largest);
-    minor_ = std::sqrt(splat.q_threshold * (splat.det / largest));
+    major_ = std::sqrt(splat.q_end() * largest);
+    minor_ = std::sqrt(splat.q_end() * (splat.det / largest));
     if (root > 0) {
         // Half-angle formulas by the larger of the two, the smaller from sin 2t = 2 sin t cos t.
         const double sine_of_double = splat.cov_b / root;

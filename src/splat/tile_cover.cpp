@@ -13,7 +13,7 @@ namespace {
 class RowSolver {
 public:
     RowSolver(const ProjectedSplat& splat, int width)
-        : mu_x_(splat.mu_x), mu_y_(splat.mu_y), q_threshold_(splat.q_threshold),
+        : mu_x_(splat.mu_x), mu_y_(splat.mu_y), q_end_(splat.q_end()),
           slope_(splat.cov_b / splat.cov_c), inverse_c_(1.0 / splat.cov_c),
           det_over_c_(splat.det / splat.cov_c), width_(width) {}
 
@@ -24,7 +24,7 @@ public:
     PixelRange solve(int y) const {
         const double dy = y - mu_y_;
         const double centre = mu_x_ + slope_ * dy;
-        const double rest = std::max(0.0, q_threshold_ - dy * dy * inverse_c_);
+        const double rest = std::max(0.0, q_end_ - dy * dy * inverse_c_);
         const double half = std::sqrt(det_over_c_ * rest);
         const double wide = half + pixel_slack(std::abs(centre) + std::abs(mu_x_));
         const double low = std::max(0.0, std::ceil(centre - wide));
@@ -36,7 +36,7 @@ public:
     }
 
 private:
-    double mu_x_, mu_y_, q_threshold_, slope_, inverse_c_, det_over_c_;
+    double mu_x_, mu_y_, q_end_, slope_, inverse_c_, det_over_c_;
     int width_;
 };
 

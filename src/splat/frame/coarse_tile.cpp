@@ -113,12 +113,12 @@ bool CoarseTile::next() {
     mu_x_ = static_cast<float>(s.mu_x - x_);
     mu_y_ = static_cast<float>(s.mu_y - y_);
     inverse_c_ = static_cast<float>(inverse_c);
-    threshold_ = static_cast<float>(s.q_threshold);
+    threshold_ = static_cast<float>(s.q_end());
     opacity_ = static_cast<float>(s.opacity);
     conic_a_ = static_cast<float>(s.conic_a());
     slope_ = static_cast<float>(s.cov_b * inverse_c);
     det_over_c_ = static_cast<float>(s.det * inverse_c);
-    const float reach = std::sqrt(static_cast<float>(s.q_threshold * s.cov_c));
+    const float reach = std::sqrt(static_cast<float>(s.q_end() * s.cov_c));
     const auto most = static_cast<float>(height_ - 1);
     first_row_ = static_cast<int>(std::clamp(std::ceil(mu_y_ - reach), 0.0F, most + 1));
     last_row_ = static_cast<int>(std::clamp(std::floor(mu_y_ + reach), -1.0F, most));

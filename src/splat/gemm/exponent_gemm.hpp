@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "splat/numbers/number_format.hpp"
 #include "splat/projection.hpp"
@@ -38,6 +41,7 @@ struct GemmSplat {
     T offset_x = 0, offset_y = 0; ///< of the mean from that pixel, px
     T a = 0, b = 0, c = 0;        ///< q = a x^2 + 2 b x y + c y^2
     T fold = 0;                   ///< 2 ln o
+    bool cut = false;             ///< a cut ends the splat, see ProjectedSplat::q_end
 
     /// The coefficients for an origin, image px. Every operation is rounded to T, in the order in which it is written.
     GemmRow<T> row(int origin_x, int origin_y) const {
@@ -46,6 +50,19 @@ struct GemmSplat {
         const T twice_b = 2 * b;
         const T level = a * dx * dx + twice_b * dx * dy + c * dy * dy;
         return {a, c, twice_b, -2 * (a * dx + b * dy), -2 * (b * dx + c * dy), level - fold};
+    }
+    /// What q' may lie above the limit of a splat that is cut because its terms are rounded, for pixels at most `reach_x`
+    /// and `reach_y` from the origin. The terms add up to 2 (a X^2 + c Y^2) at most, X and Y the sums of the
+    /// distances of pixel and mean from the origin, and less than eight roundings follow each other. Where the
+    /// terms are so large that this would move the edge visibly, their rounding stays.
+    T margin(int origin_x, int origin_y, int reach_x, int reach_y) const {
+        constexpr T kMost = T(0x1p-8);
+        const T x =
+            std::abs(static_cast<T>(pixel_x - origin_x) + offset_x) + static_cast<T>(reach_x);
+        const T y =
+            std::abs(static_cast<T>(pixel_y - origin_y) + offset_y) + static_cast<T>(reach_y);
+        const T terms = 2 * (a * x * x + c * y * y) + std::abs(fold);
+        return std::min(kMost, 4 * std::numeric_limits<T>::epsilon() * terms);
     }
 };
 
@@ -61,6 +78,7 @@ GemmSplat<T> gemm_splat(const ProjectedSplat& splat, int pixel_x, int pixel_y, d
     out.b = static_cast<T>(-splat.cov_b / splat.det);
     out.c = static_cast<T>(splat.cov_a / splat.det);
     out.fold = static_cast<T>(fold);
+    out.cut = splat.q_cut_off > 0;
     return out;
 }
 

@@ -55,7 +55,7 @@ double of_place(const NumberSet& set, const FrameWorkload& work) {
     const bool coordinate = set.mean_form == Mean::Coordinate;
     double most = 0;
     for (const ProjectedSplat& s : work.splats) {
-        const double rows = std::min(height, std::sqrt(s.q_threshold * s.cov_c));
+        const double rows = std::min(height, std::sqrt(s.q_end() * s.cov_c));
         const double across = std::min(std::abs(s.cov_b) / s.cov_c * rows, 2 * width);
         const double edges = 2 * half_unit(set.edge, coordinate ? width : across) +
                              half_unit(set.distance, across) + 2 * half_unit(set.square, 1);
@@ -99,7 +99,8 @@ double pixel_tolerance(const FrameWorkload& workload, int x, int y,
         const double u = x - s.mu_x - s.cov_b / s.cov_c * dy;
         const double q = s.conic_a() * u * u + dy * dy / s.cov_c;
         const double alpha = std::min(kAlphaMax, s.opacity * std::exp(-0.5 * q));
-        const double least = alpha_min * std::exp(0.5 * s.q_cut_off); // at the edge
+        const double least =
+            alpha_min * std::exp(0.5 * (s.q_threshold + s.q_cut_off - s.q_end())); // at the edge
         if (alpha < (numbers.outward ? kNoAlpha : least - numbers.alpha)) {
             continue;
         }

@@ -38,7 +38,7 @@ QuantizedSplat QuantizedRow::record(const ProjectedSplat& splat) const {
     }
     out.mean_x = mean_(splat.mu_x - out.pixel_x);
     out.mean_y = mean_(splat.mu_y - out.pixel_y);
-    out.q_threshold = q_threshold_(unit_ * splat.q_threshold);
+    out.q_threshold = q_threshold_(unit_ * splat.q_end());
     const double opaque = q_threshold_(unit_ * (splat.q_threshold + splat.q_cut_off));
     out.fold = level_(fold_limit_ - opaque);
     out.limit = level_(q_limit_ - (opaque - out.q_threshold));
@@ -58,10 +58,10 @@ void QuantizedRow::derive(const ProjectedSplat& splat, QuantizedSplat& out) cons
     out.slope = slope_(splat.cov_b / splat.cov_c);
     out.c_prime = c_prime_(unit_ / splat.cov_c);
     out.a = conic_(unit_ * splat.conic_a());
-    out.radius = radius_(std::sqrt(splat.q_threshold * (splat.det / splat.cov_c)));
+    out.radius = radius_(std::sqrt(splat.q_end() * (splat.det / splat.cov_c)));
     // Finite also if the splat has no more than its mean's pixel (Q_th = 0): 0 * inf is NaN.
-    out.inverse_radius2 = std::min(inverse_radius2_(1 / (splat.cov_c * splat.q_threshold)),
-                                   set_.inverse_radius2.max());
+    out.inverse_radius2 =
+        std::min(inverse_radius2_(1 / (splat.cov_c * splat.q_end())), set_.inverse_radius2.max());
 }
 
 void QuantizedRow::derive_literally(const ProjectedSplat& splat, QuantizedSplat& out) const {

@@ -36,7 +36,7 @@ std::vector<Saturation> saturated_stages(const NumberSet& set, const FrameWorklo
         c_prime.count(stores_c_prime && c_prime.beyond(record.c_prime));
         radius.count(radius.beyond(record.radius));
         inverse.count(inverse.beyond(record.inverse_radius2) &&
-                      splat.cov_c * splat.q_threshold >= kHalfPixel2);
+                      splat.cov_c * splat.q_end() >= kHalfPixel2);
         conic.count(conic.beyond(record.a));
         threshold.count(threshold.beyond(record.q_threshold));
         colour.count(colour.beyond(record.colour[0]) || colour.beyond(record.colour[1]) ||
