@@ -263,8 +263,14 @@ void ConfigReader::fail_unknown(const std::string& place, const std::string& sec
                                 const std::string& key) const {
     const std::string meant = guess(section, key);
     const std::string keys = config_words::list(known_.at(section));
-    throw InputError(place + ": key " + quote(join_path(section, key)) + " is unknown" +
-                     (meant.empty() ? "" : ", did you mean " + quote(meant) + "?") + " (allowed " +
+    const std::string written = join_path(section, key);
+    std::string advice = meant.empty() ? "" : ", did you mean " + quote(meant) + "?";
+    if (meant == written) { // a key with a dot in its name
+        const std::size_t dot = meant.rfind('.');
+        advice = ", because " + quote(meant.substr(dot + 1)) + " has to stand in the section " +
+                 quote(meant.substr(0, dot)) + ".";
+    }
+    throw InputError(place + ": key " + quote(written) + " is unknown" + advice + " (allowed " +
                      (section.empty() ? "at the top" : "in " + quote(section)) + ": " +
                      (keys.empty() ? "nothing" : keys) + ").");
 }

@@ -74,7 +74,8 @@ TEST(ConfigUnknown, OffersNothingFarFetched) {
 
 TEST(ConfigUnknown, RejectsDottedKeysAndMergeKeysInAFile) {
     EXPECT_EQ(error_of("memory.refresh: true"),
-              "a.yaml:1: key 'memory.refresh' is unknown, did you mean 'memory.refresh'? "
+              "a.yaml:1: key 'memory.refresh' is unknown, because 'refresh' has to stand in the "
+              "section 'memory'. "
               "(allowed at the top: banks, seed, order, title, memory).");
     EXPECT_NE(error_of("<<: {banks: 3}").find("a.yaml:1: key '<<' is unknown"), std::string::npos);
 }
