@@ -126,7 +126,7 @@ TEST_P(RowExtents, RowsAreThoseThatTheEllipseMeets) {
     for (std::uint32_t i = 0; i < splats.size(); ++i) {
         const PixelRange rows = path->rows(i);
         for (const int y : {rows.first - 1, rows.first, rows.last, rows.last + 1}) {
-            const long double room = splats[i].q_threshold - vertical_q(splats[i], y);
+            const long double room = splats[i].q_end() - vertical_q(splats[i], y);
             if (std::abs(room) > 1e-9 && !rows.empty()) {
                 EXPECT_EQ(room > 0, rows.holds(y)) << i << ", row " << y;
             }
