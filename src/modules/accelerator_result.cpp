@@ -66,7 +66,7 @@ void describe_slots(const AcceleratorResult& run, StatsVisitor& v) {
     v.begin_section("slots", "Where the PE-cycles of the blending window went.");
     v.count("pes", run.pes, "PEs", "Processing elements.");
     v.count("total", run.slots.total(), "PE-cycles",
-            "PEs x timing.blending_cycles, and the sum of the next eight.");
+            "PEs x timing.blending_cycles, and the sum of the classes that follow.");
     run.slots.describe(v);
     v.real("utilization", share(run.slots.useful, run.slots.total()), "share",
            "useful / total; null if nothing was blended.");
