@@ -2,6 +2,7 @@
 // degs scene info | cameras | generate | convert | tile
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -13,23 +14,65 @@
 #include "sim/output_folder.hpp"
 #include "sim/scene/command_tile.hpp"
 #include "sim/scene/scene_cameras.hpp"
+#include "sim/scene/scene_out_option.hpp"
 #include "sim/scene/scene_output.hpp"
+#include "sim/text/progress.hpp"
 #include "sim/text/scene_words.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/view_options.hpp"
 #include "sim/warnings.hpp"
+#include "splat/frame/rendering_rules.hpp"
 
 namespace degs::sim {
 namespace {
 
+struct InfoOptions {
+    ViewRequest view;
+    CLI::Option* camera = nullptr;
+    std::string preview;
+    RenderingRules rules;
+    bool json = false;
+};
+
+/// Measures the view and draws it, each if it was asked for.
+std::optional<ViewStatistics> measure(const InfoOptions& options, const View& loaded) {
+    const ProjectionOptions projection = options.rules.options(loaded.scene.traits.antialiased);
+    std::optional<ViewStatistics> statistics;
+    std::optional<CullCounts> culled;
+    if (!options.preview.empty()) {
+        culled = write_preview(loaded.scene, loaded.camera, projection, options.preview);
+    }
+    if (options.camera->count() != 0) {
+        const Progress progress("measuring the view");
+        statistics = measure_view(loaded.scene.cloud, loaded.camera, projection);
+        culled = statistics->culled;
+    }
+    if (culled) {
+        print_warnings(near_plane_warnings(*culled, projection, loaded.scene.cloud.size()));
+    }
+    return statistics;
+}
+
+void run_info(const InfoOptions& options) {
+    const View loaded = load_view(options.view);
+    print_warnings(loaded.scene.notes);
+    const std::optional<ViewStatistics> statistics = measure(options, loaded);
+    if (options.json) {
+        nlohmann::ordered_json json = scene_info_json(loaded.scene);
+        if (statistics) {
+            json["view"] = view_info_json(*statistics, loaded.camera);
+        }
+        print(json_text(json));
+        return;
+    }
+    print(scene_info(loaded.scene));
+    if (statistics) {
+        print(view_info(*statistics, loaded.camera));
+    }
+}
+
 void add_info(CLI::App& scene) {
-    struct Options {
-        ViewRequest view;
-        CLI::Option* camera = nullptr;
-        std::string preview;
-        bool json = false;
-    };
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<InfoOptions>();
     CLI::App* command =
         scene.add_subcommand("info", "statistics of a scene and, with --camera, of a view");
     ViewRequest& view = options->view;
@@ -53,26 +96,8 @@ void add_info(CLI::App& scene) {
                      "renderer, in double precision")
         ->type_name("FILE.png");
     command->add_flag("--json", options->json, "print JSON");
-    command->callback([options] {
-        const View loaded = load_view(options->view);
-        const bool with_view = options->camera->count() != 0;
-        print_warnings(loaded.scene.notes);
-        if (!options->preview.empty()) {
-            write_preview(loaded.scene, loaded.camera, options->preview);
-        }
-        if (options->json) {
-            nlohmann::ordered_json json = scene_info_json(loaded.scene);
-            if (with_view) {
-                json["view"] = view_info_json(loaded.scene, loaded.camera);
-            }
-            print(json_text(json));
-            return;
-        }
-        print(scene_info(loaded.scene));
-        if (with_view) {
-            print(view_info(loaded.scene, loaded.camera));
-        }
-    });
+    add_near_option(*command, options->rules.near);
+    command->callback([options] { run_info(*options); });
 }
 
 void add_generate(CLI::App& scene) {
@@ -93,11 +118,9 @@ void add_generate(CLI::App& scene) {
     command->add_option("--seed", options->seed, "seed of the random numbers")
         ->type_name("INT")
         ->capture_default_str();
-    command
-        ->add_option("--out", options->out, "file to write (" + writable_scene_extensions() + ")")
-        ->type_name("FILE")
-        ->required();
+    add_scene_out(*command, options->out, writable_scene_extensions());
     command->callback([options] {
+        require_scene_out(options->out);
         check_scene_writable(options->out);
         std::string spec = "synthetic:" + options->profile + ",seed=" + options->seed;
         if (!options->gaussians.empty()) {
@@ -128,11 +151,9 @@ void add_convert(CLI::App& scene) {
     command->add_option("scene", options->in, "scene file, or synthetic:NAME[,...]")
         ->type_name("SCENE")
         ->required();
-    command
-        ->add_option("--out", options->out, "file to write (" + writable_scene_extensions() + ")")
-        ->type_name("FILE")
-        ->required();
+    add_scene_out(*command, options->out, writable_scene_extensions());
     command->callback([options] {
+        require_scene_out(options->out);
         check_scene_writable(options->out);
         const Scene loaded = load_scene(options->in);
         print_warnings(loaded.notes);

@@ -8,6 +8,7 @@
 
 #include "config/error.hpp"
 #include "scene/tiling/scene_tiling.hpp"
+#include "sim/scene/scene_out_option.hpp"
 #include "sim/scene/scene_output.hpp"
 #include "sim/text/words.hpp"
 
@@ -20,6 +21,7 @@ struct TileOptions {
 };
 
 void run_tile(const TileOptions& options) {
+    require_scene_out(options.out);
     if (std::filesystem::path(options.out).extension() != ".glb") {
         throw InputError("The scene file '" + options.out +
                          "' cannot be written: a tiled scene shows one mesh many times, which only "
@@ -62,9 +64,7 @@ void add_scene_tile(CLI::App& scene) {
         ->add_option("--gaussians", options->gaussians,
                      "as many copies as it takes to have this number, in a square")
         ->excludes(copies);
-    command->add_option("--out", options->out, "file to write (.glb)")
-        ->type_name("FILE")
-        ->required();
+    add_scene_out(*command, options->out, ".glb");
     command->callback([options] { run_tile(*options); });
 }
 

@@ -33,7 +33,8 @@ void list_cameras(const ViewRequest& view, const std::string& out) {
         const std::string folder = file.parent_path().string();
         const OutputFolder target(folder.empty() ? "." : folder, {file.filename().string()});
         target.write_json(file.filename().string(), cameras_json(scene));
-        print(visible(out) + ": " + std::to_string(scene.cameras.size()) + " camera(s)\n");
+        print(visible(out) + ": " + std::to_string(scene.cameras.size()) +
+              (scene.generated_view ? " generated view(s)" : " camera(s)") + "\n");
     }
 }
 
@@ -43,6 +44,9 @@ nlohmann::ordered_json cameras_json(const Scene& scene) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Camera& camera : scene.cameras) {
         list.push_back(camera_json(camera));
+        if (scene.generated_view) {
+            list.back()["generated"] = true;
+        }
     }
     return list;
 }
@@ -53,7 +57,8 @@ std::string cameras_text(const Scene& scene) {
         const Camera& camera = scene.cameras[i];
         const glm::dvec2 angles = field_of_view(camera);
         block.emplace_back("camera " + std::to_string(i),
-                           size_words(camera) + " " + camera.name + " · at " +
+                           size_words(camera) + " " + camera.name +
+                               (scene.generated_view ? " (generated)" : "") + " · at " +
                                triple_words(camera.position) + " · looks along " +
                                triple_words(camera.camera_to_world[2]) + " · sees " +
                                three_digits(angles.x) + "° × " + three_digits(angles.y) + "°");

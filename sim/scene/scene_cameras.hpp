@@ -13,7 +13,7 @@ namespace degs::sim {
 
 void add_scene_cameras(CLI::App& scene);
 
-/// cameras.json with all cameras of the scene.
+/// cameras.json with all cameras of the scene; a generated view is marked `generated: true`.
 nlohmann::ordered_json cameras_json(const Scene& scene);
 
 /// A line for each camera: size, where it is, where it looks and how much it sees.

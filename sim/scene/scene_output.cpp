@@ -1,33 +1,106 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/scene/scene_output.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
 
+#include "config/error.hpp"
 #include "config/visible_text.hpp"
+#include "scene/cameras/camera_file.hpp"
 #include "scene/image_io.hpp"
 #include "scene/scene_formats.hpp"
-#include "scene/scene_statistics.hpp"
 #include "sim/output_folder.hpp"
 #include "sim/report.hpp"
+#include "sim/scene/scene_cameras.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/scene_words.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/text/words.hpp"
 #include "sim/warnings.hpp"
-#include "splat/frame/rendering_rules.hpp"
 #include "splat/reference_renderer.hpp"
 
 namespace degs::sim {
 namespace {
 
+namespace fs = std::filesystem;
 using SceneJson = nlohmann::ordered_json;
 
 /// The folder of a file that is going to be written; "." if it has none.
 std::string folder_of(const std::string& file) {
-    const std::string folder = std::filesystem::path(file).parent_path().string();
+    const std::string folder = fs::path(file).parent_path().string();
     return folder.empty() ? "." : folder;
+}
+
+SceneJson list_json(const std::vector<Camera>& cameras) {
+    SceneJson list = SceneJson::array();
+    for (const Camera& camera : cameras) {
+        list.push_back(camera_json(camera));
+    }
+    return list;
+}
+
+/// Whether the file holds these cameras and no others; one that cannot be read does not.
+bool holds(const std::string& camera_file, const std::vector<Camera>& cameras) {
+    try {
+        return list_json(read_camera_file(camera_file).cameras) == list_json(cameras);
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+/// Another scene in the folder of `file` that reads the same camera file; empty if there is none.
+std::string namesake_of(const std::string& file) {
+    const fs::path own(file);
+    const std::vector<std::string> extensions = scene_extensions();
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(file), error)) {
+        const fs::path other = entry.path().filename();
+        if (other != own.filename() && other.stem() == own.stem() &&
+            std::find(extensions.begin(), extensions.end(), other.extension().string()) !=
+                extensions.end()) {
+            return entry.path().string();
+        }
+    }
+    return "";
+}
+
+/// Whether the scene's camera file is there and right. Throws InputError if the scene would be drawn
+/// with the cameras of another one, or another scene with its.
+bool stays_as_it_is(const std::string& file, const std::string& own,
+                    const std::vector<Camera>& cameras) {
+    if (!fs::exists(own)) {
+        return false;
+    }
+    if (cameras.empty()) {
+        throw InputError("The scene file '" + file + "' would be drawn with the cameras of '" +
+                         own +
+                         "', and the scene has none; remove that file, or choose another name.");
+    }
+    if (holds(own, cameras)) {
+        return true;
+    }
+    if (const std::string other = namesake_of(file); !other.empty()) {
+        throw InputError("The cameras of the scene file '" + file + "' would replace those in '" +
+                         own + "', with which '" + other +
+                         "' is drawn as well; choose another name.");
+    }
+    return false;
+}
+
+/// What `file`, which has been written with these cameras of its own, is drawn with.
+std::string camera_words(const std::string& file, const std::vector<Camera>& cameras, bool stays) {
+    const std::string beside = cameras_beside(file);
+    if (cameras.empty()) {
+        return beside.empty() ? "The scene has no cameras, and none are written; every command "
+                                "generates a view."
+                              : "The scene has no cameras; those of " + visible(beside) +
+                                    ", which is there already, are used.";
+    }
+    return visible(beside) + ": " +
+           (stays ? "exists already and stays as it is"
+                  : std::to_string(cameras.size()) + " camera(s)");
 }
 
 SceneJson quantiles_json(const Quantiles& q) {
@@ -42,29 +115,26 @@ SceneJson vector_json(const glm::dvec3& v) {
 
 void write_scene(const std::string& file, const std::string& words,
                  const std::vector<Camera>& cameras, const std::function<void()>& write) {
-    const OutputFolder folder(folder_of(file), {std::filesystem::path(file).filename().string()});
-    const std::string beside = folder.path("cameras.json");
-    std::string said = visible(file) + ": " + visible(words) + "\n" + visible(beside) + ": ";
+    const fs::path own(own_camera_file(file));
+    const bool stays = stays_as_it_is(file, own.string(), cameras);
+    std::vector<std::string> files{fs::path(file).filename().string()};
+    if (!stays && !cameras.empty()) {
+        files.push_back(own.filename().string());
+    }
+    const OutputFolder folder(folder_of(file), files);
     folder.replace([&] {
         write();
-        if (std::filesystem::exists(beside)) {
-            said += "exists already and stays as it is\n";
-            return;
+        if (files.size() > 1) {
+            folder.write_json(files.back(), list_json(cameras));
         }
-        SceneJson list = SceneJson::array();
-        for (const Camera& camera : cameras) {
-            list.push_back(camera_json(camera));
-        }
-        folder.write_json("cameras.json", list);
-        said += std::to_string(cameras.size()) + " camera(s)\n";
     });
-    print(said);
+    print(visible(file) + ": " + visible(words) + "\n" + camera_words(file, cameras, stays) + "\n");
 }
 
 void write_scene(const Scene& scene, const std::string& file) {
-    write_scene(file, scene_words(facts_of(scene)), scene.cameras, [&] {
-        print_warnings(write_scene_file(scene.cloud, scene.cameras, scene.traits, file));
-    });
+    const std::vector<Camera> own = scene.generated_view ? std::vector<Camera>() : scene.cameras;
+    write_scene(file, scene_words(facts_of(scene)), own,
+                [&] { print_warnings(write_scene_file(scene.cloud, own, scene.traits, file)); });
 }
 
 SceneJson scene_info_json(const Scene& scene) {
@@ -84,17 +154,11 @@ SceneJson scene_info_json(const Scene& scene) {
                           {"opaque_share", s.opaque_share},
                           {"faint_share", s.faint_share},
                           {"sh_rest_rms", s.sh_rest_rms}};
-    json["cameras"] = SceneJson::array();
-    for (const Camera& camera : scene.cameras) {
-        json["cameras"].push_back(camera_json(camera));
-    }
+    json["cameras"] = cameras_json(scene);
     return json;
 }
 
-SceneJson view_info_json(const Scene& scene, const Camera& camera) {
-    const Progress progress("measuring the view");
-    const ViewStatistics v =
-        measure_view(scene.cloud, camera, RenderingRules().options(scene.traits.antialiased));
+SceneJson view_info_json(const ViewStatistics& v, const Camera& camera) {
     return {{"camera", camera_json(camera)},
             {"visible", v.visible},
             {"tile_pairs", v.tile_pairs},
@@ -107,16 +171,16 @@ SceneJson view_info_json(const Scene& scene, const Camera& camera) {
             {"footprint_px", quantiles_json(v.footprint)}};
 }
 
-void write_preview(const Scene& scene, const Camera& camera, const std::string& file) {
+CullCounts write_preview(const Scene& scene, const Camera& camera, const ProjectionOptions& options,
+                         const std::string& file) {
     constexpr int kTileSide = 16;
     refuse_output_in_use(file);
     const Progress progress("rendering the preview");
     ReferenceCounts counts;
-    write_png(
-        render_reference(make_frame_workload(scene.cloud, camera, kTileSide, TileMode::Exact,
-                                             RenderingRules().options(scene.traits.antialiased)),
-                         counts),
-        file);
+    const FrameWorkload frame =
+        make_frame_workload(scene.cloud, camera, kTileSide, TileMode::Exact, options);
+    write_png(render_reference(frame, counts), file);
+    return frame.culled;
 }
 
 } // namespace degs::sim

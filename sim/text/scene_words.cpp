@@ -2,9 +2,7 @@
 #include "sim/text/scene_words.hpp"
 
 #include "config/ratio.hpp"
-#include "scene/scene_statistics.hpp"
 #include "sim/text/words.hpp"
-#include "splat/frame/rendering_rules.hpp"
 
 namespace degs::sim {
 namespace {
@@ -49,15 +47,14 @@ std::string scene_info(const Scene& scene) {
     }
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const Camera& camera = scene.cameras[i];
-        block.emplace_back("camera " + std::to_string(i), size_words(camera) + " " + camera.name);
+        block.emplace_back("camera " + std::to_string(i),
+                           size_words(camera) + " " + camera.name +
+                               (scene.generated_view ? " (generated)" : ""));
     }
     return layout(block);
 }
 
-std::string view_info(const Scene& scene, const Camera& camera) {
-    const Progress progress("measuring the view");
-    const ViewStatistics v =
-        measure_view(scene.cloud, camera, RenderingRules().options(scene.traits.antialiased));
+std::string view_info(const ViewStatistics& v, const Camera& camera) {
     const auto per_splat = [&v](std::uint64_t count) {
         return v.visible > 0 ? three_digits(ratio_of(count, v.visible)) : "-";
     };

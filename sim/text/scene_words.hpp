@@ -3,13 +3,14 @@
 
 #include <string>
 
+#include "scene/scene_statistics.hpp"
 #include "sim/text/terminal.hpp"
 
 namespace degs::sim {
 
 /// Describes a scene and its cameras.
 std::string scene_info(const Scene& scene);
-/// Describes the work of a view; renders the reference image once.
-std::string view_info(const Scene& scene, const Camera& camera);
+/// Describes the work of a view.
+std::string view_info(const ViewStatistics& v, const Camera& camera);
 
 } // namespace degs::sim

@@ -11,6 +11,7 @@
 #include "scene/activation_scan.hpp"
 #include "scene/cameras/camera_file.hpp"
 #include "scene/cameras/orbit_camera.hpp"
+#include "scene/cameras/trained_frame.hpp"
 #include "scene/dynamic/dynamic_scene.hpp"
 #include "scene/dynamic/spacetime_ply.hpp"
 #include "scene/input_file.hpp"
@@ -101,9 +102,10 @@ std::string file_of(const SceneSpec& spec) {
 SceneContent content_of(const SceneSpec& spec) {
     const std::string file = file_of(spec);
     if (!is_spacetime_ply(file)) {
-        if (spec.time) {
-            fail_file(spec.path, "this scene is not a function of time; '?time=' is for files of "
-                                 "SpacetimeGaussians.");
+        if (spec.time || spec.frames) {
+            fail_file(spec.path, std::string("this scene is not a function of time; '?") +
+                                     (spec.time ? "time" : "frames") +
+                                     "=' is for files of SpacetimeGaussians.");
         }
         return read_scene_file(file);
     }
@@ -173,12 +175,17 @@ Scene load_scene(const std::string& spec, const std::string& cameras_path) {
     sanitize_scene(scene);
     if (!cameras.empty()) {
         CameraFile file = read_camera_file(cameras);
+        if (!asked.synthetic) {
+            move_into_trained_frame(trained_frame_beside(file_of(asked)), file);
+        }
         scene.cameras = std::move(file.cameras);
+        scene.generated_view = file.generated;
         scene.notes.insert(scene.notes.end(), file.notes.begin(), file.notes.end());
     }
     if (scene.cameras.empty()) {
         const OrbitView view = orbit_view(scene.cloud);
         scene.cameras.push_back(view.camera);
+        scene.generated_view = true;
         scene.notes.push_back(generated_view_note(view));
     }
     return scene;

@@ -14,6 +14,7 @@ struct Scene {
     std::string source;             ///< what the user wrote
     GaussianCloud cloud;            ///< sanitized and not empty
     std::vector<Camera> cameras;    ///< never empty: scenes without cameras get an orbit view
+    bool generated_view = false;    ///< `cameras` is an orbit view, or a file says that it was one
     SanitizeReport dropped;         ///< what was not drawable
     SceneTraits traits;             ///< how the file wants to be drawn
     std::vector<std::string> notes; ///< a full sentence for everything guessed or passed over

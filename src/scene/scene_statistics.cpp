@@ -157,6 +157,7 @@ ViewStatistics measure_view(const GaussianCloud& cloud, const Camera& camera,
     const Image image = render_reference(work, counts);
     const std::size_t pixels = image.pixels();
     ViewStatistics out;
+    out.culled = work.culled;
     out.visible = work.splats.size();
     out.tile_pairs = work.tile_pairs();
     out.fragments = counts.fragments;

@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "splat/camera.hpp"
+#include "splat/frame_workload.hpp"
 #include "splat/gaussian.hpp"
 #include "splat/projection.hpp"
 
@@ -45,6 +46,7 @@ SceneStatistics measure_scene(const GaussianCloud& cloud, const SanitizeReport& 
 
 /// Statistics of a view of a scene; the counts of the reference renderer.
 struct ViewStatistics {
+    CullCounts culled;
     std::uint64_t visible = 0;       ///< splats that some tile of 16 x 16 lists
     std::uint64_t tile_pairs = 0;    ///< tile list entries, tiles of 16 x 16
     std::uint64_t fragments = 0;     ///< pixel updates

@@ -58,7 +58,7 @@ TEST(SceneCommand, GeneratesWhatInfoReads) {
     const std::string file = folder / "made/scene.ply";
     expect_success(
         degs({"scene", "generate", "object", "--gaussians", "500", "--seed", "7", "--out", file}));
-    ASSERT_TRUE(fs::exists(folder / "made/cameras.json"));
+    ASSERT_TRUE(fs::exists(folder / "made/scene.cameras.json"));
     const Outcome info = degs({"scene", "info", file, "--camera", "1", "--width", "160"});
     expect_success(info);
     EXPECT_NE(info.out.find("500 Gaussians"), std::string::npos) << info.out;
@@ -99,7 +99,8 @@ TEST(SceneCommand, ConvertsToGlbAndBack) {
     expect_success(degs({"scene", "convert", ply, "--out", folder / "b/scene.glb"}));
     expect_success(
         degs({"scene", "convert", folder / "b/scene.glb", "--out", folder / "c/scene.ply"}));
-    EXPECT_EQ(read_file(folder / "b/cameras.json"), read_file(folder / "a/cameras.json"));
+    EXPECT_EQ(read_file(folder / "b/scene.cameras.json"),
+              read_file(folder / "a/scene.cameras.json"));
     for (const char* const name : {"a/scene.ply", "b/scene.glb"}) {
         expect_success(degs({"scene", "info", folder / name, "--camera", "0", "--width", "160",
                              "--preview", folder / (std::string(name) + ".png")}));

@@ -101,8 +101,16 @@ CameraFile read_camera_file(const std::string& path) {
     }
 }
 
+std::string own_camera_file(const std::string& scene_file) {
+    const fs::path file(scene_file);
+    return (file.parent_path() / (file.stem().string() + ".cameras.json")).string();
+}
+
 std::string cameras_beside(const std::string& scene_file) {
     const fs::path file(scene_file);
+    if (std::string own = own_camera_file(scene_file); is_there(own)) {
+        return own;
+    }
     std::string found = camera_file_in(file.parent_path());
     if (found.empty() && is_training_output(scene_file)) {
         found = camera_file_in(fs::absolute(file).parent_path().parent_path().parent_path());

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -16,7 +18,8 @@ const JsonEntries& json_cameras() {
         "a camera file is a JSON array of cameras, an object with frames, or a COLMAP model",
         "camera",
         "width, height, position, rotation, fx and fy",
-        {"id", "img_name", "width", "height", "fx", "fy", "position", "rotation"},
+        {"id", "img_name", "width", "height", "fx", "fy", "position", "rotation", "cx", "cy",
+         "generated"},
         13}; // a rotation is an array of 3 arrays of 3 numbers
     return entries;
 }
@@ -38,14 +41,40 @@ Camera camera_of_json(const CameraPlace& place, std::size_t index, const nlohman
     return camera;
 }
 
+/// px; 0 within half a pixel, because some writers count pixels from their centres.
+double principal_shift(const JsonEntry& entry, const Camera& camera) {
+    constexpr double kHalfPixel = 0.5;
+    double shift = 0;
+    for (const auto& [key, side] :
+         {std::pair("cx", camera.width), std::pair("cy", camera.height)}) {
+        if (entry.has(key)) {
+            shift = std::max(shift, std::abs(entry.number(key) - side / 2.0));
+        }
+    }
+    return shift > kHalfPixel ? shift : 0;
+}
+
 } // namespace
 
 CameraFile read_cameras_json(const std::string& path) {
     CameraFile file;
+    LensResidue residue;
     read_json_entries(path, json_cameras(), [&](std::size_t index, const nlohmann::json& json) {
         const CameraPlace place(path, entry_name(json_cameras(), index));
         file.cameras.push_back(camera_of_json(place, index, json));
+        residue.join(
+            {principal_shift(JsonEntry(place, json, json_cameras().needed), file.cameras.back()),
+             0});
+        file.generated =
+            file.generated || (json.contains("generated") && json["generated"] == true);
     });
+    if (std::string note = lens_note(path, residue); !note.empty()) {
+        file.notes.push_back(std::move(note));
+    }
+    if (file.generated) {
+        file.notes.push_back("The view in " + path +
+                             " was generated for a scene that has no cameras.");
+    }
     return file;
 }
 

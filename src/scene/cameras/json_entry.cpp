@@ -30,6 +30,15 @@ double JsonEntry::number(const char* key) const {
     return number_in(at(key), key);
 }
 
+double JsonEntry::positive(const char* key) const {
+    const double value = number(key);
+    if (!(value > 0)) {
+        place_.fail("has a " + std::string(key) + " of " + dump(key) +
+                    "; allowed are numbers above 0.");
+    }
+    return value;
+}
+
 int JsonEntry::integer(const char* key, int low, int high) const {
     const double value = number(key);
     if (!(value >= low && value <= high) || value != std::floor(value)) {
@@ -99,6 +108,18 @@ glm::dmat4 JsonEntry::affine(const char* key) const {
         place_.fail("has a " + std::string(key) + " whose last row is not 0 0 0 1.");
     }
     return glm::transpose(transposed);
+}
+
+glm::dmat4 JsonEntry::similarity(const char* key) const {
+    const glm::dmat4 matrix = affine(key);
+    const double scale = std::cbrt(glm::determinant(glm::dmat3(matrix)));
+    if (!(scale > 0) || !std::isfinite(scale)) {
+        place_.fail("has a " + std::string(key) +
+                    " that cannot be undone; allowed are a rotation, a uniform scale and a "
+                    "translation.");
+    }
+    check_rotation(place_, key, glm::dmat3(matrix) / scale);
+    return matrix;
 }
 
 } // namespace degs

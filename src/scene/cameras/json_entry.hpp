@@ -21,6 +21,8 @@ public:
     const nlohmann::json& at(const char* key) const;
     /// Finite.
     double number(const char* key) const;
+    /// Above 0 and finite.
+    double positive(const char* key) const;
     int integer(const char* key, int low, int high) const;
     int side(const char* key) const;
     double focal_length(const char* key) const;
@@ -30,6 +32,8 @@ public:
     glm::dmat3 rows(const char* key) const;
     /// Up to 4 rows of 4 numbers, at least 3; a fourth one must be 0 0 0 1.
     glm::dmat4 affine(const char* key) const;
+    /// The same, of a rotation, a uniform scale and a translation; no mirroring.
+    glm::dmat4 similarity(const char* key) const;
 
 private:
     double number_in(const nlohmann::json& value, const std::string& what) const;

@@ -54,6 +54,11 @@ TEST(CameraFiles, BesideAScene) {
     EXPECT_EQ(load_scene(scene).cameras.at(0).name, "t");
     folder.write("cameras.json", kCamerasOfOne);
     EXPECT_EQ(load_scene(scene).cameras.at(0).name, "j");
+    std::string own = kCamerasOfOne;
+    own.replace(own.find("\"j\""), 3, "\"own\"");
+    folder.write("scene.cameras.json", own);
+    EXPECT_EQ(load_scene(scene).cameras.at(0).name, "own");
+    EXPECT_EQ(load_scene(put_scene(folder, "other.ply")).cameras.at(0).name, "j");
     // The folder of the data set, as --camera-file.
     EXPECT_EQ(load_scene(scene, folder.path("sparse")).cameras.at(0).name, "c");
 }
