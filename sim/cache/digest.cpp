@@ -12,6 +12,7 @@
 
 #include "config/input_files.hpp"
 #include "scene/cameras/camera_file.hpp"
+#include "scene/cameras/trained_frame.hpp"
 #include "scene/dynamic/dynamic_scene.hpp"
 #include "scene/scene_formats.hpp"
 #include "scene/scene_spec.hpp"
@@ -71,6 +72,8 @@ void Digest::add_scene(const std::string& name) {
         }
     }
     add_cameras(cameras_beside(files.front()));
+    add(trained_frame_beside(files.front()));
+    add_file(trained_frame_beside(files.front()));
 }
 
 void Digest::add_cameras(const std::string& name) {

@@ -16,7 +16,7 @@ CameraFile read_cameras_json(const std::string& path);
 
 /// transforms.json of nerfstudio and instant-ngp: intrinsics, which a frame may have of its own, and
 /// `frames`, whose transform_matrix is camera-to-world with the axes of OpenGL (x right, y up, z
-/// back). An applied_transform is undone. Memory as for cameras.json.
+/// back). An applied_transform and an applied_scale are undone. Memory as for cameras.json.
 CameraFile read_transforms_json(const std::string& path);
 
 /// The files of a COLMAP model: cameras and images, both .bin or both .txt.

@@ -27,6 +27,7 @@ ColmapFiles colmap_in(const std::string& folder) {
 CameraFile read_colmap(const ColmapFiles& files) {
     LensResidue residue;
     CameraFile result;
+    result.of_original_data = true;
     ColmapCameras cameras = files.binary ? read_colmap_cameras_binary(files.cameras, residue)
                                          : read_colmap_cameras_text(files.cameras, residue);
     cameras.sort(files.cameras);

@@ -45,7 +45,7 @@ const JsonEntries& transforms_root() {
                                      kTransformsFile,
                                      "the file",
                                      "frames, and w, h and fl_x or camera_angle_x",
-                                     with_lens_keys({"applied_transform"}),
+                                     with_lens_keys({"applied_transform", "applied_scale"}),
                                      21}; // an array of 4 arrays of 4 numbers
     return entries;
 }
@@ -162,17 +162,28 @@ void Intrinsics::apply(const CameraPlace& place, Camera& camera, LensResidue& re
                   corner_distortion(lens, camera, x, y)});
 }
 
-/// The matrix that leads from the file's coordinates back to those of the original data.
-glm::dmat4 undone(const CameraPlace& place, const JsonEntry& entry) {
-    const glm::dmat4 applied = entry.affine("applied_transform");
-    const double scale = std::cbrt(glm::determinant(glm::dmat3(applied)));
-    if (!(scale > 0) || !std::isfinite(scale)) {
-        place.fail("has an applied_transform that cannot be undone; allowed are a rotation, a "
-                   "uniform scale and a translation.");
+/// What was done to the poses of the original data: p_file = applied_scale (applied_transform p).
+struct AppliedChange {
+    std::optional<glm::dmat4> transform;
+    std::optional<double> scale;
+
+    /// Leads from the file's coordinates back to those of the original data.
+    glm::dmat4 inverse() const {
+        const double s = scale.value_or(1);
+        const glm::dmat4 shrunk(1 / s, 0, 0, 0, 0, 1 / s, 0, 0, 0, 0, 1 / s, 0, 0, 0, 0, 1);
+        return glm::inverse(transform.value_or(glm::dmat4(1.0))) * shrunk;
     }
-    check_rotation(place, "applied_transform", glm::dmat3(applied) / scale);
-    return glm::inverse(applied);
-}
+    /// A sentence; empty if nothing was done.
+    std::string note(const std::string& path) const {
+        const std::string what = transform && scale ? "The applied_transform and the applied_scale"
+                                 : transform        ? "The applied_transform"
+                                                    : "The applied_scale";
+        return !transform && !scale ? ""
+                                    : what + " of " + path + (transform && scale ? " are" : " is") +
+                                          " undone, so that its cameras are in the coordinates of "
+                                          "the original data.";
+    }
+};
 
 /// The pose of a camera-to-world matrix with the axes of OpenGL.
 void set_pose(const CameraPlace& place, const glm::dmat4& matrix, const glm::dmat4& to_original,
@@ -180,6 +191,9 @@ void set_pose(const CameraPlace& place, const glm::dmat4& matrix, const glm::dma
     check_rotation(place, "transform_matrix", glm::dmat3(matrix));
     const glm::dmat4 pose = to_original * matrix;
     camera.position = glm::dvec3(pose[3]);
+    if (!std::isfinite(camera.position.x + camera.position.y + camera.position.z)) {
+        place.fail("has no finite position once what was applied to it is undone.");
+    }
     const glm::dvec3 signs(1, -1, -1); // y up, z back: here y down, z forward
     for (int axis = 0; axis < 3; ++axis) {
         camera.camera_to_world[axis] = signs[axis] * glm::normalize(glm::dvec3(pose[axis]));
@@ -190,16 +204,21 @@ void set_pose(const CameraPlace& place, const glm::dmat4& matrix, const glm::dma
 
 CameraFile read_transforms_json(const std::string& path) {
     Intrinsics common;
-    std::optional<glm::dmat4> to_original;
+    AppliedChange applied;
     read_json_entries(path, transforms_root(), [&](std::size_t, const nlohmann::json& json) {
         const CameraPlace place(path, transforms_root().entry);
         const JsonEntry entry(place, json, transforms_root().needed);
         common.read(place, entry);
         if (entry.has("applied_transform")) {
-            to_original = undone(place, entry);
+            applied.transform = entry.similarity("applied_transform");
+        }
+        if (entry.has("applied_scale")) {
+            applied.scale = entry.positive("applied_scale");
         }
     });
+    const glm::dmat4 to_original = applied.inverse();
     CameraFile file;
+    file.of_original_data = true;
     LensResidue residue;
     bool assumed_size = false;
     read_json_entries(
@@ -215,8 +234,7 @@ CameraFile read_transforms_json(const std::string& path) {
                               : place.entry();
             own.apply(place, camera, residue);
             assumed_size = assumed_size || !own.w || !own.h;
-            set_pose(place, entry.affine("transform_matrix"), to_original.value_or(glm::dmat4(1.0)),
-                     camera);
+            set_pose(place, entry.affine("transform_matrix"), to_original, camera);
             file.cameras.push_back(std::move(camera));
         });
     if (assumed_size) {
@@ -224,11 +242,8 @@ CameraFile read_transforms_json(const std::string& path) {
                              " has no image size (w, h), and 800 x 800 pixels are assumed, as "
                              "in NeRF's synthetic scenes.");
     }
-    if (to_original) {
-        file.notes.push_back(
-            "The applied_transform of " + path +
-            " is undone, so that its cameras are in the coordinates of the original "
-            "data.");
+    if (std::string note = applied.note(path); !note.empty()) {
+        file.notes.push_back(std::move(note));
     }
     if (std::string note = lens_note(path, residue); !note.empty()) {
         file.notes.push_back(std::move(note));

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "scene/ply/ply.hpp"
+#include "scene/scene.hpp"
+#include "scene/synthetic/synthetic.hpp"
 #include "tests/scene/cameras/camera_builder.hpp"
 
 namespace degs {
@@ -86,6 +89,57 @@ TEST(TransformsJson, UndoesTheAppliedTransform) {
     EXPECT_LT(glm::length(camera.camera_to_world[1] - glm::dvec3(0, -1, 0)), 1e-12);
     EXPECT_LT(glm::length(camera.camera_to_world[2] - glm::dvec3(0, 0, -1)), 1e-12);
     EXPECT_THAT(file.notes.at(0), test::IsSentenceWith("applied_transform"));
+}
+
+TEST(TransformsJson, UndoesTheAppliedScale) {
+    const auto position = [](const std::string& applied) {
+        return transforms(R"({"w": 64, "h": 48, "fl_x": 50, )" + applied +
+                          R"("frames": [{"transform_matrix": )" + kHome + "}]}")
+            .cameras.at(0)
+            .position;
+    };
+    EXPECT_EQ(position(R"("applied_scale": 0.25, )"), glm::dvec3(4, 8, 12));
+    EXPECT_EQ(
+        position(R"("applied_scale": 2, "applied_transform": [[1,0,0,1],[0,1,0,0],[0,0,1,0]], )"),
+        glm::dvec3(-0.5, 1, 1.5));
+    for (const char* const wrong : {"0", "-1", "\"1\"", "null", "[1]"}) {
+        EXPECT_THAT(
+            test::complaint([&] { position(std::string("\"applied_scale\": ") + wrong + ", "); }),
+            test::IsSentenceWith("applied_scale"))
+            << wrong;
+    }
+}
+
+TEST(TrainedFrame, MovesCamerasOfTheOriginalData) {
+    const test::Folder folder;
+    write_ply(make_synthetic({"object", 50, 1}).cloud, folder.path("s.ply"));
+    const auto position = [&] { return load_scene(folder.path("s.ply")).cameras.at(0).position; };
+    folder.write("transforms.json",
+                 std::string(R"({"w": 64, "h": 48, "fl_x": 50, "frames": [{"transform_matrix": )") +
+                     kHome + "}]}");
+    EXPECT_EQ(position(), glm::dvec3(1, 2, 3));
+    const auto frame = [&](const std::string& transform, const std::string& scale) {
+        folder.write("dataparser_transforms.json",
+                     "{\"transform\": " + transform + ", \"scale\": " + scale + "}");
+    };
+    frame("[[1,0,0,1],[0,1,0,0],[0,0,1,0]]", "0.5");
+    EXPECT_EQ(position(), glm::dvec3(1, 1, 1.5));
+    frame("[[0,1,0,0],[-1,0,0,0],[0,0,1,-3]]", "2");
+    EXPECT_EQ(position(), glm::dvec3(4, -2, 0));
+    EXPECT_EQ(load_scene(folder.path("s.ply")).cameras[0].camera_to_world[0], glm::dvec3(0, -1, 0));
+    for (const auto& [transform, scale] : {std::pair("[[1,0,0,0],[0,1,0,0]]", "1"),
+                                           std::pair("[[1,0,0,0],[0,1,0,0],[0,0,-1,0]]", "1"),
+                                           std::pair("[[1,0,0,0],[0,1,0,0],[0,0,1,0]]", "0"),
+                                           std::pair("[[1,0,0,0],[0,1,0,0],[0,0,1,0]]", "\"x\"")}) {
+        frame(transform, scale);
+        EXPECT_THAT(test::complaint(position), test::IsSentenceWith("dataparser_transforms.json"));
+    }
+    // cameras.json is in the coordinates of the scene, and the file is not looked at.
+    folder.write("cameras.json", R"([{"width": 9, "height": 9, "fx": 5, "fy": 5, "cx": 7,
+        "cy": 4.5, "position": [1, 2, 3], "rotation": [[1,0,0],[0,1,0],[0,0,1]]}])");
+    EXPECT_EQ(position(), glm::dvec3(1, 2, 3));
+    EXPECT_THAT(load_scene(folder.path("s.ply")).notes.at(0),
+                test::IsSentenceWith("principal points up to 2.5 px off"));
 }
 
 } // namespace
