@@ -39,8 +39,16 @@ std::string take_time(SceneSpec& spec, const std::string& value) {
     return spec.time ? "" : "time is '" + value + "', but must be a number from 0 to 1.";
 }
 
+std::string take_frames(SceneSpec& spec, const std::string& value) {
+    spec.frames = parse_scene_frames(value);
+    return spec.frames ? ""
+                       : "frames is '" + value + "', but must be an integer from 1 to " +
+                             std::to_string(kMostSceneFrames) + ".";
+}
+
 const std::vector<SpecKey>& spec_keys() {
-    static const std::vector<SpecKey> keys{{"axes", take_axes}, {"time", take_time}};
+    static const std::vector<SpecKey> keys{
+        {"axes", take_axes}, {"time", take_time}, {"frames", take_frames}};
     return keys;
 }
 

@@ -14,6 +14,7 @@ struct SceneSpec {
     bool synthetic = false;     ///< no file
     std::optional<Axes> axes;   ///< of the file, whatever it says itself
     std::optional<double> time; ///< of a scene that changes, 0..1
+    std::optional<int> frames;  ///< per length of a scene that is a function of time
 };
 
 /// A file whose name is exactly `text` wins over options. InputError that lists what is allowed for

@@ -35,6 +35,10 @@ TEST(SceneSpecs, SayWhatIsAllowed) {
     EXPECT_THAT(mistake("a.ply?axes="), IsSentenceWith("three letters"));
     EXPECT_THAT(mistake("a.ply?axes=xyz"), IsSentenceWith("axes is 'xyz'"));
     EXPECT_THAT(mistake("a.ply?axes=rdf,axes=rub"), IsSentenceWith("repeats"));
+    for (const char* const wrong : {"0", "-1", "1.5", "10001", "many", ""}) {
+        EXPECT_THAT(mistake(std::string("a.ply?frames=") + wrong),
+                    IsSentenceWith("must be an integer from 1 to 10000"));
+    }
     EXPECT_THAT(mistake("a.ply?axes=rdf,"), IsSentenceWith("'' is not an option"));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -37,17 +38,21 @@ private:
 
 class SpacetimeScene : public DynamicScene {
 public:
-    explicit SpacetimeScene(SpacetimeCloud cloud) : cloud_(std::move(cloud)) { sanitize(cloud_); }
+    SpacetimeScene(SpacetimeCloud cloud, std::optional<int> frames)
+        : cloud_(std::move(cloud)), frames_(frames.value_or(kFramesOfScene)) {
+        sanitize(cloud_);
+    }
 
-    int frames() const override { return kFramesOfScene; }
+    int frames() const override { return frames_; }
     GaussianCloud frame(int k) const override {
-        GaussianCloud cloud = at_time(cloud_, static_cast<double>(k) / kFramesOfScene);
+        GaussianCloud cloud = at_time(cloud_, static_cast<double>(k) / frames_);
         degs::sanitize(cloud);
         return cloud;
     }
 
 private:
     SpacetimeCloud cloud_;
+    int frames_;
 };
 
 bool is_digit(char c) {
@@ -148,7 +153,7 @@ std::unique_ptr<DynamicScene> open_dynamic_scene(const std::string& spec) {
     if (asked.synthetic) {
         const SyntheticSpec made = parse_synthetic(asked.path.substr(asked.path.find(':') + 1));
         return made.profile == kSyntheticDynamic && !made.time
-                   ? std::make_unique<SpacetimeScene>(make_spacetime(made))
+                   ? std::make_unique<SpacetimeScene>(make_spacetime(made), made.frames)
                    : nullptr;
     }
     std::vector<std::string> files = sequence_files(asked.path);
@@ -156,7 +161,7 @@ std::unique_ptr<DynamicScene> open_dynamic_scene(const std::string& spec) {
         return std::make_unique<FileSequence>(std::move(files), spec.substr(asked.path.size()));
     }
     return !asked.time && is_spacetime_ply(asked.path)
-               ? std::make_unique<SpacetimeScene>(read_spacetime_ply(asked.path))
+               ? std::make_unique<SpacetimeScene>(read_spacetime_ply(asked.path), asked.frames)
                : nullptr;
 }
 

@@ -10,8 +10,8 @@
 
 namespace degs {
 
-/// Frames per length of a scene whose Gaussians are functions of time, as SpacetimeGaussians trains
-/// them: frame k is at time k / kFramesOfScene.
+/// Frames per length of a scene whose Gaussians are functions of time, unless its name says another
+/// number: SpacetimeGaussians trains sections of 50. Frame k of N is at time k / N.
 constexpr int kFramesOfScene = 50;
 
 class DynamicScene {

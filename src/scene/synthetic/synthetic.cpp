@@ -78,10 +78,12 @@ void parse_setting(const std::string& setting, const Profile& profile, Synthetic
             throw InputError("Key 'time' of a synthetic scene is '" + value +
                              "'; allowed are numbers from 0 to 1.");
         }
+    } else if (key == "frames" && spec.profile == "dynamic") {
+        spec.frames = static_cast<int>(parse_count(key, value, 1, kMostSceneFrames));
     } else {
         throw InputError("'" + setting +
                          "' is no setting of a synthetic scene; allowed are "
-                         "gaussians=N and seed=N, and time=T of 'dynamic'.");
+                         "gaussians=N and seed=N, and time=T and frames=N of 'dynamic'.");
     }
 }
 
@@ -102,6 +104,15 @@ std::optional<double> parse_scene_time(const std::string& text) {
     const auto [stop, error] = std::from_chars(text.data(), end, time);
     const bool good = error == std::errc() && stop == end && time >= 0 && time <= 1;
     return good ? std::optional<double>(time) : std::nullopt;
+}
+
+std::optional<int> parse_scene_frames(const std::string& text) {
+    int frames = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, frames);
+    const bool good =
+        error == std::errc() && stop == end && frames >= 1 && frames <= kMostSceneFrames;
+    return good ? std::optional<int>(frames) : std::nullopt;
 }
 
 SyntheticSpec parse_synthetic(const std::string& text) {

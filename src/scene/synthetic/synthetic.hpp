@@ -17,6 +17,7 @@ struct SyntheticSpec {
     std::uint64_t gaussians = 0;
     std::uint64_t seed = 1;
     std::optional<double> time{}; ///< 0..1, of the profile that changes over time
+    std::optional<int> frames{};  ///< per length of that profile
 };
 
 struct SyntheticScene {
@@ -35,7 +36,12 @@ std::vector<SyntheticProfile> synthetic_profiles();
 /// A time within a scene, a number from 0 to 1; nothing for any other text.
 std::optional<double> parse_scene_time(const std::string& text);
 
-/// Parses "NAME[,gaussians=N][,seed=N][,time=T]". InputError names the profiles, keys and ranges.
+/// The most frames that a scene which is a function of time can be cut into.
+constexpr int kMostSceneFrames = 10000;
+/// A number of frames, an integer from 1 to kMostSceneFrames; nothing for any other text.
+std::optional<int> parse_scene_frames(const std::string& text);
+
+/// Parses "NAME[,gaussians=N][,seed=N][,time=T][,frames=N]". InputError names the profiles, keys and ranges.
 SyntheticSpec parse_synthetic(const std::string& text);
 
 /// The same spec gives the same bytes on every platform with IEEE arithmetic (nothing

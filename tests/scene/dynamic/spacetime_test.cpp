@@ -9,6 +9,7 @@
 #include "scene/dynamic/synthetic_dynamic.hpp"
 #include "scene/ply/ply.hpp"
 #include "scene/scene.hpp"
+#include "scene/synthetic/synthetic.hpp"
 #include "tests/scene/scene_fixture.hpp"
 
 namespace degs {
@@ -68,6 +69,31 @@ TEST(Spacetime, WritesWhatItReads) {
     EXPECT_EQ(at_half.cloud.means, synthetic.cloud.means);
     EXPECT_EQ(at_half.cloud.opacities, synthetic.cloud.opacities);
     EXPECT_NE(load_scene(folder.path("s.ply")).cloud.means, synthetic.cloud.means);
+}
+
+TEST(Spacetime, IsCutIntoAsManyFramesAsItsNameSays) {
+    const test::Folder folder;
+    write_spacetime_ply(make_spacetime({"dynamic", 100, 3, {}}), folder.path("s.ply"));
+    for (const int frames : {1, 7, 300}) {
+        const std::string number = std::to_string(frames);
+        for (const std::string& spec :
+             {folder.path("s.ply") + "?frames=" + number,
+              "synthetic:dynamic,gaussians=100,seed=3,frames=" + number}) {
+            const auto dynamic = open_dynamic_scene(spec);
+            ASSERT_NE(dynamic, nullptr) << spec;
+            ASSERT_EQ(dynamic->frames(), frames) << spec;
+            const double last = (frames - 1.0) / frames;
+            GaussianCloud wanted = at_time(make_spacetime({"dynamic", 100, 3, {}}), last);
+            EXPECT_EQ(dynamic->frame(frames - 1).means, wanted.means) << spec;
+        }
+    }
+    EXPECT_EQ(load_scene(folder.path("s.ply") + "?frames=7").cloud.means,
+              load_scene(folder.path("s.ply")).cloud.means);
+    write_ply(make_synthetic({"object", 50, 1}).cloud, folder.path("still.ply"));
+    EXPECT_THAT(test::complaint([&] { load_scene(folder.path("still.ply") + "?frames=7"); }),
+                test::IsSentenceWith("not a function of time; '?frames='"));
+    EXPECT_THAT(test::complaint([] { parse_synthetic("object,frames=7"); }),
+                test::IsSentenceWith("frames=N of 'dynamic'"));
 }
 
 TEST(HostileSpacetime, BytesBehindTheLastRow) {
