@@ -58,7 +58,7 @@
 
 #define DEGS_REG_SH                     0x028u /* 2 words: address of the SH coefficients */
 
-#define DEGS_REG_COUNT                  0x030u /* Gaussians, 1 to 2^24 (an option of the model) */
+#define DEGS_REG_COUNT                  0x030u /* Gaussians, 1 to 2^30 (an option of the model) */
 
 #define DEGS_REG_SH_DEGREE              0x034u /* 0 to 3 */
 

@@ -38,6 +38,10 @@ const Accelerator::Options& Accelerator::checked(const Options& options) const {
         refuse(reports::kOptions, name(),
                "limits of 0 Gaussians or pixels leave nothing to render");
     }
+    if (options.limits.gaussians > kMostGaussians) {
+        refuse(reports::kOptions, name(),
+               "a limit of more than 2^30 Gaussians is more than a scene may have");
+    }
     if (const std::string wrong = MemoryGateway::problem(options.memory); !wrong.empty()) {
         refuse(reports::kOptions, name(), wrong);
     }

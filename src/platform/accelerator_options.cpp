@@ -6,7 +6,16 @@
 namespace degs {
 namespace {
 
-/// Visits an unsigned number as the signed one that configurations have; 0 to its largest value.
+/// Visits an unsigned number as the signed one that configurations have; without `high` up to its
+/// largest value.
+template <class Unsigned>
+void visit_count(ConfigVisitor& visitor, const char* key, Unsigned& value, std::int64_t low,
+                 std::int64_t high, const char* doc) {
+    auto number = static_cast<std::int64_t>(value);
+    visitor.integer(key, number, low, high, doc);
+    value = static_cast<Unsigned>(number);
+}
+
 template <class Unsigned>
 void visit_count(ConfigVisitor& visitor, const char* key, Unsigned& value, std::int64_t low,
                  const char* doc) {
@@ -15,9 +24,7 @@ void visit_count(ConfigVisitor& visitor, const char* key, Unsigned& value, std::
         sizeof(Unsigned) < sizeof kMost
             ? static_cast<std::int64_t>(std::numeric_limits<Unsigned>::max())
             : kMost;
-    auto number = static_cast<std::int64_t>(value);
-    visitor.integer(key, number, low, kHigh, doc);
-    value = static_cast<Unsigned>(number);
+    visit_count(visitor, key, value, low, kHigh, doc);
 }
 
 } // namespace
@@ -26,7 +33,7 @@ void Accelerator::Options::describe(ConfigVisitor& visitor) {
     visitor.choice("fidelity", fidelity, {"strict", "exact"}, "how processes are kept in order");
     visitor.boolean("antialiased", antialiased, "what the files of its scenes say");
     visitor.begin_section("limits", "of a request");
-    visit_count(visitor, "gaussians", limits.gaussians, 1, "of a scene");
+    visit_count(visitor, "gaussians", limits.gaussians, 1, kMostGaussians, "of a scene");
     visit_count(visitor, "pixels", limits.pixels, 1, "of a frame");
     visitor.end_section();
     visitor.begin_section("memory", "how accesses leave the socket mem");

@@ -87,7 +87,7 @@ std::vector<RegisterInfo> rows() {
          "offset of the register that is wrong, or the answer of the bus"},
         {R::Geometry, 2, "GEOMETRY", rw, "address of the geometry records"},
         {R::Sh, 2, "SH", rw, "address of the SH coefficients"},
-        {R::Count, 1, "COUNT", rw, "Gaussians, 1 to 2^24 (an option of the model)"},
+        {R::Count, 1, "COUNT", rw, "Gaussians, 1 to 2^30 (an option of the model)"},
         {R::ShDegree, 1, "SH_DEGREE", rw, "0 to 3"},
         {R::Workspace, 2, "WORKSPACE", rw, "address of memory for splat records and lists"},
         {R::WorkspaceBytes, 2, "WORKSPACE_BYTES", rw, "its size"},

@@ -167,6 +167,10 @@ TEST(SmallRunAcceleratorOptions, AreKeys) {
     EXPECT_EQ(options.memory.outstanding, 3U);
     EXPECT_EQ(options.memory.pacing, Pacing::Quantum);
     EXPECT_THROW(ConfigSource::from_overrides({"limits.gaussians=0"}).load(options), InputError);
+    EXPECT_THROW(ConfigSource::from_overrides({"limits.gaussians=1073741825"}).load(options),
+                 InputError);
+    ConfigSource::from_overrides({"limits.gaussians=1073741824"}).load(options);
+    EXPECT_EQ(options.limits.gaussians, 1U << 30U);
     EXPECT_THROW(ConfigSource::from_overrides({"memory.transport=axi"}).load(options), InputError);
 }
 
