@@ -111,6 +111,7 @@ void add_rule_options(CLI::App& command, RenderingRules& rules) {
                     "squared Mahalanobis distance at which splats end; 12: where alpha is 1/255")
         ->check(CLI::Range(0.0, kNoCut))
         ->capture_default_str();
+    add_near_option(command, rules.near);
 }
 
 void run(const RenderOptions& options) {
@@ -127,6 +128,8 @@ void run(const RenderOptions& options) {
         old_tile_maps(out, {}));
     const std::uint64_t fragments = result.workload.reference->fragments;
     print_warnings(result.scene.notes);
+    print_warnings(near_plane_warnings(result.workload.culled, result.workload.projection,
+                                       result.workload.gaussians));
     print(layout({{"scene", scene_words(result.scene) + " · " + grouped(result.workload.visible) +
                                 " visible"},
                   {"frame", size_words(result.camera) + " · " + scaled(fragments) +

@@ -147,8 +147,9 @@ void run(const RunOptions& options) {
     }
     const std::optional<SamplingRequest> sampling = wanted_sampling(options);
     const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
-    CachedView view(options.view, options.path,
-                    options.no_cache ? FrameCache() : FrameCache::of_user());
+    PathRequest path = options.path;
+    path.near_plane = config.accelerator().data_path().rules.near;
+    CachedView view(options.view, path, options.no_cache ? FrameCache() : FrameCache::of_user());
     const OutputFolder out(options.out, image_result_files("report.json"));
     const Fidelity fidelity = options.fidelity == "strict" ? Fidelity::Strict : Fidelity::Exact;
     RunRequest request;

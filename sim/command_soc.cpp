@@ -60,6 +60,7 @@ void run(const SocOptions& options) {
     const OutputFolder out(options.out, {"soc.json", "soc.svg"});
     request.timeline = timeline_of(options.trace);
     const SocResult result = run_soc(request, view);
+    print_warnings(result.warnings);
     out.replace([&] {
         const AcceleratorConfig& config = request.config.accelerator();
         out.write_json("soc.json", soc_json(request, view, result));

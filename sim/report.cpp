@@ -19,6 +19,9 @@ using nlohmann::ordered_json;
 void describe_culled(const CullCounts& culled, StatsVisitor& v) {
     v.begin_section("culled", "The other Gaussians, by reason.");
     v.count("near", culled.near, "Gaussians", "At or before the near plane.");
+    v.count(
+        "near_in_view", culled.near_in_view, "Gaussians",
+        "Of these, in front of the camera and with the mean in the image; a warning names them.");
     v.count("transparent", culled.transparent, "Gaussians", "Opacity under 1/255.");
     v.count("degenerate", culled.degenerate, "Gaussians",
             "No finite projection or colour in the format of the projection.");
@@ -46,6 +49,8 @@ void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, S
     v.real("low_pass", workload.projection.dilation, "px2", "Added to both variances of a splat.");
     v.real("cut", workload.projection.cut, "",
            "Squared Mahalanobis distance at which splats end; 12: where alpha is 1/255.");
+    v.real("near", workload.projection.near_plane, "scene units",
+           "View z at or before which Gaussians are not drawn.");
     v.count("tile_size", workload.tile_size, "px", "Side of a tile.");
     v.count("tiles", workload.tiles, "tiles", "Tiles of the image.");
     v.count("empty_tiles", workload.empty_tiles, "tiles", "Tiles that list no splat.");

@@ -158,6 +158,9 @@ RunResult run_frames(const RunRequest& request, const std::vector<const FrameWor
          saturation_warnings(request.config.accelerator().data_path(), *frames.front())) {
         result.warnings.push_back(std::move(sentence));
     }
+    for (std::string& sentence : near_plane_warnings(frames)) {
+        result.warnings.push_back(std::move(sentence));
+    }
     std::string refusal;
     double lost_s = 0;
     std::optional<SampledResult> sampled;

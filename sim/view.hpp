@@ -45,6 +45,7 @@ int resolution_height(const std::string& name);
 struct PathRequest {
     int frames = 1;
     double step_degrees = kPathStepDegrees;
+    double near_plane = ProjectionOptions().near_plane; ///< scene units, see path_pivot()
 };
 
 /// Throws InputError, which names the option, for a number of pixels below 1.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/view_options.hpp"
 
+#include "splat/frame/rendering_rules.hpp"
+
 namespace degs::sim {
 namespace {
 
@@ -28,6 +30,14 @@ CLI::Option* add_camera_file_option(CLI::App& command, std::string& file) {
                     "cameras.json, transforms.json or a COLMAP model to use instead of the cameras "
                     "beside the scene")
         ->type_name("FILE");
+}
+
+CLI::Option* add_near_option(CLI::App& command, double& near) {
+    return command
+        .add_option("--near", near,
+                    "near plane, scene units; Gaussians at or before it are not drawn")
+        ->check(CLI::Range(0.0, kFarthestNearPlane))
+        ->capture_default_str();
 }
 
 CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning) {

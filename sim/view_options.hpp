@@ -25,6 +25,9 @@ CLI::Option* add_config_option(CLI::App& command, std::string& config);
 /// Adds --camera-file.
 CLI::Option* add_camera_file_option(CLI::App& command, std::string& file);
 
+/// Adds --near, the near plane of commands without a configuration.
+CLI::Option* add_near_option(CLI::App& command, double& near);
+
 /// Adds --out, the folder for results.
 CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/warnings.hpp"
 
+#include <algorithm>
 #include <iostream>
 
 #include "config/ratio.hpp"
@@ -22,6 +23,26 @@ std::vector<std::string> saturation_warnings(const DataPathOptions& options,
                            "; pipeline.formats." + found.stage + " sets another format.");
     }
     return warnings;
+}
+
+std::vector<std::string> near_plane_warnings(const CullCounts& culled,
+                                             const ProjectionOptions& options,
+                                             std::uint64_t gaussians) {
+    if (culled.near_in_view == 0) {
+        return {};
+    }
+    return {"The near plane at z = " + as_typed(options.near_plane) + " removes " +
+            grouped(culled.near_in_view) + " of " + grouped(gaussians) +
+            " Gaussians, although they lie inside the view; pipeline.rules.near, or --near of "
+            "commands without a configuration, sets another plane."};
+}
+
+std::vector<std::string> near_plane_warnings(const std::vector<const FrameWorkload*>& frames) {
+    const FrameWorkload& worst = **std::max_element(
+        frames.begin(), frames.end(), [](const FrameWorkload* a, const FrameWorkload* b) {
+            return a->culled.near_in_view < b->culled.near_in_view;
+        });
+    return near_plane_warnings(worst.culled, worst.projection, worst.gaussians);
 }
 
 std::vector<std::string> hazard_warnings(const AcceleratorResult& run) {

@@ -136,6 +136,8 @@ std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
         if (cameras.empty()) {
             cameras.push_back(loaded.camera);
         }
+        RenderingRules rules;
+        rules.near = request.near_plane;
         for (const Camera& camera : cameras) {
             Frame frame;
             frame.row.scene = loaded.scene.name;
@@ -145,7 +147,8 @@ std::vector<AccuracyRow> measure_scenes(const SceneAccuracyRequest& request,
             frame.cloud = &loaded.scene.cloud;
             frame.workload =
                 make_frame_workload(loaded.scene.cloud, camera, request.tile_size, TileMode::Exact,
-                                    RenderingRules().options(loaded.scene.traits.antialiased));
+                                    rules.options(loaded.scene.traits.antialiased));
+            print_warnings(near_plane_warnings({&frame.workload}));
             frame.reference = make_reference(frame.workload).image;
             measure_frame(request, frame, out, rows);
         }

@@ -7,6 +7,7 @@
 #include "config/ratio.hpp"
 #include "sim/accuracy/accuracy.hpp"
 #include "sim/text/progress.hpp"
+#include "sim/warnings.hpp"
 #include "splat/frame_workload.hpp"
 #include "splat/single_gaussian.hpp"
 
@@ -76,8 +77,11 @@ void measure_view_splats(const SingleGaussianRequest& request,
                          std::vector<AccuracyRow>& rows) {
     const View loaded = load_view(view);
     const Camera& camera = loaded.camera;
+    ProjectionOptions options;
+    options.near_plane = request.near_plane;
     const FrameWorkload workload =
-        make_frame_workload(loaded.scene.cloud, camera, kAlphaWindow, TileMode::Exact);
+        make_frame_workload(loaded.scene.cloud, camera, kAlphaWindow, TileMode::Exact, options);
+    print_warnings(near_plane_warnings({&workload}));
     const std::vector<ProjectedSplat>& splats = workload.splats;
     if (splats.empty()) {
         throw InputError("Camera " + std::to_string(view.camera) + " of the scene '" + view.scene +

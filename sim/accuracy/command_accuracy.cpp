@@ -30,6 +30,7 @@ struct AccuracyOptions {
     std::vector<std::string> resolutions;
     std::string span_ends;
     int tile_size = 32;
+    double near_plane = ProjectionOptions().near_plane;
     std::string products;
     bool no_error_images = false;
     bool single_gaussian = false;
@@ -65,6 +66,7 @@ SingleGaussianRequest single_request(const AccuracyOptions& options) {
     }
     request.seed = options.seed;
     request.gaussians = options.splats;
+    request.near_plane = options.near_plane;
     const std::vector<std::string> own{""}; // the camera's size
     for (const ViewRequest& view : views_of(options)) {
         for (const std::string& resolution :
@@ -102,6 +104,7 @@ SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
     request.resolutions = options.resolutions;
     request.span_ends = options.span_ends;
     request.tile_size = options.tile_size;
+    request.near_plane = options.near_plane;
     if (!options.products.empty()) {
         orange::Config::Gemm gemm;
         gemm.origin = options.products == "tile" ? GemmOrigin::Tile : GemmOrigin::Image;
@@ -257,6 +260,7 @@ void add_scene_options(CLI::App& command, AccuracyOptions& options) {
                     "px; outward span ends and the places where q_n starts depend on it")
         ->check(CLI::Range(1, 128))
         ->capture_default_str();
+    add_near_option(command, options.near_plane);
     command
         .add_option(
             "--products", options.products,

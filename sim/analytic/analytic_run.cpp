@@ -12,6 +12,7 @@
 #include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
+#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {
@@ -59,6 +60,9 @@ AnalyticRun run_analytic(const RunConfig& config, CachedView& view) {
     run.workload = facts_of(frames.front());
     run.warnings = view.facts().notes;
     run.warnings.insert(run.warnings.end(), config.warnings.begin(), config.warnings.end());
+    for (std::string& sentence : near_plane_warnings({&frames.front()})) {
+        run.warnings.push_back(std::move(sentence));
+    }
     run.load_s = view.load_s();
     run.workload_s = view.workload_s();
     view.keep(frames, nullptr);

@@ -36,7 +36,7 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
     load_s_ += load_s_ > 0 ? 0 : clock.seconds();
     cameras_ = path.frames == 1 || dynamic_
                    ? std::vector<Camera>(path.frames, camera)
-                   : camera_path(cloud(), camera, path.frames, path.step_degrees);
+                   : camera_path(cloud(), camera, path.frames, path.step_degrees, path.near_plane);
 }
 
 std::string CachedView::frame_key(std::size_t k) const {

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<char, 8> kMagic{'d', 'e', 'g', 's', 'c', 'a', 'c', '1'};
+constexpr std::array<char, 8> kMagic{'d', 'e', 'g', 's', 'c', 'a', 'c', '2'};
 constexpr const char* kEnding = ".entry";
 constexpr const char* kDraft = ".draft"; // of an entry that is being written
 constexpr auto kDraftLife = std::chrono::hours(1);

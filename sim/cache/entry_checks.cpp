@@ -101,7 +101,7 @@ bool adds_up(const CullCounts& culled, std::uint64_t visible, std::uint64_t whol
         }
         whole -= part;
     }
-    return whole == 0;
+    return whole == 0 && culled.near_in_view <= culled.near;
 }
 
 } // namespace

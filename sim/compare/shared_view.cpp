@@ -12,7 +12,7 @@
 namespace degs::sim {
 
 RuleKind rule_kind(const ProjectionOptions& options) {
-    return {options.order, options.compensated, options.dilation, options.cut};
+    return {options.order, options.compensated, options.dilation, options.cut, options.near_plane};
 }
 
 void SharedView::render_reference(TileMode mode) {

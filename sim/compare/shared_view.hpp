@@ -12,7 +12,7 @@
 namespace degs::sim {
 
 /// The rules that a projection and its reference are drawn by.
-using RuleKind = std::tuple<SplatOrder, bool, double, double>;
+using RuleKind = std::tuple<SplatOrder, bool, double, double, double>;
 RuleKind rule_kind(const ProjectionOptions& options);
 
 /// One view while it is compared: what its runs have in common, made once.

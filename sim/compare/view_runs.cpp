@@ -31,6 +31,15 @@ std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedC
     return groups;
 }
 
+/// All designs see the same path, which turns about what the one with the nearest plane sees.
+double nearest_plane(const std::vector<NamedConfig>& configs) {
+    double nearest = kFarthestNearPlane;
+    for (const NamedConfig& named : configs) {
+        nearest = std::min(nearest, named.config.accelerator().data_path().rules.near);
+    }
+    return nearest;
+}
+
 } // namespace
 
 std::string file_name(const std::string& text) {
@@ -138,7 +147,8 @@ void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
         }
         shared.cameras = shared.dynamic ? std::vector<Camera>(request_.path.frames, first)
                                         : camera_path(scene.cloud, first, request_.path.frames,
-                                                      request_.path.step_degrees);
+                                                      request_.path.step_degrees,
+                                                      nearest_plane(request_.configs));
         place.dynamic = shared.dynamic != nullptr;
         shared.load_s = load_s;
         for (const auto& [kind, members] : groups_of(request_.configs, configs, scene.traits)) {

@@ -41,6 +41,10 @@ nlohmann::ordered_json soc_json(const SocRequest& request, const View& view,
                                   {"bytes_written", p.frame.bytes_written},
                                   {"fragments", p.frame.fragments}});
     }
+    json["warnings"] = view.scene.notes;
+    for (const std::string& sentence : result.warnings) {
+        json["warnings"].push_back(sentence);
+    }
     json["host"] = {{"wall_s", result.wall_s}};
     return json;
 }

@@ -9,6 +9,7 @@
 #include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/words.hpp"
+#include "sim/warnings.hpp"
 #include "splat/images/image_metrics.hpp"
 #include "splat/reference_renderer.hpp"
 
@@ -35,17 +36,13 @@ Image image_of(const std::vector<unsigned char>& rgba, const Camera& camera) {
     return image;
 }
 
-double psnr(const std::vector<unsigned char>& rgba, const GaussianCloud& cloud,
-            const Camera& camera, const AcceleratorConfig& config, bool antialiased) {
+double psnr(const std::vector<unsigned char>& rgba, const FrameWorkload& frame) {
     ReferenceCounts counts;
-    Image reference = render_reference(
-        make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode(),
-                            config.data_path().rules.options(antialiased)),
-        counts);
+    Image reference = render_reference(frame, counts);
     for (float& value : reference.rgb) {
         value = std::clamp(value, 0.0F, 1.0F);
     }
-    return compare_images(reference, image_of(rgba, camera)).psnr_db;
+    return compare_images(reference, image_of(rgba, frame.camera)).psnr_db;
 }
 
 /// A frame for each load, one after the other in one simulation.
@@ -74,8 +71,12 @@ public:
         result.display = platform_.display().stats();
     }
     void judge() {
-        result.psnr_db =
-            psnr(pixels_, cloud_, camera_, request_.config.accelerator(), antialiased_);
+        const AcceleratorConfig& config = request_.config.accelerator();
+        const FrameWorkload frame =
+            make_frame_workload(cloud_, camera_, config.tile_size_px(), config.tile_mode(),
+                                config.data_path().rules.options(antialiased_));
+        result.psnr_db = psnr(pixels_, frame);
+        result.warnings = near_plane_warnings({&frame});
     }
 
     SocResult result;

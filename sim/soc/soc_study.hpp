@@ -41,6 +41,7 @@ struct SocPoint {
 struct SocResult {
     std::vector<SocPoint> points;
     double psnr_db = 0; ///< frame buffer against the double-precision image, clamped to 0..1
+    std::vector<std::string> warnings; ///< sentences about the frame
     Display::Stats display;
     double wall_s = 0;
     TimelineRecord timeline;       ///< if asked for

@@ -14,6 +14,13 @@ constexpr int kMaxSide = 65536; // px, as in cameras.json
 
 } // namespace
 
+std::optional<double> Camera::seen_depth(const glm::dvec3& point) const {
+    const glm::dvec3 seen = glm::transpose(camera_to_world) * (point - position);
+    const bool inside = seen.z > 0 && std::abs(seen.x) <= width / (2 * fx) * seen.z &&
+                        std::abs(seen.y) <= height / (2 * fy) * seen.z;
+    return inside ? std::optional<double>(seen.z) : std::nullopt;
+}
+
 Camera Camera::scaled_to_width(int new_width) const {
     const double factor = ratio_of(new_width, width);
     const double new_height = std::max(1.0, std::round(height * factor));

@@ -107,9 +107,9 @@ struct ProjectedBlock {
 };
 
 /// Projects Gaussians begin .. end - 1 and counts their entries in lists.
-ProjectedBlock project_block(const GaussianCloud& cloud, const Projector& projector,
-                             std::size_t begin, std::size_t end, TileMode mode, Binner& binner,
-                             std::vector<std::uint64_t>& ends) {
+ProjectedBlock project_block(const GaussianCloud& cloud, const Camera& camera,
+                             const Projector& projector, std::size_t begin, std::size_t end,
+                             TileMode mode, Binner& binner, std::vector<std::uint64_t>& ends) {
     ProjectedBlock block;
     for (std::size_t i = begin; i < end; ++i) {
         ProjectedSplat splat;
@@ -121,6 +121,9 @@ ProjectedBlock project_block(const GaussianCloud& cloud, const Projector& projec
         }
         if (cull != Cull::None) {
             count_cull(cull, block.culled);
+            if (cull == Cull::Near && camera.seen_depth(cloud.means[i])) {
+                ++block.culled.near_in_view;
+            }
             continue;
         }
         block.splats.push_back(splat);
@@ -149,9 +152,9 @@ void project_all(const GaussianCloud& cloud, const Binner& binner, FrameWorkload
     parallel_blocks(blocks.size(), [&](std::size_t b, std::size_t w) {
         Worker& worker = workers[w];
         worker.ends.resize(work.tile_begin.size());
-        blocks[b] =
-            project_block(cloud, *projector, b * kBlock, std::min((b + 1) * kBlock, cloud.size()),
-                          work.tile_mode, worker.binner, worker.ends);
+        blocks[b] = project_block(cloud, work.camera, *projector, b * kBlock,
+                                  std::min((b + 1) * kBlock, cloud.size()), work.tile_mode,
+                                  worker.binner, worker.ends);
     });
     std::size_t visible = 0;
     for (const ProjectedBlock& block : blocks) {
@@ -257,6 +260,7 @@ FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& came
 
 CullCounts& CullCounts::operator+=(const CullCounts& other) {
     near += other.near;
+    near_in_view += other.near_in_view;
     transparent += other.transparent;
     degenerate += other.degenerate;
     off_screen += other.off_screen;

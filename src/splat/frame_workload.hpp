@@ -18,6 +18,8 @@ enum class TileMode { Exact, Reference };
 
 struct CullCounts {
     std::uint64_t near = 0, transparent = 0, degenerate = 0, off_screen = 0;
+    std::uint64_t near_in_view =
+        0; ///< of `near`: in front of the camera, with the mean in the image
     CullCounts& operator+=(const CullCounts& other);
     std::uint64_t total() const { return near + transparent + degenerate + off_screen; }
     /// One sentence: how many were culled, and why.

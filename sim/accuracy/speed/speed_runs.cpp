@@ -106,6 +106,7 @@ private:
     /// The run that the others are measured against is the first one.
     void begin_accelerator(const SpeedDesign& design) {
         accelerator_ = design.accelerator;
+        print_warnings(near_plane_warnings({&frames_.front()}));
         const Reference reference = view_.reference(frames_.front());
         render_s_ = reference.render_s;
         fragments_ = reference.counts.fragments;

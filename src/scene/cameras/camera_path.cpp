@@ -6,23 +6,18 @@
 
 #include "config/error.hpp"
 #include "splat/angles.hpp"
-#include "splat/projection.hpp"
 
 namespace degs {
 namespace {
 
-/// View depths of the means that project into the image, of Gaussians that are not transparent.
-std::vector<double> depths_of(const GaussianCloud& cloud, const Camera& camera) {
-    const ProjectionOptions rules;
-    const glm::dmat3 world_to_camera = glm::transpose(camera.camera_to_world);
-    const double half_width = camera.width / (2 * camera.fx);
-    const double half_height = camera.height / (2 * camera.fy);
+/// View depths of the means that project into the image behind the near plane, of Gaussians that are not transparent.
+std::vector<double> depths_of(const GaussianCloud& cloud, const Camera& camera, double near_plane) {
+    const double alpha_min = ProjectionOptions().alpha_min;
     std::vector<double> depths;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-        const glm::dvec3 seen = world_to_camera * (cloud.means[i] - camera.position);
-        if (seen.z > rules.near_plane && std::abs(seen.x) <= half_width * seen.z &&
-            std::abs(seen.y) <= half_height * seen.z && cloud.opacities[i] >= rules.alpha_min) {
-            depths.push_back(seen.z);
+        const std::optional<double> depth = camera.seen_depth(cloud.means[i]);
+        if (depth && *depth > near_plane && cloud.opacities[i] >= alpha_min) {
+            depths.push_back(*depth);
         }
     }
     return depths;
@@ -51,8 +46,8 @@ glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
 
 } // namespace
 
-glm::dvec3 path_pivot(const GaussianCloud& cloud, const Camera& camera) {
-    std::vector<double> depths = depths_of(cloud, camera);
+glm::dvec3 path_pivot(const GaussianCloud& cloud, const Camera& camera, double near_plane) {
+    std::vector<double> depths = depths_of(cloud, camera, near_plane);
     if (depths.empty()) {
         depths = distances_of(cloud, camera);
     }
@@ -60,7 +55,7 @@ glm::dvec3 path_pivot(const GaussianCloud& cloud, const Camera& camera) {
 }
 
 std::vector<Camera> camera_path(const GaussianCloud& cloud, const Camera& start, int frames,
-                                double step_degrees) {
+                                double step_degrees, double near_plane) {
     if (frames < 1) {
         throw InputError("A camera path of " + std::to_string(frames) +
                          " frames is not possible; at least 1 is needed.");
@@ -68,7 +63,7 @@ std::vector<Camera> camera_path(const GaussianCloud& cloud, const Camera& start,
     if (!(std::abs(step_degrees) <= kMostPathStepDegrees)) {
         throw InputError("A camera path turns by -90 to 90 degrees per frame, not by more.");
     }
-    const glm::dvec3 pivot = path_pivot(cloud, start);
+    const glm::dvec3 pivot = path_pivot(cloud, start, near_plane);
     const glm::dvec3 axis = glm::normalize(start.camera_to_world[1]);
     std::vector<Camera> path(frames, start);
     for (int k = 1; k < frames; ++k) {

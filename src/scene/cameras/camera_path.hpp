@@ -5,6 +5,7 @@
 
 #include "splat/camera.hpp"
 #include "splat/gaussian.hpp"
+#include "splat/projection.hpp"
 
 namespace degs {
 
@@ -18,11 +19,14 @@ constexpr double kMostPathStepDegrees = 90;
 /// stay, and so do the distance to the pivot and its place in the middle of the image. View 0 is
 /// `start`, bit by bit. InputError for fewer than 1 frame or a step outside +-90 degrees.
 std::vector<Camera> camera_path(const GaussianCloud& cloud, const Camera& start, int frames,
-                                double step_degrees = kPathStepDegrees);
+                                double step_degrees = kPathStepDegrees,
+                                double near_plane = ProjectionOptions().near_plane);
 
 /// The point on the view axis at the median view depth of the Gaussians whose means the camera
 /// sees: half of them are nearer, so that floaters and the sky move it little. A camera that sees
-/// none takes the median distance of all means. The cloud is not empty.
-glm::dvec3 path_pivot(const GaussianCloud& cloud, const Camera& camera);
+/// none takes the median distance of all means. It sees nothing at or before `near_plane` (scene
+/// units). The cloud is not empty.
+glm::dvec3 path_pivot(const GaussianCloud& cloud, const Camera& camera,
+                      double near_plane = ProjectionOptions().near_plane);
 
 } // namespace degs

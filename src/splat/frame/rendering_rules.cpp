@@ -62,6 +62,10 @@ void RenderingRules::describe(ConfigVisitor& visitor) {
         "squared Mahalanobis distance q at which every splat ends, the limit included; 12: "
         "where alpha falls below 1/255, which is at q = 2 ln 255 = 11.08 or before "
         "(reference code); 9: KHR_gaussian_splatting");
+    visitor.real("near", near, 0, kFarthestNearPlane,
+                 "scene units; Gaussians whose mean lies at or before this view z are not drawn; "
+                 "0.2: original rasteriser; gsplat trains with 0.01, and small scenes need as "
+                 "little");
 }
 
 ProjectionOptions RenderingRules::options(bool antialiased,
@@ -69,6 +73,7 @@ ProjectionOptions RenderingRules::options(bool antialiased,
     ProjectionOptions options;
     options.dilation = low_pass;
     options.cut = cut;
+    options.near_plane = near;
     options.order = order;
     options.compensated =
         antialiasing == Antialiasing::On || (antialiasing == Antialiasing::Scene && antialiased);

@@ -9,6 +9,9 @@ namespace degs {
 
 class ConfigVisitor;
 
+/// The largest near plane that may be asked for, scene units.
+constexpr double kFarthestNearPlane = 1e9;
+
 /// Whether opacities make up for the low-pass filter: as the scene file says, never, or always.
 enum class Antialiasing { Scene, Off, On };
 
@@ -23,6 +26,8 @@ struct RenderingRules {
     Antialiasing antialiasing = Antialiasing::Scene;
     double low_pass = ProjectionOptions().dilation; ///< px^2, see ProjectionOptions::dilation
     double cut = ProjectionOptions().cut;           ///< of q, see ProjectionOptions::cut
+    double near =
+        ProjectionOptions().near_plane; ///< scene units, see ProjectionOptions::near_plane
 
     RenderingRules() = default;
     /// The rules of a set.
