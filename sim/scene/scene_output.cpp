@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
 #include "config/error.hpp"
+#include "config/input_files.hpp"
 #include "config/visible_text.hpp"
 #include "scene/cameras/camera_file.hpp"
 #include "scene/image_io.hpp"
@@ -41,13 +44,20 @@ SceneJson list_json(const std::vector<Camera>& cameras) {
     return list;
 }
 
-/// Whether the file holds these cameras and no others; one that cannot be read does not.
+/// Whether the file holds these cameras: the scene has them from it, or it is what would be written.
+/// Does not read it as an input, which no output may replace.
 bool holds(const std::string& camera_file, const std::vector<Camera>& cameras) {
-    try {
-        return list_json(read_camera_file(camera_file).cameras) == list_json(cameras);
-    } catch (const InputError&) {
+    if (input_at(camera_file)) {
+        return true;
+    }
+    const std::string wanted = json_text(list_json(cameras));
+    std::error_code error;
+    if (!fs::is_regular_file(camera_file, error) ||
+        fs::file_size(camera_file, error) != wanted.size()) {
         return false;
     }
+    std::ifstream file(camera_file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {}) == wanted;
 }
 
 /// Another scene in the folder of `file` that reads the same camera file; empty if there is none.

@@ -62,8 +62,7 @@ TEST(OwnCameras, StayWithTheirScene) {
     expect_success(degs(
         {"scene", "generate", "object", "--gaussians", "200", "--out", folder / "out/object.ply"}));
     expect_success(degs({"scene", "generate", "outdoor", "--gaussians", "200", "--out",
-                         folder / "out/outdoor.spz"}),
-                   "The file");
+                         folder / "out/outdoor.spz"}));
     write_scene_at(folder / "in/cup.ply", 1000);
     expect_success(
         degs({"scene", "convert", folder / "in/cup.ply", "--out", folder / "out/cup.glb"}),
