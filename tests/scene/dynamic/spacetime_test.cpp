@@ -2,6 +2,7 @@
 #include "scene/dynamic/spacetime.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "scene/dynamic/dynamic_scene.hpp"
