@@ -9,13 +9,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "modules/array/loss_keys.hpp"
 #include "sim/simulation.hpp"
 
 namespace degs::sim {
 
-struct LossKey; // with its cause, in the source file
-
-/// Knows for each cause which keys move it, and which of them this design can still move.
+/// Which of the keys that an accelerator names for its losses its design can still move.
 class LossKeys {
 public:
     explicit LossKeys(const RunResult& result);
@@ -33,7 +32,6 @@ public:
 private:
     const nlohmann::ordered_json* value(const std::string& key) const;
     bool can_move(const LossKey& knob) const;
-    bool can_move_in_degs(const std::string& key, const std::string& cause) const;
     bool is_movable(const std::string& key) const {
         const std::vector<std::string>& keys = result_.movable_keys;
         return std::find(keys.begin(), keys.end(), key) != keys.end();
@@ -43,6 +41,7 @@ private:
 
     const RunResult& result_;
     nlohmann::ordered_json config_;
+    std::vector<LossKey> keys_;
 };
 
 } // namespace degs::sim

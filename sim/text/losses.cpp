@@ -82,10 +82,7 @@ private:
         }
         std::uint64_t bytes = 0;
         for (const StreamUse& stream : run_.streams) {
-            for (const char* early : {"geometry", "sh", "means", "splats_written",
-                                      "tile_lists_written", "group_lists_written"}) {
-                bytes += stream.name == early ? stream.bytes_read + stream.bytes_written : 0;
-            }
+            bytes += stream.prepares ? stream.bytes_read + stream.bytes_written : 0;
         }
         const double cycles = ratio_of(first, 1);
         const double frames = std::max(1.0, ratio_of(run_.frames.size(), 1));
@@ -118,8 +115,7 @@ private:
     Cause starvation() const {
         const StageUse* busiest = nullptr;
         for (const StageUse& stage : run_.stages) {
-            const bool array = stage.name == "blending" || stage.name == "row_pes";
-            if (!array && (busiest == nullptr || stage.busy > busiest->busy)) {
+            if (!stage.array && (busiest == nullptr || stage.busy > busiest->busy)) {
                 busiest = &stage;
             }
         }

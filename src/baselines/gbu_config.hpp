@@ -59,6 +59,7 @@ struct GbuConfig : AcceleratorConfig {
     DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return engines.count * contexts(); }
     TileCoupling tile_coupling(bool array_only) const override;
+    std::vector<LossKey> loss_keys() const override;
     TrafficConfig records() const override { return traffic; }
     cost::BillOfMaterials bill() const override;
     RecordOrder record_order() const override { return memory.layout; }

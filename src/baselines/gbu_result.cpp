@@ -26,7 +26,7 @@ void Gbu::collect_stages(AcceleratorResult& result) const {
     add_stage(result, {"row_generation", "Row Generation of the tile engines."}, engines_.size(),
               sum_of(engines_, &TileEngine::Stats::splats), std::move(generation));
     const SlotAccount& s = result.slots;
-    add_stage(result, {"row_pes", "Row PEs of the tile engines."}, config_.pes(),
+    add_stage(result, {"row_pes", "Row PEs of the tile engines.", true}, config_.pes(),
               s.useful + s.boundary + s.terminated, std::move(row_pes));
 }
 

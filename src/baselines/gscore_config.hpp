@@ -57,6 +57,7 @@ struct GscoreConfig : AcceleratorConfig {
     TileCoupling tile_coupling(bool /*array_only*/) const override {
         return TileCoupling::of_clusters(clusters);
     }
+    std::vector<LossKey> loss_keys() const override;
     TrafficConfig records() const override { return traffic; }
     cost::BillOfMaterials bill() const override;
     RecordOrder record_order() const override { return memory.layout; }

@@ -23,6 +23,7 @@ namespace degs {
 struct StageUse {
     std::string name;     ///< key in results
     std::string sentence; ///< which units these are
+    bool array = false;   ///< the units whose PE-cycles the slots are; not a number of results
     int units = 0;
     double busy_cycles = 0;
     double busy = 0;
@@ -45,8 +46,9 @@ struct BufferUse {
 };
 
 struct StreamUse {
-    std::string name;     ///< key in results
-    std::string sentence; ///< what it carries
+    std::string name;      ///< key in results
+    std::string sentence;  ///< what it carries
+    bool prepares = false; ///< see StreamKind
     std::uint64_t bytes_read = 0, bytes_written = 0, requests = 0;
     LatencyHistogram read_latency; ///< date of a request to its last byte; empty on a plain bus
     void describe(StatsVisitor& visitor) const;

@@ -29,6 +29,7 @@ std::uint64_t sum_of(const Units& units, std::uint64_t Stats::*counter) {
 struct Title {
     const char* name;
     const char* sentence;
+    bool array = false; ///< see StageUse
 };
 
 /// Adds a stage, or nothing if there are no units. The cycles of `result` must be known.

@@ -51,7 +51,7 @@ void Degs::collect_stages(AcceleratorResult& result) const {
     add_stage(result, {"packing", "Issue Banks with their Packing Units, busy when they issue."},
               blocks_.banks.size(), sum_of(blocks_.banks, &IssueBank::Stats::busy),
               Counters().add(blocks_.banks).add(blocks_.packing));
-    add_stage(result, {"blending", "Array slices, busy when they execute a packet."},
+    add_stage(result, {"blending", "Array slices, busy when they execute a packet.", true},
               blocks_.slices.size(), sum_of(blocks_.slices, &ArraySlice::Stats::packets),
               Counters().add(blocks_.slices));
 }

@@ -21,7 +21,8 @@ enum class StreamData { Scene, Own };
 struct StreamKind {
     const char* name; ///< key in results
     StreamData data;
-    const char* sentence; ///< who moves what, and when
+    const char* sentence;  ///< who moves what, and when
+    bool prepares = false; ///< the first task of a frame waits for all of it
 };
 
 /// A stream between the accelerator and its memory. Every stream is an initiator of its own;

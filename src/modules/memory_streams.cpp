@@ -68,7 +68,9 @@ void MemoryStreams::collect_streams(AcceleratorResult& result) const {
                                    [&](const StreamUse& s) { return s.name == name(i); });
         if (stream == result.streams.end()) {
             stream = result.streams.insert(
-                stream, StreamUse{name(i), streams_[i].kind.sentence, 0, 0, 0, {}});
+                stream,
+                StreamUse{
+                    name(i), streams_[i].kind.sentence, streams_[i].kind.prepares, 0, 0, 0, {}});
         }
         stream->bytes_read += traffic.bytes_read;
         stream->bytes_written += traffic.bytes_written;

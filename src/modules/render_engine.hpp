@@ -3,12 +3,14 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <systemc>
 
 #include "cost/bill_of_materials.hpp"
 #include "modules/accelerator_result.hpp"
 #include "modules/analytic/analytic_model.hpp"
+#include "modules/array/loss_keys.hpp"
 #include "modules/front_end/frame_end_config.hpp"
 #include "modules/pipeline_config.hpp"
 #include "modules/render_job.hpp"
@@ -94,6 +96,9 @@ struct AcceleratorConfig {
     virtual int tile_contexts() const = 0;
     /// What makes tiles depend on each other; with `array_only` memory takes no time.
     virtual TileCoupling tile_coupling(bool array_only) const = 0;
+    /// Keys that move losses of PE-cycles, without those that other keys make idle. Of several keys for a
+    /// cause the one that moves most on close-ups stands first. Empty: reports name losses without keys.
+    virtual std::vector<LossKey> loss_keys() const { return {}; }
     /// Record layouts of the streams that all accelerators have.
     virtual TrafficConfig records() const = 0;
     /// The blocks of the design and what they cost. A run reports the activity of each of them.

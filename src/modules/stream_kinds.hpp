@@ -8,15 +8,15 @@ namespace degs::stream_kinds {
 
 inline constexpr StreamKind kGeometry{
     "geometry", StreamData::Scene,
-    "Position, scale, rotation and opacity of every Gaussian, read by projection."};
+    "Position, scale, rotation and opacity of every Gaussian, read by projection.", true};
 inline constexpr StreamKind kSh{
     "sh", StreamData::Scene,
-    "Coefficients of the spherical harmonics, read in whole bursts for the colour."};
+    "Coefficients of the spherical harmonics, read in whole bursts for the colour.", true};
 inline constexpr StreamKind kSplatsWritten{"splats_written", StreamData::Own,
-                                           "Records of the visible splats, written once."};
+                                           "Records of the visible splats, written once.", true};
 inline constexpr StreamKind kTileListsWritten{
     "tile_lists_written", StreamData::Own,
-    "Entries of the tile lists, written when splats are assigned to tiles."};
+    "Entries of the tile lists, written when splats are assigned to tiles.", true};
 inline constexpr StreamKind kTileListsSorted{
     "tile_lists_sorted", StreamData::Own,
     "Entries of the tile lists, read by sorting; written and read again for every further pass."};

@@ -108,7 +108,7 @@ private:
         result.window = array_.window;
         Counters counters;
         counters.count("splats", array_.splats, "splats", "Splats swept over.");
-        add_stage(result, {"blending", "Rows of splats, one after the other."}, 1,
+        add_stage(result, {"blending", "Rows of splats, one after the other.", true}, 1,
                   array_.window.cycles(), std::move(counters));
         add_activity(result, "blending", result.slots.executed());
         result.conservation.push_back({"records = splats", records_fetched(), array_.splats});

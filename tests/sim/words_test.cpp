@@ -106,7 +106,7 @@ TEST(SteadyFps, IsOfAllFramesButTheFirstAndTheLast) {
 
 TEST(LimitingStage, IsTheBusiestOne) {
     AcceleratorResult result;
-    result.stages = {{"span", "", 8, 0, 0.7, {}}, {"blending", "", 8, 0, 0.9, {}}};
+    result.stages = {{"span", "", false, 8, 0, 0.7, {}}, {"blending", "", true, 8, 0, 0.9, {}}};
     result.memory_utilization = 0.8;
     EXPECT_EQ(limiting_stage(result), "blending");
     result.memory_utilization = 0.95;

@@ -46,6 +46,7 @@ struct Config : AcceleratorConfig {
     TileCoupling tile_coupling(bool /*array_only*/) const override {
         return TileCoupling::of_clusters(clusters);
     }
+    std::vector<LossKey> loss_keys() const override;
     TrafficConfig records() const override { return traffic.common(); }
     cost::BillOfMaterials bill() const override;
     void read_floats() override {

@@ -9,13 +9,18 @@ namespace degs::gcc {
 namespace {
 
 constexpr StreamKind kMeans{"means", StreamData::Scene,
-                            "Positions of all Gaussians, read by Stage I."};
+                            "Positions of all Gaussians, read by Stage I.", true};
 constexpr StreamKind kGroupListsWritten{"group_lists_written", StreamData::Own,
-                                        "Entries of the lists of groups, written by Stage I."};
+                                        "Entries of the lists of groups, written by Stage I.",
+                                        true};
 constexpr StreamKind kGroupListsRead{"group_lists_read", StreamData::Own,
                                      "The same entries, read by Stage II group by group."};
 constexpr StreamKind kShapes{"shapes", StreamData::Scene,
                              "Scale, rotation and opacity of listed Gaussians, read by Stage II."};
+
+// Group by group, while earlier groups are blended.
+constexpr StreamKind kColours{stream_kinds::kSh.name, stream_kinds::kSh.data,
+                              stream_kinds::kSh.sentence};
 
 } // namespace
 
@@ -176,7 +181,7 @@ void Engine::build_memory() {
     for (std::size_t cluster = 0; cluster < projection_.size(); ++cluster) {
         streams_.connect_urgent(projection_[cluster]->lists, kGroupListsRead);
         streams_.connect_urgent(projection_[cluster]->shapes, kShapes);
-        streams_.connect_urgent(colour_[cluster]->sh, stream_kinds::kSh);
+        streams_.connect_urgent(colour_[cluster]->sh, kColours);
     }
     for (auto& fetcher : fetchers_) {
         streams_.connect_urgent(fetcher->records, stream_kinds::kSplatsRead);

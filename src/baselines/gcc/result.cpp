@@ -59,7 +59,7 @@ void Engine::collect_stages(AcceleratorResult& result) const {
         add_stage(result, {"colour", "Stage III: colours and sorting overlap, the busier counts."},
                   colour_.size(), busy, Counters().add(colour_));
     }
-    add_stage(result, {"blending", "Stage IV: the window array."}, arrays_.size(),
+    add_stage(result, {"blending", "Stage IV: the window array.", true}, arrays_.size(),
               sum_of(arrays_, &WindowArray::Stats::windows), Counters().add(arrays_));
 }
 

@@ -64,6 +64,7 @@ struct Config : AcceleratorConfig {
     DataPathOptions data_path() const override;
     int tile_contexts() const override { return cores.count * contexts(); }
     TileCoupling tile_coupling(bool /*array_only*/) const override { return {}; }
+    std::vector<LossKey> loss_keys() const override;
     TrafficConfig records() const override { return traffic; }
     cost::BillOfMaterials bill() const override;
     RecordOrder record_order() const override { return memory.layout; }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "config/statistics.hpp"
+#include "modules/array/sram_ports.hpp"
 #include "modules/messages.hpp"
-#include "modules/sram_ports.hpp"
 #include "tlm/clock_domain.hpp"
 
 namespace degs {

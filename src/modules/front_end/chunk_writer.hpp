@@ -6,7 +6,7 @@
 #include <systemc>
 
 #include "modules/messages.hpp"
-#include "modules/sram_ports.hpp"
+#include "modules/array/sram_ports.hpp"
 #include "tlm/ceil_div.hpp"
 #include "tlm/dated_fifo.hpp"
 

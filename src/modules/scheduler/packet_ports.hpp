@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/sram_ports.hpp"
+#include "modules/array/sram_ports.hpp"
 #include "splat/data_path.hpp"
 #include "tlm/ceil_div.hpp"
 

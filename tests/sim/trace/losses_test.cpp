@@ -235,7 +235,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Situation{"degs", "degs-64", {}}, Situation{"gscore", "gscore-64", {}},
         Situation{"gbu", "gbu-64", {}}, Situation{"gcc", "gcc-64", {}},
-        Situation{"degs_tuned", "degs-64-tuned", {}},
+        Situation{"degs_tuned", "degs-64-tuned", {}}, Situation{"orange", "orange-o1", {}},
+        Situation{"orange_cores", "orange-o4", {}},
+        Situation{"orange_few_lanes", "orange-o1", {"cores.vector.lanes=64"}},
         Situation{"degs_fast_memory", "degs-64", {"memory.bandwidth_gb_per_s=2000"}},
         Situation{"gscore_fast_memory", "gscore-64", {"memory.bandwidth_gb_per_s=2000"}},
         Situation{"gbu_fast_memory", "gbu-64", {"memory.bandwidth_gb_per_s=2000"}},
@@ -245,6 +247,20 @@ INSTANTIATE_TEST_SUITE_P(
         Situation{"degs_small_pixel_buffer", "degs-64", {"pixel_buffer.readout_pixels=1"}},
         Situation{"degs_few_ports", "degs-64", {"pixel_buffer.ports=1"}}),
     [](const auto& situation) { return situation.param.name; });
+
+// The vector units keep ORANGE's array waiting, and more arrays behind the same lanes would wait more.
+TEST(Losses, OfOrangeNameTheVectorUnitsAndNotTheArray) {
+    const std::string line = losses_of_run("orange-o1", kObject, {"cores.vector.lanes=64"}, kSmall);
+    expect_first(line, "starved, for vector_units", "raise cores.vector.lanes");
+    EXPECT_EQ(line.find("systolic_arrays"), std::string::npos) << line;
+    EXPECT_EQ(line.find("cores.count"), std::string::npos) << line;
+}
+
+// Only what the first task waits for counts: GCC reads shapes and colours group by group.
+TEST(Losses, BeforeTheFirstTaskOfGccAreNotForItsColours) {
+    const std::string line = losses_of_run("gcc-64", kObject, {}, kSmall);
+    EXPECT_EQ(line.find("before the first task, for memory"), std::string::npos) << line;
+}
 
 // Useful cycles and losses fill PEs x cycles.
 TEST(Losses, AddUp) {
