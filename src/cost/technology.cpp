@@ -140,11 +140,14 @@ void Technology::Pe::describe(ConfigVisitor& visitor) {
 
 void Technology::Dram::describe(ConfigVisitor& visitor) {
     visitor.real("pj_per_bit", pj_per_bit, 0, 1000,
-                 "pJ per bit read or written, rows and refresh included; this and the next are for "
-                 "memory.model bus, lpddr5 counts commands [assumed: as lpddr5]");
-    visitor.real("standby_mw_per_gb_per_s", standby_mw_per_gb_per_s, 0, 1000,
-                 "mW per GB/s of memory.bandwidth_gb_per_s, whatever happens; 16 channels of 30 mW "
-                 "have 204.8 GB/s [assumed: as lpddr5]");
+                 "pJ per bit read: 2.75 for the burst, 0.4 for its share of activations; all three "
+                 "are for memory.model bus, lpddr5 counts commands [fitted to lpddr5]");
+    visitor.real("write_pj_per_bit", write_pj_per_bit, 0, 1000,
+                 "pJ per bit written: 1.75 and 0.4 [fitted to lpddr5]");
+    visitor.real(
+        "standby_mw_per_gb_per_s", standby_mw_per_gb_per_s, 0, 1000,
+        "mW per GB/s of memory.bandwidth_gb_per_s, whatever happens; 16 channels of 30 mW, "
+        "with refresh 38 mW, have 204.8 GB/s [as lpddr5]");
 }
 
 void Technology::describe(ConfigVisitor& visitor) {

@@ -99,8 +99,9 @@ struct Technology {
         void describe(ConfigVisitor& visitor);
     };
     struct Dram {
-        double pj_per_bit = 4; ///< this and the next: of the model `bus`
-        double standby_mw_per_gb_per_s = 2.3;
+        double pj_per_bit = 3.15; ///< read; all three: of the model `bus`
+        double write_pj_per_bit = 2.15;
+        double standby_mw_per_gb_per_s = 2.9;
         void describe(ConfigVisitor& visitor);
     };
 

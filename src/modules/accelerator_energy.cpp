@@ -15,13 +15,15 @@ std::optional<double> dram_nj(const cost::Technology::Dram& dram, const Accelera
     if (result.dram_energy) {
         return result.dram_energy->total_nj();
     }
-    std::uint64_t bytes = 0;
+    std::uint64_t read = 0, written = 0; // bytes
     for (const StreamUse& stream : result.streams) {
-        bytes += stream.bytes_read + stream.bytes_written;
+        read += stream.bytes_read;
+        written += stream.bytes_written;
     }
     constexpr double kNjPerPj = 1e-3;
     constexpr double kNwPerMw = 1e6;
-    return kNjPerPj * dram.pj_per_bit * rate_of(8 * bytes, 1) +
+    return kNjPerPj * (dram.pj_per_bit * rate_of(8 * read, 1) +
+                       dram.write_pj_per_bit * rate_of(8 * written, 1)) +
            kNwPerMw * dram.standby_mw_per_gb_per_s * result.memory_gb_per_s * seconds;
 }
 

@@ -62,7 +62,8 @@ public:
     }
     std::vector<std::string> explain() const override {
         return {"The memory is a shared data bus with latency: its banks, rows and refresh are not "
-                "modelled, so it has no row hit rate and no energy.",
+                "modelled, so it has no row hit rate, and its energy is that of an average "
+                "LPDDR5 memory: cost.dram.",
                 kOnlyPixels};
     }
 
