@@ -93,6 +93,28 @@ void by_design(benchmark::State& state, const std::string& design, const View& v
     state.counters["ns/fragment"] = of_other.ns_per_fragment();
 }
 
+/// Time of a frame with LPDDR5 over that with the bus, both of 204.8 GB/s.
+void by_memory(benchmark::State& state, const View& view, double limit) {
+    const Folder cache;
+    Times of_bus, of_lpddr5;
+    const std::vector<std::string> alone = with(kFp32, "--no-reference");
+    std::vector<std::string> banks = with(alone, "--memory");
+    banks.push_back(std::string(DEGS_CONFIGS) + "/memory/lpddr5-6400x256.yaml");
+    for (auto iteration : state) {
+        (void)iteration;
+        of_bus.add(run_design("degs-64", view, alone, cache.path()));
+        of_lpddr5.add(run_design("degs-64", view, banks, cache.path()));
+        state.SetIterationTime(of_bus.sim_s + of_lpddr5.sim_s);
+    }
+    report_ratio(state, of_lpddr5.sim_s / of_bus.sim_s, limit);
+    state.counters["of the bus s"] = of_bus.sim_s;
+}
+
+void add_by_memory(const std::string& name, const View& view, double limit) {
+    add_ratio("LPDDR5 over bus/" + name,
+              [=](benchmark::State& state) { by_memory(state, view, limit); });
+}
+
 void add_over_reference(const std::string& name, const View& view) {
     // Single precision is the machine's own. In the formats of `paper` every operation is rounded as well.
     const std::pair<const char*, double> numbers[] = {{"fp32", 2.0}, {"paper", 3.0}};
@@ -131,6 +153,11 @@ void register_frames() {
               [=](benchmark::State& state) { by_resolution(state, small, large, 1.2); });
     add_ratio("time of a frame, 1024 over 64 PEs",
               [=](benchmark::State& state) { by_size(state, small, 1.5); });
+    // Most tiles of the first are empty, so that most requests are writes of background.
+    const std::string one = "synthetic:single";
+    add_by_memory(brief ? "mostly empty" : "mostly empty, 4K",
+                  {one, 1, brief ? close : std::vector<std::string>{"--resolution", "4k"}}, 1.35);
+    add_by_memory("close-up", small, 2.0);
     for (const std::string design : {"degs-x-64"}) {
         for (const int camera : {2, 1}) {
             const View view{object, camera, small.size};
