@@ -51,10 +51,11 @@ struct GemmSplat {
         const T level = a * dx * dx + twice_b * dx * dy + c * dy * dy;
         return {a, c, twice_b, -2 * (a * dx + b * dy), -2 * (b * dx + c * dy), level - fold};
     }
-    /// What q' may lie above the limit of a splat that is cut because its terms are rounded, for pixels at most `reach_x`
-    /// and `reach_y` from the origin. The terms add up to 2 (a X^2 + c Y^2) at most, X and Y the sums of the
-    /// distances of pixel and mean from the origin, and less than eight roundings follow each other. Where the
-    /// terms are so large that this would move the edge visibly, their rounding stays.
+    /// What q' may lie above the limit of a splat that is cut because its terms are rounded, for
+    /// pixels at most `reach_x` and `reach_y` from the origin. The terms add up to
+    /// 2 (a X^2 + c Y^2) at most, X and Y the sums of the distances of pixel and mean from the
+    /// origin, and less than eight roundings follow each other. Where the terms are so large that
+    /// this would move the edge visibly, their rounding stays.
     T margin(int origin_x, int origin_y, int reach_x, int reach_y) const {
         constexpr T kMost = T(0x1p-8);
         const T x =
