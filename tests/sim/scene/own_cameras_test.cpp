@@ -77,6 +77,22 @@ TEST(OwnCameras, StayWithTheirScene) {
     }
 }
 
+// As people type it.
+TEST(SceneConvert, TakesTheOutputBehindTheInput) {
+    const Folder folder;
+    write_scene_at(folder / "a.ply", 0);
+    for (const char* const output : {"b.spz", "c.glb", "out/d.ply"}) {
+        expect_success(degs({"scene", "convert", folder / "a.ply", folder / output}),
+                       "the generated view is at");
+        EXPECT_TRUE(fs::exists(folder / output)) << output;
+    }
+    const Outcome both =
+        degs({"scene", "convert", folder / "a.ply", folder / "e.ply", "--out", folder / "f.ply"});
+    EXPECT_NE(both.code, 0);
+    EXPECT_FALSE(fs::exists(folder / "e.ply"));
+    EXPECT_NE(degs({"scene", "convert", folder / "a.ply"}).code, 0);
+}
+
 TEST(OwnCameras, AreReplacedWithTheirScene) {
     const Folder folder;
     const auto generate = [&folder](const char* profile, const std::string& file) {
