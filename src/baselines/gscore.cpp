@@ -40,8 +40,9 @@ void Gscore::collect_array(AcceleratorResult& result) const {
     using A = LockstepArray::Stats;
     collect_slots(result);
     const std::uint64_t groups = config_.array.clusters;
-    add_stage(result, {"blending", "Clusters of the Lockstep Array.", true}, arrays_.size() * groups,
-              sum_of(arrays_, &A::passes) * groups, Counters().add(arrays_));
+    add_stage(result, {"blending", "Clusters of the Lockstep Array.", true},
+              arrays_.size() * groups, sum_of(arrays_, &A::passes) * groups,
+              Counters().add(arrays_));
     add_activity(result, "blending", result.slots.executed());
     collect_laws(result);
     result.left_out.push_back(

@@ -157,7 +157,7 @@ void register_frames() {
     const std::string one = "synthetic:single";
     add_by_memory(brief ? "mostly empty" : "mostly empty, 4K",
                   {one, 1, brief ? close : std::vector<std::string>{"--resolution", "4k"}}, 1.35);
-    add_by_memory("close-up", small, 2.0);
+    add_by_memory("close-up", small, 2.5);
     for (const std::string design : {"degs-x-64"}) {
         for (const int camera : {2, 1}) {
             const View view{object, camera, small.size};

@@ -200,6 +200,7 @@ TEST(RulesOfFile, DecideByDefault) {
     bytes.insert(bytes.find("element vertex"), "comment antialiased 1\n");
     const std::string flagged = folder / "flagged.ply";
     std::ofstream(flagged, std::ios::binary) << bytes;
+    fs::copy_file(folder / "plain.cameras.json", folder / "flagged.cameras.json");
     const auto run = [&folder](const std::string& scene, const Words& more) {
         Words arguments{"run",   config("gscore-16"), "--scene", scene, "--width", "160",
                         "--out", folder / "o"};

@@ -12,6 +12,7 @@
 #include "sim/process/stopping_signals.hpp"
 #include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
+#include "sim/warnings.hpp"
 #include "splat/images/image_difference.hpp"
 
 namespace degs::sim {

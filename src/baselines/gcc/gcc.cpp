@@ -18,10 +18,6 @@ constexpr StreamKind kGroupListsRead{"group_lists_read", StreamData::Own,
 constexpr StreamKind kShapes{"shapes", StreamData::Scene,
                              "Scale, rotation and opacity of listed Gaussians, read by Stage II."};
 
-// Group by group, while earlier groups are blended.
-constexpr StreamKind kColours{stream_kinds::kSh.name, stream_kinds::kSh.data,
-                              stream_kinds::kSh.sentence};
-
 } // namespace
 
 std::unique_ptr<RenderEngine> Config::build(const char* module, const Timebase& time,
@@ -181,7 +177,7 @@ void Engine::build_memory() {
     for (std::size_t cluster = 0; cluster < projection_.size(); ++cluster) {
         streams_.connect_urgent(projection_[cluster]->lists, kGroupListsRead);
         streams_.connect_urgent(projection_[cluster]->shapes, kShapes);
-        streams_.connect_urgent(colour_[cluster]->sh, kColours);
+        streams_.connect_urgent(colour_[cluster]->sh, stream_kinds::kSh);
     }
     for (auto& fetcher : fetchers_) {
         streams_.connect_urgent(fetcher->records, stream_kinds::kSplatsRead);

@@ -30,8 +30,8 @@ void Orange::collect_slots(AcceleratorResult& result) const {
 
 void Orange::collect_stages(AcceleratorResult& result) const {
     using A = SystolicArray::Stats;
-    add_stage(result, {"systolic_arrays", "Systolic arrays, busy with a product.", true}, arrays_.size(),
-              sum_of(arrays_, &A::busy), Counters().add(arrays_));
+    add_stage(result, {"systolic_arrays", "Systolic arrays, busy with a product.", true},
+              arrays_.size(), sum_of(arrays_, &A::busy), Counters().add(arrays_));
     add_stage(result, {"vector_units", "Vector units, which form coefficients and blend products."},
               vector_units_.size(), sum_of(vector_units_, &VectorUnit::Stats::busy),
               Counters().add(vector_units_));

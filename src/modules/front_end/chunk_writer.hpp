@@ -5,8 +5,8 @@
 
 #include <systemc>
 
-#include "modules/messages.hpp"
 #include "modules/array/sram_ports.hpp"
+#include "modules/messages.hpp"
 #include "tlm/ceil_div.hpp"
 #include "tlm/dated_fifo.hpp"
 

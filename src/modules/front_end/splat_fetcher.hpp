@@ -4,10 +4,10 @@
 #include <systemc>
 
 #include "config/statistics.hpp"
+#include "modules/array/sram_ports.hpp"
 #include "modules/front_end/chunk_writer.hpp"
 #include "modules/front_end/reuse_cache.hpp"
 #include "modules/render_job.hpp"
-#include "modules/array/sram_ports.hpp"
 #include "modules/traffic.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"

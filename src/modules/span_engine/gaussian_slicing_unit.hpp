@@ -7,10 +7,10 @@
 
 #include "config/config.hpp"
 #include "config/statistics.hpp"
+#include "modules/array/sram_ports.hpp"
 #include "modules/drawing/tile_drawing.hpp"
 #include "modules/render_job.hpp"
 #include "modules/span_engine/open_chunks.hpp"
-#include "modules/array/sram_ports.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs {

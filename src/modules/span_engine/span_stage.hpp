@@ -7,8 +7,8 @@
 
 #include "config/config.hpp"
 #include "config/statistics.hpp"
-#include "modules/render_job.hpp"
 #include "modules/array/sram_ports.hpp"
+#include "modules/render_job.hpp"
 #include "modules/tile_end.hpp"
 #include "splat/coupled_row.hpp"
 #include "tlm/dated_fifo.hpp"

@@ -8,9 +8,9 @@
 namespace degs::test::protocol {
 namespace {
 
-class SmallRunMonitor : public ::testing::TestWithParam<Deed> {};
+class ProtocolMonitor : public ::testing::TestWithParam<Deed> {};
 
-TEST_P(SmallRunMonitor, FindsWhatIsWrongAndNothingElse) {
+TEST_P(ProtocolMonitor, FindsWhatIsWrongAndNothingElse) {
     Bench bench("bench");
     const Script script("script", [&] { GetParam().act(bench); });
     sc_core::sc_start();
@@ -458,12 +458,12 @@ const Deed kWrongDates[] = {
 std::string deed_name(const ::testing::TestParamInfo<Deed>& deed) {
     return deed.param.name;
 }
-INSTANTIATE_TEST_SUITE_P(Good, SmallRunMonitor, ::testing::ValuesIn(kGood), deed_name);
-INSTANTIATE_TEST_SUITE_P(Requests, SmallRunMonitor, ::testing::ValuesIn(kWrongRequests), deed_name);
-INSTANTIATE_TEST_SUITE_P(Answers, SmallRunMonitor, ::testing::ValuesIn(kWrongAnswers), deed_name);
-INSTANTIATE_TEST_SUITE_P(Lives, SmallRunMonitor, ::testing::ValuesIn(kWrongLives), deed_name);
-INSTANTIATE_TEST_SUITE_P(Phases, SmallRunMonitor, ::testing::ValuesIn(kWrongPhases), deed_name);
-INSTANTIATE_TEST_SUITE_P(Dates, SmallRunMonitor, ::testing::ValuesIn(kWrongDates), deed_name);
+INSTANTIATE_TEST_SUITE_P(Good, ProtocolMonitor, ::testing::ValuesIn(kGood), deed_name);
+INSTANTIATE_TEST_SUITE_P(Requests, ProtocolMonitor, ::testing::ValuesIn(kWrongRequests), deed_name);
+INSTANTIATE_TEST_SUITE_P(Answers, ProtocolMonitor, ::testing::ValuesIn(kWrongAnswers), deed_name);
+INSTANTIATE_TEST_SUITE_P(Lives, ProtocolMonitor, ::testing::ValuesIn(kWrongLives), deed_name);
+INSTANTIATE_TEST_SUITE_P(Phases, ProtocolMonitor, ::testing::ValuesIn(kWrongPhases), deed_name);
+INSTANTIATE_TEST_SUITE_P(Dates, ProtocolMonitor, ::testing::ValuesIn(kWrongDates), deed_name);
 
 } // namespace
 } // namespace degs::test::protocol

@@ -39,7 +39,7 @@ MemoryGateway::Options cut(std::uint64_t burst_bytes, BurstEnds ends = BurstEnds
     return options;
 }
 
-class SmallRunMonitored : public ::testing::TestWithParam<Kind> {
+class MonitoredAccelerators : public ::testing::TestWithParam<Kind> {
 protected:
     GaussianCloud cloud = test_cloud();
     Camera camera = test_camera();
@@ -80,7 +80,7 @@ protected:
 
 // Early, late and blocking answers, with the hint of direct access in each; a memory that is busy annotates dates that
 // grow.
-TEST_P(SmallRunMonitored, KeepsToTheProtocolWithBlockingMemories) {
+TEST_P(MonitoredAccelerators, KeepsToTheProtocolWithBlockingMemories) {
     std::vector<std::unique_ptr<Platform>> platforms;
     const MemoryGateway::Options ways[] = {cut(0), cut(64), cut(32, BurstEnds::FullBursts)};
     for (const Timing timing : {Timing::Immediate, Timing::Annotated, Timing::Blocking}) {
@@ -115,7 +115,7 @@ TEST_P(SmallRunMonitored, KeepsToTheProtocolWithBlockingMemories) {
 }
 
 // Answers in order and out of it, after END_REQ and without, by TLM_UPDATED and by TLM_COMPLETED.
-TEST_P(SmallRunMonitored, KeepsToTheProtocolWithFourPhases) {
+TEST_P(MonitoredAccelerators, KeepsToTheProtocolWithFourPhases) {
     struct At {
         std::unique_ptr<Platform> platform;
         std::unique_ptr<AtMemory> memory;
@@ -155,7 +155,7 @@ TEST_P(SmallRunMonitored, KeepsToTheProtocolWithFourPhases) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, SmallRunMonitored, ::testing::ValuesIn(all_kinds()),
+INSTANTIATE_TEST_SUITE_P(Families, MonitoredAccelerators, ::testing::ValuesIn(all_kinds()),
                          [](const auto& row) { return row.param; });
 
 } // namespace

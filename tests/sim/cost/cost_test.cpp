@@ -322,7 +322,7 @@ TEST(SmallRunEnergyOfMemory, IsThatOfItsCommandsIfItHasThem) {
 }
 
 // The constants of the bus are fitted to LPDDR5 on trained views; docs/cost.md states the spread.
-TEST(SmallRunEnergyOfMemory, OfTheBusIsThatOfLpddr5OnTrainedViews) {
+TEST(EnergyOfTheBus, IsThatOfLpddr5OnTrainedViews) {
     const fs::path scenes = trained_scenes();
     if (!fs::exists(scenes / "garden-crop")) {
         GTEST_SKIP() << "The trained scenes are not in " << scenes << "; set DEGS_SCENES";

@@ -265,7 +265,7 @@ TEST(Amounts, SurviveTheWayThereAndBack) {
     stage.counters.count("rows", std::uint64_t{70}, "rows", "Rows.");
     stage.counters.count("queue_high_water", std::uint64_t{9}, "cells", "Most cells.");
     run.stages.push_back(stage);
-    run.streams.push_back({"splats", "", 640, 64, 11, {}});
+    run.streams.push_back({"splats", "", false, 640, 64, 11, {}});
     run.memory_utilization = 0.5;
     std::vector<double> amounts = sim::amounts_of(run);
     const AcceleratorResult same = sim::with_amounts(run, amounts);

@@ -256,12 +256,6 @@ TEST(Losses, OfOrangeNameTheVectorUnitsAndNotTheArray) {
     EXPECT_EQ(line.find("cores.count"), std::string::npos) << line;
 }
 
-// Only what the first task waits for counts: GCC reads shapes and colours group by group.
-TEST(Losses, BeforeTheFirstTaskOfGccAreNotForItsColours) {
-    const std::string line = losses_of_run("gcc-64", kObject, {}, kSmall);
-    EXPECT_EQ(line.find("before the first task, for memory"), std::string::npos) << line;
-}
-
 // Useful cycles and losses fill PEs x cycles.
 TEST(Losses, AddUp) {
     sim::RunResult result;
