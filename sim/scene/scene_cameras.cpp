@@ -32,7 +32,8 @@ void list_cameras(const ViewRequest& view, const std::string& out) {
         const std::filesystem::path file(out);
         const std::string folder = file.parent_path().string();
         const OutputFolder target(folder.empty() ? "." : folder, {file.filename().string()});
-        target.write_json(file.filename().string(), cameras_json(scene));
+        target.write_json(file.filename().string(),
+                          cameras_json(scene.cameras, scene.generated_view));
         print(visible(out) + ": " + std::to_string(scene.cameras.size()) +
               (scene.generated_view ? " generated view(s)" : " camera(s)") + "\n");
     }
@@ -40,11 +41,11 @@ void list_cameras(const ViewRequest& view, const std::string& out) {
 
 } // namespace
 
-nlohmann::ordered_json cameras_json(const Scene& scene) {
+nlohmann::ordered_json cameras_json(const std::vector<Camera>& cameras, bool generated) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Camera& camera : scene.cameras) {
+    for (const Camera& camera : cameras) {
         list.push_back(camera_json(camera));
-        if (scene.generated_view) {
+        if (generated) {
             list.back()["generated"] = true;
         }
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/App.hpp>
 #include <nlohmann/json_fwd.hpp>
@@ -13,8 +14,8 @@ namespace degs::sim {
 
 void add_scene_cameras(CLI::App& scene);
 
-/// cameras.json with all cameras of the scene; a generated view is marked `generated: true`.
-nlohmann::ordered_json cameras_json(const Scene& scene);
+/// cameras.json with these cameras; those of a generated view are marked `generated: true`.
+nlohmann::ordered_json cameras_json(const std::vector<Camera>& cameras, bool generated);
 
 /// A line for each camera: size, where it is, where it looks and how much it sees.
 std::string cameras_text(const Scene& scene);

@@ -36,21 +36,13 @@ std::string folder_of(const std::string& file) {
     return folder.empty() ? "." : folder;
 }
 
-SceneJson list_json(const std::vector<Camera>& cameras) {
-    SceneJson list = SceneJson::array();
-    for (const Camera& camera : cameras) {
-        list.push_back(camera_json(camera));
-    }
-    return list;
-}
-
 /// Whether the file holds these cameras: the scene has them from it, or it is what would be written.
 /// Does not read it as an input, which no output may replace.
 bool holds(const std::string& camera_file, const std::vector<Camera>& cameras) {
     if (input_at(camera_file)) {
         return true;
     }
-    const std::string wanted = json_text(list_json(cameras));
+    const std::string wanted = json_text(cameras_json(cameras, false));
     std::error_code error;
     if (!fs::is_regular_file(camera_file, error) ||
         fs::file_size(camera_file, error) != wanted.size()) {
@@ -135,7 +127,7 @@ void write_scene(const std::string& file, const std::string& words,
     folder.replace([&] {
         write();
         if (files.size() > 1) {
-            folder.write_json(files.back(), list_json(cameras));
+            folder.write_json(files.back(), cameras_json(cameras, false));
         }
     });
     print(visible(file) + ": " + visible(words) + "\n" + camera_words(file, cameras, stays) + "\n");
@@ -164,7 +156,7 @@ SceneJson scene_info_json(const Scene& scene) {
                           {"opaque_share", s.opaque_share},
                           {"faint_share", s.faint_share},
                           {"sh_rest_rms", s.sh_rest_rms}};
-    json["cameras"] = cameras_json(scene);
+    json["cameras"] = cameras_json(scene.cameras, scene.generated_view);
     return json;
 }
 

@@ -22,7 +22,7 @@ struct StreamKind {
     const char* name; ///< key in results
     StreamData data;
     const char* sentence;  ///< who moves what, and when
-    bool prepares = false; ///< the first task of a frame waits for all of it
+    bool prepares = false; ///< the first task of a frame waits for some of it, or all
 };
 
 /// A stream between the accelerator and its memory. Every stream is an initiator of its own;

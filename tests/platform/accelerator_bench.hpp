@@ -209,8 +209,8 @@ struct Platform {
     Accelerator accelerator;
     std::unique_ptr<PlainMemory> memory;
     BaseProtocolMonitor monitor;
-    std::set<Rule>
-        broken; ///< what the protocol is expected to suffer: nothing, but for targets that are wrong
+    /// Rules that a test breaks on purpose, with a target that is wrong.
+    std::set<Rule> broken;
     Host host;
     sc_core::sc_signal<bool> irq;
 };

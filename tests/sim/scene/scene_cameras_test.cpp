@@ -14,7 +14,8 @@ TEST(SceneCameras, AreWrittenAsTheyAreRead) {
     const test::Folder folder;
     Scene scene = load_scene("synthetic:uniform,gaussians=100");
     scene.cameras.push_back(orbit_camera(scene.cloud));
-    const std::string file = folder.write("cameras.json", cameras_json(scene).dump());
+    const std::string file =
+        folder.write("cameras.json", cameras_json(scene.cameras, scene.generated_view).dump());
     const std::vector<Camera> read = read_camera_file(file).cameras;
     ASSERT_EQ(read.size(), 4U);
     for (std::size_t i = 0; i < read.size(); ++i) {
