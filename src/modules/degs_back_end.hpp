@@ -13,6 +13,7 @@
 #include "modules/drawing/tile_drawing.hpp"
 #include "modules/front_end/tile_front_end.hpp"
 #include "modules/span_engine/parameter_release.hpp"
+#include "tlm/rings.hpp"
 
 namespace degs {
 

@@ -13,6 +13,7 @@
 #include "modules/front_end/list_source.hpp"
 #include "modules/front_end/tile_dispatcher.hpp"
 #include "modules/memory_streams.hpp"
+#include "tlm/rings.hpp"
 
 namespace degs::gcc {
 

@@ -110,8 +110,8 @@ PixelBuffer::PixelBuffer(const sc_core::sc_module_name& name, const Config& conf
 
 void PixelBuffer::clear(TileNumber number) {
     for (int row = share_.first_row; row < job_.tile_size; row += share_.row_stride) {
-        if (drawing_ != nullptr) {
-            drawing_->clear_row(number, row);
+        if (drawn_ != nullptr) {
+            drawn_->clear_row(number, row);
         } else {
             job_.path->begin_row(context_of(number), row);
         }
@@ -231,8 +231,8 @@ const std::vector<unsigned char>& PixelBuffer::read_out(TileNumber number, int y
     const int pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
     pixels_.resize(tile.width);
     bytes_.resize(pixels_.size() * pixel_bytes);
-    if (drawing_ != nullptr) {
-        drawing_->read_row(number, y, tile.width, pixels_.data());
+    if (drawn_ != nullptr) {
+        drawn_->read_row(number, y, tile.width, pixels_.data());
     } else {
         job_.path->read_row(context_of(number), y, tile.width, pixels_.data());
     }

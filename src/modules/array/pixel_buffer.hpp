@@ -7,7 +7,7 @@
 
 #include "config/config.hpp"
 #include "config/statistics.hpp"
-#include "modules/drawing/tile_drawing.hpp"
+#include "modules/array/drawn_pixels.hpp"
 #include "modules/render_job.hpp"
 #include "modules/traffic.hpp"
 #include "tlm/dated_fifo.hpp"
@@ -94,7 +94,7 @@ public:
 
     const Stats& stats() const { return stats_; }
     /// Reads the tiles where they are drawn; before the simulation starts.
-    void read_from(TileDrawing& drawing) { drawing_ = &drawing; }
+    void read_from(DrawnPixels& drawn) { drawn_ = &drawn; }
     /// Dates at which each frame's last pixel of this share was in memory.
     const std::vector<Cycle>& frames_written() const { return frames_written_; }
 
@@ -114,7 +114,7 @@ private:
     int contexts_;
     Share share_;
     bool instant_;
-    TileDrawing* drawing_ = nullptr; // nullptr: pixels lie in the contexts
+    DrawnPixels* drawn_ = nullptr; // nullptr: pixels lie in the contexts
     Process self_;
     Completion written_;                // completion of the latest write
     Cycle read_out_ = 0;                // date at which the latest pixel had been read out

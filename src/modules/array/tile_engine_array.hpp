@@ -17,6 +17,7 @@
 #include "modules/memory_streams.hpp"
 #include "modules/render_engine.hpp"
 #include "modules/span_engine/tile_monitor.hpp"
+#include "tlm/rings.hpp"
 
 namespace degs {
 

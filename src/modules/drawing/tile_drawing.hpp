@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "modules/array/drawn_pixels.hpp"
 #include "modules/drawing/sliced_rows.hpp"
 #include "modules/messages.hpp"
 #include "modules/render_job.hpp"
@@ -17,13 +18,8 @@ namespace degs {
 /// tasks are blended when they execute, reports and images are the same.
 ///
 /// A splat is named by its place in the list of its tile, from 0.
-class TileDrawing {
+class TileDrawing : public DrawnPixels {
 public:
-    TileDrawing() = default;
-    TileDrawing(const TileDrawing&) = delete;
-    TileDrawing& operator=(const TileDrawing&) = delete;
-    virtual ~TileDrawing() = default;
-
     /// A hint that the splats of a chunk will be asked for next.
     virtual void expect(const SplatChunk& chunk) { (void)chunk; }
     /// The rows inside the tile that are sliced of a splat; see sliced_rows().
@@ -33,11 +29,6 @@ public:
     /// may end early, when all pixels of the tile have ended.
     virtual void take(TileNumber number, std::uint32_t place, const PixelRange& own, int step,
                       DrawnRow* drawn) = 0;
-    /// The first `count` pixels of a row whose splats have all been taken, or whose tile has ended.
-    virtual void read_row(TileNumber number, int row, int count, PixelValue* pixels) = 0;
-    /// The row has been read out. A row may be outside of the image.
-    virtual void clear_row(TileNumber number, int row) = 0;
-
     /// Host seconds that the simulation has slept until something was drawn.
     virtual double waited_s() const { return 0; }
     /// Pixels updated in the rows that were taken.

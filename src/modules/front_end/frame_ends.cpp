@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/front_end/frame_ends.hpp"
+#include "tlm/rings.hpp"
 
 namespace degs {
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "modules/collect.hpp"
 #include "tlm/has_process.hpp"
+#include "tlm/rings.hpp"
 
 namespace degs {
 

@@ -3,6 +3,7 @@
 
 #include "modules/collect.hpp"
 #include "modules/stream_kinds.hpp"
+#include "tlm/rings.hpp"
 
 namespace degs {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/front_end/tile_grants.hpp"
 
-#include "modules/collect.hpp"
+#include "tlm/rings.hpp"
 
 namespace degs {
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/byte_order.hpp"
 #include "scene/input_file.hpp"
 #include "scene/output_file.hpp"
 #include "scene/ply/ply_header.hpp"

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string_view>
 
+#include "config/byte_order.hpp"
 #include "config/visible_text.hpp"
 #include "scene/half_float.hpp"
 #include "scene/input_file.hpp"
-#include "scene/ply/ply_values.hpp"
 
 namespace degs {
 namespace {

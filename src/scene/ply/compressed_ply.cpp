@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "config/byte_order.hpp"
 #include "scene/ply/ply_rows.hpp"
 #include "scene/ply/ply_values.hpp"
 #include "splat/spherical_harmonics.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "config/byte_order.hpp"
 #include "scene/activation_scan.hpp"
 #include "scene/ply/compressed_ply.hpp"
 #include "scene/ply/ply_camera.hpp"

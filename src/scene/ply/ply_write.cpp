@@ -6,9 +6,9 @@
 #include <fstream>
 #include <vector>
 
+#include "config/byte_order.hpp"
 #include "scene/input_file.hpp"
 #include "scene/output_file.hpp"
-#include "scene/ply/ply_values.hpp"
 
 namespace degs {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/byte_order.hpp"
 #include "scene/input_file.hpp"
-#include "scene/ply/ply_values.hpp"
 #include "splat/spherical_harmonics.hpp"
 
 namespace degs {

@@ -2,7 +2,6 @@
 // Rounding of float arrays, once per instruction set.
 #include <cstring>
 
-#include "splat/data_path.hpp"
 #include "splat/lanes/instruction_set.hpp"
 #include "splat/numbers/number_format.hpp"
 
