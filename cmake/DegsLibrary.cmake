@@ -34,8 +34,7 @@ check_ipo_supported(RESULT DEGS_HAS_IPO LANGUAGES CXX)
 # A room that has headers only, or nothing yet, is an INTERFACE library of the same name.
 function(degs_library room)
     cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
-    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*.cpp
-         ${PROJECT_SOURCE_DIR}/src/${room}/*/*.cpp)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${room}/*.cpp)
     set(scope PUBLIC)
     if(sources)
         add_library(degs_${room} STATIC ${sources})

@@ -7,13 +7,13 @@
 #include <CLI/CLI.hpp>
 #include <systemc>
 
-#include "config/visible_text.hpp"
+#include "base/visible_text.hpp"
 #include "sim/command_line/decimal_numbers.hpp"
 #include "sim/command_line/help_text.hpp"
 #include "sim/command_line/suggestion.hpp"
-#include "sim/commands.hpp"
-#include "sim/failure.hpp"
+#include "sim/process/failure.hpp"
 #include "sim/process/interruption.hpp"
+#include "sim/shell/commands.hpp"
 #include "sim/text/standard_output.hpp"
 
 namespace degs::sim {

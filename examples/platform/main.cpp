@@ -14,7 +14,7 @@
 #include <zlib.h>
 
 #include <baselines/design.hpp>
-#include <config/error.hpp>
+#include <base/error.hpp>
 #include <driver/degs_driver.h>
 #include <platform/accelerator.hpp>
 #include <scene/scene.hpp>

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/ratio.hpp"
+#include "base/ratio.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
 

@@ -9,10 +9,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/output_folder.hpp"
-#include "sim/view.hpp"
-#include "splat/gemm/exponent_gemm.hpp"
+#include "sim/shell/output_folder.hpp"
+#include "sim/simulation/view.hpp"
 #include "splat/numbers/number_set.hpp"
+#include "splat/pixels/exponent_gemm.hpp"
 
 namespace degs::sim {
 

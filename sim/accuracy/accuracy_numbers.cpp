@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
 #include "splat/numbers/number_set.hpp"
 
 namespace degs::sim {

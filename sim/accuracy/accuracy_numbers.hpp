@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "splat/data_path.hpp"
+#include "splat/pixels/data_path.hpp"
 
 namespace degs::sim {
 

@@ -4,16 +4,16 @@
 #include <filesystem>
 #include <regex>
 
-#include "scene/image_io.hpp"
+#include "accuracy/data_path_renderer.hpp"
+#include "accuracy/flip/flip.hpp"
+#include "accuracy/image_difference.hpp"
+#include "accuracy/pixel_replay.hpp"
+#include "scene/files/image_io.hpp"
 #include "sim/accuracy/accuracy.hpp"
 #include "sim/accuracy/accuracy_numbers.hpp"
-#include "sim/simulation.hpp"
+#include "sim/simulation/simulation.hpp"
+#include "sim/simulation/warnings.hpp"
 #include "sim/text/progress.hpp"
-#include "sim/warnings.hpp"
-#include "splat/data_path_renderer.hpp"
-#include "splat/images/flip.hpp"
-#include "splat/images/image_difference.hpp"
-#include "splat/pixel_replay.hpp"
 
 namespace degs::sim {
 namespace {

@@ -3,13 +3,13 @@
 #include <functional>
 #include <random>
 
-#include "config/error.hpp"
-#include "config/ratio.hpp"
+#include "accuracy/single_gaussian.hpp"
+#include "base/error.hpp"
+#include "base/ratio.hpp"
 #include "sim/accuracy/accuracy.hpp"
+#include "sim/simulation/warnings.hpp"
 #include "sim/text/progress.hpp"
-#include "sim/warnings.hpp"
-#include "splat/frame_workload.hpp"
-#include "splat/single_gaussian.hpp"
+#include "splat/frame/frame_workload.hpp"
 
 namespace degs::sim {
 namespace {

@@ -4,20 +4,20 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
+#include "base/visible_text.hpp"
 #include "baselines/orange/config.hpp"
-#include "config/error.hpp"
-#include "config/visible_text.hpp"
-#include "scene/input_file.hpp"
+#include "scene/files/input_file.hpp"
 #include "scene/scene_spec.hpp"
 #include "sim/accuracy/accuracy.hpp"
 #include "sim/accuracy/accuracy_numbers.hpp"
 #include "sim/accuracy/hard_case_run.hpp"
 #include "sim/accuracy/speed/speed.hpp"
-#include "sim/commands.hpp"
-#include "sim/output_folder.hpp"
-#include "sim/scene_list.hpp"
+#include "sim/shell/commands.hpp"
+#include "sim/shell/output_folder.hpp"
+#include "sim/shell/scene_list.hpp"
+#include "sim/shell/view_options.hpp"
 #include "sim/text/standard_output.hpp"
-#include "sim/view_options.hpp"
 
 namespace degs::sim {
 namespace {

@@ -5,17 +5,17 @@
 #include <cmath>
 #include <map>
 
-#include "config/error.hpp"
-#include "config/ratio.hpp"
+#include "accuracy/data_path_renderer.hpp"
+#include "accuracy/image_difference.hpp"
+#include "accuracy/pixel_tolerance.hpp"
+#include "accuracy/span_difference.hpp"
+#include "base/error.hpp"
+#include "base/ratio.hpp"
 #include "sim/accuracy/accuracy_numbers.hpp"
+#include "sim/simulation/view.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/words.hpp"
-#include "sim/view.hpp"
-#include "splat/data_path_renderer.hpp"
-#include "splat/images/image_difference.hpp"
-#include "splat/images/pixel_tolerance.hpp"
-#include "splat/reference_renderer.hpp"
-#include "splat/span_difference.hpp"
+#include "splat/reference/reference_renderer.hpp"
 
 namespace degs::sim {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "scene/hard/hard_cases.hpp"
+#include "accuracy/hard/hard_cases.hpp"
 
 namespace degs::sim {
 

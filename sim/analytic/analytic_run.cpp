@@ -5,14 +5,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "config/config_document.hpp"
-#include "config/error.hpp"
-#include "sim/report.hpp"
-#include "sim/stopwatch.hpp"
+#include "sim/process/stopwatch.hpp"
+#include "sim/report/report.hpp"
+#include "sim/simulation/warnings.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
-#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "modules/analytic/analytic_frame.hpp"
+#include "modules/kit/analytic/analytic_frame.hpp"
 #include "sim/cache/cached_view.hpp"
-#include "sim/simulation.hpp"
+#include "sim/simulation/simulation.hpp"
 
 namespace degs::sim {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "scene/cameras/camera_path.hpp"
-#include "sim/stopwatch.hpp"
+#include "sim/process/stopwatch.hpp"
 #include "sim/text/progress.hpp"
 
 namespace degs::sim {

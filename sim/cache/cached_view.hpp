@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/cache/frame_cache.hpp"
-#include "sim/view.hpp"
+#include "sim/simulation/view.hpp"
 
 namespace degs::sim {
 

@@ -13,7 +13,7 @@
 #include "config/input_files.hpp"
 #include "scene/cameras/camera_file.hpp"
 #include "scene/cameras/trained_frame.hpp"
-#include "scene/dynamic/dynamic_scene.hpp"
+#include "scene/dynamic_scene.hpp"
 #include "scene/scene_formats.hpp"
 #include "scene/scene_spec.hpp"
 

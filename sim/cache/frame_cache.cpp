@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <utility>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
 #include "sim/cache/binary.hpp"
 #include "sim/cache/digest.hpp"
 #include "sim/cache/entry_checks.hpp"
-#include "sim/warnings.hpp"
+#include "sim/simulation/warnings.hpp"
 
 namespace degs::sim {
 namespace {

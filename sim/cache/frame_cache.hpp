@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/cache/disk_cache.hpp"
-#include "sim/simulation.hpp"
+#include "sim/simulation/simulation.hpp"
 
 namespace degs::sim {
 

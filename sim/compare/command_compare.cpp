@@ -2,14 +2,14 @@
 // degs compare: several accelerators on the same views.
 #include <memory>
 
-#include "config/visible_text.hpp"
-#include "sim/commands.hpp"
+#include "base/visible_text.hpp"
 #include "sim/compare/compare_session.hpp"
 #include "sim/compare/comparison_output.hpp"
-#include "sim/sweep/study_options.hpp"
+#include "sim/shell/commands.hpp"
+#include "sim/shell/view_options.hpp"
+#include "sim/simulation/warnings.hpp"
+#include "sim/study/study_options.hpp"
 #include "sim/text/standard_output.hpp"
-#include "sim/view_options.hpp"
-#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {

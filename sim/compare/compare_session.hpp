@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "sim/compare/compare_request.hpp"
-#include "sim/compare/comparison.hpp"
-#include "sim/compare/run_progress.hpp"
-#include "sim/compare/view_runs.hpp"
-#include "sim/output_folder.hpp"
+#include "sim/results/comparison.hpp"
+#include "sim/runs/run_progress.hpp"
+#include "sim/runs/view_runs.hpp"
+#include "sim/shell/output_folder.hpp"
+#include "sim/study/compare_request.hpp"
 
 namespace degs::sim {
 

@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/compare/comparison_output.hpp"
-#include "sim/compare/result_words.hpp"
-#include "sim/report.hpp"
+#include "sim/report/report.hpp"
+#include "sim/results/result_words.hpp"
 
 namespace degs::sim {
 namespace {

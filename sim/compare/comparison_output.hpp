@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sim/compare/compare_request.hpp"
-#include "sim/compare/comparison.hpp"
+#include "sim/results/comparison.hpp"
+#include "sim/study/compare_request.hpp"
 
 namespace degs::sim {
 

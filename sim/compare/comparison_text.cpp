@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "base/visible_text.hpp"
 #include "config/config_words.hpp"
-#include "config/visible_text.hpp"
 #include "sim/compare/comparison_output.hpp"
-#include "sim/dynamic/frame_changes.hpp"
+#include "sim/simulation/frame_changes.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"

@@ -4,15 +4,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "config/config_source.hpp"
-#include "config/error.hpp"
-#include "sim/commands.hpp"
 #include "sim/memory/memory_report.hpp"
-#include "sim/output_folder.hpp"
-#include "sim/stopwatch.hpp"
+#include "sim/process/stopwatch.hpp"
+#include "sim/shell/commands.hpp"
+#include "sim/shell/output_folder.hpp"
+#include "sim/shell/view_options.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/standard_output.hpp"
-#include "sim/view_options.hpp"
 
 namespace degs::sim {
 namespace {

@@ -3,13 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/ratio.hpp"
 #include "config/config_document.hpp"
-#include "config/ratio.hpp"
-#include "config/statistics_document.hpp"
-#include "sim/report.hpp"
-#include "sim/text/terminal.hpp"
+#include "sim/report/report.hpp"
+#include "sim/report/terminal.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
+#include "stats/statistics_document.hpp"
 
 namespace degs::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/stopwatch.hpp"
+#include "sim/process/stopwatch.hpp"
 #include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
 #include "tlm/set_access.hpp"

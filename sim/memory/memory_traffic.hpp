@@ -10,7 +10,7 @@
 #include <tlm>
 #include <tlm_utils/simple_initiator_socket.h>
 
-#include "config/ratio.hpp"
+#include "base/ratio.hpp"
 #include "dram/lpddr5.hpp"
 #include "sim/memory/memory_pattern.hpp"
 

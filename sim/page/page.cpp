@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/statistics_document.hpp"
-#include "sim/compare/result_words.hpp"
 #include "sim/page/page_assets.hpp"
 #include "sim/plot/plot_svg.hpp"
-#include "sim/report.hpp"
+#include "sim/report/report.hpp"
+#include "sim/results/result_words.hpp"
+#include "stats/statistics_document.hpp"
 
 namespace degs::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/compare/comparison.hpp"
+#include "sim/results/comparison.hpp"
 
 namespace degs::sim {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "modules/array/slot_account.hpp"
+#include "modules/kit/job/slot_account.hpp"
 
 namespace degs::sim {
 

@@ -16,9 +16,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/parallel.hpp"
 #include "sim/process/interruption.hpp"
 #include "sim/process/stopping_signals.hpp"
-#include "splat/frame/parallel.hpp"
 
 namespace degs::sim {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/failure.hpp"
+#include "sim/process/failure.hpp"
 
 namespace degs::sim {
 

@@ -9,8 +9,8 @@
 
 #include <unistd.h>
 
-#include "config/visible_text.hpp"
-#include "scene/output_file.hpp"
+#include "base/visible_text.hpp"
+#include "scene/files/output_file.hpp"
 
 namespace degs::sim {
 namespace {

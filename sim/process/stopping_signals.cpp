@@ -7,7 +7,7 @@
 #include <sys/signalfd.h>
 #include <unistd.h>
 
-#include "sim/failure.hpp"
+#include "sim/process/failure.hpp"
 
 namespace degs::sim {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "config/ratio.hpp"
+#include "base/ratio.hpp"
 
 namespace degs::sim {
 namespace {

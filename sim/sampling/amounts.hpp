@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "modules/accelerator_result.hpp"
+#include "modules/kit/accelerator/accelerator_result.hpp"
 
 namespace degs::sim {
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <stdexcept>
 
-#include "config/ratio.hpp"
-#include "config/statistics_document.hpp"
-#include "modules/accelerator_energy.hpp"
+#include "base/ratio.hpp"
+#include "modules/kit/accelerator/accelerator_energy.hpp"
 #include "sim/sampling/amounts.hpp"
+#include "stats/statistics_document.hpp"
 
 namespace degs::sim {
 namespace {

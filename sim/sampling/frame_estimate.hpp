@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "modules/render_engine.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
 #include "sim/sampling/group_totals.hpp"
 #include "sim/sampling/regression.hpp"
 #include "sim/sampling/sampled_run.hpp"

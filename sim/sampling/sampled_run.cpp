@@ -8,14 +8,14 @@
 #include <set>
 #include <utility>
 
-#include "config/error.hpp"
-#include "config/ratio.hpp"
-#include "modules/analytic/expected_work.hpp"
-#include "sim/accelerator_run.hpp"
+#include "base/error.hpp"
+#include "base/ratio.hpp"
+#include "modules/kit/analytic/expected_work.hpp"
+#include "sim/accelerator/accelerator_run.hpp"
+#include "sim/process/stopwatch.hpp"
 #include "sim/sampling/frame_estimate.hpp"
 #include "sim/sampling/sample_design.hpp"
 #include "sim/sampling/stopping_rule.hpp"
-#include "sim/stopwatch.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {

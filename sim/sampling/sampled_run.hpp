@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "modules/render_engine.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
 #include "sim/sampling/sampling_request.hpp"
 #include "sim/text/progress.hpp"
 

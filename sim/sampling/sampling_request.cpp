@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
 
 namespace degs::sim {
 namespace {

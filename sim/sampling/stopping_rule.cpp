@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "config/ratio.hpp"
+#include "base/ratio.hpp"
 
 namespace degs::sim {
 namespace {

@@ -6,15 +6,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/visible_text.hpp"
+#include "base/visible_text.hpp"
 #include "scene/cameras/orbit_camera.hpp"
-#include "sim/output_folder.hpp"
-#include "sim/report.hpp"
+#include "sim/report/report.hpp"
+#include "sim/report/terminal.hpp"
+#include "sim/shell/output_folder.hpp"
+#include "sim/shell/view_options.hpp"
+#include "sim/simulation/warnings.hpp"
 #include "sim/text/standard_output.hpp"
-#include "sim/text/terminal.hpp"
 #include "sim/text/words.hpp"
-#include "sim/view_options.hpp"
-#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {

@@ -8,21 +8,21 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
+#include "base/visible_text.hpp"
 #include "config/input_files.hpp"
-#include "config/visible_text.hpp"
 #include "scene/cameras/camera_file.hpp"
-#include "scene/image_io.hpp"
+#include "scene/files/image_io.hpp"
 #include "scene/scene_formats.hpp"
-#include "sim/output_folder.hpp"
-#include "sim/report.hpp"
+#include "sim/report/report.hpp"
+#include "sim/report/scene_words.hpp"
 #include "sim/scene/scene_cameras.hpp"
+#include "sim/shell/output_folder.hpp"
+#include "sim/simulation/warnings.hpp"
 #include "sim/text/progress.hpp"
-#include "sim/text/scene_words.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/text/words.hpp"
-#include "sim/warnings.hpp"
-#include "splat/reference_renderer.hpp"
+#include "splat/reference/reference_renderer.hpp"
 
 namespace degs::sim {
 namespace {

@@ -11,8 +11,8 @@
 #include <tlm_utils/simple_initiator_socket.h>
 
 #include "driver/degs_driver.h"
-#include "splat/camera.hpp"
-#include "splat/gaussian.hpp"
+#include "splat/model/camera.hpp"
+#include "splat/model/gaussian.hpp"
 
 namespace degs::sim {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/soc/soc_platform.hpp"
 
-#include "config/ratio.hpp"
+#include "base/ratio.hpp"
 
 namespace degs::sim {
 namespace {

@@ -2,9 +2,9 @@
 // The results of degs soc, as JSON and as words.
 #include <nlohmann/json.hpp>
 
+#include "base/visible_text.hpp"
 #include "config/config_document.hpp"
-#include "config/visible_text.hpp"
-#include "sim/report.hpp"
+#include "sim/report/report.hpp"
 #include "sim/soc/soc_study.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"

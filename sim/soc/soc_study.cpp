@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "config/ratio.hpp"
+#include "base/ratio.hpp"
+#include "sim/process/stopwatch.hpp"
+#include "sim/simulation/warnings.hpp"
 #include "sim/soc/soc_platform.hpp"
-#include "sim/stopwatch.hpp"
 #include "sim/text/progress.hpp"
 #include "sim/text/words.hpp"
-#include "sim/warnings.hpp"
 #include "splat/images/image_metrics.hpp"
-#include "splat/reference_renderer.hpp"
+#include "splat/reference/reference_renderer.hpp"
 
 namespace degs::sim {
 namespace {

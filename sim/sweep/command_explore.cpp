@@ -2,12 +2,12 @@
 // degs explore: the designs of a study that nobody beats.
 #include <memory>
 
-#include "config/visible_text.hpp"
-#include "sim/commands.hpp"
+#include "base/visible_text.hpp"
+#include "sim/shell/commands.hpp"
+#include "sim/shell/view_options.hpp"
+#include "sim/study/study_options.hpp"
 #include "sim/sweep/search_output.hpp"
-#include "sim/sweep/study_options.hpp"
 #include "sim/text/standard_output.hpp"
-#include "sim/view_options.hpp"
 
 namespace degs::sim {
 namespace {

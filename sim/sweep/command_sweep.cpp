@@ -4,20 +4,20 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/error.hpp"
+#include "base/visible_text.hpp"
 #include "config/config_words.hpp"
-#include "config/error.hpp"
-#include "config/visible_text.hpp"
-#include "sim/commands.hpp"
-#include "sim/compare/view_runs.hpp"
-#include "sim/stopwatch.hpp"
+#include "sim/process/stopwatch.hpp"
+#include "sim/runs/view_runs.hpp"
+#include "sim/shell/commands.hpp"
+#include "sim/shell/view_options.hpp"
+#include "sim/simulation/warnings.hpp"
+#include "sim/study/study_options.hpp"
 #include "sim/sweep/slurm.hpp"
-#include "sim/sweep/study_options.hpp"
 #include "sim/sweep/sweep_results.hpp"
 #include "sim/sweep/sweep_session.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/text/words.hpp"
-#include "sim/view_options.hpp"
-#include "sim/warnings.hpp"
 
 namespace degs::sim {
 namespace {

@@ -10,11 +10,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "config/config_words.hpp"
-#include "config/error.hpp"
 #include "sim/cache/digest.hpp"
-#include "sim/compare/message_fields.hpp"
-#include "sim/report.hpp"
+#include "sim/report/report.hpp"
+#include "sim/results/message_fields.hpp"
 #include "sim/sweep/sweep_results.hpp"
 
 namespace degs::sim {

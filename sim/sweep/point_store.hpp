@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/compare/run_summary.hpp"
-#include "sim/failure.hpp"
-#include "sim/output_folder.hpp"
+#include "sim/process/failure.hpp"
+#include "sim/results/run_summary.hpp"
+#include "sim/shell/output_folder.hpp"
 #include "sim/sweep/study_plan.hpp"
 
 namespace degs::sim {

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/compare/measures.hpp"
-#include "sim/failure.hpp"
+#include "sim/process/failure.hpp"
+#include "sim/report/measures.hpp"
 #include "sim/sweep/study_plan.hpp"
 #include "sim/sweep/sweep_results.hpp"
 

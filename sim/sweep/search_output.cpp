@@ -5,10 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/visible_text.hpp"
-#include "sim/compare/result_words.hpp"
+#include "base/visible_text.hpp"
 #include "sim/plot/plot_svg.hpp"
-#include "sim/report.hpp"
+#include "sim/report/report.hpp"
+#include "sim/results/result_words.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "sim/output_folder.hpp"
+#include "sim/shell/output_folder.hpp"
 #include "sim/sweep/search.hpp"
 
 namespace degs::sim {

@@ -5,9 +5,9 @@
 #include <array>
 #include <cstdio>
 
+#include "base/error.hpp"
 #include "config/config_words.hpp"
-#include "config/error.hpp"
-#include "sim/failure.hpp"
+#include "sim/process/failure.hpp"
 
 namespace degs::sim {
 namespace {

@@ -7,12 +7,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "config/config_document.hpp"
-#include "config/error.hpp"
 #include "sim/cache/digest.hpp"
-#include "sim/compare/run_summary.hpp"
-#include "sim/output_folder.hpp"
-#include "sim/report.hpp"
+#include "sim/report/report.hpp"
+#include "sim/results/run_summary.hpp"
+#include "sim/shell/output_folder.hpp"
 #include "sim/sweep/study_variants.hpp"
 #include "sim/text/words.hpp"
 

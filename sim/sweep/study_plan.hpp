@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/compare/compare_request.hpp"
-#include "sim/sweep/study_file.hpp"
+#include "sim/study/compare_request.hpp"
+#include "sim/study/study_file.hpp"
 
 namespace degs::sim {
 

@@ -8,10 +8,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "config/config_document.hpp"
 #include "config/config_words.hpp"
-#include "config/error.hpp"
-#include "sim/compare/addressed_overrides.hpp"
+#include "sim/study/addressed_overrides.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {

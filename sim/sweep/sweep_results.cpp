@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/visible_text.hpp"
-#include "sim/compare/result_words.hpp"
+#include "base/visible_text.hpp"
 #include "sim/page/page.hpp"
-#include "sim/report.hpp"
+#include "sim/report/report.hpp"
+#include "sim/results/result_words.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/compare/comparison.hpp"
-#include "sim/failure.hpp"
+#include "sim/process/failure.hpp"
+#include "sim/results/comparison.hpp"
 #include "sim/sweep/point_store.hpp"
 #include "sim/sweep/study_plan.hpp"
 

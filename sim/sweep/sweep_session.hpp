@@ -8,8 +8,8 @@
 #include <optional>
 #include <tuple>
 
-#include "sim/compare/run_progress.hpp"
-#include "sim/compare/view_runs.hpp"
+#include "sim/runs/run_progress.hpp"
+#include "sim/runs/view_runs.hpp"
 #include "sim/sweep/point_store.hpp"
 
 namespace degs::sim {

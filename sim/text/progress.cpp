@@ -8,8 +8,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "config/visible_text.hpp"
-#include "sim/stopwatch.hpp"
+#include "base/visible_text.hpp"
+#include "sim/process/stopwatch.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {

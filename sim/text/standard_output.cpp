@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <system_error>
 
-#include "config/visible_text.hpp"
-#include "sim/failure.hpp"
+#include "base/visible_text.hpp"
+#include "sim/process/failure.hpp"
 #include "sim/text/output_columns.hpp"
 
 namespace degs::sim {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "config/visible_text.hpp"
+#include "base/visible_text.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/words.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "config/grouped_number.hpp"
+#include "base/grouped_number.hpp"
 
 namespace degs::sim {
 

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <limits>
 
-#include "config/ratio.hpp"
-#include "scene/image_io.hpp"
+#include "base/ratio.hpp"
+#include "scene/files/image_io.hpp"
 #include "sim/plot/raster.hpp"
-#include "sim/text/terminal.hpp"
+#include "sim/report/terminal.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/output_folder.hpp"
-#include "sim/simulation.hpp"
+#include "sim/shell/output_folder.hpp"
+#include "sim/simulation/simulation.hpp"
 
 namespace degs::sim {
 

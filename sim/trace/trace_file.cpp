@@ -8,9 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/error.hpp"
-#include "config/ratio.hpp"
-#include "scene/output_file.hpp"
+#include "base/error.hpp"
+#include "base/ratio.hpp"
+#include "scene/files/output_file.hpp"
 
 namespace degs::sim {
 namespace {

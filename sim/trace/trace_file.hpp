@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "modules/accelerator_result.hpp"
+#include "modules/kit/accelerator/accelerator_result.hpp"
 #include "tlm/timeline.hpp"
 
 namespace degs::sim {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "sim/output_folder.hpp"
+#include "sim/shell/output_folder.hpp"
 
 namespace degs::sim {
 namespace {

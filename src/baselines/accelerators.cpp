@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/accelerators.hpp"
 
-#include "baselines/gbu_config.hpp"
+#include "baselines/gbu/config.hpp"
 #include "baselines/gcc/config.hpp"
-#include "baselines/gscore_config.hpp"
+#include "baselines/gscore/config.hpp"
 #include "baselines/orange/config.hpp"
-#include "modules/degs_config.hpp"
+#include "modules/degs/degs_config.hpp"
 
 namespace degs {
 namespace {

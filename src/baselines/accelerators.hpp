@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "modules/render_engine.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
 
 namespace degs {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "modules/render_engine.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
 
 namespace degs {
 

@@ -4,8 +4,8 @@
 #include <cctype>
 #include <charconv>
 
+#include "base/error.hpp"
 #include "config/config_words.hpp"
-#include "config/error.hpp"
 
 namespace degs::config_scalar {
 namespace {

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <utility>
 
+#include "base/error.hpp"
 #include "config/config_words.hpp"
 #include "config/config_yaml.hpp"
-#include "config/error.hpp"
 #include "config/input_files.hpp"
 #include "config/nearby_file.hpp"
 

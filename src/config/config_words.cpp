@@ -8,7 +8,7 @@
 #include <limits>
 #include <numeric>
 
-#include "config/visible_text.hpp"
+#include "base/visible_text.hpp"
 
 namespace degs::config_words {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "config/ratio.hpp"
+#include "base/ratio.hpp"
 
 namespace degs::cost {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "config/statistics.hpp"
 #include "cost/technology.hpp"
+#include "stats/statistics.hpp"
 
 namespace degs::cost {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "config/ratio.hpp"
+#include "base/ratio.hpp"
 
 namespace degs::cost {
 namespace {

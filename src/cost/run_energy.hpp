@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "config/statistics.hpp"
 #include "cost/bill_of_materials.hpp"
+#include "stats/statistics.hpp"
 
 namespace degs::cost {
 

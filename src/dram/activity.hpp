@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "config/statistics.hpp"
 #include "dram/channel.hpp"
+#include "stats/statistics.hpp"
 
 namespace degs::dram {
 

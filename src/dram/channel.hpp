@@ -7,13 +7,13 @@
 #include <functional>
 #include <vector>
 
-#include "config/statistics.hpp"
 #include "dram/banks.hpp"
 #include "dram/chooser.hpp"
 #include "dram/controller.hpp"
 #include "dram/queues.hpp"
 #include "dram/refresher.hpp"
 #include "dram/timing.hpp"
+#include "stats/statistics.hpp"
 
 namespace degs::dram {
 

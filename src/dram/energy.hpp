@@ -4,8 +4,8 @@
 #include <array>
 
 #include "config/config.hpp"
-#include "config/statistics.hpp"
 #include "dram/channel.hpp"
+#include "stats/statistics.hpp"
 
 namespace degs::dram {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "config/ratio.hpp"
+#include "base/ratio.hpp"
 #include "dram/timing.hpp"
 
 namespace degs::dram {

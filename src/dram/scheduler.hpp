@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <variant>
 
+#include "dram/bank_fcfs.hpp"
+#include "dram/fcfs.hpp"
+#include "dram/frfcfs.hpp"
 #include "dram/queue.hpp"
-#include "dram/schedulers/bank_fcfs.hpp"
-#include "dram/schedulers/fcfs.hpp"
-#include "dram/schedulers/frfcfs.hpp"
 
 namespace degs::dram {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "config/statistics.hpp"
+#include "stats/statistics.hpp"
 
 namespace degs::dram {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <new>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
 #include "tlm/has_process.hpp"
 
 namespace degs {

@@ -8,7 +8,7 @@
 #include <tlm>
 #include <tlm_utils/simple_target_socket.h>
 
-#include "modules/render_engine.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
 #include "platform/accelerator_request.hpp"
 #include "platform/memory_gateway.hpp"
 #include "platform/scene_copy.hpp"

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/traffic.hpp"
+#include "modules/kit/job/traffic.hpp"
 #include "platform/accelerator_registers.hpp"
 #include "platform/scene_copy.hpp"
-#include "splat/camera.hpp"
+#include "splat/model/camera.hpp"
 
 namespace degs {
 

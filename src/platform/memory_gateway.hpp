@@ -11,7 +11,7 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 
-#include "modules/main_memory.hpp"
+#include "modules/kit/memory/main_memory.hpp"
 #include "platform/access_pacer.hpp"
 #include "platform/at_requester.hpp"
 #include "platform/burst_cutter.hpp"

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstring>
 
-#include "modules/traffic.hpp"
+#include "modules/kit/job/traffic.hpp"
 #include "tlm/set_access.hpp"
 
 namespace degs {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "platform/memory_gateway.hpp"
-#include "splat/gaussian.hpp"
+#include "splat/model/gaussian.hpp"
 
 namespace degs {
 

@@ -6,15 +6,15 @@
 #include <filesystem>
 #include <utility>
 
-#include "config/error.hpp"
-#include "config/grouped_number.hpp"
-#include "scene/activation_scan.hpp"
+#include "base/error.hpp"
+#include "base/grouped_number.hpp"
 #include "scene/cameras/camera_file.hpp"
 #include "scene/cameras/orbit_camera.hpp"
 #include "scene/cameras/trained_frame.hpp"
-#include "scene/dynamic/dynamic_scene.hpp"
 #include "scene/dynamic/spacetime_ply.hpp"
-#include "scene/input_file.hpp"
+#include "scene/dynamic_scene.hpp"
+#include "scene/files/activation_scan.hpp"
+#include "scene/files/input_file.hpp"
 #include "scene/scene_formats.hpp"
 #include "scene/scene_spec.hpp"
 #include "scene/synthetic/synthetic.hpp"

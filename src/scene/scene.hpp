@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene_content.hpp"
+#include "scene/files/scene_content.hpp"
 
 namespace degs {
 

@@ -5,10 +5,10 @@
 #include <cctype>
 #include <filesystem>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
+#include "scene/files/input_file.hpp"
 #include "scene/gltf/gltf.hpp"
 #include "scene/gltf/gltf_source.hpp"
-#include "scene/input_file.hpp"
 #include "scene/npz/npz.hpp"
 #include "scene/npz/npz_cameras.hpp"
 #include "scene/ply/ply.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
 #include "scene/synthetic/synthetic.hpp"
 
 namespace degs {

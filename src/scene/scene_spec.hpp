@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "scene/axes.hpp"
+#include "scene/files/axes.hpp"
 
 namespace degs {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "config/ratio.hpp"
-#include "splat/angles.hpp"
-#include "splat/reference_renderer.hpp"
+#include "base/ratio.hpp"
+#include "splat/model/angles.hpp"
+#include "splat/reference/reference_renderer.hpp"
 
 namespace degs {
 namespace {

@@ -7,10 +7,10 @@
 
 #include <glm/glm.hpp>
 
-#include "splat/camera.hpp"
-#include "splat/frame_workload.hpp"
-#include "splat/gaussian.hpp"
-#include "splat/projection.hpp"
+#include "splat/frame/frame_workload.hpp"
+#include "splat/frame/projection.hpp"
+#include "splat/model/camera.hpp"
+#include "splat/model/gaussian.hpp"
 
 namespace degs {
 

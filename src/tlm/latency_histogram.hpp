@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "config/ratio.hpp"
-#include "config/statistics.hpp"
+#include "base/ratio.hpp"
+#include "stats/statistics.hpp"
 
 namespace degs {
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <tuple>
 
-#include "config/ratio.hpp"
+#include "base/ratio.hpp"
 #include "tlm/scattered_records.hpp"
 
 namespace degs {

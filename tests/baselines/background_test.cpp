@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // That a tile is background is known when all Gaussians of its frame have been read: no frame ends
 // before, whatever the accelerator.
-#include "baselines/gbu_config.hpp"
+#include "baselines/gbu/config.hpp"
 #include "baselines/gcc/config.hpp"
-#include "baselines/gscore_config.hpp"
-#include "modules/degs_config.hpp"
+#include "baselines/gscore/config.hpp"
+#include "modules/degs/degs_config.hpp"
 #include "tests/baselines/engine_run.hpp"
 
 namespace degs {

@@ -7,11 +7,11 @@
 #include <tuple>
 #include <vector>
 
+#include "accuracy/data_path_renderer.hpp"
 #include "baselines/design.hpp"
-#include "splat/data_path_renderer.hpp"
-#include "splat/subtile_cover.hpp"
+#include "splat/frame/subtile_cover.hpp"
 #include "tests/baselines/engine_run.hpp"
-#include "tests/splat/brute_force.hpp"
+#include "tests/splat/frame/brute_force.hpp"
 
 namespace degs {
 namespace {

@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/error.hpp"
 #include "baselines/design.hpp"
 #include "config/config_document.hpp"
-#include "config/error.hpp"
-#include "modules/degs_config.hpp"
+#include "modules/degs/degs_config.hpp"
 
 namespace degs::test {
 namespace {

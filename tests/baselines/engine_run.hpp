@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/modules/accelerator_fixture.hpp"
+#include "tests/modules/degs/accelerator_fixture.hpp"
 
 namespace degs::test {
 

@@ -2,11 +2,11 @@
 // What a run left out: every sentence of every accelerator, with the counter that it quotes.
 #include <gmock/gmock.h>
 
-#include "baselines/gbu_config.hpp"
+#include "base/grouped_number.hpp"
+#include "baselines/gbu/config.hpp"
 #include "baselines/gcc/config.hpp"
-#include "baselines/gscore_config.hpp"
-#include "config/grouped_number.hpp"
-#include "modules/degs_config.hpp"
+#include "baselines/gscore/config.hpp"
+#include "modules/degs/degs_config.hpp"
 #include "tests/baselines/engine_run.hpp"
 
 namespace degs {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes, time and peak bandwidth of a report belong together: no memory transfers more than its peak
 // allows, and every byte of a request is somewhere.
-#include "baselines/gscore_config.hpp"
+#include "baselines/gscore/config.hpp"
 #include "tests/baselines/engine_run.hpp"
-#include "tests/baselines/gcc_run.hpp"
+#include "tests/baselines/gcc/gcc_run.hpp"
 
 namespace degs {
 namespace {

@@ -2,12 +2,12 @@
 // Every baseline in every number set: sound, finite, near the reference.
 #include <cmath>
 
-#include "baselines/gscore.hpp"
+#include "baselines/gscore/gscore.hpp"
 #include "splat/images/image_metrics.hpp"
 #include "tests/baselines/engine_run.hpp"
-#include "tests/baselines/gbu_fixture.hpp"
-#include "tests/baselines/gcc_run.hpp"
-#include "tests/modules/soft_frame.hpp"
+#include "tests/baselines/gbu/gbu_fixture.hpp"
+#include "tests/baselines/gcc/gcc_run.hpp"
+#include "tests/modules/degs/soft_frame.hpp"
 
 namespace degs {
 namespace {

@@ -3,12 +3,12 @@
 // bit, that of pixels that check every splat of their tile's list, in every number format.
 #include <cmath>
 
-#include "baselines/gscore.hpp"
+#include "baselines/gscore/gscore.hpp"
 #include "tests/baselines/engine_run.hpp"
-#include "tests/baselines/gbu_fixture.hpp"
-#include "tests/baselines/gcc_run.hpp"
-#include "tests/modules/soft_frame.hpp"
-#include "tests/splat/checked_image.hpp"
+#include "tests/baselines/gbu/gbu_fixture.hpp"
+#include "tests/baselines/gcc/gcc_run.hpp"
+#include "tests/modules/degs/soft_frame.hpp"
+#include "tests/splat/pixels/checked_image.hpp"
 
 namespace degs {
 namespace {

@@ -3,7 +3,7 @@
 // docs/adding-an-accelerator.md, built and run by row_sweep_test.cpp.
 #pragma once
 
-#include "modules/array/tile_array_engine.hpp"
+#include "modules/kit/engine/tile_array_engine.hpp"
 #include "tlm/has_process.hpp"
 
 namespace degs::example {

@@ -2,10 +2,10 @@
 // Messages never push back: many more tiles end than any ring of messages could hold, long after
 // those who are told have handed on all their work.
 #include "baselines/accelerators.hpp"
-#include "baselines/gbu_config.hpp"
+#include "baselines/gbu/config.hpp"
 #include "baselines/gcc/config.hpp"
-#include "baselines/gscore_config.hpp"
-#include "modules/degs_config.hpp"
+#include "baselines/gscore/config.hpp"
+#include "modules/degs/degs_config.hpp"
 #include "tests/baselines/engine_run.hpp"
 
 namespace degs {

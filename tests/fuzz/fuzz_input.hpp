@@ -11,8 +11,8 @@
 #include <string>
 #include <string_view>
 
-#include "config/error.hpp"
-#include "scene/scene_content.hpp"
+#include "base/error.hpp"
+#include "scene/files/scene_content.hpp"
 
 namespace degs::fuzz {
 

@@ -10,7 +10,7 @@
 #include "scene/gltf/gltf.hpp"
 #include "scene/synthetic/synthetic.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
-#include "tests/scene/ply_builder.hpp"
+#include "tests/scene/ply/ply_builder.hpp"
 #include "tests/scene/spz/spz_builder.hpp"
 #include "tests/scene/zip_builder.hpp"
 

@@ -32,7 +32,7 @@ forbid() {
 # may_include ROOM ALLOWED...: of our rooms, files of src/ROOM may include only itself and ALLOWED.
 may_include() {
     local room=$1 other forbidden=()
-    for other in config cost splat scene tlm dram modules baselines platform sim tests; do
+    for other in base config stats cost splat scene accuracy tlm dram modules baselines platform sim tests; do
         [[ " $* " == *" $other "* ]] || forbidden+=("$other")
     done
     local pattern files
@@ -43,20 +43,24 @@ may_include() {
         '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]\.\.?/' "${files[@]}"
 }
 
+# Arrows between rooms, the folders of the first level below src.
 check_arrows() {
-    may_include config
-    may_include cost config
-    may_include splat config
-    may_include scene splat config
-    may_include tlm config
-    may_include dram tlm config
-    may_include modules cost splat dram tlm config
-    may_include baselines modules cost splat dram tlm config
-    may_include platform modules cost splat dram tlm config
+    may_include base
+    may_include config base
+    may_include stats config base
+    may_include cost stats config base
+    may_include splat config base
+    may_include scene splat config base
+    may_include accuracy scene splat config base
+    may_include tlm stats config base
+    may_include dram tlm stats config base
+    may_include modules cost splat dram tlm stats config base
+    may_include baselines modules cost splat dram tlm stats config base
+    may_include platform modules cost splat dram tlm stats config base
 }
 
 check_systemc() {
-    mapfile -t files < <(sources src/config src/cost src/splat src/scene)
+    mapfile -t files < <(sources src/base src/config src/stats src/cost src/splat src/scene src/accuracy)
     forbid "no SystemC in configuration, costs, mathematics and loaders" \
         '#[[:space:]]*include[[:space:]]*[<"](systemc|tlm|sysc|tlm_utils)([./>"]|$)|\b(sc_core|tlm)::' "${files[@]}"
 }
@@ -107,14 +111,12 @@ check_casts() {
     violations=$((violations + 1))
 }
 
+# Arrows between the folders of all levels below src and sim, and no circle of folders.
 check_folders() {
-    local folder files
-    while IFS= read -r folder; do
-        files=$(find "$folder" -maxdepth 1 -type f | wc -l)
-        [[ $files -le 40 ]] && continue
-        echo "$folder:1: $files files in one folder, 40 are allowed"
-        violations=$((violations + 1))
-    done < <(find src sim tests -type d 2>/dev/null | sort)
+    local found
+    found=$("$(dirname "${BASH_SOURCE[0]}")/folders.py" "$root") && return 0
+    grep -v '^house ' <<<"$found"
+    violations=$((violations + $(grep -vc '^house ' <<<"$found")))
 }
 
 check_licence() {

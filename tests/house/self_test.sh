@@ -12,13 +12,16 @@ failures=0
 
 clean_tree() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/src/{config,splat,scene,tlm,dram,modules,baselines/gscore,platform} "$tree/sim" "$tree/tests"
-    printf '%s\n' "$licence" '#include <vector>' '#include "config/error.hpp"' >"$tree/src/splat/a.hpp"
+    mkdir -p "$tree"/src/{base,config,splat,scene,tlm,dram,modules,baselines/gscore,platform} "$tree/src/splat/wing" "$tree/sim" "$tree/tests/house"
+    printf '%s\n' "$licence" '#include <vector>' '#include "base/error.hpp"' >"$tree/src/splat/a.hpp"
     printf '%s\n' "$licence" '#include "splat/a.hpp"' 'int s = snprintf(b, 2, "x");' >"$tree/src/scene/a.cpp"
     printf '%s\n' "$licence" '#include <systemc>' '#include <tlm>' '#include "tlm/b.hpp"' >"$tree/src/tlm/a.hpp"
     printf '%s\n' "$licence" '#include "splat/a.hpp"' '#include "tlm/a.hpp"' >"$tree/src/modules/a.cpp"
     printf '%s\n' "$licence" '#include "modules/a.hpp"' >"$tree/src/baselines/gscore/a.cpp"
     printf '%s\n' "$licence" 'int main() { std::cout << 1; }' 'using namespace x;' >"$tree/sim/main.cpp"
+    printf '%s\n' "$licence" | tee "$tree/src/base/error.hpp" >"$tree/src/tlm/b.hpp"
+    printf '%s\n' "$licence" '#include "splat/a.hpp"' >"$tree/src/splat/wing/b.hpp"
+    "$(dirname "$check")/folders.py" "$tree" --print >"$tree/tests/house/folders.txt"
 }
 
 # finds RULE FILE LINE TEXT: after TEXT is appended to FILE, RULE must fail there and say so.
@@ -38,18 +41,18 @@ clean_tree
 
 finds arrows src/splat/a.hpp 4 '#include "tlm/clock_domain.hpp"'
 finds arrows src/splat/a.hpp 4 '#include "scene/ply.hpp"'
-finds arrows src/scene/a.cpp 4 '#include "modules/degs.hpp"'
-finds arrows src/tlm/a.hpp 5 '#include "splat/camera.hpp"'
-finds arrows src/tlm/a.hpp 5 '  #  include <src/splat/camera.hpp>'
+finds arrows src/scene/a.cpp 4 '#include "modules/degs/degs.hpp"'
+finds arrows src/tlm/a.hpp 5 '#include "splat/model/camera.hpp"'
+finds arrows src/tlm/a.hpp 5 '  #include <src/splat/model/camera.hpp>'
 finds arrows src/tlm/a.hpp 5 '#include "../config/error.hpp"'
 finds arrows src/config/a.hpp 2 '#include "tlm/process.hpp"'
-finds arrows src/dram/a.hpp 2 '#include "splat/camera.hpp"'
+finds arrows src/dram/a.hpp 2 '#include "splat/model/camera.hpp"'
 finds arrows src/modules/a.cpp 4 '#include "scene/ply.hpp"'
-finds arrows src/modules/a.cpp 4 '#include "baselines/gscore.hpp"'
+finds arrows src/modules/a.cpp 4 '#include "baselines/gscore/gscore.hpp"'
 finds arrows src/modules/a.cpp 4 '#include "platform/accelerator.hpp"'
 finds arrows src/baselines/gscore/a.cpp 3 '#include "platform/accelerator.hpp"'
-finds arrows src/baselines/gscore/a.cpp 3 '#include "sim/report.hpp"'
-finds arrows src/platform/a.hpp 2 '#include "baselines/gscore.hpp"'
+finds arrows src/baselines/gscore/a.cpp 3 '#include "sim/report/report.hpp"'
+finds arrows src/platform/a.hpp 2 '#include "baselines/gscore/gscore.hpp"'
 finds systemc src/config/a.hpp 2 '#include <systemc>'
 finds systemc src/splat/a.hpp 4 '#include <systemc>'
 finds systemc src/scene/a.cpp 4 '#include <tlm.h>'
@@ -65,12 +68,26 @@ finds width src/tlm/a.hpp 5 "int i; ///< $(printf 'ü%.0s' {1..110})"
 finds casts src/tlm/a.hpp 1 'int i = static_cast<int>(d);'
 finds licence src/tlm/bare.hpp 1 '#pragma once'
 
-clean_tree
-touch "$tree"/sim/{1..41}.txt
-if output=$("$check" folders "$tree") || ! grep -qF "sim:1: 42 files" <<<"$output"; then
-    echo "house folders missed 42 files; it said: $output"
-    failures=$((failures + 1))
-fi
+# finds_folder PLACE CHANGE...: after the command CHANGE, the rule must fail at PLACE.
+finds_folder() {
+    local place=$1 output
+    shift
+    clean_tree
+    "$@"
+    if output=$("$check" folders "$tree") || ! grep -qF "$place:" <<<"$output"; then
+        echo "house folders missed $place after '$*'; it said: $output"
+        failures=$((failures + 1))
+    fi
+}
+
+in_file() { printf '%s\n' "$2" >>"$tree/$1"; }
+# Folders of all levels: the list of the clean tree is what its sources need.
+finds_folder src/base/error.hpp:2 in_file src/base/error.hpp '#include "splat/wing/b.hpp"'
+finds_folder src/splat/a.hpp:4 in_file src/splat/a.hpp '#include "splat/wing/b.hpp"'
+finds_folder src/tlm/b.hpp:2 in_file src/tlm/b.hpp '#include "base/error.hpp"'
+finds_folder src/splat/new:1 eval 'mkdir "$tree/src/splat/new" && echo "$licence" >"$tree/src/splat/new/c.hpp"'
+finds_folder tests/house/folders.txt:1 sed -i '1s/$/ src\/tlm/' "$tree/tests/house/folders.txt"
+finds_folder src/scene/a.cpp:2 sed -i '/^src\/scene:/s/ src\/splat//' "$tree/tests/house/folders.txt"
 
 # The check of links, likewise.
 links=$(dirname "$check")/links_check.sh

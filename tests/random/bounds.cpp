@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baselines/gbu_config.hpp"
+#include "baselines/gbu/config.hpp"
 #include "baselines/orange/config.hpp"
-#include "modules/degs_config.hpp"
+#include "modules/degs/degs_config.hpp"
 #include "tests/random/promises.hpp"
 
 namespace degs::trials {

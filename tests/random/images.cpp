@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstring>
 
-#include "modules/degs_config.hpp"
-#include "splat/data_path_renderer.hpp"
-#include "splat/reference_renderer.hpp"
-#include "splat/tile_window.hpp"
+#include "accuracy/data_path_renderer.hpp"
+#include "modules/degs/degs_config.hpp"
+#include "splat/frame/tile_window.hpp"
+#include "splat/reference/reference_renderer.hpp"
 #include "tests/random/promises.hpp"
-#include "tests/splat/checked_image.hpp"
+#include "tests/splat/pixels/checked_image.hpp"
 
 namespace degs::trials {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/run_config.hpp"
+#include "sim/simulation/run_config.hpp"
 
 namespace degs::trials {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "modules/accelerator_result.hpp"
-#include "modules/render_engine.hpp"
-#include "splat/frame_workload.hpp"
+#include "modules/kit/accelerator/accelerator_result.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
+#include "splat/frame/frame_workload.hpp"
 
 namespace degs::trials {
 

@@ -8,8 +8,8 @@
 #include <sys/resource.h>
 
 #include "scene/cameras/camera_path.hpp"
-#include "sim/report.hpp"
-#include "sim/simulation.hpp"
+#include "sim/report/report.hpp"
+#include "sim/simulation/simulation.hpp"
 #include "tests/random/promises.hpp"
 
 namespace degs::trials {

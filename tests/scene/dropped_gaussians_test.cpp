@@ -3,7 +3,7 @@
 #include "scene/scene.hpp"
 
 #include "tests/scene/gltf/glb_builder.hpp"
-#include "tests/scene/ply_builder.hpp"
+#include "tests/scene/ply/ply_builder.hpp"
 #include "tests/scene/scene_fixture.hpp"
 
 namespace degs {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
 
 namespace degs::test {
 

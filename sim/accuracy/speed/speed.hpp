@@ -10,8 +10,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/compare/compare_request.hpp"
-#include "sim/view.hpp"
+#include "sim/simulation/view.hpp"
+#include "sim/study/compare_request.hpp"
 
 namespace degs::sim {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "base/error.hpp"
 #include "config/config_document.hpp"
-#include "config/error.hpp"
 #include "sim/accuracy/speed/speed.hpp"
-#include "splat/data_path.hpp"
+#include "splat/pixels/data_path.hpp"
 
 namespace degs::sim {
 namespace {

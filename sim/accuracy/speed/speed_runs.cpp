@@ -3,17 +3,17 @@
 #include <memory>
 #include <utility>
 
+#include "accuracy/image_difference.hpp"
 #include "sim/accuracy/speed/speed.hpp"
 #include "sim/analytic/analytic_run.hpp"
 #include "sim/cache/binary.hpp"
 #include "sim/cache/cached_view.hpp"
-#include "sim/compare/measures.hpp"
 #include "sim/process/child_process.hpp"
 #include "sim/process/stopping_signals.hpp"
-#include "sim/stopwatch.hpp"
+#include "sim/process/stopwatch.hpp"
+#include "sim/report/measures.hpp"
+#include "sim/simulation/warnings.hpp"
 #include "sim/text/progress.hpp"
-#include "sim/warnings.hpp"
-#include "splat/images/image_difference.hpp"
 
 namespace degs::sim {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "baselines/gcc/config.hpp"
 #include "baselines/gcc/footprint.hpp"
-#include "modules/analytic/front_end_load.hpp"
+#include "modules/kit/analytic/front_end_load.hpp"
 
 namespace degs::gcc {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/render_job.hpp"
-#include "splat/tested_pixels.hpp"
+#include "modules/kit/job/render_job.hpp"
+#include "splat/pixels/tested_pixels.hpp"
 
 namespace degs::gcc {
 

@@ -8,7 +8,7 @@
 #include "baselines/gcc/block_mask.hpp"
 #include "baselines/gcc/messages.hpp"
 #include "baselines/gcc/traffic.hpp"
-#include "config/statistics.hpp"
+#include "stats/statistics.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 

@@ -5,11 +5,11 @@
 #include "baselines/gcc/grouping.hpp"
 #include "baselines/gcc/projection_stage.hpp"
 #include "baselines/gcc/window_array.hpp"
-#include "modules/array/pixel_buffer.hpp"
-#include "modules/front_end/splat_fetcher.hpp"
-#include "modules/main_memory_config.hpp"
-#include "modules/render_engine.hpp"
-#include "modules/span_engine/tile_monitor.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
+#include "modules/kit/config/main_memory_config.hpp"
+#include "modules/kit/front_end/splat_fetcher.hpp"
+#include "modules/kit/front_end/tile_monitor.hpp"
+#include "modules/kit/pixels/pixel_buffer.hpp"
 
 namespace degs::gcc {
 

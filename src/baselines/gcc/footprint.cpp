@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/gcc/footprint.hpp"
 
-#include "splat/tested_pixels.hpp"
+#include "splat/pixels/tested_pixels.hpp"
 
 namespace degs::gcc {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "modules/render_job.hpp"
+#include "modules/kit/job/render_job.hpp"
 
 namespace degs::gcc {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "modules/stream_kinds.hpp"
+#include "modules/kit/memory/stream_kinds.hpp"
 
 namespace degs::gcc {
 namespace {

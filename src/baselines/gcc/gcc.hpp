@@ -8,11 +8,11 @@
 #include <systemc>
 
 #include "baselines/gcc/config.hpp"
-#include "modules/collect.hpp"
-#include "modules/front_end/frame_ends.hpp"
-#include "modules/front_end/list_source.hpp"
-#include "modules/front_end/tile_dispatcher.hpp"
-#include "modules/memory_streams.hpp"
+#include "modules/kit/engine/collect.hpp"
+#include "modules/kit/engine/frame_ends.hpp"
+#include "modules/kit/front_end/list_source.hpp"
+#include "modules/kit/front_end/tile_dispatcher.hpp"
+#include "modules/kit/memory/memory_streams.hpp"
 #include "tlm/rings.hpp"
 
 namespace degs::gcc {

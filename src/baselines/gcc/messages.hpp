@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "modules/messages.hpp"
+#include "modules/kit/job/messages.hpp"
 
 namespace degs::gcc {
 

@@ -6,9 +6,9 @@
 #include <systemc>
 
 #include "baselines/gcc/traffic.hpp"
-#include "config/statistics.hpp"
-#include "modules/messages.hpp"
-#include "modules/render_job.hpp"
+#include "modules/kit/job/messages.hpp"
+#include "modules/kit/job/render_job.hpp"
+#include "stats/statistics.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 

@@ -2,8 +2,8 @@
 // The counters of GCC in the terms that all accelerators share.
 #include <algorithm>
 
+#include "base/grouped_number.hpp"
 #include "baselines/gcc/gcc.hpp"
-#include "config/grouped_number.hpp"
 
 namespace degs::gcc {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "modules/render_job.hpp"
+#include "modules/kit/job/render_job.hpp"
 
 namespace degs::gcc {
 

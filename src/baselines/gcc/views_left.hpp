@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "modules/messages.hpp"
-#include "modules/render_job.hpp"
+#include "modules/kit/job/messages.hpp"
+#include "modules/kit/job/render_job.hpp"
 
 namespace degs::gcc {
 

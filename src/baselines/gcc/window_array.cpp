@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "splat/pixel_index.hpp"
+#include "splat/frame/pixel_index.hpp"
 #include "tlm/ceil_div.hpp"
 #include "tlm/has_process.hpp"
 

@@ -8,9 +8,9 @@
 #include "baselines/gcc/messages.hpp"
 #include "baselines/gcc/traversal.hpp"
 #include "config/config.hpp"
-#include "config/statistics.hpp"
-#include "modules/array/array_share.hpp"
-#include "modules/array/slot_account.hpp"
+#include "modules/kit/job/array_share.hpp"
+#include "modules/kit/job/slot_account.hpp"
+#include "stats/statistics.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs::gcc {

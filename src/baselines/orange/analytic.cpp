@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "baselines/orange/config.hpp"
-#include "modules/analytic/front_end_load.hpp"
+#include "modules/kit/analytic/front_end_load.hpp"
 
 namespace degs::orange {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "modules/family_size.hpp"
+#include "modules/kit/job/family_size.hpp"
 #include "tlm/ceil_div.hpp"
 
 namespace degs::orange {

@@ -3,16 +3,16 @@
 
 #include "baselines/orange/systolic_array.hpp"
 #include "baselines/orange/vector_unit.hpp"
-#include "modules/array/pixel_buffer.hpp"
-#include "modules/front_end/hierarchical_sorter.hpp"
-#include "modules/front_end/projection_unit.hpp"
-#include "modules/front_end/splat_fetcher.hpp"
-#include "modules/front_end/tile_binner.hpp"
-#include "modules/main_memory_config.hpp"
-#include "modules/pipeline_config.hpp"
-#include "modules/render_engine.hpp"
-#include "modules/span_engine/tile_monitor.hpp"
-#include "modules/traffic.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
+#include "modules/kit/config/main_memory_config.hpp"
+#include "modules/kit/config/pipeline_config.hpp"
+#include "modules/kit/front_end/hierarchical_sorter.hpp"
+#include "modules/kit/front_end/projection_unit.hpp"
+#include "modules/kit/front_end/splat_fetcher.hpp"
+#include "modules/kit/front_end/tile_binner.hpp"
+#include "modules/kit/front_end/tile_monitor.hpp"
+#include "modules/kit/job/traffic.hpp"
+#include "modules/kit/pixels/pixel_buffer.hpp"
 
 namespace degs::orange {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "baselines/orange/gemm_batch.hpp"
-#include "modules/array/slot_account.hpp"
-#include "modules/render_job.hpp"
+#include "modules/kit/job/render_job.hpp"
+#include "modules/kit/job/slot_account.hpp"
 
 namespace degs::orange {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "baselines/orange/config.hpp"
-#include "modules/array/tile_engine_array.hpp"
+#include "modules/kit/engine/tile_engine_array.hpp"
 
 namespace degs::orange {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The counters of ORANGE in the terms that all accelerators share.
+#include "base/grouped_number.hpp"
 #include "baselines/orange/orange.hpp"
-#include "config/grouped_number.hpp"
 
 namespace degs::orange {
 

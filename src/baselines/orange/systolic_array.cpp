@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/orange/systolic_array.hpp"
 
-#include "splat/gemm/exponent_gemm.hpp"
+#include "splat/pixels/exponent_gemm.hpp"
 #include "tlm/ceil_div.hpp"
 
 namespace degs::orange {

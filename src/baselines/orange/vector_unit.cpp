@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/orange/vector_unit.hpp"
 
-#include "splat/pixel_mask.hpp"
+#include "splat/frame/pixel_mask.hpp"
 #include "tlm/ceil_div.hpp"
 
 namespace degs::orange {

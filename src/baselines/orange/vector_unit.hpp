@@ -7,8 +7,8 @@
 
 #include "baselines/orange/mac_account.hpp"
 #include "config/config.hpp"
-#include "config/statistics.hpp"
-#include "modules/render_job.hpp"
+#include "modules/kit/job/render_job.hpp"
+#include "stats/statistics.hpp"
 #include "tlm/dated_fifo.hpp"
 
 namespace degs::orange {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "scene/cameras/camera_formats.hpp"
-#include "scene/input_file.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {

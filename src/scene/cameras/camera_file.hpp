@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "splat/camera.hpp"
+#include "splat/model/camera.hpp"
 
 namespace degs {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/error.hpp"
-#include "splat/angles.hpp"
+#include "base/error.hpp"
+#include "splat/model/angles.hpp"
 
 namespace degs {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "splat/camera.hpp"
-#include "splat/gaussian.hpp"
-#include "splat/projection.hpp"
+#include "splat/frame/projection.hpp"
+#include "splat/model/camera.hpp"
+#include "splat/model/gaussian.hpp"
 
 namespace degs {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "scene/input_file.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {

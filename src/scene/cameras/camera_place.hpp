@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-#include "splat/camera.hpp"
+#include "splat/model/camera.hpp"
 
 namespace degs {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "scene/cameras/colmap_files.hpp"
-#include "scene/input_file.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "scene/input_file.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "scene/cameras/camera_place.hpp"
-#include "scene/input_file.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {

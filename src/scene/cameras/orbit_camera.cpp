@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "scene/cameras/orbit_camera.hpp"
-#include "splat/angles.hpp"
+#include "splat/model/angles.hpp"
 
 namespace degs {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "splat/camera.hpp"
-#include "splat/gaussian.hpp"
+#include "splat/model/camera.hpp"
+#include "splat/model/gaussian.hpp"
 
 namespace degs {
 

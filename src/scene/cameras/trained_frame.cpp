@@ -6,7 +6,7 @@
 
 #include "scene/cameras/json_entries.hpp"
 #include "scene/cameras/json_entry.hpp"
-#include "scene/input_file.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <glm/glm.hpp>
 
-#include "splat/gaussian.hpp"
+#include "splat/model/gaussian.hpp"
 
 namespace degs {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "config/byte_order.hpp"
-#include "scene/input_file.hpp"
-#include "scene/output_file.hpp"
+#include "base/byte_order.hpp"
+#include "scene/files/input_file.hpp"
+#include "scene/files/output_file.hpp"
 #include "scene/ply/ply_header.hpp"
 #include "scene/ply/ply_rows.hpp"
 #include "scene/ply/ply_values.hpp"

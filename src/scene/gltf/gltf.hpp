@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/scene_content.hpp"
+#include "scene/files/scene_content.hpp"
 
 namespace degs {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/gltf/gltf_nodes.hpp"
-#include "splat/camera.hpp"
+#include "splat/model/camera.hpp"
 
 namespace degs {
 

@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/files/input_file.hpp"
 #include "scene/gltf/gltf_source.hpp"
-#include "scene/input_file.hpp"
 
 namespace degs {
 namespace {

@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "config/error.hpp"
-#include "config/visible_text.hpp"
-#include "scene/input_file.hpp"
+#include "base/error.hpp"
+#include "base/visible_text.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <utility>
 
-#include "scene/axes.hpp"
+#include "scene/files/axes.hpp"
 #include "scene/gltf/gltf_accessor.hpp"
 #include "scene/spz/spz.hpp"
-#include "splat/spherical_harmonics.hpp"
+#include "splat/model/spherical_harmonics.hpp"
 
 namespace degs {
 namespace {

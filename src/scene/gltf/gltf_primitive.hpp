@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "scene/gltf/gltf_model.hpp"
-#include "splat/gaussian.hpp"
+#include "splat/model/gaussian.hpp"
 
 namespace degs {
 

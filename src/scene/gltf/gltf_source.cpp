@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <limits>
 
-#include "config/visible_text.hpp"
-#include "scene/input_file.hpp"
-#include "scene/scene_folder.hpp"
+#include "base/visible_text.hpp"
+#include "scene/files/input_file.hpp"
+#include "scene/files/scene_folder.hpp"
 
 namespace degs {
 namespace {

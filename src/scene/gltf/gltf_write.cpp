@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/files/input_file.hpp"
+#include "scene/files/output_file.hpp"
 #include "scene/gltf/gltf.hpp"
-#include "scene/input_file.hpp"
-#include "scene/output_file.hpp"
 
 namespace degs {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "splat/frame/parallel.hpp"
+#include "base/parallel.hpp"
 
 namespace degs {
 namespace {

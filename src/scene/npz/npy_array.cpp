@@ -6,10 +6,10 @@
 #include <optional>
 #include <string_view>
 
-#include "config/byte_order.hpp"
-#include "config/visible_text.hpp"
-#include "scene/half_float.hpp"
-#include "scene/input_file.hpp"
+#include "base/byte_order.hpp"
+#include "base/visible_text.hpp"
+#include "scene/files/half_float.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {

@@ -6,13 +6,13 @@
 #include <initializer_list>
 #include <optional>
 
-#include "scene/activation_scan.hpp"
 #include "scene/archive/zip_archive.hpp"
-#include "scene/input_file.hpp"
+#include "scene/files/activation_scan.hpp"
+#include "scene/files/input_file.hpp"
 #include "scene/npz/nearest_points.hpp"
 #include "scene/npz/npy_array.hpp"
 #include "scene/npz/npz_cameras.hpp"
-#include "splat/spherical_harmonics.hpp"
+#include "splat/model/spherical_harmonics.hpp"
 
 namespace degs {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/scene_content.hpp"
+#include "scene/files/scene_content.hpp"
 
 namespace degs {
 

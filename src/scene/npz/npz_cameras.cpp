@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/input_file.hpp"
+#include "scene/files/input_file.hpp"
 #include "scene/npz/npy_array.hpp"
 
 namespace degs {

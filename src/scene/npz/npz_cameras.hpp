@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/archive/zip_archive.hpp"
-#include "splat/camera.hpp"
+#include "splat/model/camera.hpp"
 
 namespace degs {
 

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "config/byte_order.hpp"
+#include "base/byte_order.hpp"
 #include "scene/ply/ply_rows.hpp"
 #include "scene/ply/ply_values.hpp"
-#include "splat/spherical_harmonics.hpp"
+#include "splat/model/spherical_harmonics.hpp"
 
 namespace degs {
 namespace {

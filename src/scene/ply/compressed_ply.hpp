@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/ply/ply_header.hpp"
-#include "splat/gaussian.hpp"
+#include "splat/model/gaussian.hpp"
 
 namespace degs {
 

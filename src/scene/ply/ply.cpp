@@ -6,8 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "config/byte_order.hpp"
-#include "scene/activation_scan.hpp"
+#include "base/byte_order.hpp"
+#include "base/parallel.hpp"
+#include "scene/files/activation_scan.hpp"
 #include "scene/ply/compressed_ply.hpp"
 #include "scene/ply/ply_camera.hpp"
 #include "scene/ply/ply_comments.hpp"
@@ -15,8 +16,7 @@
 #include "scene/ply/ply_rows.hpp"
 #include "scene/ply/ply_splat_layout.hpp"
 #include "scene/ply/ply_values.hpp"
-#include "splat/frame/parallel.hpp"
-#include "splat/spherical_harmonics.hpp"
+#include "splat/model/spherical_harmonics.hpp"
 
 namespace degs {
 namespace {

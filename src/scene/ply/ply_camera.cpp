@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "config/byte_order.hpp"
+#include "base/byte_order.hpp"
 #include "scene/cameras/camera_place.hpp"
 #include "scene/ply/ply_rows.hpp"
 #include "scene/ply/ply_values.hpp"

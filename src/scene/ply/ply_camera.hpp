@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/files/scene_content.hpp"
 #include "scene/ply/ply_header.hpp"
-#include "scene/scene_content.hpp"
 
 namespace degs {
 

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <optional>
 
-#include "config/visible_text.hpp"
+#include "base/visible_text.hpp"
 
 namespace degs {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene_content.hpp"
+#include "scene/files/scene_content.hpp"
 
 namespace degs {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/input_file.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 

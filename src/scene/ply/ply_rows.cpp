@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "config/byte_order.hpp"
+#include "base/byte_order.hpp"
 #include "scene/ply/ply_values.hpp"
 
 namespace degs {

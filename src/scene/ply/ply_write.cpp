@@ -6,9 +6,9 @@
 #include <fstream>
 #include <vector>
 
-#include "config/byte_order.hpp"
-#include "scene/input_file.hpp"
-#include "scene/output_file.hpp"
+#include "base/byte_order.hpp"
+#include "scene/files/input_file.hpp"
+#include "scene/files/output_file.hpp"
 
 namespace degs {
 namespace {

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "config/visible_text.hpp"
-#include "scene/input_file.hpp"
-#include "scene/scene_folder.hpp"
+#include "base/visible_text.hpp"
+#include "scene/files/input_file.hpp"
+#include "scene/files/scene_folder.hpp"
 #include "scene/sog/sog_files.hpp"
 #include "scene/sog/sog_meta.hpp"
 #include "scene/sog/webp_image.hpp"

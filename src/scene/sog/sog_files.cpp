@@ -6,10 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "config/visible_text.hpp"
+#include "base/visible_text.hpp"
 #include "scene/archive/zip_archive.hpp"
-#include "scene/input_file.hpp"
-#include "scene/scene_folder.hpp"
+#include "scene/files/input_file.hpp"
+#include "scene/files/scene_folder.hpp"
 
 namespace degs {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/input_file.hpp"
-#include "scene/scene_folder.hpp"
+#include "scene/files/input_file.hpp"
+#include "scene/files/scene_folder.hpp"
 
 namespace degs {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <webp/decode.h>
 
-#include "config/visible_text.hpp"
-#include "scene/input_file.hpp"
+#include "base/visible_text.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 

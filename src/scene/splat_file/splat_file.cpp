@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/byte_order.hpp"
-#include "scene/input_file.hpp"
-#include "splat/spherical_harmonics.hpp"
+#include "base/byte_order.hpp"
+#include "scene/files/input_file.hpp"
+#include "splat/model/spherical_harmonics.hpp"
 
 namespace degs {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "scene/half_float.hpp"
-#include "scene/input_file.hpp"
+#include "scene/files/half_float.hpp"
+#include "scene/files/input_file.hpp"
 #include "scene/spz/spz_header.hpp"
 #include "scene/spz/spz_streams.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "scene/input_file.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {

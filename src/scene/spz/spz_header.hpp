@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/axes.hpp"
+#include "scene/files/axes.hpp"
 
 namespace degs {
 

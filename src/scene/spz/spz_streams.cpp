@@ -7,7 +7,7 @@
 #include <zlib.h>
 #include <zstd.h>
 
-#include "scene/input_file.hpp"
+#include "scene/files/input_file.hpp"
 
 namespace degs {
 namespace {

@@ -10,9 +10,9 @@
 #include <zlib.h>
 #include <zstd.h>
 
-#include "config/grouped_number.hpp"
-#include "scene/input_file.hpp"
-#include "scene/output_file.hpp"
+#include "base/grouped_number.hpp"
+#include "scene/files/input_file.hpp"
+#include "scene/files/output_file.hpp"
 #include "scene/spz/spz_header.hpp"
 
 namespace degs {

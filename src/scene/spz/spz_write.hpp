@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "splat/gaussian.hpp"
+#include "splat/model/gaussian.hpp"
 
 namespace degs {
 

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <set>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
 #include "scene/synthetic/synthetic_build.hpp"
 
 namespace degs {

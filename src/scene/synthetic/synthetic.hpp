@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "splat/camera.hpp"
-#include "splat/gaussian.hpp"
+#include "splat/model/camera.hpp"
+#include "splat/model/gaussian.hpp"
 
 namespace degs {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "scene/cameras/orbit_camera.hpp"
-#include "splat/spherical_harmonics.hpp"
+#include "splat/model/spherical_harmonics.hpp"
 
 namespace degs {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
 #include "scene/cameras/orbit_camera.hpp"
 #include "scene/scene_statistics.hpp"
-#include "splat/angles.hpp"
+#include "splat/model/angles.hpp"
 
 namespace degs {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "splat/frame/fast_exp.hpp"
-#include "splat/pixel_rules.hpp"
+#include "splat/frame/pixel_rules.hpp"
 
 namespace degs {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "splat/frame_workload.hpp"
+#include "splat/frame/frame_workload.hpp"
 
 namespace degs {
 

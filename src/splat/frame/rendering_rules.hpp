@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "splat/projection.hpp"
+#include "splat/frame/projection.hpp"
 
 namespace degs {
 

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <string>
 
-#include "config/error.hpp"
-#include "config/ratio.hpp"
-#include "splat/frame/parallel.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/ratio.hpp"
 
 namespace degs {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
 
 namespace degs {
 namespace {

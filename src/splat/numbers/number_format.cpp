@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
 
 namespace degs {
 namespace {

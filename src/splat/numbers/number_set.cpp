@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/error.hpp"
 #include "config/config_words.hpp"
-#include "config/error.hpp"
 
 namespace degs {
 namespace {

@@ -2,7 +2,7 @@
 // Rounding of float arrays, once per instruction set.
 #include <cstring>
 
-#include "splat/lanes/instruction_set.hpp"
+#include "splat/numbers/instruction_set.hpp"
 #include "splat/numbers/number_format.hpp"
 
 #ifdef DEGS_HAS_WIDE_LANES

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "splat/angles.hpp"
-#include "splat/spherical_harmonics.hpp"
+#include "splat/model/angles.hpp"
+#include "splat/model/spherical_harmonics.hpp"
 
 namespace degs {
 namespace {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "baselines/orange/orange.hpp"
-#include "tests/modules/accelerator_fixture.hpp"
+#include "tests/modules/degs/accelerator_fixture.hpp"
 
 namespace degs::test {
 

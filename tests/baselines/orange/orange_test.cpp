@@ -3,8 +3,8 @@
 #include <random>
 
 #include "tests/baselines/orange/orange_fixture.hpp"
-#include "tests/modules/soft_frame.hpp"
-#include "tests/splat/checked_image.hpp"
+#include "tests/modules/degs/soft_frame.hpp"
+#include "tests/splat/pixels/checked_image.hpp"
 
 namespace degs {
 namespace {

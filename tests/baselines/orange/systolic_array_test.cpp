@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "baselines/orange/systolic_array.hpp"
-#include "splat/gemm/exponent_gemm.hpp"
+#include "splat/pixels/exponent_gemm.hpp"
 
 namespace degs::orange {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "config/error.hpp"
+#include "base/error.hpp"
 #include "scene/cameras/orbit_camera.hpp"
 
 namespace degs {

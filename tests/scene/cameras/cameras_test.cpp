@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/cameras/orbit_camera.hpp"
 
-#include "splat/projection.hpp"
+#include "splat/frame/projection.hpp"
 #include "tests/scene/cameras/camera_builder.hpp"
 
 namespace degs {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/dynamic/dynamic_scene.hpp"
+#include "scene/dynamic_scene.hpp"
 
 #include "scene/ply/ply.hpp"
 #include "scene/scene.hpp"

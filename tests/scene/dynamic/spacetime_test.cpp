@@ -5,9 +5,9 @@
 #include <cstring>
 #include <limits>
 
-#include "scene/dynamic/dynamic_scene.hpp"
 #include "scene/dynamic/spacetime_ply.hpp"
 #include "scene/dynamic/synthetic_dynamic.hpp"
+#include "scene/dynamic_scene.hpp"
 #include "scene/ply/ply.hpp"
 #include "scene/scene.hpp"
 #include "scene/synthetic/synthetic.hpp"

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "accuracy/image_difference.hpp"
 #include "scene/scene.hpp"
-#include "splat/images/image_difference.hpp"
-#include "splat/reference_renderer.hpp"
+#include "splat/reference/reference_renderer.hpp"
 #include "tests/scene/scene_fixture.hpp"
 
 namespace degs {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "scene/scene.hpp"
-#include "splat/spherical_harmonics.hpp"
+#include "splat/model/spherical_harmonics.hpp"
 #include "tests/scene/gltf/glb_builder.hpp"
 
 namespace degs {

@@ -6,7 +6,7 @@
 
 #include "scene/scene.hpp"
 #include "splat/images/image_metrics.hpp"
-#include "splat/reference_renderer.hpp"
+#include "splat/reference/reference_renderer.hpp"
 #include "tests/scene/gltf/glb_builder.hpp"
 
 namespace degs {

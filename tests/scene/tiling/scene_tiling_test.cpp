@@ -2,7 +2,7 @@
 #include "scene/tiling/scene_tiling.hpp"
 
 #include "scene/scene.hpp"
-#include "splat/frame_workload.hpp"
+#include "splat/frame/frame_workload.hpp"
 #include "tests/scene/scene_fixture.hpp"
 
 namespace degs {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs run --fidelity analytic: near the simulation, inside its bounds, and following the design.
-#include "tests/sim/child.hpp"
+#include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
 namespace {

@@ -7,7 +7,7 @@
 #include "scene/ply/ply.hpp"
 #include "scene/synthetic/synthetic.hpp"
 #include "sim/cache/cached_view.hpp"
-#include "tests/sim/child.hpp"
+#include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sim/cache/binary.hpp"
-#include "tests/sim/child.hpp"
+#include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
 namespace {

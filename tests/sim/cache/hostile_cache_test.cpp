@@ -8,7 +8,7 @@
 #include <xxhash.h>
 
 #include "sim/cache/entry_checks.hpp"
-#include "tests/sim/child.hpp"
+#include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
 namespace {

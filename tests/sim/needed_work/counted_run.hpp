@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/process/child_process.hpp"
-#include "sim/simulation.hpp"
+#include "sim/simulation/simulation.hpp"
 #include "splat/numbers/lookup_table.hpp"
 
 namespace degs::sim_test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Empty tiles and culled Gaussians cost the blocks behind them nothing.
-#include "tests/modules/workload_fixture.hpp"
+#include "tests/modules/degs/workload_fixture.hpp"
 #include "tests/sim/needed_work/counted_run.hpp"
 
 namespace degs::sim_test {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "splat/sh_evaluation.hpp"
+#include "splat/model/sh_evaluation.hpp"
 #include "tests/sim/needed_work/counted_run.hpp"
 
 namespace degs::sim_test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Number formats and memories that a run does not use are neither built nor run.
 #include "dram/lpddr5.hpp"
-#include "tests/modules/workload_fixture.hpp"
+#include "tests/modules/degs/workload_fixture.hpp"
 #include "tests/sim/needed_work/counted_run.hpp"
 #include "tests/tlm/memory_fixture.hpp"
 

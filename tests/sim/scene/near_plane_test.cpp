@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The near plane has a key, and says when it removes what the view would show.
-#include "tests/sim/child.hpp"
+#include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
 namespace {

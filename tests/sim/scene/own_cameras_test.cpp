@@ -2,7 +2,7 @@
 // Scenes that are written into one folder keep their own cameras, and a generated view is nobody's.
 #include <algorithm>
 
-#include "tests/sim/child.hpp"
+#include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
 namespace {

@@ -7,10 +7,10 @@
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 
-#include "scene/image_io.hpp"
+#include "scene/files/image_io.hpp"
 #include "sim/plot/raster.hpp"
 #include "sim/trace/tile_maps.hpp"
-#include "tests/sim/child.hpp"
+#include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 
-#include "tests/sim/child.hpp"
+#include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "splat/reference_renderer.hpp"
-#include "tests/splat/brute_force.hpp"
+#include "splat/reference/reference_renderer.hpp"
+#include "tests/splat/frame/brute_force.hpp"
 
 namespace degs {
 namespace {

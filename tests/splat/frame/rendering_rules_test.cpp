@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "splat/data_path_renderer.hpp"
-#include "splat/reference_renderer.hpp"
-#include "tests/splat/brute_force.hpp"
+#include "accuracy/data_path_renderer.hpp"
+#include "splat/reference/reference_renderer.hpp"
+#include "tests/splat/frame/brute_force.hpp"
 
 namespace degs {
 namespace {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "splat/numbers/stored_sh.hpp"
-#include "tests/splat/brute_force.hpp"
+#include "tests/splat/frame/brute_force.hpp"
 
 namespace degs {
 namespace {

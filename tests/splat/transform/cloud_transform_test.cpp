@@ -7,7 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-#include "splat/spherical_harmonics.hpp"
+#include "splat/model/spherical_harmonics.hpp"
 #include "splat/transform/sh_rotation.hpp"
 
 namespace degs {

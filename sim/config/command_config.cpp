@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs config: what a configuration file may say.
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/error.hpp"
+#include "config/config_document.hpp"
+#include "config/config_words.hpp"
+#include "sim/config/config_difference.hpp"
+#include "sim/config/cost_output.hpp"
+#include "sim/config/statistics_list.hpp"
+#include "sim/shell/commands.hpp"
+#include "sim/simulation/run_config.hpp"
+#include "sim/simulation/warnings.hpp"
+#include "sim/text/standard_output.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct ConfigOptions {
+    bool has_config = false; // else the defaults
+    std::string config;
+    std::vector<std::string> overrides;
+    std::string format = "text";
+    std::optional<int> pes;             ///< of the design of a family that is wanted
+    std::vector<std::string> different; ///< two configurations to be compared
+    bool cost = false;
+    bool stats = false;
+    std::string of = "run"; ///< the command whose statistics are listed
+    std::string section;    ///< of the statistics
+};
+
+/// path = value
+///     meaning (integer, 1 to 64)
+std::string text(const std::vector<KeyDoc>& keys) {
+    std::string lines;
+    for (const KeyDoc& key : keys) {
+        if (key.type == "section") {
+            lines += "\n" + key.path + ": " + key.doc + "\n";
+        } else {
+            lines += key.path + " = " + key.default_value + "\n    " + key.doc + " (" + key.type +
+                     ", " + key.allowed + ")\n";
+        }
+    }
+    return lines;
+}
+
+/// A file, or the defaults of an accelerator by name.
+RunConfig config_of(const std::string& name, const std::vector<std::string>& overrides) {
+    std::error_code ignored;
+    if (is_accelerator(name) && !std::filesystem::exists(name, ignored)) {
+        return default_run_config(name, overrides);
+    }
+    return load_run_config(name, overrides);
+}
+
+RunConfig config_of(const ConfigOptions& options) {
+    if (options.pes) {
+        if (!is_accelerator(options.config)) {
+            throw InputError("--pes makes the design of a family, so it takes the name of an "
+                             "accelerator (" +
+                             config_words::list(accelerator_names()) + "), not " +
+                             config_words::quote(options.config) + ".");
+        }
+        return sized_run_config(options.config, *options.pes, options.overrides);
+    }
+    return options.has_config ? config_of(options.config, options.overrides) : RunConfig{};
+}
+
+std::string difference_of(const ConfigOptions& options) {
+    std::vector<std::vector<KeyDoc>> documents;
+    for (const std::string& name : options.different) {
+        const RunConfig config = config_of(name, {});
+        print_warnings(config.warnings);
+        documents.push_back(document(config));
+    }
+    const std::vector<KeyDifference> keys = difference(documents.front(), documents.back());
+    if (options.format == "yaml") {
+        throw InputError(
+            "--diff has the formats text and markdown; 'yaml' is for one configuration.");
+    }
+    return (options.format == "markdown" ? difference_markdown : difference_text)(
+        keys, options.different.front(), options.different.back());
+}
+
+/// A file that says how it was made; with --pes this is what is wanted if no format is named.
+std::string file_text(const RunConfig& config, const ConfigOptions& options) {
+    std::string head;
+    if (options.pes) {
+        head = "# " + config.accelerator().name + ", written by 'degs config " + options.config +
+               " --pes " + std::to_string(*options.pes) +
+               "'. docs/families.md explains the rule of its sizes.\n";
+    }
+    return head + resolved_yaml(config);
+}
+
+std::string statistics(const RunConfig& config, const ConfigOptions& options) {
+    if (options.format == "yaml") {
+        throw InputError(
+            "--stats has the formats text and markdown; 'yaml' is for configurations.");
+    }
+    if (options.of != "run" && options.has_config) {
+        throw InputError("The statistics of 'degs " + options.of +
+                         "' are the same for every configuration; leave out " +
+                         config_words::quote(options.config) + ".");
+    }
+    const std::vector<Statistic> all = options.of == "compare"  ? statistics_of_compare()
+                                       : options.of == "memory" ? statistics_of_memory()
+                                                                : statistics_of(config);
+    const std::vector<Statistic> list = statistics_in(all, options.section);
+    return options.format == "markdown" ? statistics_markdown(list, options.section)
+                                        : statistics_text(list);
+}
+
+std::string costs(const RunConfig& config, const ConfigOptions& options) {
+    if (options.format == "yaml") {
+        throw InputError(
+            "--cost has the formats text, markdown and json; 'yaml' is for configurations.");
+    }
+    const AcceleratorConfig& accelerator = config.accelerator();
+    const cost::BillOfMaterials bill = accelerator.bill();
+    return options.format == "json"       ? cost_json(accelerator.name, bill)
+           : options.format == "markdown" ? cost_markdown(bill)
+                                          : cost_text(bill);
+}
+
+void run(const ConfigOptions& options) {
+    if (!options.different.empty()) {
+        print(difference_of(options));
+        return;
+    }
+    const RunConfig config = config_of(options);
+    print_warnings(config.warnings);
+    if (options.format == "json" && !options.cost) {
+        throw InputError("The format json is for --cost; --format yaml prints a configuration.");
+    }
+    if (options.cost) {
+        print(costs(config, options));
+    } else if (options.stats) {
+        print(statistics(config, options));
+    } else if (options.format == "markdown") {
+        print(markdown_table(document(config)));
+    } else if (options.format == "yaml") {
+        print(file_text(config, options));
+    } else {
+        print(text(document(config)));
+    }
+}
+
+} // namespace
+
+void add_config_command(CLI::App& program) {
+    auto options = std::make_shared<ConfigOptions>();
+    CLI::App* command = program.add_subcommand(
+        "config", "explain every configuration key with its default, or with a file's value; with "
+                  "--cost, what a design takes; with --stats, what a run reports");
+    CLI::Option* file =
+        command
+            ->add_option("config", options->config,
+                         "configuration file (YAML), or the name of an accelerator for its "
+                         "defaults; without it, those of degs")
+            ->type_name("FILE");
+    command->add_option("--set", options->overrides, "path.to.key=value; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->take_all()
+        ->expected(1)
+        ->needs(file);
+    CLI::Option* pes =
+        command
+            ->add_option("--pes", options->pes,
+                         "writes the complete design with this number of PEs of the family of an "
+                         "accelerator, which is named instead of a file")
+            ->type_name("INT")
+            ->needs(file);
+    CLI::Option* diff =
+        command
+            ->add_option("--diff", options->different,
+                         "the keys in which two configurations differ; files, or names of "
+                         "accelerators for their defaults")
+            ->type_name("FILE FILE")
+            ->expected(2)
+            ->excludes(file)
+            ->excludes(pes);
+    CLI::Option* format =
+        command
+            ->add_option("--format", options->format,
+                         "text, markdown, yaml: a complete file that can be run, or json for "
+                         "--cost")
+            ->check(CLI::IsMember({"text", "markdown", "yaml", "json"}))
+            ->capture_default_str();
+    CLI::Option* cost = command->add_flag(
+        "--cost", options->cost, "area and power of every block of the design, without a run");
+    CLI::Option* stats =
+        command->add_flag("--stats", options->stats,
+                          "the statistics that a run on this accelerator reports, with units and "
+                          "meanings");
+    stats->excludes(cost);
+    command->add_option("--of", options->of, "the command whose statistics are listed")
+        ->check(CLI::IsMember({"run", "compare", "memory"}))
+        ->capture_default_str()
+        ->needs(stats);
+    command
+        ->add_option("--section", options->section,
+                     "a part of the statistics: stages, stages.span or timing.cycles")
+        ->type_name("PATH")
+        ->needs(stats);
+    diff->excludes(stats)->excludes(cost);
+    pes->excludes(stats);
+    command->callback([options, file, pes, format] {
+        options->has_config = file->count() != 0; // "" is a name, too
+        if (pes->count() != 0 && format->count() == 0 && !options->cost) {
+            options->format = "yaml";
+        }
+        run(*options);
+    });
+}
+
+} // namespace degs::sim

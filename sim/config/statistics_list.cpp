@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/config/statistics_list.hpp"
+
+#include "sim/memory/memory_report.hpp"
+#include "sim/report/measures.hpp"
+#include "sim/report/report.hpp"
+
+namespace degs::sim {
+namespace {
+
+std::vector<Statistic> report_statistics(const RunConfig& config) {
+    Progress::silence();
+    const AcceleratorConfig& accelerator = config.accelerator();
+    Camera camera;
+    camera.width = camera.height = accelerator.tile_size_px();
+    camera.fx = camera.fy = camera.width;
+    double seconds = 0;
+    const std::vector<FrameWorkload> frames =
+        make_workloads(GaussianCloud{}, SceneTraits{}, {camera}, accelerator, seconds);
+    RunRequest request;
+    request.config = config;
+    const RunResult result = run_frames(request, {&frames.front()});
+    return document_statistics([&result](StatsVisitor& visitor) { describe(result, visitor); });
+}
+
+} // namespace
+
+std::vector<Statistic> statistics_of(const RunConfig& config) {
+    return shared_once(report_statistics(config));
+}
+
+std::vector<Statistic> statistics_of_compare() {
+    return measure_statistics(report_statistics(RunConfig{}));
+}
+
+std::vector<Statistic> statistics_of_memory() {
+    const MemoryFacts facts;
+    return shared_once(
+        document_statistics([&facts](StatsVisitor& visitor) { describe(facts, visitor); }));
+}
+
+} // namespace degs::sim

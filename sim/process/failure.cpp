@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/process/failure.hpp"
+
+#include <new>
+
+#include <systemc>
+
+#include "base/error.hpp"
+
+namespace degs::sim {
+
+Failure failure_of(const std::exception_ptr& error) {
+    try {
+        std::rethrow_exception(error);
+    } catch (const FailureError& failed) {
+        return failed.failure();
+    } catch (const InputError& mistake) {
+        return {kUserError, mistake.what()};
+    } catch (const std::bad_alloc&) {
+        return {kInternalError, "There is not enough memory for a scene or an image of this size."};
+    } catch (const sc_core::sc_report& report) {
+        return {kInternalError, std::string("The simulation kernel failed: ") +
+                                    report.get_msg_type() + ": " + report.get_msg() + "."};
+    } catch (const std::exception& broken) {
+        return {kInternalError, std::string("Internal error: ") + broken.what() + "."};
+    } catch (...) {
+        return {kInternalError, "Internal error of unknown kind."};
+    }
+}
+
+} // namespace degs::sim

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the PE-cycles of a run went that blended nothing, and the keys that move them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/simulation/simulation.hpp"
+
+namespace degs::sim {
+
+struct Loss {
+    std::string reason;
+    double share = 0; ///< of PEs x cycles of the run
+    std::vector<std::string>
+        keys; ///< "raise span.count"; only keys that can move it in this design
+};
+
+/// All of them, the largest first; with `useful / (PEs x cycles)` they add up to 1. Empty without
+/// any cycles.
+std::vector<Loss> losses_of(const RunResult& result);
+/// The three largest as one line.
+std::string losses_line(const RunResult& result);
+
+} // namespace degs::sim

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "scene/scene_statistics.hpp"
+#include "sim/report/terminal.hpp"
+
+namespace degs::sim {
+
+/// Describes a scene and its cameras.
+std::string scene_info(const Scene& scene);
+/// Describes the work of a view.
+std::string view_info(const ViewStatistics& v, const Camera& camera);
+
+} // namespace degs::sim

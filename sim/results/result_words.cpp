@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/results/result_words.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+
+using nlohmann::ordered_json;
+
+ordered_json number_json(const std::optional<double>& value) {
+    if (value && std::isinf(*value)) {
+        return "inf";
+    }
+    if (value && *value == std::floor(*value) && std::abs(*value) < 9e15) {
+        return static_cast<std::int64_t>(*value);
+    }
+    return value_or_null(value);
+}
+
+void put_measure(ordered_json& run, Measure measure, const std::optional<double>& value) {
+    std::string place = "/" + name_of(measure);
+    std::replace(place.begin(), place.end(), '.', '/');
+    run[ordered_json::json_pointer(place)] = number_json(value);
+}
+
+ordered_json view_json(const ComparedView& view) {
+    ordered_json json = {{"scene", view.scene},
+                         {"source", view.source},
+                         {"camera", view.camera},
+                         {"img_name", view.camera_name},
+                         {"width", view.width},
+                         {"height", view.height},
+                         {"gaussians", view.gaussians},
+                         {"visible", view.visible},
+                         {"fragments", value_or_null(view.fragments)}};
+    if (view.p99_tile_candidates) { // of several frames
+        json["changes"] = {{"active_overlap", value_or_null(view.active_overlap)},
+                           {"tile_churn", value_or_null(view.tile_churn)},
+                           {"p99_tile_candidates", *view.p99_tile_candidates},
+                           {"footprint_gini", value_or_null(view.footprint_gini)}};
+    }
+    return json;
+}
+
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) {
+        return text;
+    }
+    std::string cell = "\"";
+    for (char c : text) {
+        cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+    }
+    return cell + "\"";
+}
+
+std::string csv_number(const std::optional<double>& value) {
+    const ordered_json json = number_json(value);
+    return json.is_null()     ? ""
+           : json.is_string() ? json.get<std::string>()
+                              : as_typed(*value); // 2.178, not 2.1780000000000004
+}
+
+void put_sampling(nlohmann::ordered_json& run, const ComparisonRow& row) {
+    if (row.sampled_share) {
+        run["sampling"] = {{"share", number_json(row.sampled_share)},
+                           {"cycles", {number_json(row.cycles_low), number_json(row.cycles_high)}}};
+    }
+}
+
+bool any_sampled(const std::vector<ComparisonRow>& rows) {
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const ComparisonRow& row) { return row.sampled_share.has_value(); });
+}
+
+std::string sampling_headings() {
+    return ",sampling.share,sampling.cycles_low,sampling.cycles_high";
+}
+
+std::string sampling_cells(const ComparisonRow& row) {
+    return "," + csv_number(row.sampled_share) + "," + csv_number(row.cycles_low) + "," +
+           csv_number(row.cycles_high);
+}
+
+} // namespace degs::sim

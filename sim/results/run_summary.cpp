@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/results/run_summary.hpp"
+
+#include "base/ratio.hpp"
+#include "sim/results/message_fields.hpp"
+
+namespace degs::sim {
+namespace {
+
+std::string heading() {
+    return "degs-run-summary " + std::to_string(kSummaryVersion);
+}
+
+/// The fields of a message, in its order: writing and reading use this one list.
+template <class Fields, class Summary>
+void each_field(Fields& fields, Summary& summary) {
+    fields("accelerator", summary.accelerator);
+    fields("pes", summary.pes);
+    fields("tile_size", summary.tile_size);
+    fields("view.scene", summary.view.scene);
+    fields("view.source", summary.view.source);
+    fields("view.camera_name", summary.view.camera_name);
+    fields("view.camera", summary.view.camera);
+    fields("view.width", summary.view.width);
+    fields("view.height", summary.view.height);
+    fields("view.gaussians", summary.view.gaussians);
+    fields("view.visible", summary.view.visible);
+    fields("view.fragments", summary.view.fragments);
+    fields("view.active_overlap", summary.view.active_overlap);
+    fields("view.tile_churn", summary.view.tile_churn);
+    fields("view.p99_tile_candidates", summary.view.p99_tile_candidates);
+    fields("view.footprint_gini", summary.view.footprint_gini);
+    for_each_measure([&](Measure m) { fields("measure." + name_of(m), summary.measures[m]); });
+    fields("first_task_ms", summary.first_task_ms);
+    fields("last_task_ms", summary.last_task_ms);
+    fields("sampled_share", summary.sampled_share);
+    fields("cycles_low", summary.cycles_low);
+    fields("cycles_high", summary.cycles_high);
+    fields("limited_by", summary.limited_by);
+    fields("stages", summary.stages);
+    fields("warnings", summary.warnings);
+    fields("report", summary.report);
+}
+
+} // namespace
+
+RunSummary summary_of(const RunResult& result, int camera) {
+    RunSummary summary;
+    summary.accelerator = result.config.kind();
+    summary.pes = result.accelerator.pes;
+    summary.tile_size = result.workload.tile_size;
+    summary.view = {result.scene.name,
+                    result.scene.source,
+                    result.camera.name,
+                    camera,
+                    result.camera.width,
+                    result.camera.height,
+                    result.workload.gaussians,
+                    result.workload.visible,
+                    std::nullopt};
+    if (result.workload.reference) {
+        summary.view.fragments = result.workload.reference->fragments;
+    }
+    summary.measures = measures_of(result);
+    const AcceleratorResult& run = result.accelerator;
+    if (!run.window.empty()) {
+        summary.first_task_ms = rate_of(run.window.first, run.clock_ghz) * 1e-6;
+        summary.last_task_ms = rate_of(run.window.last + 1, run.clock_ghz) * 1e-6;
+    }
+    if (result.sampling) {
+        summary.sampled_share = ratio_of(result.sampling->measured, result.sampling->tiles);
+        for (const ReportInterval& interval : result.sampling->intervals) {
+            if (interval.path == "timing.cycles") {
+                summary.cycles_low = interval.low;
+                summary.cycles_high = interval.high;
+            }
+        }
+    }
+    summary.limited_by = limiting_stage(run);
+    for (const StageUse& stage : run.stages) {
+        summary.stages.emplace_back(stage.name, stage.busy);
+    }
+    summary.warnings = result.warnings;
+    return summary;
+}
+
+std::string message_of(const RunSummary& summary) {
+    MessageWriter writer(heading());
+    each_field(writer, summary);
+    return std::move(writer.message);
+}
+
+RunSummary summary_from(const std::string& message) {
+    MessageReader reader(heading(), message);
+    RunSummary summary;
+    each_field(reader, summary);
+    reader.expect_nothing_left();
+    return summary;
+}
+
+} // namespace degs::sim

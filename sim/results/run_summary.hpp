@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The results of a run that a comparison needs, and the message in which they come back from the
+// process that ran it.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/report/measures.hpp"
+
+namespace degs::sim {
+
+struct ComparedView {
+    std::string scene, source, camera_name;
+    int camera = 0; ///< position in the scene's list
+    int width = 0, height = 0;
+    std::size_t gaussians = 0, visible = 0;
+    std::optional<std::size_t> fragments; ///< of the reference
+    /// The next four of all frames, if there are several; see FrameChanges.
+    std::optional<double> active_overlap{}, tile_churn{}, p99_tile_candidates{}, footprint_gini{};
+    bool dynamic = false; ///< frames of a scene that changes; not part of the message
+};
+
+/// One configuration on one view.
+struct RunSummary {
+    std::string accelerator;
+    int pes = 0, tile_size = 0;
+    ComparedView view;
+    Measures measures;
+    std::optional<double> first_task_ms;                ///< from the start of the run
+    std::optional<double> last_task_ms;                 ///< its end, likewise
+    std::optional<double> sampled_share;                ///< of the tiles; empty: all of them
+    std::optional<double> cycles_low, cycles_high;      ///< 95 % interval, of a sample
+    std::string limited_by;                             ///< the busiest stage, or memory
+    std::vector<std::pair<std::string, double>> stages; ///< with the share of the run they worked
+    std::vector<std::string> warnings;                  ///< sentences; see warnings.hpp
+    std::string report; ///< report.json of the run; empty if nobody wants it
+};
+
+/// Without the report. `camera` is the view's position in the scene's list.
+RunSummary summary_of(const RunResult& result, int camera);
+
+/// Raised whenever a field of the message changes.
+constexpr int kSummaryVersion = 8;
+
+/// The summary as bytes for another process of this program.
+std::string message_of(const RunSummary& summary);
+/// Throws std::runtime_error, which names the field, if the message is of another version, if it is
+/// cut off, and if a field is missing, unknown or not of its type.
+RunSummary summary_from(const std::string& message);
+
+} // namespace degs::sim

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs render: the reference image in double precision, no accelerator.
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/files/image_io.hpp"
+#include "sim/process/stopwatch.hpp"
+#include "sim/report/report.hpp"
+#include "sim/report/terminal.hpp"
+#include "sim/shell/commands.hpp"
+#include "sim/shell/output_folder.hpp"
+#include "sim/shell/view_options.hpp"
+#include "sim/simulation/warnings.hpp"
+#include "sim/text/standard_output.hpp"
+#include "sim/text/words.hpp"
+#include "sim/trace/tile_maps.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct RenderOptions {
+    ViewRequest view;
+    std::string tiles = "exact";
+    RenderingRules rules;
+    int tile_size = 16;
+    std::string out = "out";
+};
+
+struct RenderResult {
+    SceneFacts scene;
+    Camera camera;
+    WorkloadFacts workload;
+    Image image;
+    double load_s = 0, workload_s = 0, render_s = 0;
+};
+
+RenderResult render(const RenderOptions& options, const View& view) {
+    RenderResult result;
+    result.scene = facts_of(view.scene);
+    result.camera = view.camera;
+    result.load_s = view.load_s;
+    const Progress progress("reference image");
+    const Stopwatch project;
+    const FrameWorkload workload =
+        make_frame_workload(view.scene.cloud, view.camera, options.tile_size,
+                            options.tiles == "reference" ? TileMode::Reference : TileMode::Exact,
+                            options.rules.options(view.scene.traits.antialiased));
+    result.workload_s = project.seconds();
+    result.workload = facts_of(workload);
+    const Stopwatch draw;
+    ReferenceCounts counts;
+    result.image = render_reference(workload, counts);
+    result.render_s = draw.seconds();
+    result.workload.reference = counts;
+    return result;
+}
+
+nlohmann::ordered_json render_json(const RenderResult& result, double wall_s) {
+    nlohmann::ordered_json json;
+    json["schema"] = {{"name", "degs-render"}, {"version", kReportVersion}};
+    json["tool"] = tool_json();
+    json["scene"] = scene_json(result.scene);
+    json["camera"] = camera_json(result.camera);
+    json["workload"] = workload_json(result.workload, result.scene);
+    json["host"] = {{"load_s", result.load_s},
+                    {"workload_s", result.workload_s},
+                    {"render_s", result.render_s},
+                    {"wall_s", wall_s},
+                    {"peak_rss_bytes", peak_rss_bytes()}};
+    return json;
+}
+
+void add_rule_options(CLI::App& command, RenderingRules& rules) {
+    command // before the other rules, which change single ones
+        .add_option_function<std::string>(
+            "--rules",
+            [&rules](const std::string& name) {
+                rules = RenderingRules(name == "khr" ? RuleSet::Khr : RuleSet::Inria);
+            },
+            "where the rules below start: the reference code, or KHR_gaussian_splatting, i.e. "
+            "order distance and cut 9")
+        ->check(CLI::IsMember(rule_set_names()))
+        ->default_str("inria");
+    command
+        .add_option_function<std::string>(
+            "--order",
+            [&rules](const std::string& name) {
+                rules.order = name == name_of(SplatOrder::Distance) ? SplatOrder::Distance
+                                                                    : SplatOrder::Depth;
+            },
+            "depth: splats are blended by view z; distance: by that to the camera")
+        ->check(CLI::IsMember(splat_order_names()))
+        ->default_str(name_of(rules.order));
+    command
+        .add_option_function<std::string>(
+            "--antialiasing",
+            [&rules](const std::string& name) {
+                rules.antialiasing = name == "on"    ? Antialiasing::On
+                                     : name == "off" ? Antialiasing::Off
+                                                     : Antialiasing::Scene;
+            },
+            "whether opacities make up for the low-pass filter; scene: as its file says")
+        ->check(CLI::IsMember(antialiasing_names()))
+        ->default_str("scene");
+    command.add_option("--low-pass", rules.low_pass, "px^2 added to both variances of a splat")
+        ->check(CLI::Range(0.0, 10.0))
+        ->capture_default_str();
+    command
+        .add_option("--cut", rules.cut,
+                    "squared Mahalanobis distance at which splats end; 12: where alpha is 1/255")
+        ->check(CLI::Range(0.0, kNoCut))
+        ->capture_default_str();
+    add_near_option(command, rules.near);
+}
+
+void run(const RenderOptions& options) {
+    const Stopwatch wall;
+    const View view = load_view(options.view);
+    const OutputFolder out(options.out, image_result_files("render.json"));
+    const RenderResult result = render(options, view);
+    out.replace(
+        [&] {
+            write_exr(result.image, out.path("image.exr"));
+            write_png(result.image, out.path("image.png"));
+            out.write_json("render.json", render_json(result, wall.seconds()));
+        },
+        old_tile_maps(out, {}));
+    const std::uint64_t fragments = result.workload.reference->fragments;
+    print_warnings(result.scene.notes);
+    print_warnings(near_plane_warnings(result.workload.culled, result.workload.projection,
+                                       result.workload.gaussians));
+    print(layout({{"scene", scene_words(result.scene) + " · " + grouped(result.workload.visible) +
+                                " visible"},
+                  {"frame", size_words(result.camera) + " · " + scaled(fragments) +
+                                " fragments · " + out.path("image.exr")},
+                  {"host", "rendering " + three_digits(result.render_s) + " s · " +
+                               three_digits(wall.seconds()) + " s in all"}}));
+}
+
+} // namespace
+
+void add_render_command(CLI::App& program) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command =
+        program.add_subcommand("render", "render the reference image in double precision");
+    add_view_options(*command, options->view);
+    command
+        ->add_option(
+            "--tiles", options->tiles,
+            "exact: tiles that the ellipse touches; reference: those of the 3-sigma square")
+        ->check(CLI::IsMember({"exact", "reference"}))
+        ->capture_default_str();
+    add_rule_options(*command, options->rules);
+    command->add_option("--tile-size", options->tile_size, "pixels")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    add_out_option(*command, options->out, "folder for image.exr, image.png and render.json");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace degs::sim

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs run: one frame, or a camera path, on one accelerator.
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "scene/files/image_io.hpp"
+#include "sim/analytic/analytic_run.hpp"
+#include "sim/cache/cached_view.hpp"
+#include "sim/process/stopwatch.hpp"
+#include "sim/report/report.hpp"
+#include "sim/report/terminal.hpp"
+#include "sim/shell/commands.hpp"
+#include "sim/shell/output_folder.hpp"
+#include "sim/shell/view_options.hpp"
+#include "sim/simulation/warnings.hpp"
+#include "sim/text/standard_output.hpp"
+#include "sim/trace/tile_maps.hpp"
+#include "sim/trace/trace_file.hpp"
+#include "sim/trace/trace_options.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct RunOptions {
+    std::string config, memory;
+    std::vector<std::string> overrides;
+    ViewRequest view;
+    PathRequest path;
+    std::string fidelity = "exact";
+    std::optional<std::string> within;
+    std::uint64_t seed = 1;
+    std::string out = "out";
+    bool no_reference = false;
+    bool no_cache = false;
+    bool array_only = false;
+    bool explain = false;
+    TraceRequest trace;
+    std::string maps; ///< folder; empty: none
+};
+
+/// What needs every tile cannot come from a sample.
+std::optional<SamplingRequest> wanted_sampling(const RunOptions& options) {
+    std::optional<SamplingRequest> sampling =
+        sampling_of(options.fidelity, options.within, options.seed);
+    if (!sampling) {
+        return {};
+    }
+    const auto refuse = [](const std::string& option) {
+        throw InputError(option + " needs every tile, so it cannot be combined with --within or "
+                                  "--fidelity sampled.");
+    };
+    if (!options.trace.file.empty()) {
+        refuse("--trace");
+    }
+    if (!options.maps.empty()) {
+        refuse("--maps");
+    }
+    if (options.path.frames > 1) {
+        refuse("--frames");
+    }
+    return sampling;
+}
+
+const std::string kAnalytic = "analytic";
+
+/// An estimate has neither an image nor dates.
+void refuse_beside_analytic(const RunOptions& options) {
+    const std::pair<bool, const char*> asked[] = {
+        {options.within.has_value(), "--within"}, {!options.trace.file.empty(), "--trace"},
+        {!options.maps.empty(), "--maps"},        {options.path.frames > 1, "--frames"},
+        {options.array_only, "--array-only"},     {options.explain, "--explain"}};
+    for (const auto& [given, option] : asked) {
+        if (given) {
+            throw InputError(std::string(option) +
+                             " needs a simulation, so it cannot be combined with --fidelity "
+                             "analytic.");
+        }
+    }
+}
+
+void estimate(const RunOptions& options) {
+    refuse_beside_analytic(options);
+    const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
+    CachedView view(options.view, options.path,
+                    options.no_cache ? FrameCache() : FrameCache::of_user());
+    const OutputFolder out(options.out, {"analytic.json"});
+    const AnalyticRun run = run_analytic(config, view);
+    out.write_json("analytic.json", analytic_json(run));
+    print_warnings(run.warnings);
+    print(analytic_text(run));
+}
+
+/// Makes or finds the frames, runs them and compares with the reference.
+RunResult simulate(const RunRequest& request, CachedView& view, const Stopwatch& since_start) {
+    const Stopwatch wall;
+    const std::vector<FrameWorkload> workloads = view.frames(request.config.accelerator());
+    std::optional<Reference>
+        reference; // now if it needs Gaussians that are there, else after the run
+    const bool from_scene = request.reference && view.has_cloud() &&
+                            !workloads.front().projection.numbers.is_reference();
+    if (from_scene && !request.sampling) {
+        reference = view.reference(workloads.front());
+    }
+    view.forget_cloud(); // everything that follows needs the splats only
+    std::vector<const FrameWorkload*> frames;
+    frames.reserve(workloads.size());
+    for (const FrameWorkload& workload : workloads) {
+        frames.push_back(&workload);
+    }
+    RunResult result = run_frames(request, frames);
+    put_scene(view.facts(), result);
+    if (request.reference && !result.sampling) { // most of a sample's image is missing
+        reference = reference ? std::move(reference) : view.reference(workloads.front());
+        judge(result, *reference);
+    }
+    result.host.load_s = view.load_s();
+    result.host.start_s = since_start.seconds_to(result.accelerator.sim_start);
+    result.host.workload_s = view.workload_s();
+    result.host.wall_s = view.load_s() + wall.seconds();
+    result.host.peak_rss_bytes = peak_rss_bytes();
+    view.keep(workloads, reference ? &*reference : nullptr);
+    return result;
+}
+
+void write_results(const RunOptions& options, const RunRequest& request, const RunResult& result,
+                   const OutputFolder& out, const std::optional<OutputFolder>& maps) {
+    const AcceleratorResult& run = result.accelerator;
+    write_exr(run.images.front(), out.path("image.exr"));
+    write_png(run.images.front(), out.path("image.png"));
+    out.write_json("report.json", report(result));
+    if (request.recording.timeline) {
+        write_trace({run.name, run.clock_ghz, run.timeline, spans_of(run)}, options.trace.file);
+    }
+    if (maps) {
+        write_tile_maps(result, *maps);
+    }
+}
+
+void run(const RunOptions& options) {
+    const Stopwatch since_start;
+    if (options.fidelity == kAnalytic) {
+        return estimate(options);
+    }
+    const std::optional<SamplingRequest> sampling = wanted_sampling(options);
+    const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
+    PathRequest path = options.path;
+    path.near_plane = config.accelerator().data_path().rules.near;
+    CachedView view(options.view, path, options.no_cache ? FrameCache() : FrameCache::of_user());
+    const OutputFolder out(options.out, image_result_files("report.json"));
+    const Fidelity fidelity = options.fidelity == "strict" ? Fidelity::Strict : Fidelity::Exact;
+    RunRequest request;
+    request.config = config;
+    request.fidelity = fidelity;
+    request.build.array_only = options.array_only;
+    request.reference = !options.no_reference;
+    request.sampling = sampling;
+    std::optional<OutputFolder> maps;
+    if (!options.maps.empty()) {
+        maps.emplace(options.maps, tile_map_files());
+        request.recording.tiles = true;
+    }
+    request.recording.timeline = timeline_of(options.trace);
+    const RunResult result = simulate(request, view, since_start);
+    out.replace([&] { write_results(options, request, result, out, maps); },
+                old_tile_maps(out, maps));
+    print_warnings(result.warnings);
+    print(summary(result, out.path("image.exr")) + (options.explain ? explanation(result) : ""));
+}
+
+} // namespace
+
+void add_run_command(CLI::App& program) {
+    auto options = std::make_shared<RunOptions>();
+    CLI::App* command =
+        program.add_subcommand("run", "simulate a frame or a camera path on an accelerator");
+    add_config_option(*command, options->config)->required();
+    add_view_options(*command, options->view);
+    add_path_options(*command, options->path);
+    command
+        ->add_option("--fidelity", options->fidelity,
+                     "exact; strict: synchronise every cycle, the results are the same; "
+                     "sampled:10%: estimate them from that share of the tiles; analytic: estimate "
+                     "the time in milliseconds, without a simulation and without an image")
+        ->type_name("TEXT:{exact,strict,analytic}") // what can be completed
+        ->capture_default_str();
+    add_sampling_options(*command, options->within, options->seed);
+    add_out_option(*command, options->out, "folder for image.exr, image.png and report.json");
+    command
+        ->add_option("--memory", options->memory,
+                     "file of an LPDDR5 memory, as in configs/memory; it overrides the "
+                     "configuration's memory section")
+        ->type_name("FILE");
+    add_overrides_option(*command, options->overrides);
+    command->add_flag("--no-reference", options->no_reference,
+                      "do not render the double-precision image to compare with");
+    command->add_flag("--no-cache", options->no_cache,
+                      "neither read nor keep frames and reference images of earlier runs");
+    command->add_flag(
+        "--array-only", options->array_only,
+        "the rasterisation array alone: sorted lists are there at once, and memory is "
+        "unlimited");
+    add_trace_options(*command, options->trace);
+    command
+        ->add_option("--maps", options->maps,
+                     "folder for maps of the tiles: list length, fragments, cycles, and PE-cycles "
+                     "by slot class, as pictures, over the image, and as layers of tiles.exr")
+        ->type_name("FOLDER");
+    command->add_flag("--explain", options->explain, "print what the model left out, and why");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace degs::sim

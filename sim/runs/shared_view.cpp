@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/runs/shared_view.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "sim/process/stopwatch.hpp"
+#include "sim/report/report.hpp"
+#include "sim/results/run_summary.hpp"
+#include "sim/shell/output_folder.hpp"
+#include "sim/text/progress.hpp"
+
+namespace degs::sim {
+
+RuleKind rule_kind(const ProjectionOptions& options) {
+    return {options.order, options.compensated, options.dilation, options.cut, options.near_plane};
+}
+
+void SharedView::render_reference(TileMode mode) {
+    const FrameWorkload& frame = frames.front();
+    const decltype(reference_kind) kind{mode == TileMode::Exact ? 0 : frame.tile_size, mode,
+                                        rule_kind(frame.projection)};
+    if (!reference || reference_kind != kind) {
+        reference = make_reference(*cloud, frame, workload_s);
+        reference_kind = kind;
+    }
+}
+
+std::string SharedView::run(const RunRequest& request, bool path) const {
+    const Stopwatch wall;
+    Progress::silence();
+    std::vector<const FrameWorkload*> wanted;
+    for (const FrameWorkload& frame : frames) {
+        if (path || wanted.empty()) {
+            wanted.push_back(&frame);
+        }
+    }
+    RunResult result = run_frames(request, wanted);
+    put_scene(scene, result);
+    if (request.reference && !path) {
+        judge(result, *reference);
+    }
+    result.host.load_s = load_s;
+    result.host.workload_s = workload_s;
+    result.host.wall_s = wall.seconds();
+    RunSummary summary = summary_of(result, camera);
+    if (frames.size() > 1) {
+        std::vector<const FrameWorkload*> all;
+        for (const FrameWorkload& frame : frames) {
+            all.push_back(&frame);
+        }
+        const FrameChanges changes = frame_changes(all);
+        summary.view.active_overlap = changes.active_overlap;
+        summary.view.tile_churn = changes.tile_churn;
+        summary.view.p99_tile_candidates = changes.p99_tile_candidates;
+        summary.view.footprint_gini = changes.footprint_gini;
+    }
+    summary.report = json_text(report(result));
+    return message_of(summary);
+}
+
+} // namespace degs::sim

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "sim/simulation/simulation.hpp"
+
+namespace degs::sim {
+
+/// The rules that a projection and its reference are drawn by.
+using RuleKind = std::tuple<SplatOrder, bool, double, double, double>;
+RuleKind rule_kind(const ProjectionOptions& options);
+
+/// One view while it is compared: what its runs have in common, made once.
+struct SharedView {
+    int camera = 0;
+    SceneFacts scene;
+    const GaussianCloud* cloud = nullptr;
+    std::unique_ptr<DynamicScene> dynamic; ///< if the scene changes and several frames are wanted
+    std::vector<Camera> cameras;           ///< of the path, the view's own first
+    double load_s = 0, workload_s = 0;
+    std::vector<FrameWorkload> frames;  ///< of the present group
+    std::optional<Reference> reference; ///< of `reference_kind`
+    /// What the image depends on beside the view: side and mode of tiles, and the rules.
+    std::tuple<int, TileMode, RuleKind> reference_kind;
+
+    /// With exact tiles the image does not depend on their size.
+    void render_reference(TileMode mode);
+
+    /// In the child: the summary, as a message, of a run of the whole path, or of its first frame
+    /// alone, which is compared with the reference.
+    std::string run(const RunRequest& request, bool path) const;
+};
+
+} // namespace degs::sim

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/runs/view_runs.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <tuple>
+
+#include "scene/cameras/camera_path.hpp"
+#include "sim/runs/shared_view.hpp"
+
+namespace degs::sim {
+namespace {
+
+/// Frames depend on these: the rules, the formats of the projection (empty for those of the reference, whose frames
+/// the reference's and come first), the side of a tile and the tile mode.
+using FrameKind = std::tuple<RuleKind, std::string, int, TileMode>;
+
+/// Configurations that want the same frames.
+std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedConfig>& all,
+                                                        const std::vector<std::size_t>& configs,
+                                                        const SceneTraits& traits) {
+    std::map<FrameKind, std::vector<std::size_t>> groups;
+    for (std::size_t c : configs) {
+        const AcceleratorConfig& config = all[c].config.accelerator();
+        const ProjectionOptions rules = projection_of(config.data_path(), traits.antialiased);
+        groups[{rule_kind(rules), rules.numbers.is_reference() ? "" : rules.numbers.name(),
+                config.tile_size_px(), config.tile_mode()}]
+            .push_back(c);
+    }
+    return groups;
+}
+
+/// All designs see the same path, which turns about what the one with the nearest plane sees.
+double nearest_plane(const std::vector<NamedConfig>& configs) {
+    double nearest = kFarthestNearPlane;
+    for (const NamedConfig& named : configs) {
+        nearest = std::min(nearest, named.config.accelerator().data_path().rules.near);
+    }
+    return nearest;
+}
+
+} // namespace
+
+std::string file_name(const std::string& text) {
+    constexpr std::size_t kLongest = 80; // systems hold 255 bytes, and files get endings
+    std::string name = text.substr(0, kLongest);
+    std::replace_if(
+        name.begin(), name.end(),
+        [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_' && c != '.'; },
+        '_');
+    return name;
+}
+
+ViewRuns::ViewRuns(const CompareRequest& request, ViewRunsHooks hooks)
+    : request_(request), hooks_(std::move(hooks)),
+      pool_(request.jobs,
+            {[this](std::size_t run, ChildOutcome&& outcome) {
+                 hooks_.ended(started_[run], std::move(outcome));
+             },
+             [this](std::size_t, const std::vector<std::size_t>& running) { show(running); }}) {}
+
+ViewRuns::~ViewRuns() = default;
+
+std::size_t ViewRuns::per_view() const {
+    return request_.configs.size() * (request_.path.frames > 1 ? 2 : 1);
+}
+
+Scene ViewRuns::load(const std::string& spec, double& seconds) const {
+    const Progress progress("loading " + spec);
+    const Stopwatch clock;
+    Scene scene = load_scene(spec, request_.camera_file);
+    seconds = clock.seconds();
+    return scene;
+}
+
+bool ViewRuns::run_scene(std::size_t scene, const std::optional<std::vector<int>>& cameras) {
+    if (interrupted_ || !pool_.make_room()) {
+        interrupted_ = true;
+        return false;
+    }
+    ViewRun place;
+    place.scene = scene;
+    Scene loaded;
+    double load_s = 0;
+    try {
+        loaded = load(request_.scenes[scene], load_s);
+    } catch (...) {
+        hooks_.scene_failed(scene, failure_of(std::current_exception()),
+                            cameras ? cameras->size() * request_.sizes.size() * per_view() : 0);
+        return true;
+    }
+    std::vector<int> all = cameras.value_or(std::vector<int>{});
+    for (int c = 0; !cameras && c < static_cast<int>(loaded.cameras.size()); ++c) {
+        all.push_back(c);
+    }
+    if (!cameras && hooks_.cameras_found) {
+        hooks_.cameras_found(all.size());
+    }
+    for (int camera : all) {
+        for (std::size_t size = 0; size < request_.sizes.size() && !interrupted_; ++size) {
+            place.camera = camera;
+            place.size = size;
+            run_view(loaded, place, load_s);
+        }
+    }
+    return !interrupted_;
+}
+
+bool ViewRuns::finish() {
+    interrupted_ = interrupted_ || !pool_.finish();
+    return !interrupted_;
+}
+
+ViewRuns::Configs ViewRuns::wanted_configs(const ViewRun& place) const {
+    Configs configs;
+    ViewRun asked = place;
+    for (asked.config = 0; asked.config < request_.configs.size(); ++asked.config) {
+        if (!hooks_.wanted || hooks_.wanted(asked)) {
+            configs.push_back(asked.config);
+        }
+    }
+    return configs;
+}
+
+void ViewRuns::run_view(const Scene& scene, ViewRun place, double load_s) {
+    const Configs configs = wanted_configs(place);
+    if (configs.empty()) {
+        return;
+    }
+    place.words = scene.name + " · camera " + std::to_string(place.camera);
+    const std::size_t before = started_.size();
+    try {
+        const ImageSize& size = request_.sizes[place.size];
+        const Camera first = resize(select_camera(scene, place.camera), size.width, size.height);
+        place.words += " · " + std::to_string(first.width) + "×" + std::to_string(first.height);
+        place.view = views_++;
+        place.folder = std::to_string(place.view + 1) + "-" + file_name(scene.name) + "-camera" +
+                       std::to_string(place.camera) + "-" + std::to_string(first.width) + "x" +
+                       std::to_string(first.height);
+        SharedView shared;
+        shared.camera = place.camera;
+        shared.scene = facts_of(scene);
+        shared.cloud = &scene.cloud;
+        if (request_.path.frames > 1) {
+            shared.dynamic = open_dynamic_scene(request_.scenes[place.scene]);
+        }
+        shared.cameras = shared.dynamic ? std::vector<Camera>(request_.path.frames, first)
+                                        : camera_path(scene.cloud, first, request_.path.frames,
+                                                      request_.path.step_degrees,
+                                                      nearest_plane(request_.configs));
+        place.dynamic = shared.dynamic != nullptr;
+        shared.load_s = load_s;
+        for (const auto& [kind, members] : groups_of(request_.configs, configs, scene.traits)) {
+            if (!interrupted_) {
+                run_group(shared, place, members);
+            }
+        }
+    } catch (...) {
+        const std::size_t runs = configs.size() * (request_.path.frames > 1 ? 2 : 1);
+        hooks_.view_failed(place, failure_of(std::current_exception()),
+                           runs - (started_.size() - before));
+    }
+}
+
+void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs& configs) {
+    if (!pool_.make_room()) { // making frames is work, too
+        interrupted_ = true;
+        return;
+    }
+    const AcceleratorConfig& wish = request_.configs[configs.front()].config.accelerator();
+    shared.frames.clear(); // before the next are made; children have copies of their own
+    shared.workload_s = 0;
+    shared.frames = shared.dynamic ? make_workloads(*shared.dynamic, shared.scene.traits,
+                                                    shared.cameras, wish, shared.workload_s)
+                                   : make_workloads(*shared.cloud, shared.scene.traits,
+                                                    shared.cameras, wish, shared.workload_s);
+    if (request_.reference && !request_.sampling) {
+        shared.render_reference(wish.tile_mode());
+    }
+    for (std::size_t config : configs) {
+        ViewRun run = place;
+        run.config = config;
+        start(shared, run);
+        if (shared.frames.size() > 1) {
+            run.path = true;
+            start(shared, run);
+        }
+    }
+}
+
+void ViewRuns::start(const SharedView& shared, ViewRun run) {
+    if (interrupted_ || !pool_.make_room()) {
+        interrupted_ = true;
+        return;
+    }
+    RunRequest request;
+    request.config = request_.configs[run.config].config;
+    request.build.array_only = request_.array_only;
+    request.reference = request_.reference && !run.path && !request_.sampling;
+    request.sampling = request_.sampling;
+    run.name = request_.configs[run.config].name + ", " + run.words;
+    if (run.path) {
+        run.name += ", " + std::to_string(shared.frames.size()) + " frames";
+    }
+    const bool path = run.path;
+    run.clock = Stopwatch();
+    started_.push_back(std::move(run));
+    interrupted_ = !pool_.start(
+        {started_.back().name, [&request, &shared, path] { return shared.run(request, path); }});
+}
+
+void ViewRuns::show(const std::vector<std::size_t>& running) const {
+    std::vector<std::string> names;
+    names.reserve(running.size());
+    for (std::size_t run : running) {
+        names.push_back(started_[run].name);
+    }
+    if (!names.empty() && hooks_.tick) {
+        hooks_.tick(names);
+    }
+}
+
+} // namespace degs::sim

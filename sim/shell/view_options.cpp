@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/shell/view_options.hpp"
+
+#include "splat/frame/rendering_rules.hpp"
+
+namespace degs::sim {
+namespace {
+
+/// All frames of a path are in memory at once; a typing error should not fill it.
+constexpr int kMostFrames = 10000;
+
+} // namespace
+
+CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution) {
+    return command
+        .add_option(
+            "--resolution", resolution,
+            "720p, 1080p, 2k, 4k or 8k: images 720, 1080, 1440, 2160 or 4320 pixels high, as wide "
+            "as the camera's aspect ratio makes them")
+        ->type_name("NAME");
+}
+
+CLI::Option* add_config_option(CLI::App& command, std::string& config) {
+    return command.add_option("config", config, "configuration file (YAML)")->type_name("FILE");
+}
+
+CLI::Option* add_camera_file_option(CLI::App& command, std::string& file) {
+    return command
+        .add_option("--camera-file", file,
+                    "cameras.json, transforms.json or a COLMAP model to use instead of the cameras "
+                    "beside the scene")
+        ->type_name("FILE");
+}
+
+CLI::Option* add_near_option(CLI::App& command, double& near) {
+    return command
+        .add_option("--near", near,
+                    "near plane, scene units; Gaussians at or before it are not drawn")
+        ->check(CLI::Range(0.0, kFarthestNearPlane))
+        ->capture_default_str();
+}
+
+CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning) {
+    return command.add_option("--out", folder, meaning)->type_name("FOLDER")->capture_default_str();
+}
+
+void add_view_options(CLI::App& command, ViewRequest& request) {
+    command
+        .add_option("--scene", request.scene,
+                    "scene file, or synthetic:NAME[,gaussians=N][,seed=N]")
+        ->type_name("SCENE")
+        ->required();
+    add_camera_file_option(command, request.camera_file);
+    command
+        .add_option_function<std::string>(
+            "--camera,--cameras",
+            [&request](const std::string& text) { request.camera = one_camera(text); },
+            "position in the scene's list of cameras, from 0")
+        ->type_name("POSITION");
+    CLI::Option* width =
+        command.add_option("--width", request.width, "image width in pixels; the view is scaled");
+    CLI::Option* height =
+        command.add_option("--height", request.height,
+                           "image height in pixels; alone it scales the view, with --width it "
+                           "crops or extends it");
+    add_resolution_option(command, request.resolution)->excludes(width)->excludes(height);
+}
+
+void add_path_options(CLI::App& command, PathRequest& request) {
+    CLI::Option* frames =
+        command
+            .add_option(
+                "--frames", request.frames,
+                "frames of a camera path that starts at the view, or of a scene that changes; "
+                "from 3 on, throughput is measured, too")
+            ->check(CLI::Range(1, kMostFrames))
+            ->capture_default_str();
+    command
+        .add_option("--path-step", request.step_degrees,
+                    "degrees by which the camera turns about the middle of the scene from frame to "
+                    "frame")
+        ->check(CLI::Range(-kMostPathStepDegrees, kMostPathStepDegrees))
+        ->needs(frames)
+        ->capture_default_str();
+}
+
+void add_sampling_options(CLI::App& command, std::optional<std::string>& within,
+                          std::uint64_t& seed) {
+    command
+        .add_option("--within", within,
+                    "simulate no more tiles than it takes for a 95 % interval of this half-width: "
+                    "1% (of the cycles), or useful:2% (of another measure)")
+        ->type_name("ERROR");
+    command.add_option("--seed", seed, "of the draw of tiles, with --within or a sampled fidelity")
+        ->type_name("UINT")
+        ->capture_default_str();
+}
+
+} // namespace degs::sim

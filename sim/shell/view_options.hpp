@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options that all commands with a scene share. Not in view.hpp, because CLI11 costs seconds in
+// every source that sees it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include "sim/simulation/view.hpp"
+
+namespace degs::sim {
+
+/// Adds --scene, --camera-file, --camera and the options for the image size.
+void add_view_options(CLI::App& command, ViewRequest& request);
+
+/// Adds --resolution, which excludes the options for width and height.
+CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution);
+
+/// Adds the configuration file, an argument.
+CLI::Option* add_config_option(CLI::App& command, std::string& config);
+
+/// Adds --camera-file.
+CLI::Option* add_camera_file_option(CLI::App& command, std::string& file);
+
+/// Adds --near, the near plane of commands without a configuration.
+CLI::Option* add_near_option(CLI::App& command, double& near);
+
+/// Adds --out, the folder for results.
+CLI::Option* add_out_option(CLI::App& command, std::string& folder, const char* meaning);
+
+/// Adds --frames and --path-step.
+void add_path_options(CLI::App& command, PathRequest& request);
+
+/// Adds --within and --seed, for commands that may simulate a sample of the tiles.
+void add_sampling_options(CLI::App& command, std::optional<std::string>& within,
+                          std::uint64_t& seed);
+
+} // namespace degs::sim

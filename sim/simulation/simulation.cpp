@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/simulation/simulation.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include <sys/resource.h>
+
+#include "base/error.hpp"
+#include "sim/process/reserve.hpp"
+#include "sim/process/stopwatch.hpp"
+#include "sim/simulation/loss_keys.hpp"
+#include "sim/simulation/warnings.hpp"
+
+namespace degs::sim {
+
+SceneFacts facts_of(const Scene& scene) {
+    return {scene.name,    scene.source, scene.cloud.size(), scene.cloud.sh_degree,
+            scene.dropped, scene.traits, scene.notes};
+}
+
+void put_scene(const SceneFacts& scene, RunResult& result) {
+    result.scene = scene;
+    result.warnings.insert(result.warnings.begin(), scene.notes.begin(), scene.notes.end());
+}
+
+WorkloadFacts facts_of(const FrameWorkload& workload) {
+    WorkloadFacts facts;
+    facts.gaussians = workload.gaussians;
+    facts.visible = workload.splats.size();
+    facts.tile_pairs = workload.tile_pairs();
+    facts.culled = workload.culled;
+    facts.projection = workload.projection;
+    facts.tile_size = workload.tile_size;
+    facts.tiles = workload.tiles();
+    for (std::size_t t = 0; t < facts.tiles; ++t) {
+        facts.empty_tiles += workload.tile_begin[t] == workload.tile_begin[t + 1] ? 1 : 0;
+    }
+    return facts;
+}
+
+std::uint64_t peak_rss_bytes() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return std::uint64_t{1024} * usage.ru_maxrss; // Linux counts in KiB
+}
+
+std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const SceneTraits& traits,
+                                          const std::vector<Camera>& cameras,
+                                          const AcceleratorConfig& config, double& seconds) {
+    const Progress progress("projecting and sorting");
+    const Stopwatch clock;
+    std::vector<FrameWorkload> workloads;
+    workloads.reserve(cameras.size());
+    const ProjectionOptions options = projection_of(config.data_path(), traits.antialiased);
+    for (const Camera& camera : cameras) {
+        workloads.push_back(
+            make_frame_workload(cloud, camera, config.tile_size_px(), config.tile_mode(), options));
+    }
+    seconds += clock.seconds();
+    return workloads;
+}
+
+std::vector<FrameWorkload> make_workloads(const DynamicScene& scene, const SceneTraits& traits,
+                                          const std::vector<Camera>& cameras,
+                                          const AcceleratorConfig& config, double& seconds) {
+    if (static_cast<int>(cameras.size()) > scene.frames()) {
+        throw InputError("The scene has " + std::to_string(scene.frames()) + " frames, and " +
+                         std::to_string(cameras.size()) + " were asked for (--frames).");
+    }
+    std::vector<FrameWorkload> workloads;
+    for (std::size_t k = 0; k < cameras.size(); ++k) {
+        const GaussianCloud cloud = scene.frame(static_cast<int>(k));
+        workloads.push_back(
+            std::move(make_workloads(cloud, traits, {cameras[k]}, config, seconds).front()));
+    }
+    return workloads;
+}
+
+Reference make_reference(const FrameWorkload& workload) {
+    const Progress progress("reference image");
+    const CpuStopwatch clock;
+    Reference reference;
+    reference.image = render_reference(workload, reference.counts);
+    reference.render_s = clock.seconds();
+    return reference;
+}
+
+Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame, double& seconds) {
+    if (frame.projection.numbers.is_reference()) {
+        return make_reference(frame);
+    }
+    const Stopwatch clock;
+    ProjectionOptions options = frame.projection;
+    options.numbers = ProjectionNumbers();
+    const FrameWorkload exact =
+        make_frame_workload(cloud, frame.camera, frame.tile_size, frame.tile_mode, options);
+    seconds += clock.seconds();
+    return make_reference(exact);
+}
+
+void judge(RunResult& result, const Reference& reference) {
+    result.host.render_s = reference.render_s;
+    result.workload.reference = reference.counts;
+    result.error = compare_images(reference.image, result.accelerator.images.front());
+}
+
+namespace {
+
+/// The sample that the request asks for, or the reason why there is none. A sample that turns out to
+/// be too small costs the process its simulation, so that a reserve goes on.
+std::optional<SampledResult> try_sample(const RunRequest& request,
+                                        const std::vector<const FrameWorkload*>& frames,
+                                        std::string& refusal, double& lost_s) {
+    Reserve reserve;
+    refusal = reserve.called_for();
+    lost_s = reserve.replaced_s();
+    if (!refusal.empty()) {
+        return {};
+    }
+    std::optional<SampledResult> sampled;
+    {
+        Progress progress("simulation of a sample");
+        sampled = run_sampled(request.config.accelerator(), frames, request.fidelity, request.build,
+                              *request.sampling, progress);
+    }
+    if (sampled->facts.refusal.empty()) {
+        return sampled;
+    }
+    refusal = sampled->facts.refusal;
+    if (sampled->facts.groups == 0) { // nothing has been simulated yet
+        return {};
+    }
+    if (!reserve.available()) {
+        throw std::runtime_error("No process could be started for the exact run. " + refusal);
+    }
+    reserve.call(refusal);
+}
+
+const char* name_of(Fidelity fidelity) {
+    return fidelity == Fidelity::Strict ? "strict" : "exact";
+}
+
+} // namespace
+
+RunResult run_frames(const RunRequest& request, const std::vector<const FrameWorkload*>& frames) {
+    const CpuStopwatch clock;
+    RunResult result;
+    result.config = request.config;
+    result.movable_keys = LossKeys(result).movable();
+    result.camera = frames.front()->camera;
+    result.workload = facts_of(*frames.front());
+    result.warnings = request.config.warnings;
+    if (frames.size() > 1) {
+        result.changes = frame_changes(frames);
+    }
+    for (std::string& sentence :
+         saturation_warnings(request.config.accelerator().data_path(), *frames.front())) {
+        result.warnings.push_back(std::move(sentence));
+    }
+    for (std::string& sentence : near_plane_warnings(frames)) {
+        result.warnings.push_back(std::move(sentence));
+    }
+    std::string refusal;
+    double lost_s = 0;
+    std::optional<SampledResult> sampled;
+    if (request.sampling) {
+        sampled = try_sample(request, frames, refusal, lost_s);
+    }
+    if (!refusal.empty()) {
+        result.warnings.push_back(refusal);
+    }
+    if (sampled) {
+        result.accelerator = std::move(sampled->result);
+        result.sampling = std::move(sampled->facts);
+    } else {
+        Progress progress("simulation");
+        result.accelerator = run_accelerator(request.config.accelerator(), frames, request.fidelity,
+                                             request.build, request.recording, progress);
+    }
+    for (std::string& sentence : hazard_warnings(result.accelerator)) {
+        result.warnings.push_back(std::move(sentence));
+    }
+    result.host.fidelity = sampled ? "sampled" : name_of(request.fidelity);
+    result.host.elaborate_s = result.accelerator.elaborate_s;
+    result.host.sim_s = result.accelerator.sim_s;
+    result.host.drawing_s = result.accelerator.drawing_s;
+    result.host.activations = result.accelerator.activations;
+    result.host.run_s = lost_s + clock.seconds();
+    result.host.peak_rss_bytes = peak_rss_bytes();
+    return result;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/simulation/view.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/ratio.hpp"
+#include "config/input_files.hpp"
+#include "scene/files/image_io.hpp"
+#include "sim/process/stopwatch.hpp"
+#include "sim/text/progress.hpp"
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+/// `sides` in double, so that no product of two int overflows.
+void check_pixels(double width, double height) {
+    if (width * height > static_cast<double>(kMostPixels)) {
+        throw InputError("An image of " + as_typed(width) + " x " + as_typed(height) +
+                         " pixels is too large; at most " + grouped(kMostPixels) +
+                         " pixels (8192 x 4320) are allowed.");
+    }
+    if (std::max(width, height) > kMostImageSide) {
+        throw InputError("An image of " + as_typed(width) + " x " + as_typed(height) +
+                         " pixels cannot be written as PNG; at most " + grouped(kMostImageSide) +
+                         " pixels to a side are allowed.");
+    }
+}
+
+struct Resolution {
+    const char* name;
+    int height; ///< px
+};
+constexpr std::array<Resolution, 5> kResolutions{
+    {{"720p", 720}, {"1080p", 1080}, {"2k", 1440}, {"4k", 2160}, {"8k", 4320}}};
+
+std::string in_small_letters(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+} // namespace
+
+void check_positive(const char* option, std::optional<int> value) {
+    if (value && *value < 1) {
+        throw InputError(std::string(option) + " is " + std::to_string(*value) +
+                         ", but an image needs at least 1 pixel.");
+    }
+}
+
+std::optional<int> camera_position(const std::string& text) {
+    int value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    const bool good = error == std::errc() && rest == end && value >= 0;
+    return good ? std::optional<int>(value) : std::nullopt;
+}
+
+int one_camera(const std::string& text) {
+    if (text == "all" || text.find(',') != std::string::npos) {
+        throw InputError("--camera is '" + text +
+                         "', but this command renders one view; 'degs compare' takes several.");
+    }
+    if (const std::optional<int> position = camera_position(text)) {
+        return *position;
+    }
+    throw InputError("--camera is '" + text +
+                     "', but must be a position in the scene's list of cameras, from 0; a file of "
+                     "cameras is named by --camera-file.");
+}
+
+std::vector<std::string> resolution_names() {
+    std::vector<std::string> names;
+    names.reserve(kResolutions.size());
+    for (const Resolution& resolution : kResolutions) {
+        names.emplace_back(resolution.name);
+    }
+    return names;
+}
+
+int resolution_height(const std::string& name) {
+    std::string allowed;
+    for (const Resolution& resolution : kResolutions) {
+        if (in_small_letters(name) == resolution.name) {
+            return resolution.height;
+        }
+        allowed += std::string(allowed.empty() ? "" : ", ") + resolution.name;
+    }
+    throw InputError("The resolution '" + name + "' is not known; allowed are " + allowed +
+                     ", and --width and --height for any other size.");
+}
+
+Camera resize(const Camera& camera, std::optional<int> width, std::optional<int> height) {
+    check_positive("--width", width);
+    check_positive("--height", height);
+    const double aspect = ratio_of(camera.width, camera.height);
+    const double new_width = width ? *width : height ? std::round(*height * aspect) : camera.width;
+    const double new_height = height ? *height : std::round(new_width / aspect);
+    check_pixels(std::max(new_width, 1.0), std::max(new_height, 1.0));
+    Camera resized = camera;
+    if (width || height) {
+        resized = camera.scaled_to_width(std::max(1, static_cast<int>(new_width)));
+        resized.height = height.value_or(resized.height);
+    }
+    return resized;
+}
+
+void check_view(const ViewRequest& request) {
+    check_positive("--width", request.width);
+    check_positive("--height", request.height);
+    if (!request.resolution.empty()) {
+        resolution_height(request.resolution);
+    }
+    if (request.scene.empty()) {
+        throw InputError("The scene has an empty name; a file or synthetic:NAME is needed.");
+    }
+    remember_input(request.scene); // those that another process reads, too
+    remember_input(request.camera_file);
+}
+
+Camera camera_of(const ViewRequest& request, const Scene& scene) {
+    const std::optional<int> height =
+        request.resolution.empty() ? request.height : resolution_height(request.resolution);
+    return resize(select_camera(scene, request.camera), request.width, height);
+}
+
+View load_view(const ViewRequest& request) {
+    check_view(request);
+    const Progress progress("loading " + request.scene);
+    const Stopwatch clock;
+    View view;
+    view.scene = load_scene(request.scene, request.camera_file);
+    view.camera = camera_of(request, view.scene);
+    view.load_s = clock.seconds();
+    return view;
+}
+
+} // namespace degs::sim

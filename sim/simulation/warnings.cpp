@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/simulation/warnings.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include "base/ratio.hpp"
+#include "base/visible_text.hpp"
+#include "sim/text/words.hpp"
+#include "splat/pixels/saturation.hpp"
+
+namespace degs::sim {
+
+std::vector<std::string> saturation_warnings(const DataPathOptions& options,
+                                             const FrameWorkload& frame) {
+    std::vector<std::string> warnings;
+    for (const Saturation& found : saturated_stages(options, frame)) {
+        const double share = ratio_of(found.splats, frame.splats.size());
+        warnings.push_back("Stage " + found.stage + " saturates: " + grouped(found.splats) +
+                           " of " + grouped(frame.splats.size()) + " splats (" +
+                           three_digits(100 * share) + " %) lie beyond " +
+                           three_digits(found.limit) + ", the largest value of " + found.format +
+                           "; pipeline.formats." + found.stage + " sets another format.");
+    }
+    return warnings;
+}
+
+std::vector<std::string> near_plane_warnings(const CullCounts& culled,
+                                             const ProjectionOptions& options,
+                                             std::uint64_t gaussians) {
+    if (culled.near_in_view == 0) {
+        return {};
+    }
+    return {"The near plane at z = " + as_typed(options.near_plane) + " removes " +
+            grouped(culled.near_in_view) + " of " + grouped(gaussians) +
+            " Gaussians, although they lie inside the view; pipeline.rules.near, or --near of "
+            "commands without a configuration, sets another plane."};
+}
+
+std::vector<std::string> near_plane_warnings(const std::vector<const FrameWorkload*>& frames) {
+    const FrameWorkload& worst = **std::max_element(
+        frames.begin(), frames.end(), [](const FrameWorkload* a, const FrameWorkload* b) {
+            return a->culled.near_in_view < b->culled.near_in_view;
+        });
+    return near_plane_warnings(worst.culled, worst.projection, worst.gaussians);
+}
+
+std::vector<std::string> hazard_warnings(const AcceleratorResult& run) {
+    if (run.hazards == 0) {
+        return {};
+    }
+    return {"Hazards: " + grouped(run.hazards) +
+            " pixels were updated again before their write-back, because scheduler.scoreboard is "
+            "false. Updates are lost and the image is wrong; image.psnr_db and "
+            "image.max_abs_error of the report say by how much."};
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) {
+        std::cerr << "degs: warning: " << visible(warning) << '\n';
+    }
+}
+
+} // namespace degs::sim

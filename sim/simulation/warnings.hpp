@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "modules/kit/accelerator/accelerator_result.hpp"
+#include "splat/pixels/data_path.hpp"
+
+namespace degs::sim {
+
+/// One sentence for each number format of the data path that splats of `frame` leave.
+std::vector<std::string> saturation_warnings(const DataPathOptions& options,
+                                             const FrameWorkload& frame);
+/// A sentence if the near plane removes Gaussians that lie inside the view, with the key that moves it.
+std::vector<std::string> near_plane_warnings(const CullCounts& culled,
+                                             const ProjectionOptions& options,
+                                             std::uint64_t gaussians);
+/// The same for the frame of a path that loses the most.
+std::vector<std::string> near_plane_warnings(const std::vector<const FrameWorkload*>& frames);
+/// A sentence if pixels were updated again before their write-back.
+std::vector<std::string> hazard_warnings(const AcceleratorResult& run);
+/// Prints them on stderr.
+void print_warnings(const std::vector<std::string>& warnings);
+
+} // namespace degs::sim

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/compare_request.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+#include <utility>
+
+#include "base/error.hpp"
+#include "config/config_words.hpp"
+#include "scene/scene.hpp"
+#include "sim/study/addressed_overrides.hpp"
+
+namespace degs::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Named {
+    std::string name, file;
+};
+
+/// A '=' may belong to the name of an existing file.
+Named named(const std::string& word) {
+    const std::size_t at = word.find('=');
+    std::error_code ignored;
+    if (at == std::string::npos || fs::exists(word, ignored)) {
+        return {fs::path(word).stem().string(), word};
+    }
+    return {word.substr(0, at), word.substr(at + 1)};
+}
+
+/// The first key in which the views of two studies differ; empty if there is none.
+std::string first_difference(const StudyViews& a, const StudyViews& b) {
+    const std::pair<const char*, bool> keys[] = {
+        {"scenes", a.scenes == b.scenes},
+        {"cameras", a.cameras == b.cameras},
+        {"camera_file", a.camera_file == b.camera_file},
+        {"resolutions", a.resolutions == b.resolutions},
+        {"width", a.width == b.width},
+        {"frames", a.path.frames == b.path.frames},
+        {"path_step", a.path.step_degrees == b.path.step_degrees},
+        {"array_only", a.array_only == b.array_only},
+        {"reference", a.reference == b.reference}};
+    for (const auto& [key, same] : keys) {
+        if (!same) {
+            return key;
+        }
+    }
+    return "";
+}
+
+/// Throws InputError if two studies say different things of the views.
+void check_same_views(const std::string& first, const StudyViews& a, const std::string& second,
+                      const StudyViews& b) {
+    const std::string key = first_difference(a, b);
+    if (!key.empty()) {
+        throw InputError("The studies " + config_words::quote(first) + " and " +
+                         config_words::quote(second) + " differ in " + config_words::quote(key) +
+                         ", so they cannot be compared on the same views; compare them one by "
+                         "one, or give both the same value.");
+    }
+}
+
+/// Configurations before they are loaded.
+struct Drafts {
+    std::vector<StudyDesign> designs;
+    StudyViews views;
+    std::string study; ///< the file that says the views; empty: none
+
+    /// Each design of a study is a configuration of its own.
+    void add(const std::string& word, bool quick) {
+        const Named file = named(word);
+        const ConfigNode tree = ConfigSource::from_file(file.file).tree();
+        if (!is_study(tree)) {
+            designs.push_back({file.name, tree});
+            return;
+        }
+        check_designs_only(tree);
+        for (StudyDesign& design : read_designs(tree)) {
+            designs.push_back(std::move(design));
+        }
+        const StudyViews own = read_study_views(tree, file.file, quick);
+        if (!study.empty()) {
+            check_same_views(study, views, file.file, own);
+        }
+        study = file.file;
+        views = own;
+    }
+};
+
+void check_names(const std::vector<StudyDesign>& drafts) {
+    for (const StudyDesign& draft : drafts) {
+        const auto same = [&draft](const StudyDesign& other) { return other.name == draft.name; };
+        if (std::count_if(drafts.begin(), drafts.end(), same) > 1) {
+            throw InputError("Two configurations are called " + config_words::quote(draft.name) +
+                             "; NAME=FILE keeps them apart.");
+        }
+    }
+}
+
+std::vector<std::string> split(const std::string& text) {
+    std::vector<std::string> parts;
+    std::size_t begin = 0;
+    for (std::size_t end = 0; end != std::string::npos; begin = end + 1) {
+        end = text.find(',', begin);
+        parts.push_back(text.substr(begin, end - begin));
+    }
+    return parts;
+}
+
+} // namespace
+
+void check_scenes(const std::vector<std::string>& scenes) {
+    for (auto scene = scenes.begin(); scene != scenes.end(); ++scene) {
+        if (scene->empty()) {
+            throw InputError("The scene has an empty name; a file or synthetic:NAME is needed.");
+        }
+        if (std::find(scenes.begin(), scene, *scene) != scene) {
+            throw InputError("The scene '" + *scene + "' is given twice.");
+        }
+    }
+}
+
+std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string>& within,
+                                                 std::uint64_t seed, int frames) {
+    std::optional<SamplingRequest> sampling = sampling_of("exact", within, seed);
+    if (sampling && frames > 1) {
+        throw InputError("--frames asks for a camera path, which needs every tile, so it cannot be "
+                         "combined with --within.");
+    }
+    return sampling;
+}
+
+LoadedConfigs load_compared(const std::vector<std::string>& words,
+                            const std::vector<std::string>& overrides, bool quick) {
+    Drafts drafts;
+    for (const std::string& word : words) {
+        if (named(word).name.empty()) {
+            throw InputError("The configuration '" + word +
+                             "' has an empty name; FILE or NAME=FILE is needed.");
+        }
+        drafts.add(word, quick);
+    }
+    if (quick && drafts.study.empty()) {
+        throw InputError("--quick needs a study with a section 'quick'.");
+    }
+    check_names(drafts.designs);
+    std::vector<std::string> names;
+    names.reserve(drafts.designs.size());
+    for (const StudyDesign& draft : drafts.designs) {
+        names.push_back(draft.name);
+    }
+    check_addressees(overrides, names);
+    LoadedConfigs loaded;
+    loaded.views = drafts.views;
+    loaded.study = drafts.study;
+    for (const StudyDesign& draft : drafts.designs) {
+        loaded.configs.push_back(
+            {draft.name, load_run_config(ConfigSource::from_tree(
+                             draft.tree, overrides_of(draft.name, overrides)))});
+    }
+    return loaded;
+}
+
+std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
+                                      const std::vector<std::string>& overrides) {
+    LoadedConfigs loaded = load_compared(words, overrides);
+    const std::string key = first_difference(StudyViews(), loaded.views);
+    if (!key.empty()) {
+        throw InputError(loaded.study + ": key " + config_words::quote(key) +
+                         " of a study is for 'degs sweep' and 'degs compare'; this command takes "
+                         "its views from its options.");
+    }
+    return std::move(loaded.configs);
+}
+
+void put_views(const StudyViews& views, CompareRequest& request) {
+    if (views.scenes.empty()) {
+        throw InputError(
+            "The command names no scene: --scene is needed, or a study with 'scenes'.");
+    }
+    check_scenes(views.scenes);
+    check_positive("--width", views.width);
+    request.scenes = views.scenes;
+    request.camera_file = views.camera_file;
+    request.cameras = parse_cameras(views.cameras);
+    if (views.resolutions.empty()) {
+        request.sizes = {ImageSize{views.width, {}}};
+    } else {
+        request.sizes = parse_resolutions(views.resolutions);
+    }
+    request.path = views.path;
+    request.array_only = views.array_only;
+    request.reference = views.reference;
+}
+
+std::vector<std::vector<int>> cameras_by_scene(const CompareRequest& request) {
+    std::vector<std::vector<int>> cameras;
+    for (const std::string& scene : request.scenes) {
+        const int count = static_cast<int>(camera_count(scene, request.camera_file));
+        std::vector<int> all(count);
+        std::iota(all.begin(), all.end(), 0);
+        cameras.push_back(request.cameras.value_or(all));
+        for (const int camera : cameras.back()) {
+            if (camera >= count) {
+                throw InputError("Camera " + std::to_string(camera) + " does not exist: scene '" +
+                                 scene + "' has " + std::to_string(count) +
+                                 " camera(s), numbered from 0.");
+            }
+        }
+    }
+    return cameras;
+}
+
+std::optional<std::vector<int>> parse_cameras(const std::string& text) {
+    if (text == "all") {
+        return {};
+    }
+    std::vector<int> cameras;
+    for (const std::string& part : split(text)) {
+        const std::optional<int> position = camera_position(part);
+        if (!position) {
+            throw InputError("--camera is '" + text +
+                             "', but must be 'all' or positions in the scene's list of cameras, "
+                             "from 0 and separated by commas; a file of cameras is named by "
+                             "--camera-file.");
+        }
+        cameras.push_back(*position);
+        if (std::count(cameras.begin(), cameras.end(), cameras.back()) > 1) {
+            throw InputError("Camera " + part + " is given twice.");
+        }
+    }
+    return cameras;
+}
+
+std::vector<ImageSize> parse_resolutions(const std::string& text) {
+    std::vector<ImageSize> sizes;
+    for (const std::string& part : split(text)) {
+        const int height = resolution_height(part);
+        for (const ImageSize& size : sizes) {
+            if (size.height == height) {
+                throw InputError("The resolution '" + part + "' is given twice.");
+            }
+        }
+        sizes.push_back({{}, height});
+    }
+    return sizes;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/study_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "base/error.hpp"
+#include "config/config_scalar.hpp"
+#include "config/config_source.hpp"
+#include "config/config_words.hpp"
+#include "scene/files/image_io.hpp"
+
+namespace degs::sim {
+namespace {
+
+namespace fs = std::filesystem;
+using config_words::quote;
+using Kind = ConfigNode::Kind;
+
+constexpr int kMostFramesOfStudy = 10000; ///< as --frames
+/// What `degs compare` cannot do.
+const std::vector<std::string> kSweepKeys{"axes", "combine", "baseline"};
+const std::vector<std::string> kStudyKeys{"study",     "points",      "designs",   "axes",
+                                          "combine",   "baseline",    "scenes",    "cameras",
+                                          "width",     "camera_file", "frames",    "resolutions",
+                                          "path_step", "array_only",  "reference", "quick"};
+
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void check_top_keys(const ConfigNode& tree) {
+    for (const ConfigNode& key : tree.children) {
+        if (!is_among(kStudyKeys, key.key)) {
+            const std::string near = config_words::nearest(key.key, kStudyKeys);
+            throw InputError(key.place + ": unknown key " + quote(key.key) +
+                             (near.empty() ? "" : ", did you mean " + quote(near) + "?") +
+                             " (a study has the keys " + config_words::list(kStudyKeys) + ").");
+        }
+    }
+}
+
+const ConfigNode* list_of_designs(const ConfigNode& tree) {
+    const ConfigNode* points = tree.find("points");
+    const ConfigNode* designs = tree.find("designs");
+    if (points != nullptr && designs != nullptr) {
+        throw InputError(designs->place + ": 'designs' and 'points' mean the same list; give one.");
+    }
+    return designs != nullptr ? designs : points;
+}
+
+template <class Kind, class Value>
+void take(const ConfigNode& tree, const char* key, const Kind& kind, Value& value) {
+    if (const ConfigNode* node = tree.find(key)) {
+        value = config_scalar::value_of(kind, *node, key);
+    }
+}
+
+/// A scalar or a list of scalars.
+std::vector<std::string> words_of(const ConfigNode& node) {
+    std::vector<std::string> words;
+    if (node.kind == Kind::kScalar) {
+        words.push_back(node.text);
+    }
+    for (const ConfigNode& item : node.children) {
+        if (node.kind == Kind::kList && item.kind == Kind::kScalar) {
+            words.push_back(item.text);
+        }
+    }
+    if (words.empty() || words.size() < node.children.size()) {
+        throw InputError(node.place + ": key " + quote(node.key) +
+                         " must be a word or a list of words.");
+    }
+    return words;
+}
+
+std::string joined_words(const ConfigNode& node) {
+    std::string text;
+    for (const std::string& word : words_of(node)) {
+        text += (text.empty() ? "" : ",") + word;
+    }
+    return text;
+}
+
+/// `name` relative to the study, unless it stands on its own.
+std::string beside(const fs::path& folder, const std::string& name) {
+    const bool own = name.empty() || name.rfind("synthetic:", 0) == 0;
+    return own ? name : (folder / name).lexically_normal().string();
+}
+
+void read_views(const ConfigNode& tree, const fs::path& folder, StudyViews& study) {
+    if (const ConfigNode* scenes = tree.find("scenes")) {
+        for (const std::string& scene : words_of(*scenes)) {
+            study.scenes.push_back(beside(folder, scene));
+        }
+    }
+    if (const ConfigNode* cameras = tree.find("cameras")) {
+        study.cameras = joined_words(*cameras);
+    }
+    if (const ConfigNode* resolutions = tree.find("resolutions")) {
+        study.resolutions = joined_words(*resolutions);
+        if (const ConfigNode* width = tree.find("width")) {
+            throw InputError(width->place +
+                             ": 'width' and 'resolutions' exclude each other; give one.");
+        }
+    }
+    if (tree.find("camera_file") != nullptr) {
+        take(tree, "camera_file", config_scalar::Text{}, study.camera_file);
+        study.camera_file = beside(folder, study.camera_file);
+    }
+    std::int64_t number = 0;
+    if (tree.find("width") != nullptr) {
+        take(tree, "width", config_scalar::Integer{1, kMostImageSide}, number);
+        study.width = static_cast<int>(number);
+    }
+    number = study.path.frames;
+    take(tree, "frames", config_scalar::Integer{1, kMostFramesOfStudy}, number);
+    study.path.frames = static_cast<int>(number);
+    take(tree, "path_step", config_scalar::Real{-kMostPathStepDegrees, kMostPathStepDegrees},
+         study.path.step_degrees);
+    take(tree, "array_only", config_scalar::Boolean{}, study.array_only);
+    take(tree, "reference", config_scalar::Boolean{}, study.reference);
+}
+
+/// The views of the section 'quick', which replace those of the study. False if there is none.
+bool read_quick(const ConfigNode& tree, const fs::path& folder, StudyViews& study) {
+    const ConfigNode* const quick = tree.find("quick");
+    if (quick == nullptr) {
+        return false;
+    }
+    if (quick->kind != Kind::kSection) {
+        throw InputError(quick->place + ": key 'quick' must be a section of views.");
+    }
+    const std::vector<std::string> allowed{"scenes", "cameras", "resolutions", "width", "frames"};
+    for (const ConfigNode& key : quick->children) {
+        if (std::find(allowed.begin(), allowed.end(), key.key) == allowed.end()) {
+            throw InputError(key.place + ": unknown key " + quote(key.key) +
+                             " in 'quick'; allowed are " + config_words::list(allowed) + ".");
+        }
+    }
+    if (quick->find("scenes") != nullptr) {
+        study.scenes.clear();
+    }
+    if (quick->find("resolutions") != nullptr || quick->find("width") != nullptr) {
+        study.resolutions.clear();
+        study.width.reset();
+    }
+    read_views(*quick, folder, study);
+    return true;
+}
+
+std::vector<Axis> read_axes(const ConfigNode& tree) {
+    std::vector<Axis> axes;
+    const ConfigNode* section = tree.find("axes");
+    if (section == nullptr || section->kind == Kind::kNull) {
+        return axes;
+    }
+    if (section->kind != Kind::kSection) {
+        throw InputError(section->place + ": key 'axes' must be a section of keys with values.");
+    }
+    std::map<std::string, std::string> owners; // axes by key
+    for (const ConfigNode& node : section->children) {
+        Axis axis = read_axis(node);
+        for (const std::string& key : axis.keys) {
+            const auto [owner, is_new] = owners.emplace(key, axis.name);
+            if (!is_new) {
+                throw InputError(node.place + ": key " + quote(key) + " is varied by two axes, " +
+                                 quote(owner->second) + " and " + quote(axis.name) + ".");
+            }
+        }
+        axes.push_back(std::move(axis));
+    }
+    return axes;
+}
+
+} // namespace
+
+bool is_study(const ConfigNode& tree) {
+    return tree.find("axes") != nullptr || list_of_designs(tree) != nullptr;
+}
+
+std::vector<StudyDesign> read_designs(const ConfigNode& tree) {
+    if (list_of_designs(tree) == nullptr) {
+        throw InputError(tree.find("axes")->place +
+                         ": a study with 'axes' needs a list 'designs', each with 'name' and "
+                         "'include'.");
+    }
+    const ConfigNode& list = *list_of_designs(tree);
+    std::vector<StudyDesign> designs;
+    for (const ConfigNode& point : list.children) {
+        const ConfigNode* name = point.find("name");
+        if (name == nullptr) {
+            throw InputError(point.place + ": a point of a study needs a key 'name'.");
+        }
+        if (name->kind != Kind::kScalar || name->text.empty()) {
+            throw InputError(name->place + ": key 'name' of a design must be a word.");
+        }
+        designs.push_back({name->text, point});
+    }
+    if (list.kind != Kind::kList || designs.empty()) {
+        throw InputError(list.place + ": key " + quote(list.key) +
+                         " must be a list of designs, each with 'name' and 'include'.");
+    }
+    return designs;
+}
+
+void check_designs_only(const ConfigNode& tree) {
+    check_top_keys(tree);
+    for (const ConfigNode& key : tree.children) {
+        if (is_among(kSweepKeys, key.key)) {
+            throw InputError(key.place + ": key " + quote(key.key) +
+                             " of a study is for 'degs sweep', which runs all of its points.");
+        }
+    }
+}
+
+StudyViews read_study_views(const ConfigNode& tree, const std::string& file, bool quick) {
+    const fs::path folder = fs::path(file).parent_path();
+    StudyViews views;
+    read_views(tree, folder, views);
+    StudyViews few = views;
+    const bool has_few = read_quick(tree, folder, few);
+    if (quick && !has_few) {
+        throw InputError(file + ": --quick needs a section 'quick' in the study.");
+    }
+    return quick ? few : views;
+}
+
+Study read_study(const std::string& file, bool quick) {
+    const ConfigNode tree = ConfigSource::from_file(file).tree();
+    Study study;
+    study.name = fs::path(file).stem().string();
+    if (!is_study(tree)) {
+        if (quick) {
+            throw InputError(file + ": --quick needs a study with a section 'quick'.");
+        }
+        study.designs = {{study.name, tree}};
+        return study;
+    }
+    check_top_keys(tree);
+    take(tree, "study", config_scalar::Text{}, study.name);
+    study.designs = read_designs(tree);
+    study.axes = read_axes(tree);
+    const std::vector<const char*> combinations{"product", "one_at_a_time"};
+    int combine = 0;
+    take(tree, "combine", config_scalar::Choice{combinations}, combine);
+    study.one_at_a_time = combine == 1;
+    take(tree, "baseline", config_scalar::Text{}, study.baseline);
+    static_cast<StudyViews&>(study) = read_study_views(tree, file, quick);
+    return study;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/study_options.hpp"
+
+#include <utility>
+
+#include "config/config_words.hpp"
+#include "sim/shell/commands.hpp"
+#include "sim/shell/view_options.hpp"
+#include "sim/study/compare_request.hpp"
+
+namespace degs::sim {
+
+void add_study_options(CLI::App& command, StudyOptions& options) {
+    command.add_option("study", options.file, "study (YAML): designs, axes and views")
+        ->type_name("FILE")
+        ->required();
+    add_addressed_overrides_option(command, options.overrides);
+    add_study_view_options(command, options);
+}
+
+void add_study_view_options(CLI::App& command, ViewOptions& options) {
+    command
+        .add_option("--scene", options.scenes,
+                    "scenes, in place of those of a study: a file, or "
+                    "synthetic:NAME[,gaussians=N][,seed=N]; may be repeated")
+        ->type_name("SCENE")
+        ->take_all()
+        ->expected(1);
+    command
+        .add_option(
+            "--camera,--cameras", options.cameras,
+            "positions in the scene's list of cameras, from 0: 0,2 or all; in place of those "
+            "of a study")
+        ->type_name("LIST");
+    add_camera_file_option(command, options.camera_file);
+    CLI::Option* resolution =
+        command
+            .add_option(
+                "--resolution", options.resolutions,
+                "720p, 1080p, 2k, 4k, 8k, or several separated by commas; in place of those "
+                "of a study")
+            ->type_name("NAMES");
+    command.add_option("--width", options.width, "image width in pixels; the views are scaled")
+        ->excludes(resolution);
+    add_path_options(command, options.path);
+    command.add_flag("--quick", options.quick,
+                     "the few views that the section 'quick' of the study names");
+    command.add_flag("--array-only", options.array_only,
+                     "the rasterisation arrays alone: sorted lists are there at once, and memory "
+                     "is unlimited");
+    command.add_flag("--no-reference", options.no_reference,
+                     "do not render the double-precision images to compare with");
+    add_sampling_options(command, options.within, options.seed);
+    // What a flag of CLI11 cannot say: whether an option with a default was given.
+    command.get_option("--frames")->each([&options](const std::string&) {
+        options.has_frames = true;
+    });
+    command.get_option("--path-step")->each([&options](const std::string&) {
+        options.has_step = true;
+    });
+}
+
+void replace_views(const ViewOptions& options, StudyViews& views) {
+    if (!options.scenes.empty()) {
+        views.scenes = options.scenes;
+    }
+    if (!options.cameras.empty()) {
+        views.cameras = options.cameras;
+    }
+    if (!options.camera_file.empty()) {
+        views.camera_file = options.camera_file;
+    }
+    if (!options.resolutions.empty() || options.width) {
+        views.resolutions = options.resolutions;
+        views.width = options.width;
+    }
+    if (options.has_frames) {
+        views.path.frames = options.path.frames;
+    }
+    if (options.has_step) {
+        views.path.step_degrees = options.path.step_degrees;
+    }
+    views.array_only = views.array_only || options.array_only;
+    views.reference = views.reference && !options.no_reference;
+}
+
+Study study_of(const StudyOptions& options) {
+    Study study = read_study(options.file, options.quick);
+    study.overrides = options.overrides;
+    replace_views(options, study);
+    study.sampling = sampling_for_runs(options.within, options.seed, study.path.frames);
+    return study;
+}
+
+std::vector<std::string> words_of(const StudyOptions& options) {
+    // A name that begins with '-' would be read as an option.
+    std::vector<std::string> words{options.file.rfind('-', 0) == 0 ? "./" + options.file
+                                                                   : options.file};
+    const auto add = [&words](const char* option, const std::string& value) {
+        if (value.rfind('-', 0) == 0) {
+            words.push_back(std::string(option) + "=" + value);
+        } else {
+            words.insert(words.end(), {option, value});
+        }
+    };
+    for (const std::string& text : options.overrides) {
+        add("--set", text);
+    }
+    for (const std::string& scene : options.scenes) {
+        add("--scene", scene);
+    }
+    for (const auto& [option, value] :
+         {std::pair("--camera", options.cameras), std::pair("--camera-file", options.camera_file),
+          std::pair("--resolution", options.resolutions)}) {
+        if (!value.empty()) {
+            add(option, value);
+        }
+    }
+    if (options.width) {
+        add("--width", std::to_string(*options.width));
+    }
+    if (options.has_frames) {
+        add("--frames", std::to_string(options.path.frames));
+    }
+    if (options.has_step) {
+        add("--path-step", config_words::number(options.path.step_degrees));
+    }
+    if (options.within) {
+        add("--within", *options.within);
+        add("--seed", std::to_string(options.seed));
+    }
+    for (const auto& [option, given] :
+         {std::pair("--quick", options.quick), std::pair("--array-only", options.array_only),
+          std::pair("--no-reference", options.no_reference)}) {
+        if (given) {
+            words.emplace_back(option);
+        }
+    }
+    return words;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "accuracy/data_path_renderer.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/ratio.hpp"
+#include "splat/frame/pixel_index.hpp"
+#include "splat/frame/pixel_mask.hpp"
+#include "splat/pixels/coupled_row.hpp"
+
+namespace degs {
+namespace {
+
+constexpr int kRun = 32; ///< pixels that a BlendTask can name
+
+int ones(std::uint32_t mask) {
+    return __builtin_popcount(mask);
+}
+
+} // namespace
+
+/// One tile at a time on one context of a data path.
+class DataPathRenderer::TileBlender {
+public:
+    TileBlender(const FrameWorkload& work, const DataPathRender& options, DataPathCounts& counts)
+        : work_(work), rows_in_columns_(options.rows_in_columns),
+          parsing_(options.parsing && !options.numbers.gemm), whole_(options.numbers.gemm),
+          counts_(counts), path_(make_data_path(options.numbers, work.tile_size, 1)),
+          base_(path_->add_frame(work)), live_in_row_(work.tile_size), row_(work.tile_size) {}
+
+    /// Blends the tile's list; false if it has none.
+    bool blend(int column, int row);
+    /// Copies the tile to the image, whose first pixel is (x, y) of the frame.
+    void write(Image& image, int x, int y);
+
+private:
+    void blend_splat(std::uint32_t splat);
+    void blend_span(const RowSpan& span);
+    std::optional<RowSpan> span_of(std::uint32_t splat, int y) const {
+        if (whole_) {
+            RowSpan row;
+            row.splat = splat;
+            row.y = inside_tile(y - box_.y0);
+            row.length = inside_tile(box_.x1 - box_.x0 + 1);
+            return row;
+        }
+        return parsing_ ? path_->solve_row(splat, y, box_.x0, box_.x1 + 1, box_.y0)
+                        : row_of_box(*path_, splat, y, box_.x0, box_.x1 + 1, box_.y0);
+    }
+
+    const FrameWorkload& work_;
+    bool rows_in_columns_, parsing_, whole_;
+    DataPathCounts& counts_;
+    std::unique_ptr<DataPath> path_;
+    std::uint32_t base_;           ///< index of the frame's first splat
+    std::vector<int> live_in_row_; ///< pixels that have not ended
+    std::vector<PixelValue> row_;
+    int live_ = 0;
+    PixelBox box_; ///< the tile's pixels
+};
+
+bool DataPathRenderer::TileBlender::blend(int column, int row) {
+    const std::size_t tile = row * work_.tiles_x + column;
+    const std::uint32_t* splat = work_.tile_splats.data() + work_.tile_begin[tile];
+    const std::uint32_t* end = work_.tile_splats.data() + work_.tile_begin[tile + 1];
+    if (splat == end) {
+        return false;
+    }
+    box_ = pixels_of(work_, {column, row, column, row});
+    for (int y = 0; y < work_.tile_size; ++y) {
+        path_->begin_row(0, y);
+    }
+    const int width = box_.x1 - box_.x0 + 1;
+    std::fill(live_in_row_.begin(), live_in_row_.end(), width);
+    live_ = width * (box_.y1 - box_.y0 + 1);
+    for (; splat != end && live_ > 0; ++splat) {
+        blend_splat(base_ + *splat);
+    }
+    return true;
+}
+
+void DataPathRenderer::TileBlender::blend_splat(std::uint32_t splat) {
+    const PixelRange met = whole_             ? PixelRange{box_.y0, box_.y1}
+                           : rows_in_columns_ ? path_->rows_in_columns(splat, box_.x0, box_.x1 + 1)
+                                              : path_->rows(splat);
+    const PixelRange rows = met.within({box_.y0, box_.y1});
+    for (int y = rows.first; y <= rows.last; ++y) {
+        if (live_in_row_[y - box_.y0] == 0) {
+            continue;
+        }
+        if (const auto span = span_of(splat, y)) {
+            blend_span(*span);
+        }
+    }
+}
+
+void DataPathRenderer::TileBlender::blend_span(const RowSpan& span) {
+    ++counts_.spans;
+    const int end = span.x0 + span.length - 1;
+    BlendTask task;
+    task.g0 = span.g0;
+    task.d0 = span.d0;
+    task.splat = span.splat;
+    task.row = span.y;
+    for (int column = span.x0 / kRun * kRun; column <= end; column += kRun) {
+        task.mask = bits_between(std::max(span.x0 - column, 0), std::min(end + 1 - column, kRun));
+        task.column = inside_tile(column);
+        task.offset = inside_tile(column - span.base);
+        const BlendOutcome outcome =
+            parsing_ ? path_->blend(task) : path_->test(test_of(task, box_.x0, box_.y0));
+        counts_.useful += ones(outcome.useful);
+        counts_.boundary += ones(outcome.boundary);
+        counts_.terminated += ones(outcome.terminated);
+        live_ -= ones(outcome.ended);
+        live_in_row_[span.y] -= ones(outcome.ended);
+    }
+}
+
+void DataPathRenderer::TileBlender::write(Image& image, int x, int y) {
+    const int width = box_.x1 - box_.x0 + 1;
+    for (int row = box_.y0; row <= box_.y1; ++row) {
+        path_->read_row(0, row - box_.y0, width, row_.data());
+        std::size_t at = image.at(box_.x0 - x, row - y);
+        for (int column = 0; column < width; ++column, ++at) {
+            const PixelValue& pixel = row_[column];
+            image.put(at, pixel.rgb, pixel.transmittance, pixel.updates);
+        }
+    }
+}
+
+DataPathRenderer::DataPathRenderer(const FrameWorkload& workload, DataPathRender options)
+    : work_(workload), progress_(std::move(options.progress)),
+      blender_(std::make_unique<TileBlender>(workload, options, counts_)) {}
+
+DataPathRenderer::~DataPathRenderer() = default;
+
+Image DataPathRenderer::render(const TileWindow& window) {
+    const PixelBox box = pixels_of(work_, window);
+    Image image(box.x1 - box.x0 + 1, box.y1 - box.y0 + 1);
+    for (int row = window.y0; row <= window.y1; ++row) {
+        for (int column = window.x0; column <= window.x1; ++column) {
+            if (blender_->blend(column, row)) { // else background
+                blender_->write(image, box.x0, box.y0);
+            }
+        }
+        if (progress_) {
+            progress_(ratio_of(row - window.y0 + 1, window.y1 - window.y0 + 1));
+        }
+    }
+    return image;
+}
+
+} // namespace degs

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// GBU without simulation: the rows of a tile run in step within the depth of their queues. See
+// docs/analytic.md.
+#include <algorithm>
+
+#include "baselines/gbu/config.hpp"
+#include "modules/kit/analytic/front_end_load.hpp"
+
+namespace degs {
+namespace {
+
+class GbuAnalytic : public FrontEndModel {
+public:
+    explicit GbuAnalytic(const GbuConfig& config)
+        : FrontEndModel(config, config.list_buffer.chunks, kMemory), config_(config) {}
+    std::vector<std::string> units() const override {
+        return {"projection", "sorting", "generation", "blending", "memory"};
+    }
+    std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
+    CoarseTile::Options drawing() const override { return {config_.tile_size, 1}; }
+    // A tile waits for its slowest row, so that many rows must be looked at.
+    Blocks blocks() const override { return {1, std::max(1, config_.tile_size / 16)}; }
+    int engines() const override { return config_.engines.count; }
+    int sorters() const override { return config_.sorting.count; }
+    SortCycles sort_cycles(double entries, double) const override { // handed over as a whole
+        const double all =
+            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity).all;
+        return {all, all};
+    }
+    double latency() const override {
+        return 4 * memory_latency() + config_.engines.generation_latency +
+               config_.engines.row_pe_latency;
+    }
+    int pes() const override { return config_.pes(); }
+
+    enum Unit : std::size_t { kGeneration = kArrayUnits, kBlending, kMemory };
+    const GbuConfig& config() const { return config_; }
+
+private:
+    GbuConfig config_;
+};
+
+/// An engine: a splat enters its rows' queues in one cycle if all of them have room.
+class GbuClock : public TileClock {
+public:
+    explicit GbuClock(const GbuAnalytic& model)
+        : model_(model), engines_(model.config().engines), pes_(engines_.row_pes) {}
+    void begin(const CoarseTile& tile) override;
+    void splat(const CoarseTile& tile) override;
+    TileCycles end(const CoarseTile& tile) override;
+
+private:
+    struct RowPe {
+        double free = 0;
+        std::size_t next = 0;       ///< place in the queue
+        std::vector<double> loaded; ///< by place: when the entry left it
+    };
+    const GbuAnalytic& model_;
+    const GbuConfig::Engines& engines_;
+    std::vector<RowPe> pes_;
+    double generated_ = 0, slots_ = 0;
+};
+
+std::unique_ptr<TileClock> GbuAnalytic::clock(const FrameWorkload&) const {
+    return std::make_unique<GbuClock>(*this);
+}
+
+void GbuClock::begin(const CoarseTile&) {
+    for (RowPe& pe : pes_) {
+        pe.free = 0;
+        pe.next = 0;
+        pe.loaded.assign(engines_.queue_depth, 0);
+    }
+    generated_ = slots_ = 0;
+}
+
+void GbuClock::splat(const CoarseTile& tile) {
+    double pushed = generated_;
+    for (const CoarseSpan& span : tile.spans()) {
+        if (!tile.cell_is_live(span.row, 0)) {
+            continue;
+        }
+        RowPe& pe = pes_[span.row % pes_.size()];
+        double& place = pe.loaded[pe.next];
+        const double at = std::max(generated_, place);
+        pe.next = pe.next + 1 == pe.loaded.size() ? 0 : pe.next + 1;
+        const double taken = span.length() + (engines_.end_probe ? 1 : 0);
+        place = std::max(pe.free, at + 1);
+        pe.free = place + taken;
+        slots_ += taken;
+        pushed = std::max(pushed, at);
+    }
+    generated_ = pushed + 1;
+}
+
+TileCycles GbuClock::end(const CoarseTile& tile) {
+    const FrontEndLoad& front = model_.front();
+    const double entries = tile.entries(), walked = tile.walked();
+    double last = generated_;
+    for (const RowPe& pe : pes_) {
+        last = std::max(last, pe.free);
+    }
+    TileCycles cycles;
+    cycles.slots = slots_ * tile.rows_per_drawn();
+    cycles.fragments = tile.fragments();
+    cycles.bytes = front.tile_bytes(entries, walked, tile.pixels());
+    cycles.walked = walked;
+    cycles.busy[kSortingUnits] = model_.sort_cycles(entries, walked).all / model_.sorters();
+    cycles.busy[GbuAnalytic::kGeneration] = walked / model_.engines();
+    cycles.busy[GbuAnalytic::kBlending] = cycles.slots / model_.pes();
+    cycles.busy[GbuAnalytic::kMemory] = front.memory.cycles(cycles.bytes);
+    cycles.time = std::max(last, front.fetch_cycles(walked));
+    return cycles;
+}
+
+} // namespace
+
+std::unique_ptr<AnalyticModel> GbuConfig::analytic() const {
+    return std::make_unique<GbuAnalytic>(*this);
+}
+
+} // namespace degs

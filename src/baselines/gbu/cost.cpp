@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bill of materials of GBU, and the activity of each block of it; docs/cost.md explains both.
+#include "baselines/gbu/gbu.hpp"
+
+namespace degs {
+
+cost::BillOfMaterials GbuConfig::bill() const {
+    const cost::Technology::Gbu& rows = cost.gbu;
+    constexpr int kReadAndWritten = 2;
+    constexpr int kSortingSteps = 2;
+    cost::BillOfMaterials bill(cost, clock_ghz);
+    bill.add_units({"projection", "Culling and conversion units.", true}, rows.preprocessing,
+                   projection.count, 1 - rows.sorting_share);
+    bill.add_units({"sorting", "Hierarchical sorting units.", true}, rows.preprocessing,
+                   sorting.count, rows.sorting_share);
+    bill.add_units({"row_generation", "Row Generation and dispatch of all engines."},
+                   rows.scheduler, rows.scheduler.units);
+    bill.add_units({"row_pes", "Row PEs of the tile engines."}, rows.blending, pes(), 1,
+                   cost.pe_factors(pipeline.precision()));
+    bill.add_sram({"list_buffer", "Lists of the Sorting Units."}, rows.sram, list_buffer.bytes,
+                  kReadAndWritten * kSortingSteps * sorting.count * traffic.list_entry_bytes);
+    bill.add_sram({"splat_buffer", "Chunks of splats on their way to the tile engines."}, rows.sram,
+                  splat_buffer_bytes(), kReadAndWritten * engines.count * traffic.splat_bytes);
+    bill.add_sram({"row_queues", "Row entries that wait for their Row PE."}, rows.sram,
+                  queue_bytes(), kReadAndWritten * pes() * engines.entry_bytes);
+    bill.add_sram({"reuse_cache", "Splat records that come again."}, rows.sram, reuse_cache.bytes,
+                  engines.count * traffic.splat_bytes);
+    bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."}, rows.sram,
+                  pixel_buffer.bytes, kReadAndWritten * pes() * pixel_bytes());
+    return bill;
+}
+
+void Gbu::collect_activity(AcceleratorResult& result) const {
+    using E = TileEngine::Stats;
+    using R = ReuseCache::Stats;
+    const auto bytes = [](std::uint64_t records, int record_bytes) {
+        return rate_of(records, 1) * record_bytes;
+    };
+    const std::uint64_t records = records_fetched();
+    const std::uint64_t rows = sum_of(engines_, &E::entries);
+    const int splat_bytes = config_.traffic.splat_bytes;
+    add_activity(result, "row_generation",
+                 rate_of(sum_of(engines_, &E::splats), config_.engines.count) *
+                     config_.cost.gbu.scheduler.units);
+    add_activity(result, "row_pes", result.slots.executed());
+    add_activity(result, "list_buffer",
+                 bytes(front_end().keys_moved(), config_.traffic.list_entry_bytes));
+    add_activity(result, "splat_buffer", bytes(2 * records, splat_bytes));
+    add_activity(
+        result, "row_queues",
+        bytes(2 * (rows + sum_of(engines_, &E::entries_dropped)), config_.engines.entry_bytes));
+    add_activity(result, "reuse_cache",
+                 bytes(sum_of(caches(), &R::hits) + sum_of(caches(), &R::misses), splat_bytes));
+    add_pixel_activity(result, job(), config_.pixel_bytes());
+}
+
+} // namespace degs

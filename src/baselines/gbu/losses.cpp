@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What moves the losses of GBU.
+#include "baselines/gbu/config.hpp"
+
+namespace degs {
+
+std::vector<LossKey> GbuConfig::loss_keys() const {
+    using Way = LossKey::Way;
+    return with(
+        {
+            {"row_generation", "engines.count", Way::Raise, kNoLimit},
+            {"dispatch", "engines.count", Way::Raise, kNoLimit},
+            {"gaps", "engines.queue_depth", Way::Raise, "4096"},
+            {"boundary", "engines.end_probe", Way::Set, "false"},
+            {"terminated", "engines.termination_cycles", Way::Lower, "1"},
+            {"blocked", "pixel_buffer.bytes", Way::Raise, kNoLimit},
+            {"blocked", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
+            {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
+        },
+        common_loss_keys(memory));
+}
+
+} // namespace degs

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// GSCore without simulation: its array takes a slot per sub-tile that a splat's box meets and that
+// is not done. See docs/analytic.md.
+#include <algorithm>
+
+#include "baselines/gscore/config.hpp"
+#include "modules/kit/analytic/front_end_load.hpp"
+#include "splat/frame/subtile_cover.hpp"
+
+namespace degs {
+namespace {
+
+class GscoreAnalytic : public FrontEndModel {
+public:
+    explicit GscoreAnalytic(const GscoreConfig& config)
+        : FrontEndModel(config, config.splat_chunks(), kMemory), config_(config) {}
+    std::vector<std::string> units() const override {
+        return {"projection", "sorting", "blending", "memory"};
+    }
+    std::unique_ptr<TileClock> clock(const FrameWorkload& frame) const override;
+    CoarseTile::Options drawing() const override {
+        return {config_.array.side(), config_.array.side()};
+    }
+    // Rows only tell when a sub-tile is done; two of each are enough.
+    Blocks blocks() const override { return {1, config_.array.side() / 2}; }
+    double visits_per_entry() const override { return 3; } // boxes
+    int engines() const override { return config_.clusters; }
+    int sorters() const override { return config_.sorting.count; }
+    SortCycles sort_cycles(double entries, double walked) const override {
+        if (config_.clusters == 1) {
+            return degs::sort_cycles(config_.sorting, entries, walked, front().sort_capacity);
+        }
+        const double all = // granted as a whole
+            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity).all;
+        return {all, all};
+    }
+    double latency() const override { return 4 * memory_latency() + config_.array.pipeline_cycles; }
+    int pes() const override { return config_.pes(); }
+
+    enum Unit : std::size_t { kBlending = kArrayUnits, kMemory };
+    const GscoreConfig& config() const { return config_; }
+
+private:
+    GscoreConfig config_;
+};
+
+class GscoreClock : public TileClock {
+public:
+    GscoreClock(const GscoreAnalytic& model, const FrameWorkload& frame)
+        : model_(model), frame_(frame), grid_(frame.tile_size, model.config().array.side()) {}
+    void begin(const CoarseTile& tile) override {
+        passes_ = 0;
+        inside_ = grid_.inside(tile.width(), tile.height());
+    }
+    void splat(const CoarseTile& tile) override;
+    TileCycles end(const CoarseTile& tile) override;
+
+private:
+    SubtileMask live(const CoarseTile& tile) const;
+    SubtileMask named(const CoarseTile& tile, SubtileMask among) const;
+
+    const GscoreAnalytic& model_;
+    const FrameWorkload& frame_;
+    SubtileGrid grid_;
+    SubtileMask inside_ = 0;
+    double passes_ = 0;
+};
+
+std::unique_ptr<TileClock> GscoreAnalytic::clock(const FrameWorkload& frame) const {
+    return std::make_unique<GscoreClock>(*this, frame);
+}
+
+/// Those with a pixel that has not ended.
+SubtileMask GscoreClock::live(const CoarseTile& tile) const {
+    SubtileMask mask = 0;
+    for (int row = 0, s = 0; row < grid_.per_side(); ++row) {
+        for (int column = 0; column < grid_.per_side(); ++column, ++s) {
+            const int side = grid_.side();
+            const SubtileMask bit = SubtileMask{1} << s;
+            mask |= (inside_ & bit) != 0 && tile.cell_is_live(row * side, column * side) ? bit : 0;
+        }
+    }
+    return mask;
+}
+
+/// Those of `among` that the solved splat touches.
+SubtileMask GscoreClock::named(const CoarseTile& tile, SubtileMask among) const {
+    switch (model_.config().array.subtile_skip) {
+    case SubtileTest::Obb:
+        return grid_.meeting(OrientedBox(frame_.splats[tile.splat()]), tile.x(), tile.y(), among);
+    case SubtileTest::Exact: {
+        SubtileMask mask = 0;
+        for (const CoarseSpan& span : tile.spans()) {
+            mask |= grid_.of_pixels(span.row, {span.first, span.last});
+        }
+        return mask & among;
+    }
+    default:
+        return among;
+    }
+}
+
+void GscoreClock::splat(const CoarseTile& tile) {
+    passes_ += __builtin_popcount(named(tile, live(tile)));
+}
+
+TileCycles GscoreClock::end(const CoarseTile& tile) {
+    const FrontEndLoad& front = model_.front();
+    const double entries = tile.entries(), walked = tile.walked();
+    TileCycles cycles;
+    cycles.slots = passes_ * model_.config().array.lanes;
+    cycles.fragments = tile.fragments();
+    cycles.bytes = front.tile_bytes(entries, walked, tile.pixels());
+    cycles.walked = walked;
+    cycles.busy[kSortingUnits] = model_.sort_cycles(entries, walked).all / model_.sorters();
+    cycles.busy[GscoreAnalytic::kBlending] = passes_ / model_.engines();
+    cycles.busy[GscoreAnalytic::kMemory] = front.memory.cycles(cycles.bytes);
+    cycles.time = std::max(passes_, front.fetch_cycles(walked));
+    return cycles;
+}
+
+} // namespace
+
+std::unique_ptr<AnalyticModel> GscoreConfig::analytic() const {
+    return std::make_unique<GscoreAnalytic>(*this);
+}
+
+} // namespace degs

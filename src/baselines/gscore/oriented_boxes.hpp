@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "modules/kit/job/render_job.hpp"
+#include "splat/frame/subtile_cover.hpp"
+
+namespace degs {
+
+/// The oriented boxes of a job's splats, made when a frame is first asked for. Shared by all arrays
+/// that look at the same frames.
+class OrientedBoxes {
+public:
+    explicit OrientedBoxes(const RenderJob& job) : job_(job) {}
+    /// Makes those of all frames up to this one.
+    void include(std::uint32_t frame) {
+        for (; frames_ <= frame; ++frames_) {
+            for (const ProjectedSplat& splat : job_.frames[frames_]->splats) {
+                boxes_.emplace_back(splat);
+            }
+        }
+    }
+    /// `splat` is a DataPath index.
+    const OrientedBox& operator[](std::uint32_t splat) const { return boxes_[splat]; }
+
+private:
+    const RenderJob& job_;
+    std::vector<OrientedBox> boxes_;
+    std::uint32_t frames_ = 0;
+};
+
+} // namespace degs

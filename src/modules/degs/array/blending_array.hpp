@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include <systemc>
+
+#include "modules/degs/array/early_blender.hpp"
+#include "modules/degs/array/task_blender.hpp"
+#include "modules/degs/array/termination_grain.hpp"
+#include "modules/kit/job/render_job.hpp"
+#include "modules/kit/job/slot_recorder.hpp"
+#include "modules/kit/job/tile_end.hpp"
+#include "stats/statistics.hpp"
+#include "tlm/dated_fifo.hpp"
+
+namespace degs {
+
+/// One slice of the Blending Array: the PEs that serve one bank (paper, Sec. IV-C). It executes one
+/// packet per cycle, in order. The data path computes q_n, alpha and the recurrence; without span
+/// parsing the PEs also test whether their pixel is inside the ellipse. Pixel state is
+/// written back after `writeback_cycles`, and the reports that a pixel or a whole segment has ended
+/// leave at the same date. The slice never stalls, because a packet is issued only when nothing can stop it.
+class ArraySlice : public sc_core::sc_module, private Pumped {
+public:
+    struct Config {
+        int width = 8;            ///< PEs
+        int writeback_cycles = 4; ///< execution to pixel state written back (paper: 4)
+        TerminationGrain termination = TerminationGrain::Segment;
+        int region_listeners = 0; ///< Slicing Units of a stream if they skip dead rows, else 0
+        int streams = 1;          ///< tile streams
+        int contexts = 1;         ///< tiles of a stream that the Pixel Buffer holds
+        int first_context = 0;    ///< of the Pixel Buffer
+        bool granted = false;     ///< tiles come one by one, see TileEnd
+        bool scoreboard = true;   ///< no pixel comes again before its write-back
+        bool tests = false;       ///< PEs test whether their pixel is inside the ellipse
+    };
+    struct Stats {
+        SlotAccount slots; ///< executed tasks by class; idle slots are the Packing Unit's
+        ActiveWindow window;
+        std::uint64_t packets = 0;
+        /// Pixels updated again before their write-back; must be 0 with a scoreboard.
+        std::uint64_t hazards = 0;
+        std::uint64_t pixels_ended = 0;
+        void describe(StatsVisitor& v) const { // slots and hazards are described by the result
+            v.count("packets", packets, "packets", "Packets executed, one in each busy cycle.");
+            v.count("pixels_ended", pixels_ended, "pixels",
+                    "Pixels that ended before the end of their list.");
+        }
+    };
+
+    FifoPort<TaskPacket> in;
+    FifoPort<Termination> terminated; ///< to the bank
+    /// To the Slicing Units that share a row with this slice, stream by stream; empty unless they
+    /// skip dead rows.
+    sc_core::sc_vector<FifoPort<RegionEnded>> region_ended;
+    // Once per tile, one port per stream; kNoTile ends the reports of tiles that are granted.
+    sc_core::sc_vector<FifoPort<SliceReport>> tile_done;  ///< to the Pixel Buffer
+    sc_core::sc_vector<FifoPort<SliceReport>> tile_state; ///< to the Tile Monitor
+
+    ArraySlice(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+               RenderJob& job, int index, int slices, int segment_length);
+
+    const Stats& stats() const { return stats_; }
+    // For tasks that TileDrawing has drawn: the Packing Unit tells their dates, which do not fall, in place of packets.
+    /// The tasks `mask` of a segment execute in the cycles `first` to `last`.
+    inline void execute(const TaskRun& run, std::uint32_t mask, Cycle first, Cycle last);
+    /// Counts tasks by class; see DrawnTasks.
+    inline void count_drawn(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful);
+    /// `tasks` tasks execute so many cycles after the latest ones of their segment.
+    void check_drawn(std::int32_t distance, int tasks) {
+        stats_.hazards += distance < config_.writeback_cycles ? tasks : 0; // 0 with a scoreboard
+    }
+    Cycle writeback() const { return config_.writeback_cycles; }
+    /// Of these, the pixels `ended` end at `date`.
+    void end_drawn(const TaskRun& run, std::uint32_t ended, Cycle date);
+    /// All tasks of the cycle `date` have been told.
+    inline void pass_packet(Cycle date);
+    /// The end of a tile comes at `date`, or as soon as what came before has been executed; `packet`: together with
+    /// the tasks of this cycle, which have all been told.
+    void pass_end(TileNumber tile, std::int16_t context, Cycle date, bool packet);
+
+    /// Records executed tasks in `part`, which may be null; before the simulation starts.
+    void record(SlotPart* part) { part_ = part; }
+    /// Packets tell dates alone, and of their tasks those that end a pixel; before the simulation starts.
+    void expect_drawn() { drawn_ = true; }
+
+private:
+    /// What to do with the tasks of packets: blend them, record them as well, or neither, since they were drawn and
+    /// recorded before.
+    enum class Tasks { Blended, Recorded, Drawn };
+    /// Runs the slice in place of itself unless its tasks are blended alone, so that pump() need not ask.
+    class RecordedPump : public Pumped {
+    public:
+        explicit RecordedPump(ArraySlice& slice) : slice_(slice) {}
+        void pump() override;
+
+    private:
+        ArraySlice& slice_;
+    };
+    struct Recent {
+        Cycle date = 0;
+        std::uint32_t mask = 0;
+    };
+    /// Tile state: what is still alive in this slice's rows.
+    struct Context {
+        TileNumber tile = kNoTile;
+        int live_pixels = 0;
+        bool reported = false;
+        std::vector<int> live_in_segment;
+        std::vector<std::uint32_t> ended_in_segment;
+        std::vector<Recent> recent; ///< per segment: pixels updated lately
+    };
+    void end_of_elaboration() override;
+    void run();
+    void pump() override;
+    /// The context, prepared for the tile if that starts with this call.
+    Context& context_of(std::int16_t context, TileNumber tile) {
+        if (current_->tile != tile) {
+            current_ = &contexts_[context - config_.first_context];
+            if (current_->tile != tile) {
+                start_tile(*current_, tile);
+            }
+        }
+        return *current_;
+    }
+    [[gnu::noinline]] void start_tile(Context& context, TileNumber number);
+    template <Tasks Kind>
+    void execute(const TaskPacket& packet);
+    template <Tasks Kind>
+    void pump_packets();
+    void end_pixels(const TaskPacket& packet);
+    /// The tasks of `run` that are in this packet, from the outcome of its segment.
+    void record(const TaskRun& run, Cycle date);
+    // What is rare stays out of the loop over packets, which then keeps more in registers.
+    [[noreturn, gnu::noinline]] void refuse(Cycle slot) const;
+    [[gnu::noinline]] BlendOutcome blend_otherwise(const Context& context, const TaskRun& run,
+                                                   Cycle date);
+    BlendOutcome blend_early(const Context& context, const TaskRun& run, Cycle date);
+    inline void check_reuse(Recent& recent, std::uint32_t tasks, Cycle date);
+    [[gnu::noinline]] void pixels_ended(Context& context, const TaskRun& run, std::uint32_t ended);
+    void report_region(const Context& context, const TaskRun& run);
+    [[gnu::noinline]] void end_tile(TileNumber number, std::int16_t context);
+    void end_reports();
+    void count_tile(TileNumber number);
+    std::size_t stream_of(std::int16_t context) const {
+        return (context - config_.first_context) / config_.contexts;
+    }
+
+    Config config_;
+    RenderJob& job_;
+    int index_, slices_, segment_length_, segments_per_row_;
+    Process self_;
+    DatedFifo<TaskPacket>* packets_ = nullptr; // the ring behind `in`
+    std::vector<Context> contexts_;            // those in use have taken host memory
+    Context* current_;                         // asked for last
+    int segments_;                             // of a context
+    std::vector<std::size_t> port_of_row_; // in region_ended, of a stream; empty without listeners
+    BlendOutcome outcome_; // of the segment whose tasks execute, or of the part without scoreboard
+    bool plain_;           // solved tasks and a scoreboard: asked once per segment, so in one place
+    TaskBlender blender_;
+    std::optional<EarlyBlender> early_; // without scoreboard
+    TileEnd tiles_;
+    SlotPart* part_ = nullptr;
+    bool drawn_ = false;
+    RecordedPump recorded_{*this};
+    Stats stats_;
+};
+
+inline __attribute__((always_inline)) void
+ArraySlice::execute(const TaskRun& run, std::uint32_t mask, Cycle first, Cycle last) {
+    Context& context = context_of(run.task.context, run.tile);
+    Recent& recent = context.recent[run.domain];
+    check_reuse(recent, mask, first);
+    recent.date = last;
+    count_drawn(mask, run.drawn.inside, run.drawn.useful);
+}
+
+inline __attribute__((always_inline)) void
+ArraySlice::count_drawn(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful) {
+    const auto count = [](std::uint32_t bits) {
+        return static_cast<std::uint64_t>(__builtin_popcount(bits));
+    };
+    const std::uint64_t all_inside = count(mask & inside);
+    const std::uint64_t all_useful = count(mask & useful);
+    stats_.slots.useful += all_useful;
+    stats_.slots.boundary += count(mask) - all_inside;
+    stats_.slots.terminated += all_inside - all_useful;
+}
+
+inline __attribute__((always_inline)) void ArraySlice::pass_packet(Cycle date) {
+    if (self_.local() > date) {
+        refuse(date);
+    }
+    stats_.packets++;
+    stats_.window.include(date);
+    self_.advance_to(date + 1);
+}
+
+// The scoreboard exists for this invariant. One date per segment is enough for it: a pixel that came
+// before that date may count too much, but no hazard is missed. EarlyBlender counts exactly.
+inline void ArraySlice::check_reuse(Recent& recent, std::uint32_t tasks, Cycle date) {
+    const Cycle writeback = config_.writeback_cycles;
+    const bool late = date - recent.date >= writeback;
+    const std::uint32_t busy = late ? 0 : recent.mask;
+    if ((busy & tasks) != 0) { // never with a scoreboard
+        stats_.hazards += __builtin_popcount(busy & tasks);
+    }
+    recent.mask = busy | tasks;
+    recent.date = date;
+}
+
+} // namespace degs

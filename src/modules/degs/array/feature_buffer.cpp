@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/degs/array/feature_buffer.hpp"
+
+#include <algorithm>
+
+namespace degs {
+
+FeatureBuffer::FeatureBuffer(int entries, int open_splats, int streams, const Fill& fill)
+    : entries_(entries), free_(entries), first_free_(free_.data()), end_free_(first_free_),
+      free_count_(entries_.size()), several_open_(open_splats > 1 || streams > 1), fill_(fill),
+      write_ports_(std::size_t{1} * fill.ports.sram_banks * fill.ports.ports, 0),
+      streams_(streams) {
+    for (Stream& stream : streams_) {
+        stream.open.resize(std::min(open_splats, entries / streams));
+        stream.size = stream.open.size();
+    }
+    std::uint16_t entry = 0;
+    for (Free& place : free_) {
+        place = {0, entry++};
+    }
+}
+
+// One of the stream's open splats beside the current one.
+bool FeatureBuffer::find(std::uint64_t splat, std::size_t stream) {
+    for (const Open& open : streams_[stream].open) {
+        if (open.key == splat) {
+            current_key_ = splat;
+            current_ = open.entry;
+            return true;
+        }
+    }
+    return false;
+}
+
+void FeatureBuffer::close(Cycle now, std::size_t stream) {
+    Stream& own = streams_[stream];
+    while (own.count != 0) {
+        close_oldest(own, now);
+    }
+}
+
+// Takes the port of the entry's SRAM bank that is free first; returns the date at which it is done.
+Cycle FeatureBuffer::fill(std::uint16_t entry, Cycle now) {
+    const int ports = fill_.ports.ports;
+    if (ports == 0 || fill_.cycles == 0) {
+        return now + fill_.cycles;
+    }
+    const auto first = write_ports_.begin() + entry % fill_.ports.sram_banks * ports;
+    Cycle& port = *std::min_element(first, first + ports);
+    port = std::max(port, now) + fill_.cycles;
+    return port;
+}
+
+} // namespace degs

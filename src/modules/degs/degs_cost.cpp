@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bill of materials of DeGS, and the activity of each block of it; docs/cost.md explains both.
+#include "modules/degs/degs.hpp"
+
+namespace degs {
+
+cost::BillOfMaterials DegsConfig::bill() const {
+    const cost::Technology::Degs& rows = cost.degs;
+    const double width = array.pes_per_bank * rows.packing_scheduler.units;
+    const double share = rows.scheduler_width_share;
+    const auto shape = [](const BankedSramPorts& ports) {
+        return cost::SramShape{ports.ports, ports.sram_banks};
+    };
+    constexpr int kReadAndWritten = 2;
+    const std::int64_t many = clusters;
+
+    cost::BillOfMaterials bill(cost, clock_ghz);
+    bill.add_units({"projection", "Projection Units.", true}, rows.projection, projection.count);
+    bill.add_units({"sorting", "Sorting Units.", true}, rows.sorting, sorting.count);
+    bill.add_units({"slicing", "Gaussian Slicing Units."}, rows.span_engine,
+                   clusters * slicing.count);
+    bill.add_units({"span", "Span Units; one for each row that a unit takes per cycle."},
+                   rows.span_engine, clusters * span.count * span.rows_per_cycle);
+    bill.add_units({"packing", "Issue Banks with their Packing Units."}, rows.packing_scheduler,
+                   clusters * scheduler.banks, 1 - share + share * width / rows.blending.units);
+    bill.add_units({"blending", "PEs of the Blending Array."}, rows.blending, pes(), 1,
+                   cost.pe_factors(pipeline.precision()));
+    bill.add_sram({"gaussian_buffer", "Sorted splats and lists being sorted."},
+                  rows.gaussian_buffer, many * gaussian_buffer.bytes,
+                  kReadAndWritten * (clusters * slicing.count * traffic.splat_bytes +
+                                     sorting.count * traffic.list_entry_bytes),
+                  shape(gaussian_buffer.ports));
+    if (front.built()) {
+        const int moved = front.splats_per_cycle != 0 ? front.splats_per_cycle
+                                                      : clusters * fetchers() * fetching.chunk;
+        bill.add_sram({"splat_supply", "FIFOs, windows and cache of the Splat Supply."},
+                      rows.gaussian_buffer, front.bytes(clusters, fetchers(), traffic.splat_bytes),
+                      kReadAndWritten * moved * traffic.splat_bytes, {});
+    }
+    bill.add_sram({"feature_buffer", "Parameters of the splats in the banks."}, rows.feature_buffer,
+                  many * feature_buffer.bytes,
+                  kReadAndWritten * clusters * scheduler.banks * feature_buffer.entry_bytes,
+                  shape(feature_buffer.fill.ports));
+    bill.add_sram({"span_buffer", "Rows of splats on their way to the Span Units."},
+                  rows.span_buffer, many * span_buffer.bytes,
+                  kReadAndWritten * clusters * span.count * span.rows_per_cycle *
+                      span_buffer.row_bytes,
+                  {span_buffer.ports.ports});
+    bill.add_sram({"packing_buffer", "Waiting segments, and packets."}, rows.packing_buffer,
+                  many * packing.bytes,
+                  kReadAndWritten * clusters * scheduler.banks *
+                      (packet_bytes() + scheduler.segment_bytes),
+                  {packing.ports.ports});
+    bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."},
+                  rows.pixel_buffer, many * pixel_buffer.bytes,
+                  kReadAndWritten * pes() * pixel_bytes(), shape(pixel_buffer.ports));
+    return bill;
+}
+
+void Degs::collect_activity(AcceleratorResult& result) const {
+    const DegsConfig& c = config_;
+    using G = GaussianSlicingUnit::Stats;
+    using S = SpanStage::Stats;
+    using B = IssueBank::Stats;
+    const auto bytes = [](std::uint64_t records, int record_bytes) {
+        return rate_of(records, 1) * record_bytes;
+    };
+    const std::uint64_t rows = sum_of(blocks_.spans, &S::rows);
+    const std::uint64_t issued = sum_of(blocks_.banks, &B::segments_issued);
+    const std::uint64_t segments = 2 * issued + sum_of(blocks_.banks, &B::segments_dropped);
+    const std::uint64_t packets = 2 * sum_of(blocks_.packing, &PackingUnit::Stats::packets);
+    std::uint64_t features = issued;
+    for (const auto& bank : blocks_.banks) {
+        features += bank->features().stats().entries;
+    }
+    const std::uint64_t splats = sum_of(blocks_.fetchers, &SplatFetcher::Stats::records) +
+                                 sum_of(blocks_.slicing, &G::splats);
+    add_activity(result, "slicing", sum_of(blocks_.slicing, &G::busy));
+    add_activity(result, "span", rows * c.span.cycles_per_row);
+    add_activity(result, "packing", sum_of(blocks_.banks, &B::busy));
+    add_activity(result, "blending", result.slots.executed());
+    add_activity(result, "gaussian_buffer",
+                 bytes(splats, c.traffic.splat_bytes) +
+                     bytes(front_end_->keys_moved(), c.traffic.list_entry_bytes));
+    if (supply_) {
+        add_activity(result, "splat_supply",
+                     bytes(supply_->stats().records_moved(), c.traffic.splat_bytes));
+    }
+    add_activity(result, "feature_buffer", bytes(features, c.feature_buffer.entry_bytes));
+    add_activity(result, "span_buffer",
+                 bytes(sum_of(blocks_.slicing, &G::rows) + rows, c.span_buffer.row_bytes));
+    add_activity(result, "packing_buffer",
+                 bytes(segments, c.scheduler.segment_bytes) + bytes(packets, c.packet_bytes()));
+    add_pixel_activity(result, job_, c.pixel_bytes());
+}
+
+} // namespace degs

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "modules/degs/drawing/tile_canvases.hpp"
+#include "modules/degs/drawing/tile_drawing.hpp"
+
+namespace degs {
+
+/// Draws tile after tile on a thread of its own, some tiles ahead of the simulation. A tile is drawn until all
+/// its pixels have ended, and a little further, because its slicing goes on until it hears of that; what the
+/// simulation asks for beyond is drawn then. The results wait in memory, of which the thread takes a bounded
+/// amount.
+///
+/// The thread owns the pixels of the data path. The simulation reads only what the thread has published: sheets,
+/// which hold the rows of some neighbouring splats of a list, and the pixels of tiles that will not change.
+class DrawingThread final : public TileDrawing {
+public:
+    /// Tiles may join the job, frames may not: their splats would move under the thread.
+    DrawingThread(RenderJob& job, const DrawingOptions& options);
+    ~DrawingThread() override;
+
+    PixelRange rows(TileNumber number, std::uint32_t place) override;
+    void take(TileNumber number, std::uint32_t place, const PixelRange& own, int step,
+              DrawnRow* drawn) override;
+    void read_row(TileNumber number, int row, int count, PixelValue* pixels) override;
+    void clear_row(TileNumber number, int row) override;
+    double waited_s() const override { return waited_s_; }
+
+private:
+    static constexpr std::uint32_t kSplats = 32; // of a sheet
+    /// The one in which the last pixel ends, and one more: the message of that takes some chunks.
+    static constexpr int kSheetsAfterEnd = 2;
+    static constexpr std::size_t kMostBytes = std::size_t{4} << 20U; // that wait
+    static constexpr std::size_t kMostTiles = 64;                    // likewise
+    static constexpr std::uint64_t kNoDemand = ~std::uint64_t{0};
+    static constexpr std::uint32_t kWholeTile = ~std::uint32_t{0}; // in place of a sheet
+
+    /// Splats of a list, from a multiple of kSplats on.
+    struct Sheet {
+        struct Splat {
+            PixelRange rows;
+            std::size_t drawn = 0; // the place of its first row
+        };
+        std::array<Splat, kSplats> splats;
+        std::vector<DrawnRow> drawn;
+        std::uint32_t takes = 0; // by the simulation, that are left
+        std::size_t bytes() const { return sizeof(Sheet) + drawn.size() * sizeof(DrawnRow); }
+    };
+    /// A tile that is drawn.
+    struct Tile {
+        JobTile job;
+        int canvas = 0;
+        std::int64_t live = 0;               // pixels that have not ended
+        int sheets_after_end = 0;            // with the one in which the tile ended
+        std::vector<Sheet*> sheets;          // of the whole list; nullptr once they are taken
+        std::atomic<std::uint32_t> ready{0}; // sheets that are published
+        std::vector<PixelValue> pixels;      // row by row; there if final
+        std::atomic<bool> final{false};      // no pixel changes any more
+        int cleared = 0;                     // rows, by the simulation
+        bool listed() const { return ready.load(std::memory_order_relaxed) == sheets.size(); }
+        std::size_t pixel_bytes() const { return pixels.size() * sizeof(PixelValue); }
+    };
+
+    /// A tile of the job, whether it is drawn or not.
+    struct Slot {
+        explicit Slot(const JobTile& listed) : job(listed) {}
+        JobTile job;
+        std::atomic<Tile*> open{nullptr}; // nullptr: not drawn yet, or closed
+        bool passed = false;              // has been closed; for the thread alone
+    };
+
+    // The simulation's side.
+    void hand_over_joined();
+    Tile* tile(TileNumber number) { return slots_[number].open.load(); }
+    Sheet& sheet(TileNumber number, std::uint32_t place);
+    template <class Ready>
+    void await(TileNumber number, std::uint32_t sheet, const Ready& ready);
+    void wake_if_useful();
+
+    // The thread's side.
+    void run();
+    bool receive();
+    bool serve_demand();
+    bool draw_ahead();
+    void rest();
+    Tile& open(TileNumber number);
+    void close(TileNumber number);
+    void draw_sheet(Tile& tile);
+    void fix_pixels(Tile& tile);
+    Sheet& blank_sheet();
+    void recycle(Sheet& sheet);
+    template <class Value>
+    void publish(std::atomic<Value>& place, Value value);
+
+    RenderJob& job_;
+    DrawingOptions options_;
+    std::deque<Slot> slots_; // by tile; the simulation adds some
+    double waited_s_ = 0;
+
+    TileCanvases canvases_;
+    std::vector<Slot*> known_; // by tile
+    std::vector<std::unique_ptr<Tile>> all_tiles_;
+    std::vector<std::unique_ptr<Sheet>> all_sheets_;
+    std::vector<Tile*> free_tiles_;
+    std::vector<Sheet*> free_sheets_;
+    TileNumber next_ = 0; // that is drawn ahead
+    std::size_t bytes_ = 0, open_tiles_ = 0;
+    std::vector<Sheet*> received_sheets_;
+    std::vector<TileNumber> received_tiles_;
+
+    std::atomic<std::uint64_t> demand_{kNoDemand}; // tile and sheet for which the simulation waits
+    std::atomic<bool> simulation_sleeps_{false}, thread_sleeps_{false};
+    std::mutex mutex_; // for both to sleep, and of all that follows
+    std::condition_variable published_, wanted_;
+    std::vector<Sheet*> taken_sheets_;
+    std::vector<TileNumber> cleared_tiles_;
+    std::vector<Slot*> joined_;
+    std::exception_ptr failure_;
+    bool stop_ = false;
+    std::thread thread_; // starts when everything else is there
+};
+
+} // namespace degs

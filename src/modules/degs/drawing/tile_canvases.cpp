@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/degs/drawing/tile_canvases.hpp"
+
+namespace degs {
+
+int TileCanvases::open() {
+    if (free_.empty()) {
+        free_.push_back(canvases_++);
+        job_.path->hold_contexts(canvases_);
+    }
+    const int canvas = free_.back();
+    free_.pop_back();
+    return canvas;
+}
+
+void TileCanvases::draw(int canvas, const JobTile& tile, std::uint32_t splat,
+                        const PixelRange& range, int step, DrawnRow* rows) {
+    TileRows wanted;
+    wanted.splat = splat;
+    wanted.context = canvas;
+    wanted.x_begin = tile.x;
+    wanted.x_end = tile.x + tile.width;
+    wanted.tile_y = tile.y;
+    wanted.first = range.first;
+    wanted.last = range.last;
+    wanted.step = step;
+    wanted.tests = tests_;
+    job_.path->draw_rows(wanted, rows);
+}
+
+} // namespace degs

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/degs/drawing/tile_drawing.hpp"
+
+#include <algorithm>
+#include <system_error>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "modules/degs/drawing/drawing_thread.hpp"
+#include "modules/degs/drawing/tile_canvases.hpp"
+
+namespace degs {
+namespace {
+
+/// Draws a splat when it is taken.
+class DrawingOnDemand final : public TileDrawing {
+public:
+    DrawingOnDemand(RenderJob& job, const DrawingOptions& options)
+        : job_(job), options_(options), canvases_(job, options.tests) {}
+
+    void expect(const SplatChunk& chunk) override { expect_listed(job_, chunk); }
+
+    PixelRange rows(TileNumber number, std::uint32_t place) override {
+        const JobTile& tile = job_.tiles[number];
+        return sliced_rows(job_, tile, listed_splat(job_, tile, place), options_.rows);
+    }
+
+    void take(TileNumber number, std::uint32_t place, const PixelRange& own, int step,
+              DrawnRow* drawn) override {
+        if (own.empty()) {
+            return;
+        }
+        const JobTile& tile = job_.tiles[number];
+        canvases_.draw(canvas(number), tile, listed_splat(job_, tile, place), own, step, drawn);
+        for (int row = own.first; row <= own.last; row += step, ++drawn) {
+            count(*drawn);
+        }
+    }
+
+    void read_row(TileNumber number, int row, int count, PixelValue* pixels) override {
+        canvases_.read_row(canvas(number), row, count, pixels);
+    }
+
+    void clear_row(TileNumber number, int row) override {
+        const int place = canvas(number);
+        canvases_.clear_row(place, row);
+        if (++cleared_[number] == job_.tile_size) {
+            canvases_.close(place);
+            canvas_of_[number] = kNone;
+        }
+    }
+
+private:
+    static constexpr int kNone = -1;
+
+    int canvas(TileNumber number) {
+        return number < canvas_of_.size() && canvas_of_[number] != kNone ? canvas_of_[number]
+                                                                         : open(number);
+    }
+    int open(TileNumber number) {
+        if (number >= canvas_of_.size()) {
+            canvas_of_.resize(std::max<std::size_t>(job_.tiles.size(), number + 1), kNone);
+            cleared_.resize(canvas_of_.size(), 0);
+        }
+        cleared_[number] = 0;
+        return canvas_of_[number] = canvases_.open();
+    }
+
+    RenderJob& job_;
+    DrawingOptions options_;
+    TileCanvases canvases_;
+    std::vector<int> canvas_of_; // by tile, or kNone
+    std::vector<int> cleared_;   // rows, by tile
+};
+
+} // namespace
+
+std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options) {
+    if (host_threads() > 1 && !job.frames_join) {
+        try {
+            return std::make_unique<DrawingThread>(job, options);
+        } catch (const std::system_error&) {
+            // The system gives no thread: it is only slower without.
+        }
+    }
+    return std::make_unique<DrawingOnDemand>(job, options);
+}
+
+} // namespace degs

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which segments a bank issues, and the date at which it has something to do again.
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "modules/degs/scheduler/issue_bank.hpp"
+
+namespace degs {
+
+// False if the Packing Buffer has no room for the head of the domain. Inlined in the hot loop.
+inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, SegmentQueue::Tile& tile,
+                                                                int domain) {
+    const Segment& segment = tile.front(domain);
+    const std::uint32_t mask = segment.run.task.mask;
+    std::uint32_t wanted = mask & tile.live(domain);
+    if (wanted != mask && by_task_ && wanted != 0) {
+        wanted = mask; // one live task takes the others along
+    }
+    const int tasks = __builtin_popcount(wanted);
+    if (!packing_.room(now, segment.run, tasks) ||
+        !packing_.room_by_ports(now, segment.run, wanted, segment.feature)) {
+        no_room_ = true;
+        return false;
+    }
+    Cycle last = now;
+    if (tasks != 0) {
+        last = packing_.add(self_, segment.run, wanted, segment.feature) + config_.reuse_cycles;
+        if (config_.scoreboard) {
+            queue_.set_ready_at(tile, domain, last);
+        }
+    }
+    stats_.segments_issued++;
+    stats_.tasks_issued += tasks;
+    stats_.tasks_dropped += __builtin_popcount(mask) - tasks;
+    features_.release(segment.feature, last);
+    queue_.pop(tile, domain);
+    return true;
+}
+
+// True if anything was issued.
+bool IssueBank::issue(Cycle now) {
+    no_room_ = false;
+    const int issued = stream_count_ == 1 ? issue_in_order(now) : issue_from_all(now);
+    width_limited_ = issued == config_.issue_width;
+    stats_.busy += issued != 0 ? 1 : 0;
+    return issued != 0;
+}
+
+// The older tile goes first. Returns the number of segments issued.
+int IssueBank::issue_in_order(Cycle now) {
+    int issued = 0;
+    for (SegmentQueue::Tile* const tile : started_) {
+        while (tile->waiting() != 0) {
+            const int domain = queue_.pick(*tile, packing_.next_execution(now));
+            if (domain < 0 || !issue_one(now, *tile, domain)) {
+                break;
+            }
+            if (++issued == config_.issue_width) {
+                return issued;
+            }
+        }
+    }
+    return issued;
+}
+
+// One of the streams after the other; a domain that was found stays ready until it is issued.
+int IssueBank::issue_from_all(Cycle now) {
+    for (BankStream& stream : streams_) {
+        stream.ready = -1;
+    }
+    const bool in_turn = config_.scan == DomainScan::RoundRobin;
+    int issued = 0;
+    while (issued < config_.issue_width) {
+        const bool last = issued + 1 == config_.issue_width;
+        BankStream* const chosen = in_turn ? first_ready(now, last) : least_ready(now);
+        if (chosen == nullptr) {
+            break;
+        }
+        SegmentQueue::Tile& tile = *started_[chosen->issuing];
+        if (!issue_one(now, tile, chosen->ready)) {
+            break; // nothing overtakes what waits for room
+        }
+        queue_.took(tile, chosen->ready);
+        chosen->ready = -1;
+        issued_stream_ = chosen;
+        ++issued;
+    }
+    return issued;
+}
+
+// Looks for a domain of the stream that may issue, in its oldest tile that has one. False if there
+// is none.
+inline bool IssueBank::find_ready(BankStream& stream, Cycle now) {
+    for (std::size_t place = stream.first_started; stream.ready < 0 && place < stream.end_started;
+         ++place) {
+        SegmentQueue::Tile& tile = *started_[place];
+        if (tile.waiting() != 0) {
+            stream.ready = queue_.find(tile, packing_.next_execution(now));
+            stream.issuing = place;
+        }
+    }
+    return stream.ready >= 0;
+}
+
+// The next stream that has a ready domain, that which issued last at the end; nullptr: there is none.
+// All streams are searched, because what they have at this date counts for later issues of the
+// cycle; for the `last` one only as far as needed.
+inline BankStream* IssueBank::first_ready(Cycle now, bool last) {
+    BankStream* first = nullptr;
+    BankStream* stream = issued_stream_;
+    do {
+        stream = stream->next;
+        if (find_ready(*stream, now) && first == nullptr) {
+            first = stream;
+        }
+    } while (stream != issued_stream_ && (first == nullptr || !last));
+    return first;
+}
+
+// The stream whose ready domain has the smallest key; nullptr: there is none.
+BankStream* IssueBank::least_ready(Cycle now) {
+    BankStream* chosen = nullptr;
+    std::uint64_t least = ~std::uint64_t{0};
+    for (BankStream& stream : streams_) {
+        if (find_ready(stream, now)) {
+            const std::uint64_t key = SegmentQueue::key_of(*started_[stream.issuing], stream.ready);
+            if (key < least) {
+                least = key;
+                chosen = &stream;
+            }
+        }
+    }
+    return chosen;
+}
+
+// True if a tile has ended.
+bool IssueBank::finish_tiles() {
+    if (closing_ == 0) {
+        return false;
+    }
+    const std::size_t before = closing_;
+    for (BankStream& stream : streams_) {
+        finish_tiles(stream);
+    }
+    if (closing_ == before) {
+        return false;
+    }
+    list_started();
+    return true;
+}
+
+void IssueBank::finish_tiles(BankStream& stream) {
+    while (stream.oldest < stream.entering && stream.oldest < stream.startable) {
+        SegmentQueue::Tile& tile = tile_at(stream, stream.oldest);
+        if (tile.waiting() != 0 || (segmenter_.cutting() && cut_tile_ == &tile)) {
+            break;
+        }
+        packing_.end_tile(self_, tile.number(), tile.context());
+        tiles_.count(tile.number());
+        queue_.clear(tile);
+        ++stream.oldest;
+        --closing_;
+        contexts_owed_ = true;
+    }
+}
+
+Idle IssueBank::idle_cause() const {
+    if (queue_.empty()) {
+        return Idle::Starved;
+    }
+    for (const SegmentQueue::Tile* const tile : started_) {
+        if (tile->waiting() != 0) {
+            return width_limited_ ? width_cause_ : no_room_ ? Idle::Blocked : Idle::Conflict;
+        }
+    }
+    return Idle::Blocked;
+}
+
+// The next date at which waiting segments may go, if none went at `now`; kNever if none waits.
+Cycle IssueBank::next_ready(Cycle now) const {
+    if (no_room_) {
+        return now + 1;
+    }
+    Cycle earliest = kNever;
+    for (const SegmentQueue::Tile* const tile : started_) {
+        if (tile->waiting() != 0) {
+            earliest = std::min(earliest, queue_.next_ready(*tile));
+        }
+    }
+    return earliest;
+}
+
+// Watches the inputs from which the next span may come. True if one of them has a span by now.
+bool IssueBank::watch_inputs(Cycle now) {
+    bool waiting = false;
+    for (const BankStream& stream : streams_) {
+        for (const BankStream::Input& input : stream.inputs) {
+            if (input.ring->empty()) {
+                watched_.push_back(input.ring);
+            } else if (takes(stream, input)) {
+                if (input.ring->head_date() > now) {
+                    watched_.push_back(input.ring);
+                } else {
+                    waiting = true;
+                }
+            }
+        }
+    }
+    return waiting;
+}
+
+// The next cycle in which anything can change, if there is nothing left to do at once: a domain
+// becomes ready, an open packet has to leave, a Feature Buffer entry is freed, or a message
+// arrives.
+Cycle IssueBank::next_date(Cycle now) {
+    const Cycle next = now + 1;
+    Cycle limit = packing_.open_until();
+    const Cycle latency = packing_.next_execution(now) - now;
+    const Cycle ready = next_ready(now);
+    if (ready != kNever) {
+        limit = std::min(limit, std::max(next, ready > latency ? ready - latency : 0));
+    }
+    if (limit == next) {
+        return next; // there is work then, whatever arrives
+    }
+    watched_.clear();
+    if (!queue_.full() && !segmenter_.cutting() && watch_inputs(now)) {
+        // More than a cycle's worth, or no Feature Buffer entry.
+        const bool entries_only = features_full_ && stream_count_ == 1;
+        limit = std::min(limit, entries_only ? std::max(next, features_.next_free()) : next);
+        if (limit == next) {
+            return next;
+        }
+    }
+    if (!packing_.draws()) {
+        watched_.push_back(terminations_);
+    } else if (!terminations_->empty()) { // all that are due are there
+        limit = std::min(limit, std::max(next, terminations_->head_date()));
+    }
+    if (contexts_owed_) {
+        for (const BankStream& stream : streams_) {
+            if (stream.startable < stream.oldest + contexts_) {
+                watched_.push_back(stream.contexts_freed);
+            }
+        }
+    }
+    limit = self_.next_arrival(watched_.data(), watched_.size(), next, std::max(next, limit));
+    if (limit >= kNever) {
+        throw std::logic_error(std::string(name()) + ": nothing left to wait for, but after " +
+                               std::to_string(tiles_.tiles()) + " tiles there is another one");
+    }
+    return limit;
+}
+
+} // namespace degs

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/degs/span_engine/span_pool.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "modules/kit/job/row_map.hpp"
+#include "tlm/has_process.hpp"
+
+namespace degs {
+
+SpanPool::SpanPool(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+                   const RenderJob& job, const Share& share)
+    : SpanStage(name, config, job, std::size_t{1} * share.streams * share.lanes,
+                share.streams * reachable(share.index, share.of, share.banks), share.streams),
+      self_(time), share_(share),
+      port_of_row_(ports_of_rows(job.tile_size, share.index, share.of, share.banks)),
+      streams_(share.streams), free_from_(share.units, 0) {
+    DEGS_HAS_PROCESS(SpanPool);
+    SC_THREAD(run);
+    self_.show(*this, stats_.busy, share.units);
+}
+
+void SpanPool::end_of_elaboration() {
+    for (auto& port : in) {
+        port->connect_reader(self_);
+        lanes_.push_back({&port.ring(), &streams_[lanes_.size() / share_.lanes]});
+    }
+    const std::size_t ports = out.size() / streams_.size();
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        streams_[i / ports].rings.push_back(&out[i].ring());
+        out[i]->connect_writer(self_);
+    }
+    connect_reports(self_);
+    watched_.reserve(lanes_.size());
+}
+
+void SpanPool::run() {
+    while (!tiles_.over()) {
+        waiting_ = false;
+        for (Lane& lane : lanes_) {
+            if (!lane.has_row) {
+                look_at(lane);
+            }
+        }
+        take_rows();
+        self_.advance_to(tiles_.over() ? self_.local() : next_date());
+    }
+    self_.finish();
+}
+
+// Every free unit takes up to rows_per_cycle rows.
+void SpanPool::take_rows() {
+    const Cycle now = self_.local();
+    for (std::size_t unit = 0; unit < free_from_.size(); ++unit) {
+        if (free_from_[unit] > now) {
+            continue;
+        }
+        ends_passed_ = false;
+        const std::uint64_t waits_before = stats_.row_port_waits;
+        if (take_for_unit() != 0) {
+            free_from_[unit] = now + config_.cycles_per_row;
+            stats_.busy += config_.cycles_per_row;
+        } else if (!ends_passed_) {
+            // The other free units find nothing, either, and wait for the same ports.
+            const auto others =
+                std::count_if(free_from_.begin() + std::ptrdiff_t(unit) + 1, free_from_.end(),
+                              [now](Cycle from) { return from <= now; });
+            stats_.row_port_waits += (stats_.row_port_waits - waits_before) * others;
+            return;
+        }
+    }
+}
+
+// From the lanes in turn. Returns the number of rows.
+int SpanPool::take_for_unit() {
+    int taken = 0;
+    std::size_t in_vain = 0; // lanes since the last row
+    while (taken < config_.rows_per_cycle && in_vain < lanes_.size()) {
+        Lane& lane = lanes_[next_lane_];
+        next_lane_ = next_lane_ + 1 == lanes_.size() ? 0 : next_lane_ + 1;
+        const bool took = take_from(lane);
+        taken += took ? 1 : 0;
+        in_vain = took ? 0 : in_vain + 1;
+    }
+    return taken;
+}
+
+// True if the lane had a row whose bank has a place for its Span Vector. Inlined in the hot loop.
+inline __attribute__((always_inline)) bool SpanPool::take_from(Lane& lane) {
+    if (!lane.has_row && !lane.looked_at) {
+        look_at(lane);
+    }
+    if (!lane.has_row) {
+        return false;
+    }
+    if (config_.row_ports.limited() && !has_port(lane)) {
+        ++stats_.row_port_waits;
+        return false;
+    }
+    const RowItem& item = lane.rows->front();
+    DatedFifo<SpanItem>& ring = *lane.stream->rings[port_of_row_[item.row]];
+    if (!ring.has_room(self_)) {
+        waiting_ = true;
+        return false;
+    }
+    ring.reserve(self_);
+    ++lane.reads;
+    lane.has_row = false;
+    lane.looked_at = false;
+    const bool covers = solve(item, ring.staged());
+    lane.rows->drop(self_);
+    report(self_, &lane - lanes_.data());
+    if (covers) {
+        ring.put_staged(self_);
+    }
+    return true;
+}
+
+// A lane does not run ahead of the other lanes of its stream: tiles end in all of them together.
+// Ends cost no unit's time.
+void SpanPool::look_at(Lane& lane) {
+    lane.looked_at = true;
+    const Stream& stream = *lane.stream;
+    if (lane.turn != stream.turn) {
+        if (stream.ending) {
+            pass_end(lane);
+        }
+    } else if (self_.arrived(*lane.rows)) {
+        lane.has_row = !lane.rows->front().end;
+        if (!lane.has_row) {
+            pass_end(lane);
+        }
+    }
+}
+
+// Takes an end of the lane, unless one of its stream has still to be sent, and sends what is
+// complete.
+void SpanPool::pass_end(Lane& lane) {
+    Stream& stream = *lane.stream;
+    if (!stream.ending) {
+        const TileNumber tile = lane.rows->front().tile;
+        lane.rows->drop(self_);
+        ++lane.turn;
+        ends_passed_ = true;
+        if (++stream.ends == static_cast<std::size_t>(share_.lanes)) {
+            stream.ends = 0;
+            stream.ending = tile;
+            stream.end_port = 0;
+        }
+    }
+    if (!stream.ending) {
+        return;
+    }
+    if (!send_end(stream)) {
+        waiting_ = true;
+        return;
+    }
+    ends_passed_ = true;
+    for (Lane& other : lanes_) {
+        other.looked_at = false;
+    }
+    lane.has_row = self_.arrived(*lane.rows) && !lane.rows->front().end;
+}
+
+// A lane is an SRAM bank.
+bool SpanPool::has_port(Lane& lane) {
+    if (lane.read != self_.local()) {
+        lane.read = self_.local();
+        lane.reads = 0;
+    }
+    return lane.reads < config_.row_ports.ports;
+}
+
+// To every bank that the module reaches; false if one has no place for it yet.
+bool SpanPool::send_end(Stream& stream) {
+    for (; stream.end_port < stream.rings.size(); ++stream.end_port) {
+        DatedFifo<SpanItem>& ring = *stream.rings[stream.end_port];
+        if (!ring.has_room(self_)) {
+            return false;
+        }
+        ring.reserve(self_);
+        SpanItem& end = ring.staged();
+        end.tile = *stream.ending;
+        end.span.reset();
+        ring.put_staged(self_);
+    }
+    tiles_.count(*stream.ending);
+    stream.ending.reset();
+    ++stream.turn;
+    return true;
+}
+
+// The next cycle in which a unit may have something to take.
+Cycle SpanPool::next_date() {
+    const Cycle next = self_.local() + 1;
+    if (waiting_) {
+        return next;
+    }
+    const Cycle free = config_.cycles_per_row == 1
+                           ? next
+                           : *std::min_element(free_from_.begin(), free_from_.end());
+    const Cycle from = std::max(next, free);
+    watched_.clear();
+    for (const Lane& lane : lanes_) {
+        if (lane.turn == lane.stream->turn) {
+            if (!lane.rows->empty() && lane.rows->head_date() <= from) {
+                return from; // what else comes until then is asked at that date
+            }
+            watched_.push_back(lane.rows);
+        }
+    }
+    const Cycle date = self_.next_arrival(watched_.data(), watched_.size(), from, kNever);
+    if (date >= kNever) {
+        throw std::logic_error(std::string(name()) + ": nothing left to wait for, but after " +
+                               std::to_string(tiles_.tiles()) + " tiles there is another one");
+    }
+    return date;
+}
+
+} // namespace degs

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/kit/accelerator/accelerator_energy.hpp"
+
+#include "base/ratio.hpp"
+
+namespace degs {
+namespace {
+
+/// By command if the memory has commands, else by bit and time; memory without limit has none.
+std::optional<double> dram_nj(const cost::Technology::Dram& dram, const AcceleratorResult& result,
+                              double seconds) {
+    if (result.array_only) {
+        return {};
+    }
+    if (result.dram_energy) {
+        return result.dram_energy->total_nj();
+    }
+    std::uint64_t read = 0, written = 0; // bytes
+    for (const StreamUse& stream : result.streams) {
+        read += stream.bytes_read;
+        written += stream.bytes_written;
+    }
+    constexpr double kNjPerPj = 1e-3;
+    constexpr double kNwPerMw = 1e6;
+    return kNjPerPj * (dram.pj_per_bit * rate_of(8 * read, 1) +
+                       dram.write_pj_per_bit * rate_of(8 * written, 1)) +
+           kNwPerMw * dram.standby_mw_per_gb_per_s * result.memory_gb_per_s * seconds;
+}
+
+} // namespace
+
+cost::RunEnergy energy_of(const AcceleratorConfig& config, const AcceleratorResult& result,
+                          std::uint64_t pixels) {
+    constexpr double kHzPerGhz = 1e9;
+    cost::RunFacts facts;
+    facts.activity = result.activity;
+    facts.seconds = rate_of(result.cycles, result.clock_ghz * kHzPerGhz);
+    facts.frames = result.frames.size();
+    facts.pixels = pixels;
+    facts.array_only = result.array_only;
+    facts.dram_nj = dram_nj(config.cost.dram, result, facts.seconds);
+    return {config.bill(), facts};
+}
+
+} // namespace degs

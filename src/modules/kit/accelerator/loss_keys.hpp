@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The keys of a design that move a loss of PE-cycles. Every accelerator answers for its own.
+#pragma once
+
+#include <vector>
+
+#include "modules/kit/config/main_memory_config.hpp"
+
+namespace degs {
+
+/// A key moves a loss until it has come to `limit`: a number, or the value to set.
+struct LossKey {
+    enum class Way { Raise, Lower, Set };
+
+    /// What PE-cycles are lost for: a class of slots, a stage that is busy, or one of
+    /// * `memory`, its bandwidth, and `latency`, of memory or of the stages before the first task
+    /// * `gaps`, an array that starves while nothing in front of it is busy
+    /// * `full`, blocked by a full Packing Buffer, and `readout`, the pixels of the last tiles
+    const char* cause;
+    const char* key;
+    Way way;
+    const char* limit;
+    const char* linked = ""; ///< key that has to move with it
+};
+
+inline constexpr const char* kNoLimit = "1e9"; ///< but the range of the key
+
+/// Keys of memory and front end, which all accelerators have. Only those of the model in use.
+std::vector<LossKey> common_loss_keys(const MainMemoryConfig& memory);
+/// Both lists as one.
+std::vector<LossKey> with(std::vector<LossKey> keys, const std::vector<LossKey>& more);
+
+} // namespace degs

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/kit/accelerator/render_engine.hpp"
+
+#include "config/config_source.hpp"
+
+namespace degs {
+
+void AcceleratorConfig::describe_common(ConfigVisitor& visitor) {
+    visitor.text("name", name, "what reports call this accelerator");
+    visitor.real("clock_ghz", clock_ghz, 0.01, 10.0, "GHz (paper: 1.0)");
+    visitor.integer("frames_in_flight", frames_in_flight, 1, 64,
+                    "frames being preprocessed or rendered at a time; 2: lists are double-buffered "
+                    "and preprocessing of a frame overlaps rendering of the one before [assumed]");
+    visitor.choice(
+        "tile_order", tile_order, {"raster", "longest_list"},
+        "order in which the tiles of a frame are sorted and rendered; longest_list: by "
+        "falling length of their lists, so that no long tile comes last; a counting sort "
+        "of tile numbers that takes no time and no area [assumed]");
+    visitor.section("frame_end", frame_end, "background pixels, and who waits for a frame");
+}
+
+void AcceleratorConfig::describe_cost(ConfigVisitor& visitor) {
+    visitor.section("cost", cost, "area, power and energy: the keys of configs/cost/*.yaml");
+}
+
+std::string AcceleratorConfig::problem() const {
+    const std::unique_ptr<AcceleratorConfig> copy = clone();
+    try {
+        ConfigSource::from_overrides().read(
+            [&](ConfigVisitor& visitor) { copy->describe(visitor); });
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+void AcceleratorConfig::scale_to(int pes) {
+    throw InputError("--pes " + std::to_string(pes) + ": " + name +
+                     " belongs to no family that says what other sizes look like.");
+}
+
+RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
+                          const AcceleratorConfig& config) {
+    return make_render_job(frames, config.data_path(), config.tile_contexts(),
+                           config.record_order(), config.tile_order);
+}
+
+} // namespace degs

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/kit/analytic/analytic_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "base/parallel.hpp"
+#include "base/ratio.hpp"
+#include "modules/kit/analytic/frame_schedule.hpp"
+
+namespace degs {
+namespace {
+
+/// Entries of lists and rows of splats that are looked at, which bounds the time: some 20 ns each.
+constexpr double kVisits = 200e3;
+/// Chains of tiles that are followed one after the other; blocks of work for the host's processors.
+constexpr std::size_t kChains = 2;
+
+struct Listed {
+    int tile;
+    std::size_t turn; ///< among the tiles that list a splat, in the order of rendering
+    double entries;
+};
+
+/// Tiles that list a splat, in the order of the lengths of their lists.
+std::vector<Listed> tiles_by_length(const FrameWorkload& frame, TileOrder order) {
+    std::vector<Listed> tiles;
+    for (const int tile : listed_tiles(frame, order)) {
+        const std::uint64_t entries = frame.tile_begin[tile + 1] - frame.tile_begin[tile];
+        tiles.push_back({tile, tiles.size(), static_cast<double>(entries)});
+    }
+    std::stable_sort(tiles.begin(), tiles.end(),
+                     [](const Listed& a, const Listed& b) { return a.entries < b.entries; });
+    return tiles;
+}
+
+/// One block of rows in so many: as few as it takes to afford all tiles, as long as a splat has a
+/// drawn row or so on each of its tiles.
+int rows_apart(const AnalyticModel& model, const EntrySizes& sizes, double entries) {
+    const AnalyticModel::Blocks blocks = model.blocks();
+    int apart = 1;
+    while (entries * (model.visits_per_entry() + sizes.visits / apart) > kVisits &&
+           2 * apart <= blocks.most_apart && 2 * apart <= sizes.rows) {
+        apart *= 2;
+    }
+    return apart;
+}
+
+/// A systematic sample, in the order of the lengths of the lists, in which the chance of a tile
+/// follows the root of its length: long lists are dearer to draw and differ more among themselves.
+/// Their places in `tiles`.
+std::vector<std::size_t> choose(const std::vector<Listed>& tiles, double visits_per_entry) {
+    const auto visits = [&](double apart) {
+        double sum = 0;
+        for (const Listed& tile : tiles) {
+            sum += std::min(1.0, std::sqrt(tile.entries) / apart) * tile.entries;
+        }
+        return sum * visits_per_entry;
+    };
+    double apart = 1e-9, most = 1e9; // between two chosen tiles, in roots of lengths
+    for (int step = 0; step < 40 && visits(apart) > kVisits; ++step) {
+        const double middle = std::sqrt(apart * most);
+        (visits(middle) > kVisits ? apart : most) = middle;
+        if (most / apart < 1.01) {
+            apart = most;
+        }
+    }
+    std::vector<std::size_t> chosen;
+    double place = 0.5;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        place += std::min(1.0, std::sqrt(tiles[t].entries) / apart);
+        if (place >= 1) {
+            place -= 1;
+            chosen.push_back(t);
+        }
+    }
+    if (chosen.empty() && !tiles.empty()) {
+        chosen.push_back(tiles.size() / 2);
+    }
+    return chosen;
+}
+
+TileCycles scaled(const TileCycles& tile, double factor) {
+    TileCycles result = tile;
+    for (double* value :
+         {&result.time, &result.walked, &result.slots, &result.fragments, &result.bytes}) {
+        *value *= factor;
+    }
+    for (double& cycles : result.busy) {
+        cycles *= factor;
+    }
+    return result;
+}
+
+void add(TileCycles& sum, const TileCycles& tile) {
+    sum.slots += tile.slots;
+    sum.fragments += tile.fragments;
+    sum.bytes += tile.bytes;
+    for (std::size_t u = 0; u < kMostAnalyticUnits; ++u) {
+        sum.busy[u] += tile.busy[u];
+    }
+}
+
+/// All tiles in the order of rendering; one that was not drawn takes what the nearest drawn one
+/// takes, per entry of its list.
+std::vector<ScheduledTile> all_tiles(const std::vector<Listed>& tiles,
+                                     const std::vector<std::size_t>& chosen,
+                                     const std::vector<TileCycles>& cycles) {
+    std::vector<ScheduledTile> result(tiles.size());
+    std::size_t nearest = 0;
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+        while (nearest + 1 < chosen.size() && chosen[nearest] + chosen[nearest + 1] <= 2 * t) {
+            ++nearest;
+        }
+        const double like = tiles[chosen[nearest]].entries;
+        result[tiles[t].turn] = {tiles[t].entries,
+                                 scaled(cycles[nearest], tiles[t].entries / like)};
+    }
+    return result;
+}
+
+/// Of the tiles that list no splat.
+double background_pixels(const FrameWorkload& frame) {
+    double pixels = 0;
+    for (int tile = 0; tile < frame.tiles(); ++tile) {
+        if (frame.tile_begin[tile] == frame.tile_begin[tile + 1]) {
+            const int size = frame.tile_size;
+            pixels += 1.0 * std::min(size, frame.camera.width - tile % frame.tiles_x * size) *
+                      std::min(size, frame.camera.height - tile / frame.tiles_x * size);
+        }
+    }
+    return pixels;
+}
+
+} // namespace
+
+AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& frame,
+                             TileOrder order) {
+    const std::vector<Listed> tiles = tiles_by_length(frame, order);
+    const AnalyticModel::Blocks blocks = model.blocks();
+    const EntrySizes sizes = entry_sizes(frame, blocks.step);
+    const int apart = rows_apart(model, sizes, rate_of(frame.tile_pairs(), 1));
+    const std::vector<std::size_t> chosen =
+        choose(tiles, model.visits_per_entry() + sizes.visits / apart);
+
+    std::vector<TileCycles> cycles(chosen.size());
+    const std::size_t chains = std::min(kChains, chosen.size());
+    parallel_blocks(chains, [&](std::size_t chain, std::size_t) {
+        CoarseTile tile(frame, model.drawing());
+        const std::unique_ptr<TileClock> clock = model.clock(frame);
+        for (std::size_t c = chain; c < chosen.size(); c += chains) {
+            // Which blocks are drawn goes round with the tiles.
+            const int first = static_cast<int>(c) * 5 % apart;
+            tile.begin(tiles[chosen[c]].tile, {blocks.height, apart, first, blocks.step});
+            clock->begin(tile);
+            while (tile.next()) {
+                clock->splat(tile);
+                tile.blend();
+            }
+            cycles[c] = clock->end(tile);
+        }
+    });
+
+    const std::vector<ScheduledTile> scheduled = all_tiles(tiles, chosen, cycles);
+    const TileCycles background = model.background(background_pixels(frame));
+    TileCycles sum = background;
+    for (const ScheduledTile& tile : scheduled) {
+        add(sum, tile.cycles);
+    }
+    const PreparationCycles before = model.preparation(frame);
+    AnalyticFrame result;
+    result.tiles = tiles.size();
+    result.drawn = chosen.size();
+    result.rows_apart = apart;
+    result.preparation = before.time;
+    const double rendering = schedule(model, scheduled, background.busy);
+    result.cycles = before.time + model.latency() + rendering;
+    result.bytes = before.bytes + sum.bytes;
+    result.utilization = rendering == 0 ? 0 : sum.fragments / (rendering * model.pes());
+    const std::vector<std::string> names = model.units();
+    double longest = 0, longest_before = 0;
+    for (std::size_t u = 0; u < names.size(); ++u) {
+        result.units.push_back({names[u], before.busy[u], sum.busy[u]});
+        result.upper += before.busy[u] + sum.busy[u];
+        longest_before = std::max(longest_before, before.busy[u]);
+        if (sum.busy[u] > longest) {
+            longest = sum.busy[u];
+            result.limited_by = names[u];
+        }
+    }
+    result.lower = longest_before + longest;
+    return result;
+}
+
+} // namespace degs

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "modules/kit/accelerator/analytic_model.hpp"
+#include "modules/kit/job/tile_order.hpp"
+
+namespace degs {
+
+/// The time of a frame, bounded and estimated.
+struct AnalyticFrame {
+    double cycles = 0;      ///< the estimate
+    double preparation = 0; ///< of it, until the lists are complete
+    double lower = 0;       ///< no design with these units and rates takes less
+    double upper = 0;       ///< if no two kinds of units worked at the same time
+    double utilization = 0; ///< fragments over PEs x blending cycles
+    double bytes = 0;       ///< moved to and from memory
+    struct Unit {
+        std::string name;
+        double preparing = 0, rendering = 0; ///< cycles
+    };
+    std::vector<Unit> units;
+    std::string limited_by; ///< the unit that is busy longest while tiles are rendered
+    std::size_t tiles = 0;  ///< that list a splat
+    std::size_t drawn = 0;  ///< of them, those that the estimate rests on
+    int rows_apart = 1;     ///< one block of their rows in so many
+};
+
+/// Draws a sample of the tiles coarsely, see CoarseTile, which takes some milliseconds on any frame.
+AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& frame,
+                             TileOrder order = TileOrder::Raster);
+
+} // namespace degs

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/kit/analytic/front_end_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace degs {
+namespace {
+
+double as_real(std::uint64_t count) {
+    return static_cast<double>(count);
+}
+
+/// Smallest n with ways^n >= keys, at least 1.
+double passes_of(double keys, double ways) {
+    double passes = 1;
+    for (double sorted = ways; sorted < keys; sorted *= ways) {
+        ++passes;
+    }
+    return passes;
+}
+
+/// Halvings until a part is not longer than `most`.
+double halvings(double keys, double most) {
+    double levels = 0;
+    for (double part = keys; part > most; part /= 2) {
+        ++levels;
+    }
+    return levels;
+}
+
+} // namespace
+
+double scattered_bytes(int record, int burst) {
+    return record - std::gcd(record, burst) + burst;
+}
+
+PreparationCycles FrontEndLoad::preparation(const FrameWorkload& frame,
+                                            std::size_t memory_unit) const {
+    const double gaussians = as_real(frame.gaussians), visible = as_real(frame.splats.size());
+    const double pairs = as_real(frame.tile_pairs()), chunk = projection.chunk;
+    const double sh = as_real(traffic.sh_bytes(frame.sh_degree));
+    const double alone =
+        scattered_bytes(static_cast<int>(traffic.sh_bytes(frame.sh_degree)), traffic.burst_bytes);
+    PreparationCycles result;
+    result.bytes =
+        gaussians * traffic.geometry_bytes +
+        (traffic.sh == ShReads::All ? gaussians * sh : std::min(visible * alone, gaussians * sh)) +
+        visible * traffic.splat_bytes + pairs * traffic.list_entry_bytes;
+    const double project = gaussians * projection.cycles_per_gaussian / projection.count;
+    const double shade = visible * projection.cycles_per_colour / projection.count;
+    const double bin = std::max(std::ceil(gaussians / chunk), pairs / binning.pairs_per_cycle);
+    // A chunk's write waits for the acknowledgement of one some writes earlier.
+    const double write = gaussians / chunk * memory.latency / binning.writes_in_flight;
+    const double moved = memory.cycles(result.bytes);
+    result.busy[kProjectionUnits] = std::max(project, shade);
+    result.busy[memory_unit] = moved;
+    result.time = std::max({project, shade, bin, write, moved}) + projection.latency_cycles +
+                  3 * memory.latency + chunk * projection.cycles_per_gaussian;
+    return result;
+}
+
+double FrontEndLoad::fetch_cycles(double walked) const {
+    const double ahead = as_real(places); // of a tile, while those before it are rendered
+    const double in_flight = fetching.chunk * fetching.chunks_in_flight;
+    const double paced = std::max(0.0, walked - ahead) * memory.latency / in_flight;
+    return std::max(paced, walked / fetching.chunk);
+}
+
+double FrontEndLoad::tile_bytes(double entries, double walked, double pixels) const {
+    const double fetched = std::min(entries, walked + as_real(places) / 2);
+    return entries * traffic.list_entry_bytes +
+           fetched * scattered_bytes(traffic.splat_bytes, traffic.burst_bytes) +
+           pixels * traffic.pixel_bytes;
+}
+
+AnalyticModel::SortCycles sort_cycles(const SortingUnit::Config& config, double entries,
+                                      std::uint64_t capacity) {
+    const double room = as_real(capacity);
+    const double passes = passes_of(std::min(entries, room), config.merge_ways);
+    const double outside =
+        entries > room ? passes_of(std::ceil(entries / room), config.merge_ways) : 0;
+    const double all = entries * (passes + outside) / config.keys_per_cycle;
+    return {all, all};
+}
+
+AnalyticModel::SortCycles sort_cycles(const HierarchicalSorter::Config& config, double entries,
+                                      double walked, std::uint64_t capacity) {
+    const double chunk = config.chunk;
+    const double outside = halvings(entries, as_real(capacity));
+    const double levels = std::max(outside, halvings(entries, chunk));
+    const double coarse = entries * levels / config.keys_per_cycle;
+    const double sorted = std::min(entries, std::ceil(walked / chunk + 1) * chunk);
+    const double fine = sorted * config.fine_cycles_per_key + std::ceil(entries / chunk);
+    return {coarse + std::min(entries, chunk) * config.fine_cycles_per_key, coarse + fine};
+}
+
+} // namespace degs

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The front end of accelerators that work tile by tile, as cycles: projection, binning, sorting and
+// fetching, each at its rate.
+#pragma once
+
+#include <cstdint>
+
+#include "modules/kit/accelerator/analytic_model.hpp"
+#include "modules/kit/config/main_memory_config.hpp"
+#include "modules/kit/front_end/hierarchical_sorter.hpp"
+#include "modules/kit/front_end/projection_unit.hpp"
+#include "modules/kit/front_end/sorting_unit.hpp"
+#include "modules/kit/front_end/splat_fetcher.hpp"
+#include "modules/kit/front_end/tile_binner.hpp"
+#include "modules/kit/job/traffic.hpp"
+
+namespace degs {
+
+/// Memory as a rate and a latency, which is what `memory.model: bus` is. The rate of LPDDR5 is that
+/// of its bus: refreshes, activations and turnarounds are left out.
+struct MemoryRate {
+    double bytes_per_cycle = 0, latency = 0; ///< latency in cycles
+    MemoryRate(const MainMemoryConfig& memory, double clock_ghz)
+        : bytes_per_cycle(memory.peak_gb_per_s() / clock_ghz),
+          latency(memory.latency_ns * clock_ghz) {}
+    double cycles(double bytes) const { return bytes / bytes_per_cycle; }
+    /// What writing takes of memory, the unit with that number, and of nothing else.
+    TileCycles writes(double bytes, std::size_t unit) const {
+        TileCycles written;
+        written.bytes = bytes;
+        written.busy[unit] = cycles(bytes);
+        return written;
+    }
+};
+
+/// Bytes that a record of `record` bytes moves if it is read alone, in whole bursts of `burst` bytes,
+/// on average over the places at which records of this length lie.
+double scattered_bytes(int record, int burst);
+
+/// Kinds of units of the front end; those of an array follow.
+enum FrontEndUnit : std::size_t { kProjectionUnits, kSortingUnits, kArrayUnits };
+
+class FrontEndLoad {
+public:
+    TrafficConfig traffic;
+    ProjectionUnit::Config projection;
+    TileBinner::Config binning;
+    SplatFetcher::Config fetching;
+    std::uint64_t places = 0;        ///< for splats before the array, of one fetcher
+    std::uint64_t sort_capacity = 0; ///< keys
+    MemoryRate memory;
+
+    explicit FrontEndLoad(const MemoryRate& rate) : memory(rate) {}
+
+    PreparationCycles preparation(const FrameWorkload& frame, std::size_t memory_unit) const;
+    /// Cycles in which a fetcher has the first `walked` splats of a list come from memory.
+    double fetch_cycles(double walked) const;
+    /// Bytes of a tile: its list, the splats that are fetched, its pixels.
+    double tile_bytes(double entries, double walked, double pixels) const;
+};
+
+/// A model with such a front end. Its units begin with those of FrontEndUnit and end with memory.
+class FrontEndModel : public AnalyticModel {
+public:
+    PreparationCycles preparation(const FrameWorkload& frame) const override {
+        return front_.preparation(frame, memory_unit_);
+    }
+    double places() const override { return static_cast<double>(front_.places); }
+    double memory_latency() const override { return front_.memory.latency; }
+    TileCycles background(double pixels) const override {
+        return front_.memory.writes(pixels * front_.traffic.pixel_bytes, memory_unit_);
+    }
+    const FrontEndLoad& front() const { return front_; }
+
+protected:
+    /// `chunks` of splats are fetched ahead of the array.
+    template <class Config>
+    FrontEndModel(const Config& config, int chunks, std::size_t memory_unit)
+        : front_(MemoryRate(config.memory, config.clock_ghz)), memory_unit_(memory_unit) {
+        front_.traffic = config.traffic;
+        front_.projection = config.projection;
+        front_.binning = config.binning;
+        front_.fetching = config.fetching;
+        front_.places = std::uint64_t{1} * chunks * config.fetching.chunk;
+        front_.sort_capacity = config.sort_capacity();
+    }
+
+private:
+    FrontEndLoad front_;
+    std::size_t memory_unit_;
+};
+
+/// Of one sorter on a list of `entries`.
+AnalyticModel::SortCycles sort_cycles(const SortingUnit::Config& config, double entries,
+                                      std::uint64_t capacity);
+AnalyticModel::SortCycles sort_cycles(const HierarchicalSorter::Config& config, double entries,
+                                      double walked, std::uint64_t capacity);
+
+} // namespace degs

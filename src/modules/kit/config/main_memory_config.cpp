@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/kit/config/main_memory_config.hpp"
+
+namespace degs {
+
+void MainMemoryConfig::describe(ConfigVisitor& visitor) {
+    visitor.choice(
+        "model", model, {"bus", "lpddr5"},
+        "bus: one data bus with latency, bandwidth_gb_per_s and latency_ns count; lpddr5: "
+        "channels, banks and rows, the section of that name counts");
+    Memory::Config::describe(visitor);
+    visitor.choice(
+        "layout", layout, {"index", "morton"},
+        "order of the splat records in memory, which GCC lacks: that of the Gaussians, or "
+        "that of the Morton code of their positions; only addresses depend on it");
+    visitor.choice(
+        "priority", priority, {"age", "blending"},
+        "which reads wait for room in the queues of a channel first: the older ones, or "
+        "those of the frame that is blended before those of the next one's preprocessing; a "
+        "bus has no queues");
+    visitor.real(
+        "urgent_share", urgent_share, 0.0, 1.0,
+        "share of a channel's read queue that is kept free for the frame that is blended; a "
+        "read waits for at most as many of the others as there may be in the queue "
+        "[assumed]");
+    visitor.section("lpddr5", lpddr5, "the keys of configs/memory/*.yaml");
+    if (priority == ReadPriority::Age) {
+        visitor.unused("urgent_share", "priority", "memory.priority is age");
+    }
+    if (model == MemoryModel::Bus) {
+        visitor.unused("lpddr5", "model", "memory.model is bus");
+        visitor.unused("layout", "model", "memory.model is bus, which has no addresses");
+        return;
+    }
+    constexpr const char* kReason = "memory.model is lpddr5, which has keys of its own";
+    for (const char* key : {"bandwidth_gb_per_s", "latency_ns", "access_bytes"}) {
+        visitor.unused(key, "model", kReason);
+    }
+}
+
+} // namespace degs

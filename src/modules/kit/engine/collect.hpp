@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns the counters of blocks into an AcceleratorResult.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/ratio.hpp"
+#include "modules/kit/accelerator/accelerator_result.hpp"
+#include "modules/kit/pixels/background_writer.hpp"
+#include "modules/kit/pixels/pixel_buffer.hpp"
+#include "tlm/dated_fifo.hpp"
+
+namespace degs {
+
+/// Sums one counter over units of a kind.
+template <class Units, class Stats>
+std::uint64_t sum_of(const Units& units, std::uint64_t Stats::*counter) {
+    std::uint64_t sum = 0;
+    for (const auto& unit : units) {
+        sum += unit->stats().*counter;
+    }
+    return sum;
+}
+
+/// A stage or a buffer in results: its key and what it is.
+struct Title {
+    const char* name;
+    const char* sentence;
+    bool array = false; ///< see StageUse
+};
+
+/// Adds a stage, or nothing if there are no units. The cycles of `result` must be known.
+void add_stage(AcceleratorResult& result, const Title& title, std::size_t units,
+               std::uint64_t busy_cycles, Counters counters);
+
+/// Statistics of the rings that stand for one buffer.
+struct RingUse {
+    std::size_t depth = 0, high_water = 0;
+    std::uint64_t items = 0;
+    Cycle full_cycles = 0, empty_cycles = 0, occupied_cycles = 0;
+};
+
+template <class T>
+RingUse use_of(const std::vector<std::unique_ptr<DatedFifo<T>>>& rings) {
+    RingUse use;
+    for (const auto& ring : rings) {
+        use.depth += ring->depth();
+        use.high_water = std::max(use.high_water, ring->stats().high_water);
+        use.items += ring->stats().items;
+        use.full_cycles += ring->stats().full_cycles;
+        use.empty_cycles += ring->stats().empty_cycles;
+        use.occupied_cycles += ring->stats().occupied_cycles;
+    }
+    return use;
+}
+
+/// A buffer of `bytes` without rings; its counters follow.
+BufferUse& add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes);
+/// A buffer of `bytes` made of rings of `depth` cells each.
+void add_buffer(AcceleratorResult& result, const Title& title, std::int64_t bytes,
+                std::uint64_t depth, const RingUse& use);
+
+/// The Splat Fetchers of any accelerator.
+inline constexpr Title kFetching{"fetching", "Splat Fetchers, busy when they ask for records."};
+
+/// What a block of the bill of materials has done: cycles of work of its units, or bytes moved.
+void add_activity(AcceleratorResult& result, const char* block, double operations);
+inline void add_activity(AcceleratorResult& result, const char* block, std::uint64_t operations) {
+    add_activity(result, block, rate_of(operations, 1));
+}
+/// The same for "pixel_buffer": a task reads the state of its pixel and writes it if it blends, and
+/// every pixel of the tiles is read out once. The slots of `result` must be known.
+void add_pixel_activity(AcceleratorResult& result, const RenderJob& job, double pixel_bytes);
+
+using PixelBuffers = std::vector<std::unique_ptr<PixelBuffer>>;
+
+/// Fills in the dates of the frames, the cycles of the run and the background tiles. It comes
+/// first, because everything that is relative to the run needs its cycles.
+void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
+                    const BackgroundWriter& background);
+/// `bytes`: of all instances together.
+void add_pixel_buffer(AcceleratorResult& result, std::int64_t bytes, int contexts,
+                      const PixelBuffers& buffers);
+/// Slots of several arrays with windows of their own: first each of them is added, then each, of `width` PEs, has
+/// its cycles between the window of all and its own counted.
+void add_slots(AcceleratorResult& result, const SlotAccount& slots, const ActiveWindow& window);
+void close_slots(AcceleratorResult& result, const ActiveWindow& window, std::uint64_t width);
+/// Adds the work that empty and finished tiles saved, for --explain.
+void explain_tiles(AcceleratorResult& result, std::uint64_t records_cancelled);
+
+} // namespace degs

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/kit/front_end/hierarchical_sorter.hpp"
+
+#include <algorithm>
+
+#include "tlm/has_process.hpp"
+
+namespace degs {
+namespace {
+
+/// Halvings until `keys` are no more than `limit`.
+std::uint64_t levels(std::uint64_t keys, std::uint64_t limit) {
+    std::uint64_t count = 0;
+    for (; keys > limit; keys = (keys + 1) / 2) {
+        ++count;
+    }
+    return count;
+}
+
+} // namespace
+
+void HierarchicalSorter::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("count", count, 1, 64,
+                    "units; GSCore's 8 quick-sort and 4 bitonic units as 4 sorting cores");
+    visitor.integer("chunk", chunk, 2, 65536,
+                    "keys of a chunk that is sorted exactly; about 256 in GSCore");
+    visitor.integer("keys_per_cycle", keys_per_cycle, 1, 1024,
+                    "keys per cycle, unit and coarse level; two quick-sort units per sorting core "
+                    "move a key each [assumed]");
+    visitor.integer("fine_cycles_per_key", fine_cycles_per_key, 1, 1024,
+                    "cycles per key and unit of the exact step; log2(16) / 2 for a 16-wide bitonic "
+                    "unit, 512 per full chunk, one every 128 cycles over four units [assumed]");
+}
+
+HierarchicalSorter::HierarchicalSorter(const sc_core::sc_module_name& name, const Config& config,
+                                       const TrafficConfig& traffic, const Timebase& time,
+                                       const RenderJob& job, TileNumber index,
+                                       std::uint64_t capacity)
+    : sc_core::sc_module(name), start("start"), cancel("cancel"), sorted("sorted"),
+      loader("loader", traffic, time, job, index, config.count), lists("lists", time),
+      chunks("chunks", time), config_(config), traffic_(traffic), job_(job), index_(index),
+      capacity_(capacity), partitioner_(time), sorter_(time), loaded_("loaded", time, 1),
+      partitioned_("partitioned", time, 1) {
+    loader.start.bind(start);
+    loader.out.bind(loaded_);
+    DEGS_HAS_PROCESS(HierarchicalSorter);
+    SC_THREAD(coarse);
+    SC_THREAD(fine);
+    partitioner_.show(*this, stats_.coarse_busy, 1, "coarse");
+    sorter_.show(*this, stats_.fine_busy, 1, "fine");
+}
+
+void HierarchicalSorter::end_of_elaboration() {
+    loaded_.connect_reader(partitioner_);
+    partitioned_.connect_writer(partitioner_);
+    partitioned_.connect_reader(sorter_);
+    cancel->connect_reader(sorter_);
+    sorted->connect_writer(sorter_);
+}
+
+void HierarchicalSorter::coarse() {
+    const std::uint64_t entry = traffic_.list_entry_bytes;
+    const std::uint64_t rate = config_.keys_per_cycle;
+    for (std::size_t t = index_; !job_.over(t); t += config_.count) {
+        const TileNumber number = loaded_.get(partitioner_);
+        const JobTile& tile = job_.tiles[number];
+        const MemoryMap map = job_.map(tile.frame, traffic_);
+        const Cycle level = (tile.count + rate - 1) / rate;
+        const std::uint64_t outside = levels(tile.count, capacity_);
+        const std::uint64_t address = map.lists + tile.first * entry;
+        // The loader has read the list for the first level.
+        for (std::uint64_t i = 0; i < outside; ++i) {
+            if (i != 0) {
+                partitioner_.wait_for_memory(lists.read(partitioner_, address, tile.count * entry));
+            }
+            partitioner_.work(level, stats_.coarse_busy);
+            partitioner_.wait_for_memory(lists.write(partitioner_, address, tile.count * entry));
+        }
+        const std::uint64_t all = levels(tile.count, config_.chunk);
+        partitioner_.work((all - std::min(all, outside)) * level, stats_.coarse_busy);
+        stats_.memory_levels += outside;
+        stats_.keys += tile.count;
+        partitioned_.put(partitioner_, number);
+    }
+    partitioner_.finish();
+}
+
+void HierarchicalSorter::fine() {
+    for (std::size_t t = index_; !job_.over(t); t += config_.count) {
+        sort_chunks(partitioned_.get(sorter_));
+    }
+    sorted->put(sorter_, {kNoTile, 0});
+    sorter_.finish();
+}
+
+void HierarchicalSorter::sort_chunks(TileNumber number) {
+    const JobTile& tile = job_.tiles[number];
+    const std::uint64_t entry = traffic_.list_entry_bytes;
+    for (std::uint64_t done = 0; done < tile.count;) {
+        const std::uint64_t count = std::min<std::uint64_t>(config_.chunk, tile.count - done);
+        if (cancelled(number)) {
+            stats_.keys_cancelled += tile.count - done;
+            done = tile.count; // the fetcher knows, too, and reads nothing of it
+        } else {
+            if (through_memory(tile)) {
+                const MemoryMap map = job_.map(tile.frame, traffic_);
+                sorter_.wait_for_memory(
+                    chunks.read(sorter_, map.lists + (tile.first + done) * entry, count * entry));
+            }
+            const Cycle busy = count * config_.fine_cycles_per_key;
+            sorter_.work(busy, stats_.fine_busy);
+            stats_.keys_sorted += count;
+            done += count;
+        }
+        sorted->put(sorter_, {number, done});
+    }
+}
+
+// Asks before each chunk; the question takes a cycle.
+bool HierarchicalSorter::cancelled(TileNumber number) {
+    while (sorter_.arrived(cancel.ring())) {
+        cancelled_before_ = std::max(cancelled_before_, cancel->take(sorter_) + 1);
+    }
+    sorter_.advance();
+    return number < cancelled_before_;
+}
+
+} // namespace degs

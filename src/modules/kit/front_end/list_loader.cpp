@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/kit/front_end/list_loader.hpp"
+
+#include "tlm/has_process.hpp"
+
+namespace degs {
+
+ListLoader::ListLoader(const sc_core::sc_module_name& name, const TrafficConfig& traffic,
+                       const Timebase& time, const RenderJob& job, TileNumber first,
+                       TileNumber stride)
+    : sc_core::sc_module(name), start("start"), out("out"), lists("lists", time), traffic_(traffic),
+      job_(job), first_(first), stride_(stride), self_(time) {
+    DEGS_HAS_PROCESS(ListLoader);
+    SC_THREAD(run);
+    self_.show(*this);
+}
+
+void ListLoader::end_of_elaboration() {
+    start->connect_reader(self_);
+    out->connect_writer(self_);
+}
+
+void ListLoader::run() {
+    const std::uint64_t entry = traffic_.list_entry_bytes;
+    std::uint32_t frames_started = 0;
+    for (TileNumber t = first_; job_.has_tile(self_, t); t += stride_) {
+        const JobTile& tile = job_.tiles[t];
+        while (frames_started <= tile.frame) {
+            start->get(self_);
+            ++frames_started;
+        }
+        const MemoryMap map = job_.map(tile.frame, traffic_);
+        out->reserve(self_);
+        const Completion ready =
+            lists.read(self_, map.lists + tile.first * entry, tile.count * entry);
+        out->put_at(self_, t, ready);
+        self_.advance();
+    }
+    self_.finish();
+}
+
+} // namespace degs

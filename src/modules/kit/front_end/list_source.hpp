@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <systemc>
+
+#include "modules/kit/job/render_job.hpp"
+#include "tlm/dated_fifo.hpp"
+#include "tlm/has_process.hpp"
+
+namespace degs {
+
+/// Replaces projection, binning and sorting when the rasterisation array is simulated alone: the
+/// lists of all tiles are in order from the start. Tiles go round the sources.
+class ListSource : public sc_core::sc_module {
+public:
+    FifoPort<SortedRun> sorted;
+
+    ListSource(const sc_core::sc_module_name& name, const Timebase& time, const RenderJob& job,
+               TileNumber index, TileNumber sources)
+        : sc_core::sc_module(name), sorted("sorted"), job_(job), index_(index), sources_(sources),
+          self_(time) {
+        DEGS_HAS_PROCESS(ListSource);
+        SC_THREAD(run);
+        self_.show(*this);
+    }
+
+private:
+    void end_of_elaboration() override { sorted->connect_writer(self_); }
+    void run() {
+        for (TileNumber t = index_; job_.has_tile(self_, t); t += sources_) {
+            sorted->put(self_, {t, job_.tiles[t].count});
+        }
+        sorted->put(self_, {kNoTile, 0});
+        self_.finish();
+    }
+
+    const RenderJob& job_;
+    TileNumber index_, sources_;
+    Process self_;
+};
+
+} // namespace degs

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <systemc>
+
+#include "modules/kit/job/render_job.hpp"
+#include "modules/kit/job/traffic.hpp"
+#include "stats/statistics.hpp"
+#include "tlm/dated_fifo.hpp"
+#include "tlm/memory_port.hpp"
+
+namespace degs {
+
+/// Reads Gaussians, culls and projects them, then reads the SH of the visible ones and shades them
+/// (paper Table I, "Projection Unit"); with `traffic.sh: all` it also reads the SH of culled ones.
+/// Chunks of the scene go round the units. Three overlapping steps, each with its own date: fetch
+/// geometry, project, shade. Not modelled: the arithmetic pipeline's depth beyond `latency_cycles`;
+/// values come from the shared FrameWorkload.
+class ProjectionUnit : public sc_core::sc_module {
+public:
+    struct Config {
+        int count = 4;               ///< units
+        int chunk = 64;              ///< Gaussians per request and hand-over
+        int chunks_in_flight = 4;    ///< geometry requests outstanding per unit
+        int cycles_per_gaussian = 1; ///< projection initiation interval
+        int cycles_per_colour = 1;   ///< SH evaluation initiation interval
+        int latency_cycles = 32;     ///< projection pipeline
+        void describe(ConfigVisitor& visitor);
+    };
+    struct Stats {
+        Cycle project_busy = 0, shade_busy = 0;
+        std::uint64_t gaussians = 0, visible = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("gaussians", gaussians, "Gaussians", "Gaussians whose geometry was read.");
+            v.count("visible", visible, "Gaussians", "Gaussians that at least one tile lists.");
+        }
+    };
+
+    MemoryPort geometry;
+    MemoryPort sh;
+    FifoPort<ProjectedChunk> out;
+    /// Numbers of finished frames from the Frame Gate; empty unless frames wait for each other.
+    sc_core::sc_vector<FifoPort<std::uint32_t>> frame_free;
+
+    /// `frames_in_flight`: frame f + this many waits for the end of frame f; 0: none waits.
+    ProjectionUnit(const sc_core::sc_module_name& name, const Config& config,
+                   const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
+                   int index, int frames_in_flight = 0);
+
+    const Stats& stats() const { return stats_; }
+
+private:
+    struct Chunk {
+        std::uint32_t frame = 0;
+        std::uint64_t first = 0, count = 0;
+    };
+    void end_of_elaboration() override;
+    void fetch();
+    void project();
+    void shade();
+    Completion read_sh(std::uint32_t f, const Chunk& chunk, const ProjectedChunk& visible);
+
+    Config config_;
+    TrafficConfig traffic_;
+    const RenderJob& job_;
+    int index_;
+    std::uint32_t frames_in_flight_;
+    Process fetcher_, projector_, shader_;
+    DatedFifo<Chunk> fetched_;
+    DatedFifo<ProjectedChunk> projected_;
+    Stats stats_;
+};
+
+} // namespace degs

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/kit/job/render_job.hpp"
+
+#include <algorithm>
+
+namespace degs {
+
+namespace {
+
+// Splats are in depth order, Gaussians are streamed in scene order. Ranks reach from the first visible
+// Gaussian to the last one only, so that a few visible ones of a large scene cost little.
+std::vector<std::uint64_t> prefix_of_pairs(const FrameWorkload& frame) {
+    std::vector<std::uint64_t> prefix(frame.visible_of.size() + 1, 0);
+    if (frame.visible_of.empty()) {
+        return prefix;
+    }
+    const std::uint32_t first = frame.visible_of.front();
+    std::vector<std::uint32_t> rank(frame.visible_of.back() - first + std::size_t{1}, 0);
+    for (std::uint32_t v = 0; v < frame.visible_of.size(); ++v) {
+        rank[frame.visible_of[v] - first] = v;
+    }
+    for (std::size_t s = 0; s < frame.splats.size(); ++s) {
+        prefix[rank[frame.splats[s].id - first] + 1] = frame.tiles_touched[s];
+    }
+    for (std::size_t v = 1; v < prefix.size(); ++v) {
+        prefix[v] += prefix[v - 1];
+    }
+    return prefix;
+}
+
+} // namespace
+
+void RenderJob::add(const FrameWorkload& frame, const MemoryBases& base) {
+    const auto f = static_cast<std::uint32_t>(frames.size());
+    frames.push_back(&frame);
+    bases.push_back(base);
+    first_splat.push_back(path->add_frame(frame));
+    pair_prefix.push_back(prefix_of_pairs(frame));
+    places.emplace_back(frame, record_order);
+    images.emplace_back(frame.camera.width, frame.camera.height);
+    const std::vector<int> listed = listed_tiles(frame, tile_order);
+    std::uint64_t before = 0;
+    for (const int t : listed) {
+        JobTile tile;
+        tile.frame = f;
+        tile.x = (t % frame.tiles_x) * tile_size;
+        tile.y = (t / frame.tiles_x) * tile_size;
+        tile.width = std::min(tile_size, frame.camera.width - tile.x);
+        tile.height = std::min(tile_size, frame.camera.height - tile.y);
+        tile.first = frame.tile_begin[t];
+        tile.count = frame.tile_begin[t + 1] - tile.first;
+        tile.before = before;
+        before += tile.count;
+        tiles.push_back(tile);
+    }
+    tiles_of_frame.push_back(listed.size());
+    if (!listed.empty()) {
+        tiles.back().last_of_frame = true;
+    }
+}
+
+ScatteredRecords RenderJob::splat_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                          const std::uint32_t* splats, std::size_t count) const {
+    const MemoryMap at = map(frame, traffic);
+    ScatteredRecords records;
+    records.base = at.splats;
+    records.stride = records.bytes = traffic.splat_bytes;
+    records.burst = traffic.burst_bytes;
+    records.array_bytes = at.lists - at.splats;
+    records.numbers = splats;
+    records.count = count;
+    records.places = places[frame].of_splats();
+    return records;
+}
+
+// Written as they are: a burst that is not the record's own must not be touched.
+ScatteredRecords RenderJob::visible_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                            std::uint32_t first, std::size_t count) const {
+    ScatteredRecords records =
+        splat_records(frame, traffic, places[frame].of_visible() + first, count);
+    records.burst = 1;
+    records.places = nullptr;
+    return records;
+}
+
+ScatteredRecords RenderJob::sh_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                       const std::uint32_t* gaussians, std::size_t count) const {
+    const FrameWorkload& work = *frames[frame];
+    const MemoryMap at = map(frame, traffic);
+    ScatteredRecords records;
+    records.base = at.sh;
+    records.stride = records.bytes = traffic.sh_bytes(work.sh_degree);
+    records.burst = traffic.burst_bytes;
+    records.array_bytes = bases[frame].given ? work.gaussians * records.bytes : at.splats - at.sh;
+    records.numbers = gaussians;
+    records.count = count;
+    return records;
+}
+
+RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
+                          const DataPathOptions& options, int contexts, RecordOrder records,
+                          TileOrder tiles) {
+    RenderJob job;
+    job.record_order = records;
+    job.tile_order = tiles;
+    job.tile_size = frames.at(0)->tile_size;
+    job.path = make_data_path(options, job.tile_size, contexts);
+    for (const FrameWorkload* frame : frames) {
+        job.add(*frame);
+    }
+    return job;
+}
+
+} // namespace degs

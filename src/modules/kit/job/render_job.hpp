@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include <systemc>
+
+#include "modules/kit/job/messages.hpp"
+#include "modules/kit/job/record_places.hpp"
+#include "modules/kit/job/slot_recorder.hpp"
+#include "modules/kit/job/tile_order.hpp"
+#include "modules/kit/job/traffic.hpp"
+#include "splat/frame/frame_workload.hpp"
+#include "splat/frame/pixel_index.hpp"
+#include "splat/images/image.hpp"
+#include "tlm/process.hpp"
+#include "tlm/scattered_records.hpp"
+
+namespace degs {
+
+/// A tile that lists at least one splat. Empty tiles never enter the pipeline.
+struct JobTile {
+    std::uint32_t frame = 0;
+    int x = 0, y = 0;          ///< top left pixel in the image
+    int width = 0, height = 0; ///< pixels inside the image
+    std::uint64_t first = 0;   ///< into the frame's tile_splats
+    std::uint64_t count = 0;
+    std::uint64_t before = 0; ///< entries of the frame's tiles that are taken earlier
+    bool last_of_frame = false;
+
+    PixelRange columns() const { return {x, x + width - 1}; } ///< of the image
+    PixelRange rows() const { return {y, y + height - 1}; }   ///< of the image
+};
+
+/// Tiles that keep their place when others join, so that blocks may hold on to one.
+class TileList {
+public:
+    std::size_t size() const { return size_; }
+    bool empty() const { return index_.empty(); }
+    JobTile& operator[](std::size_t number) { return *index_[number]; }
+    const JobTile& operator[](std::size_t number) const { return *index_[number]; }
+    JobTile& back() { return *index_.back(); }
+    void push_back(const JobTile& tile) {
+        tiles_.push_back(tile);
+        index_.push_back(&tiles_.back());
+        size_ = index_.size();
+    }
+    std::deque<JobTile>::const_iterator begin() const { return tiles_.begin(); }
+    std::deque<JobTile>::const_iterator end() const { return tiles_.end(); }
+
+private:
+    std::deque<JobTile> tiles_;
+    std::vector<JobTile*> index_; // for the hot loops; a deque would have to divide
+    std::size_t size_ = 0;        // likewise
+};
+
+/// The frames that an accelerator is asked to render, and the arithmetic that it uses.
+struct RenderJob {
+    std::vector<const FrameWorkload*> frames;
+    std::vector<std::uint32_t> first_splat; ///< DataPath index of each frame's splat 0
+    TileList tiles;                         ///< frame by frame, each in its tile order
+    std::vector<std::uint64_t> tiles_of_frame;
+    std::deque<Image> images; ///< one per frame, filled by the Pixel Buffer
+    std::unique_ptr<DataPath> path;
+    int tile_size = 0;
+    RecordOrder record_order = RecordOrder::Index; ///< of frames that join from now on
+    TileOrder tile_order = TileOrder::Raster;      ///< likewise
+    std::vector<RecordPlaces> places;              ///< of each frame's splat records
+    /// Per frame: tile pairs of the first n visible Gaussians in scene order, for n = 0..visible.
+    std::vector<std::vector<std::uint64_t>> pair_prefix;
+    /// Per frame: where its streams live, if not where MemoryMap puts them.
+    std::vector<MemoryBases> bases;
+    /// Set if slots are recorded with their dates and tiles.
+    std::unique_ptr<SlotRecorder> recorder;
+    /// Set while more frames, or tiles of them, may join; notified when one has.
+    std::unique_ptr<sc_core::sc_event> joined;
+    bool frames_join = false; ///< not tiles of the frames alone
+
+    std::uint64_t pairs_before(std::uint32_t frame, std::uint32_t visible_rank) const {
+        return pair_prefix[frame][visible_rank];
+    }
+    /// A part of the array that has `width` PEs; nullptr if slots are not recorded.
+    SlotPart* record_part(int width) const {
+        return recorder == nullptr ? nullptr : &recorder->add_part(width);
+    }
+    bool has_more_frames_than(int count) const {
+        const std::size_t limit = count;
+        return frames.size() > limit;
+    }
+    const FrameWorkload& frame_of(const JobTile& tile) const { return *frames[tile.frame]; }
+    /// Bytes of a frame-buffer pixel.
+    int pixel_bytes(std::uint32_t frame, const TrafficConfig& traffic) const {
+        const int own = bases[frame].pixel_bytes;
+        return own != 0 ? own : traffic.pixel_bytes;
+    }
+    MemoryMap map(std::uint32_t frame, const TrafficConfig& traffic) const {
+        return MemoryMap(traffic, *frames[frame], bases[frame]);
+    }
+    /// The records of `count` splats; of `count` visible Gaussians in scene order from rank `first`
+    /// on, which lie one behind the other in RecordOrder::Index only; the SH of `count` Gaussians.
+    /// All views are of the frame's own tables and of the numbers that are handed in.
+    ScatteredRecords splat_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                   const std::uint32_t* splats, std::size_t count) const;
+    ScatteredRecords visible_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                     std::uint32_t first, std::size_t count) const;
+    ScatteredRecords sh_records(std::uint32_t frame, const TrafficConfig& traffic,
+                                const std::uint32_t* gaussians, std::size_t count) const;
+
+    /// True if there is a frame / a tile of this number. If more may come, sleeps until it joins,
+    /// and moves the process to that date.
+    bool has_frame(Process& process, std::uint32_t frame) const {
+        return there(process, [this, frame] { return frame < frames.size(); });
+    }
+    bool has_tile(Process& process, std::size_t tile) const {
+        return there(process, [this, tile] { return tile < tiles.size(); });
+    }
+    /// True if there will never be a tile of this number.
+    bool over(std::size_t tile) const { return joined == nullptr && tile >= tiles.size(); }
+
+    /// Lists the tiles of a frame and loads its splats into the data path.
+    void add(const FrameWorkload& frame, const MemoryBases& base = {});
+
+private:
+    template <class There>
+    bool there(Process& process, const There& exists) const {
+        while (!exists()) {
+            if (joined == nullptr) {
+                return false;
+            }
+            sc_core::wait(*joined);
+            process.advance_to(process.clock().ceil(sc_core::sc_time_stamp()));
+        }
+        return true;
+    }
+};
+
+/// Lists the tiles and loads the data path. All workloads must have the same tile size; splats are
+/// drawn as they are, whatever format they were projected in.
+RenderJob make_render_job(const std::vector<const FrameWorkload*>& frames,
+                          const DataPathOptions& options, int contexts,
+                          RecordOrder records = RecordOrder::Index,
+                          TileOrder tiles = TileOrder::Raster);
+
+} // namespace degs

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/files/input_file.hpp"
+
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "base/visible_text.hpp"
+#include "config/input_files.hpp"
+#include "config/nearby_file.hpp"
+
+namespace degs {
+namespace {
+
+std::uint64_t checked_size(const std::string& path) {
+    if (path.find('\0') != std::string::npos) { // the system would not see what follows
+        throw InputError("The name of a file holds a zero: '" + visible(path) + "'.");
+    }
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found) {
+        fail_file(path, "there is no such file" + nearby_file(path) + ".");
+    }
+    if (std::filesystem::is_directory(status)) {
+        fail_file(path, "this is a folder, and a file is needed.");
+    }
+    if (!std::filesystem::is_regular_file(status)) {
+        fail_file(path, "this is not a regular file, or its folder may not be read.");
+    }
+    const std::uint64_t size = std::filesystem::file_size(path, error);
+    if (error) {
+        fail_file(path, "its size cannot be read (" + error.message() + ").");
+    }
+    if (size == 0) {
+        fail_file(path, "the file is empty.");
+    }
+    return size;
+}
+
+} // namespace
+
+void fail_file(const std::string& path, const std::string& sentence) {
+    throw InputError(path + ": " + sentence);
+}
+
+std::string in_quotes(std::string_view text) {
+    constexpr std::size_t kLongest = 40;
+    std::string out = "'";
+    for (const char c : text.substr(0, kLongest)) {
+        out += c >= ' ' && c <= '~' ? c : '?';
+    }
+    return out + (text.size() > kLongest ? "...'" : "'");
+}
+
+InputFile::InputFile(const std::string& path)
+    : path_(path), size_(checked_size(path)), stream_(path, std::ios::binary) {
+    if (!stream_) {
+        fail_file(path, "the file cannot be opened for reading.");
+    }
+    remember_input(path);
+}
+
+void InputFile::seek(std::uint64_t position) {
+    stream_.clear();
+    stream_.seekg(position);
+    position_ = position;
+}
+
+void InputFile::skip(std::uint64_t bytes) {
+    constexpr std::size_t kSeekWorth = 4096; // a seek throws the stream's buffer away
+    char scratch[kSeekWorth];
+    if (bytes > kSeekWorth) {
+        seek(position_ + bytes);
+    } else {
+        read_exactly(scratch, bytes);
+    }
+}
+
+std::size_t InputFile::read_some(char* destination, std::size_t bytes) {
+    stream_.read(destination, bytes);
+    const std::size_t got = stream_.gcount();
+    position_ += got;
+    return got;
+}
+
+void InputFile::read_exactly(char* destination, std::size_t bytes) {
+    if (read_some(destination, bytes) != bytes) {
+        fail_file(path_, "the file ended at byte " + std::to_string(position_) +
+                             " while it was being read, before all of its data was found.");
+    }
+}
+
+void InputFile::require_at_most(std::uint64_t limit_bytes) const {
+    if (size_ > limit_bytes) {
+        fail_file(path_, "the file has " + std::to_string(size_) + " bytes; at most " +
+                             std::to_string(limit_bytes) + " are allowed for a file of this kind.");
+    }
+}
+
+std::string read_text(const std::string& path, std::uint64_t limit_bytes) {
+    InputFile file(path);
+    file.require_at_most(limit_bytes);
+    std::string text(file.size(), '\0');
+    file.read_exactly(text.data(), text.size());
+    return text;
+}
+
+} // namespace degs

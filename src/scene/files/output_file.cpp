@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/files/output_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <system_error>
+
+#include <unistd.h>
+
+#include "scene/files/input_file.hpp"
+#include "scene/files/partial_file.hpp"
+
+namespace degs {
+namespace {
+
+namespace fs = std::filesystem;
+
+thread_local FileSet* current_set = nullptr;
+
+void check_target(const std::string& path) {
+    std::error_code error;
+    if (path.empty()) {
+        fail_file("''", "an output file needs a name.");
+    }
+    const fs::file_status status = fs::status(path, error);
+    if (fs::exists(status) && !fs::is_regular_file(status)) { // never rename over a device
+        fail_file(path, "this is a folder or device, and the name of a file to write is needed.");
+    }
+    const fs::path parent = fs::path(path).parent_path();
+    if (!parent.empty() && !fs::is_directory(parent, error)) {
+        fail_file(path, "the folder '" + parent.string() + "' does not exist; create it first.");
+    }
+}
+
+void put_in_place(const PartialFile& file, const std::string& path) {
+    std::error_code error;
+    fs::rename(file.name(), path, error);
+    if (error) {
+        fail_file(path, "the finished file cannot be put in its place (" + error.message() + ").");
+    }
+}
+
+/// Unlike std::filesystem::remove, it leaves folders alone.
+void remove_old_file(const std::string& path) {
+    if (::unlink(path.c_str()) != 0 && errno != ENOENT && errno != ENOTDIR) {
+        fail_file(path, "the file of an earlier run cannot be removed (" +
+                            std::generic_category().message(errno) + ").");
+    }
+}
+
+/// No signal ends the program between the files of a set.
+class HeldSignals {
+public:
+    HeldSignals() {
+        sigset_t all;
+        sigfillset(&all);
+        ::pthread_sigmask(SIG_BLOCK, &all, &before_);
+    }
+    ~HeldSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+    HeldSignals(const HeldSignals&) = delete;
+    HeldSignals& operator=(const HeldSignals&) = delete;
+
+private:
+    sigset_t before_{};
+};
+
+} // namespace
+
+FileSet::FileSet() : before_(current_set) {
+    current_set = this;
+}
+
+FileSet::~FileSet() {
+    current_set = before_;
+}
+
+void FileSet::publish(const std::vector<std::string>& old) {
+    if (files_.empty()) {
+        return;
+    }
+    const HeldSignals held;
+    for (const std::string& path : old) {
+        remove_old_file(path);
+    }
+    std::stable_partition(files_.begin(), files_.end(), [&old](const Finished& finished) {
+        return old.empty() || finished.path != old.front();
+    });
+    for (const Finished& finished : files_) {
+        put_in_place(*finished.file, finished.path);
+    }
+    files_.clear();
+}
+
+void write_atomically(const std::string& path,
+                      const std::function<void(const std::string& temporary)>& write) {
+    check_target(path);
+    auto file = std::make_unique<PartialFile>(path);
+    if (!file->exists()) {
+        fail_file(path, "the file cannot be written; check the permissions of its folder.");
+    }
+    write(file->name());
+    if (current_set != nullptr) {
+        current_set->files_.push_back({std::move(file), path});
+    } else {
+        put_in_place(*file, path);
+    }
+}
+
+bool takes_files(const std::string& folder) {
+    const PartialFile probe((fs::path(folder) / ".degs-probe").string());
+    return probe.exists() && probe.takes_a_byte();
+}
+
+} // namespace degs

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "splat/frame/tile_cover.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "splat/frame/pixel_index.hpp"
+
+namespace degs {
+namespace {
+
+/// The columns of an ellipse on one pixel row at a time.
+class RowSolver {
+public:
+    RowSolver(const ProjectedSplat& splat, int width)
+        : mu_x_(splat.mu_x), mu_y_(splat.mu_y), q_end_(splat.q_end()),
+          slope_(splat.cov_b / splat.cov_c), inverse_c_(1.0 / splat.cov_c),
+          det_over_c_(splat.det / splat.cov_c), width_(width) {}
+
+    /// Moving down, the centre moves to the right (or stays).
+    bool leans_right() const { return slope_ >= 0; }
+
+    /// The pixels of row y inside the ellipse, clipped to the image.
+    PixelRange solve(int y) const {
+        const double dy = y - mu_y_;
+        const double centre = mu_x_ + slope_ * dy;
+        const double rest = std::max(0.0, q_end_ - dy * dy * inverse_c_);
+        const double half = std::sqrt(det_over_c_ * rest);
+        const double wide = half + pixel_slack(std::abs(centre) + std::abs(mu_x_));
+        const double low = std::max(0.0, std::ceil(centre - wide));
+        const double high = std::min(width_ - 1.0, std::floor(centre + wide));
+        if (!(low <= high)) {
+            return {};
+        }
+        return {static_cast<int>(low), static_cast<int>(high)};
+    }
+
+private:
+    double mu_x_, mu_y_, q_end_, slope_, inverse_c_, det_over_c_;
+    int width_;
+};
+
+/// Collects the tiles of consecutive pixel rows of one tile row. Rows arrive such that the centre
+/// of the ellipse moves to the right; by convexity a row can then never reach back across a gap, so
+/// one open run is enough. Gaps occur where a thin flat ellipse passes between pixel centres.
+class RunCollector {
+public:
+    /// `leftmost` .. `rightmost`: tiles of the bounding box.
+    RunCollector(int row, int leftmost, int rightmost, std::vector<TileRun>& runs)
+        : row_(row), leftmost_(leftmost), rightmost_(rightmost), runs_(runs) {}
+
+    void add(int first, int last) {
+        first = std::max(first, barrier_);
+        if (last < first) {
+            return;
+        }
+        if (last_ >= 0 && first > last_ + 1) {
+            close();
+        }
+        first_ = last_ < 0 ? first : std::min(first_, first);
+        last_ = std::max(last_, last);
+    }
+    void close() {
+        if (last_ >= 0) {
+            runs_.push_back({row_, first_, last_});
+            barrier_ = last_ + 1; // rounding must not list a tile twice
+            last_ = -1;
+        }
+    }
+    /// No further row can add a tile.
+    bool complete() const { return first_ <= leftmost_ && last_ >= rightmost_; }
+
+private:
+    int row_, leftmost_, rightmost_;
+    std::vector<TileRun>& runs_;
+    int first_ = 0, last_ = -1, barrier_ = 0;
+};
+
+/// Feeds the pixel rows top .. bottom of one row of tiles to the collector.
+void cover_tile_row(const RowSolver& solver, int tile_size, int top, int bottom,
+                    RunCollector& collector) {
+    const int step = solver.leans_right() ? 1 : -1;
+    int y = step > 0 ? top : bottom;
+    for (int left = bottom - top; left >= 0 && !collector.complete(); --left, y += step) {
+        const PixelRange columns = solver.solve(y);
+        if (!columns.empty()) {
+            collector.add(columns.first / tile_size, columns.last / tile_size);
+        }
+    }
+    collector.close();
+}
+
+/// int() truncates toward zero as in the original; clamped first, so that huge radii are safe.
+int clamped_tile(double tile, int tiles) {
+    return index_within(tile, 0, tiles);
+}
+
+} // namespace
+
+void cover_ellipse(const ProjectedSplat& splat, const TileGrid& grid, std::vector<TileRun>& runs) {
+    runs.clear();
+    const PixelBox box = pixel_box(splat, grid.width, grid.height);
+    if (box.empty()) {
+        return;
+    }
+    const int size = grid.tile_size;
+    const RowSolver solver(splat, grid.width);
+    for (int row = box.y0 / size; row <= box.y1 / size; ++row) {
+        const int top = std::max(box.y0, row * size);
+        const int bottom = std::min(box.y1, row * size + size - 1);
+        RunCollector collector(row, box.x0 / size, box.x1 / size, runs);
+        cover_tile_row(solver, size, top, bottom, collector);
+    }
+}
+
+void cover_square(const ProjectedSplat& splat, const TileGrid& grid, std::vector<TileRun>& runs) {
+    runs.clear();
+    const double mid = 0.5 * (splat.cov_a + splat.cov_c);
+    const double half_difference = 0.5 * (splat.cov_a - splat.cov_c);
+    // mid^2 - det without cancellation; the floor of 0.1 px^4 makes every radius at least 3 px.
+    const double root = half_difference * half_difference + splat.cov_b * splat.cov_b;
+    const double radius = std::ceil(3.0 * std::sqrt(mid + std::sqrt(std::max(0.1, root))));
+    const double size = grid.tile_size;
+    const int x0 = clamped_tile((splat.mu_x - radius) / size, grid.tiles_x());
+    const int y0 = clamped_tile((splat.mu_y - radius) / size, grid.tiles_y());
+    const int x1 = clamped_tile((splat.mu_x + radius + size - 1) / size, grid.tiles_x());
+    const int y1 = clamped_tile((splat.mu_y + radius + size - 1) / size, grid.tiles_y());
+    for (int row = y0; row < y1 && x0 < x1; ++row) {
+        runs.push_back({row, x0, x1 - 1});
+    }
+}
+
+} // namespace degs

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// A thread that draws ahead gives what drawing on demand gives, whatever the simulation takes and when.
+#include "modules/degs/drawing/drawing_thread.hpp"
+
+#include <random>
+#include <thread>
+
+#include "base/parallel.hpp"
+#include "tests/modules/degs/run_fixture.hpp"
+
+namespace degs {
+
+static bool operator==(const DrawnRow& a, const DrawnRow& b) {
+    return a.inside == b.inside && a.useful == b.useful && a.ended == b.ended && a.x0 == b.x0 &&
+           a.length == b.length;
+}
+static bool operator==(const PixelValue& a, const PixelValue& b) {
+    return std::equal(a.rgb, a.rgb + 3, b.rgb) && a.transmittance == b.transmittance &&
+           a.updates == b.updates && a.ended == b.ended;
+}
+
+namespace {
+
+using test::random_frame;
+
+/// Whether tiles are drawn on a thread; restores the number of threads.
+struct Drawn {
+    explicit Drawn(bool ahead) { limit_host_threads(ahead ? 2 : 1); }
+    ~Drawn() { limit_host_threads(static_cast<int>(std::thread::hardware_concurrency())); }
+    Drawn(const Drawn&) = delete;
+    Drawn& operator=(const Drawn&) = delete;
+};
+
+struct Taken {
+    std::vector<DrawnRow> rows;
+    std::vector<PixelValue> pixels;
+    std::uint64_t fragments = 0;
+};
+
+/// One module's place in a tile.
+struct Reader {
+    TileNumber tile = 0;
+    int module = 0;
+    std::uint32_t place = 0, end = 0; // `end`: where it is told that the tile has ended
+};
+
+/// Takes tiles as modules do that share them, several tiles at a time, in an order that `seed` decides. Each
+/// module stops some splats behind the one that ended its tile; `joining` tiles are in the job at first.
+class Simulation {
+public:
+    Simulation(RenderJob& job, const DrawingOptions& options, std::uint32_t seed)
+        : job_(job), options_(options), random_(seed) {}
+
+    Taken run(std::size_t joining = 0) {
+        TileList all = std::move(job_.tiles);
+        job_.tiles = TileList();
+        const auto join = [&](std::size_t count) {
+            while (job_.tiles.size() < std::min(count, all.size())) {
+                job_.tiles.push_back(all[job_.tiles.size()]);
+            }
+        };
+        join(joining == 0 ? all.size() : joining);
+        const std::unique_ptr<TileDrawing> drawing = make_tile_drawing(job_, options_);
+        Taken taken;
+        taken.pixels.reserve(100000);
+        for (TileNumber first = 0; first < all.size(); first += kAtOnce) {
+            join(first + kAtOnce);
+            run_tiles(*drawing, first,
+                      std::min<std::size_t>(all.size(), std::size_t{first} + kAtOnce), taken);
+        }
+        taken.fragments = drawing->fragments();
+        return taken;
+    }
+
+private:
+    static constexpr TileNumber kAtOnce = 3;
+
+    void run_tiles(TileDrawing& drawing, TileNumber first, std::size_t end, Taken& taken) {
+        std::vector<Reader> readers;
+        std::vector<std::vector<DrawnRow>> rows((end - first) * options_.modules);
+        for (TileNumber tile = first; tile < end; ++tile) {
+            for (int module = 0; module < options_.modules; ++module) {
+                const auto count = static_cast<std::uint32_t>(job_.tiles[tile].count);
+                readers.push_back({tile, module, 0, count});
+            }
+        }
+        std::vector<std::int64_t> live;
+        for (TileNumber tile = first; tile < end; ++tile) {
+            live.push_back(std::int64_t{1} * job_.tiles[tile].width * job_.tiles[tile].height);
+        }
+        while (!readers.empty()) {
+            const std::size_t next = random_() % readers.size();
+            Reader& reader = readers[next];
+            const std::size_t number = reader.tile - first;
+            if (live[number] == 0) { // the tile has ended, which the module hears later
+                reader.end = std::min<std::uint32_t>(
+                    reader.end, reader.place + 1 + static_cast<std::uint32_t>(random_() % 90));
+                live[number] = -1;
+            }
+            step(drawing, reader, rows[number * options_.modules + reader.module], live[number]);
+            if (reader.place >= reader.end) {
+                readers.erase(readers.begin() + static_cast<std::ptrdiff_t>(next));
+            }
+        }
+        for (const std::vector<DrawnRow>& of_module : rows) {
+            taken.rows.insert(taken.rows.end(), of_module.begin(), of_module.end());
+        }
+        for (TileNumber tile = first; tile < end; ++tile) {
+            read_out(drawing, tile, taken);
+        }
+    }
+
+    void step(TileDrawing& drawing, Reader& reader, std::vector<DrawnRow>& rows,
+              std::int64_t& live) {
+        const PixelRange all = drawing.rows(reader.tile, reader.place);
+        const int step = options_.modules;
+        PixelRange own = all;
+        own.first += (reader.module - all.first % step + step) % step;
+        const std::size_t before = rows.size();
+        rows.resize(before + (own.empty() ? 0 : (own.last - own.first) / step + 1));
+        drawing.take(reader.tile, reader.place, own, step, rows.data() + before);
+        for (std::size_t i = before; i < rows.size(); ++i) {
+            live -= __builtin_popcountll(rows[i].ended);
+        }
+        ++reader.place;
+    }
+
+    void read_out(TileDrawing& drawing, TileNumber number, Taken& taken) {
+        const JobTile tile = job_.tiles[number];
+        for (int row = 0; row < job_.tile_size; ++row) {
+            if (row < tile.height) {
+                taken.pixels.resize(taken.pixels.size() + tile.width);
+                drawing.read_row(number, row, tile.width,
+                                 taken.pixels.data() + taken.pixels.size() - tile.width);
+            }
+            drawing.clear_row(number, row);
+        }
+    }
+
+    RenderJob& job_;
+    DrawingOptions options_;
+    std::mt19937 random_;
+};
+
+struct Case {
+    const char* numbers;
+    DrawingOptions options;
+    int splats;
+    std::size_t joining;
+};
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+    return out << c.numbers << "_modules" << c.options.modules << "_splats" << c.splats
+               << (c.options.tests ? "_tested" : "") << (c.joining != 0 ? "_joining" : "");
+}
+
+class DrawingOnThread : public ::testing::TestWithParam<Case> {};
+
+TEST_P(DrawingOnThread, GivesWhatDrawingOnDemandGives) {
+    const Case& given = GetParam();
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+        const FrameWorkload frame = random_frame(seed, 150, 83, 32, given.splats);
+        const auto draw = [&](bool ahead) {
+            const Drawn drawn(ahead);
+            RenderJob job = make_render_job({&frame}, named_numbers(given.numbers), 2);
+            return Simulation(job, given.options, seed).run(given.joining);
+        };
+        const Taken demanded = draw(false);
+        const Taken ahead = draw(true);
+        EXPECT_GT(demanded.fragments, 1000U);
+        EXPECT_EQ(ahead.fragments, demanded.fragments);
+        EXPECT_TRUE(ahead.rows == demanded.rows);
+        EXPECT_TRUE(ahead.pixels == demanded.pixels);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Designs, DrawingOnThread,
+                         ::testing::Values(Case{"fp32", {false, SlicedRows::Splat, 1}, 4000, 0},
+                                           Case{"fp64", {false, SlicedRows::Tile, 2}, 900, 0},
+                                           Case{"paper", {false, SlicedRows::Tile, 4}, 3000, 0},
+                                           Case{"fp32", {true, SlicedRows::Splat, 1}, 3000, 0},
+                                           Case{"fp32", {false, SlicedRows::Tile, 2}, 3000, 2},
+                                           Case{"tuned", {false, SlicedRows::Splat, 1}, 40, 0}),
+                         ::testing::PrintToStringParamName());
+
+TEST(DrawingOnThreadAlone, EndsWithWorkLeft) {
+    const FrameWorkload frame = random_frame(5, 150, 83, 32, 4000);
+    const Drawn drawn(true);
+    for (int taken = 0; taken < 3; ++taken) {
+        RenderJob job = make_render_job({&frame}, named_numbers("fp32"), 2);
+        DrawingThread drawing(job, {});
+        for (std::uint32_t place = 0; place < static_cast<std::uint32_t>(taken); ++place) {
+            EXPECT_FALSE(drawing.rows(1, 40 * place).empty());
+        }
+    }
+}
+
+} // namespace
+} // namespace degs

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "sim/simulation/view.hpp"
+
+namespace degs::sim {
+namespace {
+
+Camera full_hd() {
+    Camera camera;
+    camera.width = 1920;
+    camera.height = 1080;
+    camera.fx = 1500;
+    camera.fy = 1510;
+    return camera;
+}
+
+TEST(Resize, KeepsTheViewWithoutOptions) {
+    const Camera same = resize(full_hd(), {}, {});
+    EXPECT_EQ(same.width, 1920);
+    EXPECT_EQ(same.height, 1080);
+    EXPECT_EQ(same.fx, 1500);
+}
+
+TEST(Resize, OneSideScalesBoth) {
+    for (const Camera& half : {resize(full_hd(), 960, {}), resize(full_hd(), {}, 540)}) {
+        EXPECT_EQ(half.width, 960);
+        EXPECT_EQ(half.height, 540);
+        EXPECT_DOUBLE_EQ(half.fx, 750);
+        EXPECT_DOUBLE_EQ(half.fy, 755);
+    }
+}
+
+TEST(Resize, BothSidesCropAtTheScaleOfTheWidth) {
+    const Camera square = resize(full_hd(), 960, 960);
+    EXPECT_EQ(square.width, 960);
+    EXPECT_EQ(square.height, 960);
+    EXPECT_DOUBLE_EQ(square.fx, 750);
+    EXPECT_DOUBLE_EQ(square.fy, 755);
+}
+
+TEST(Resize, LimitsThePixels) {
+    EXPECT_EQ(resize(full_hd(), 7680, {}).height, 4320);
+    EXPECT_EQ(resize(full_hd(), 8192, 4320).width, 8192); // just allowed
+    EXPECT_THROW(resize(full_hd(), 8193, 4320), InputError);
+    EXPECT_THROW(resize(full_hd(), 1, 40000000), InputError);
+    EXPECT_THROW(resize(full_hd(), 0, {}), InputError);
+    EXPECT_THROW(resize(full_hd(), {}, -1), InputError);
+    Camera huge = full_hd();
+    huge.width = huge.height = 60000; // a camera file may ask for too much, too
+    EXPECT_THROW(resize(huge, {}, {}), InputError);
+}
+
+TEST(Resolution, NamesAreHeights) {
+    const std::vector<int> widths{1280, 1920, 2560, 3840, 7680};
+    const std::vector<int> heights{720, 1080, 1440, 2160, 4320};
+    const std::vector<std::string> names = resolution_names();
+    ASSERT_EQ(names.size(), heights.size());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const Camera camera = resize(full_hd(), {}, resolution_height(names[i]));
+        EXPECT_EQ(camera.width, widths[i]) << names[i];
+        EXPECT_EQ(camera.height, heights[i]) << names[i];
+        EXPECT_DOUBLE_EQ(camera.fx, 1500.0 * heights[i] / 1080) << names[i];
+        EXPECT_DOUBLE_EQ(camera.fy, 1510.0 * heights[i] / 1080) << names[i];
+    }
+}
+
+TEST(Resolution, KeepsTheAspectRatioOfTheCamera) {
+    Camera camera = full_hd();
+    camera.width = 648;
+    camera.height = 420;
+    const Camera large = resize(camera, {}, resolution_height("4K"));
+    EXPECT_EQ(large.height, 2160);
+    EXPECT_EQ(large.width, 3333); // 648 / 420 of 2160 is 3332.57
+    EXPECT_NEAR(large.fy / camera.fy, large.fx / camera.fx, 1e-12);
+    EXPECT_NEAR(large.fx / camera.fx, 2160.0 / 420, 1e-3);
+}
+
+TEST(Resolution, UnknownNamesListTheKnown) {
+    for (const char* name : {"", "4kk", "1080", "p"}) {
+        try {
+            resolution_height(name);
+            FAIL() << name;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find("720p, 1080p, 2k, 4k, 8k"), std::string::npos);
+        }
+    }
+}
+
+} // namespace
+} // namespace degs::sim

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// A number format that does not reach far enough for a scene is named.
+#include <algorithm>
+
+#include "tests/sim/process/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+/// One splat of 100 opaque ones is 5e5 scene units wide: r_x lies beyond 131 068 px, the largest
+/// value of ue5m15b14.
+std::string scene_with_a_giant(const Folder& folder) {
+    std::vector<Splat> splats(100);
+    for (std::size_t i = 0; i < splats.size(); ++i) {
+        splats[i].mean = {0.01F * static_cast<float>(i), 0, 5};
+    }
+    splats.back().scale = {13, 13, 13};
+    write_ply(folder / "giant.ply", splats);
+    write_camera(folder / "cameras.json", {0, 0, 0});
+    return folder / "giant.ply";
+}
+
+Outcome run(const Folder& folder, const std::string& numbers) {
+    return degs({"run", config("degs-64-tuned"), "--scene", scene_with_a_giant(folder), "--width",
+                 "64", "--set", "pipeline.numbers=" + numbers, "--out", folder / "out"});
+}
+
+TEST(SmallRunWarnings, NameTheFormatThatSaturates) {
+    const Folder folder;
+    const Outcome outcome = run(folder, "tuned");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const std::string sentence =
+        "Stage radius saturates: 1 of 100 splats (1.00 %) lie beyond 131000, the largest value of "
+        "ue5m15b14; pipeline.formats.radius sets another format.";
+    EXPECT_NE(outcome.err.find("degs: warning: " + sentence + "\n"), std::string::npos)
+        << outcome.err;
+    const auto warnings = report_in(folder / "out").at("warnings");
+    EXPECT_NE(std::find(warnings.begin(), warnings.end(), sentence), warnings.end()) << warnings;
+}
+
+TEST(SmallRunWarnings, SinglePrecisionHasNone) {
+    const Folder folder;
+    expect_success(run(folder, "fp32"));
+    EXPECT_TRUE(report_in(folder / "out").at("warnings").empty());
+}
+
+TEST(SmallRunWarnings, OrdinaryScenesHaveNone) {
+    const Folder folder;
+    for (const char* design : {"degs-64", "degs-64-tuned"}) {
+        expect_success(degs({"run", config(design), "--scene", "synthetic:object,gaussians=2000",
+                             "--width", "100", "--out", folder / "out"}));
+        EXPECT_TRUE(report_in(folder / "out").at("warnings").empty()) << design;
+    }
+}
+
+TEST(SmallRunWarnings, KeysWithoutEffectAreNamed) {
+    const Folder folder;
+    const std::vector<std::string> unused{"--set", "memory.model=lpddr5", "--set",
+                                          "memory.bandwidth_gb_per_s=51.2"};
+    const std::string sentence = "--set memory.bandwidth_gb_per_s=51.2: key "
+                                 "'memory.bandwidth_gb_per_s' has no effect, because memory.model "
+                                 "is lpddr5, which has keys of its own.";
+    std::vector<std::string> run{"run",
+                                 config("degs-16"),
+                                 "--scene",
+                                 "synthetic:object,gaussians=50",
+                                 "--width",
+                                 "32",
+                                 "--no-reference",
+                                 "--out",
+                                 folder / "run"};
+    run.insert(run.end(), unused.begin(), unused.end());
+    const Outcome outcome = degs(run);
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err, "degs: warning: " + sentence + "\n");
+    EXPECT_EQ(report_in(folder / "run")["warnings"], nlohmann::json::array({sentence}));
+
+    std::vector<std::string> compare{"compare",         config("degs-16"),
+                                     "--scene",         "synthetic:object,gaussians=50",
+                                     "--width",         "32",
+                                     "--no-reference",  "--out",
+                                     folder / "compare"};
+    compare.insert(compare.end(), unused.begin(), unused.end());
+    EXPECT_NE(degs(compare).err.find("degs: warning: degs-16: " + sentence), std::string::npos);
+
+    const Outcome silent = degs({"config", config("degs-16"), "--set", "memory.model=lpddr5"});
+    EXPECT_EQ(silent.err, ""); // the file's bandwidth is that of its own model
+}
+
+TEST(HostileMemory, SixteenBanksEndAt3200) {
+    expect_mistake(degs({"config", config("degs-16"), "--set", "memory.model=lpddr5", "--set",
+                         "memory.lpddr5.timing.bank_mode=16b"}),
+                   "must be bg above 3200 MT/s");
+}
+
+} // namespace
+} // namespace degs::sim_test

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs soc, as a user calls it.
+#include "tests/sim/process/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+TEST(SmallRunSoc, LatencyRisesWithTheLoadAndPixelsStay) {
+    const Folder folder;
+    const Outcome outcome =
+        degs({"soc", config("degs-16"), "--scene", "synthetic:object,gaussians=3000", "--width",
+              "160", "--load", "0", "120", "--cores", "2", "--out", folder / "out"});
+    expect_success(outcome);
+    EXPECT_NE(outcome.out.find("the same under every load"), std::string::npos) << outcome.out;
+    const auto written = nlohmann::json::parse(read_file(folder / "out/soc.json"));
+    ASSERT_EQ(written["points"].size(), 2U);
+    const auto& alone = written["points"][0];
+    const auto& loaded = written["points"][1];
+    EXPECT_EQ(alone["cpu_gb_per_s"], 0.0);
+    EXPECT_GT(loaded["cpu_gb_per_s"], 10.0);
+    EXPECT_LE(loaded["cpu_gb_per_s"], 121.0); // offered, and one line per core more
+    EXPECT_GT(loaded["latency_ns"], alone["latency_ns"]);
+    EXPECT_EQ(loaded["bytes_written"], alone["bytes_written"]);
+    EXPECT_EQ(loaded["fragments"], alone["fragments"]);
+    EXPECT_GT(written["psnr_db"], 45.0); // 8 bits alone: 20 log10(255 sqrt 12) = 58.9 dB
+    EXPECT_NE(read_file(folder / "out/soc.svg").find("<svg"), std::string::npos);
+}
+
+// The traffic of each frame is in the time of that frame.
+TEST(SmallRunSoc, HasATimelineOfTheAccelerator) {
+    const Folder folder;
+    expect_success(degs({"soc", config("degs-16"), "--scene", "synthetic:object,gaussians=500",
+                         "--width", "160", "--load", "0", "60", "--cores", "2", "--out",
+                         folder / "out", "--trace", folder / "trace.json"}));
+    const auto trace = nlohmann::json::parse(read_file(folder / "trace.json"));
+    const double step_us = trace["otherData"]["step_cycles"].get<double>() /
+                           trace["otherData"]["clock_ghz"].get<double>() / 1e3;
+    std::vector<std::pair<double, double>> frames; // us
+    double useful = 0, outside = 0, before = 0, value = 0;
+    for (const auto& event : trace["traceEvents"]) {
+        if (event["ph"] == "X" && event["pid"] == 1) {
+            frames.emplace_back(event["ts"],
+                                event["ts"].get<double>() + event["dur"].get<double>());
+        } else if (event["ph"] == "C" && event["name"] == "useful") {
+            const double at = event["ts"];
+            useful += value * (at - before) * 1e3;
+            const bool inside =
+                value == 0 ||
+                (before > frames[0].first - step_us && at < frames[0].second + step_us) ||
+                (before > frames[1].first - step_us && at < frames[1].second + step_us);
+            outside += inside ? 0 : value;
+            before = at;
+            value = event["args"]["value"];
+        }
+    }
+    ASSERT_EQ(frames.size(), 2U);
+    EXPECT_LT(frames[0].second, frames[1].first);
+    EXPECT_EQ(outside, 0);
+    // Each frame does what a run does.
+    expect_success(degs({"run", config("degs-16"), "--scene", "synthetic:object,gaussians=500",
+                         "--width", "160", "--no-reference", "--out", folder / "run"}));
+    const auto report = report_in(folder / "run");
+    EXPECT_NEAR(useful, 2 * report["slots"]["useful"].get<double>(), 1e-3);
+}
+
+TEST(HostileSoc, BadArgumentsAreOneSentence) {
+    EXPECT_EQ(degs({"soc"}).code, 2);
+    EXPECT_EQ(degs({"soc", config("degs-16"), "--scene", "synthetic:object", "--load", "-1"}).code,
+              2);
+    EXPECT_EQ(
+        degs({"soc", config("degs-16"), "--scene", "synthetic:object", "--memory", "none.yaml"})
+            .code,
+        2);
+}
+
+} // namespace
+} // namespace degs::sim_test

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs explore: fronts by hand, and a search against all points of a small study.
+#include "sim/sweep/search.hpp"
+#include "tests/sim/process/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using namespace degs::sim;
+using Positions = std::vector<std::size_t>;
+
+TEST(ParetoFront, HasWhomNobodyBeats) {
+    //                              0       1       2       3       4       5
+    const std::vector<Goals> goals{{1, 9}, {2, 5}, {3, 5}, {4, 1}, {2, 5}, {1, 10}};
+    EXPECT_EQ(pareto_front(goals), (Positions{0, 1, 3}));
+    EXPECT_EQ(pareto_front({}), Positions{});
+    EXPECT_EQ(pareto_front({{7, 7}}), Positions{0});
+}
+
+TEST(ParetoFront, GoesOnWithTheFrontOfTheRest) {
+    const std::vector<Goals> goals{{1, 9}, {2, 5}, {3, 5.5}, {4, 1}, {2.5, 5.2}, {1, 10}};
+    EXPECT_EQ(best_of(goals, 3), (Positions{0, 1, 3}));
+    EXPECT_EQ(best_of(goals, 5), (Positions{0, 1, 3, 4, 5}));
+    EXPECT_EQ(best_of(goals, 99).size(), goals.size());
+}
+
+// Of 1, 2, 2.1, 8 the two in the middle are neighbours; the ends stay.
+TEST(ParetoFront, LosesItsClosestNeighboursFirst) {
+    const std::vector<Goals> goals{{1, 8}, {2, 4}, {2.1, 3.9}, {8, 1}};
+    const Positions three = best_of(goals, 3);
+    EXPECT_EQ(three.front(), 0U);
+    EXPECT_EQ(three.back(), 3U);
+    EXPECT_EQ(best_of(goals, 2), (Positions{0, 3}));
+}
+
+TEST(RankCorrelation, IsSpearmans) {
+    EXPECT_DOUBLE_EQ(*rank_correlation({1, 2, 30}, {5, 6, 7}), 1.0);
+    EXPECT_DOUBLE_EQ(*rank_correlation({1, 2, 3}, {3, 2, 1}), -1.0);
+    // Ranks 1 2 3 4 against 2 1 4 3: 1 - 6 * 4 / (4 * 15) = 0.6.
+    EXPECT_NEAR(*rank_correlation({1, 2, 3, 4}, {20, 10, 40, 30}), 0.6, 1e-12);
+    EXPECT_FALSE(rank_correlation({1, 2}, {1, 2}));
+    EXPECT_FALSE(rank_correlation({1, 1, 1}, {1, 2, 3}));
+}
+
+/// A study of 24 designs on two views.
+std::string space(const Folder& folder, const std::string& size = "width: 128\n") {
+    const std::string file = folder / "space.yaml";
+    std::ofstream(file) << "study: space\ndesigns:\n  - include: " << config("degs-64")
+                        << "\n    name: degs-64\naxes:\n  span.count: [2, 4, 8, 16]\n"
+                           "  array.pes_per_bank: [4, 8, 16]\n  packing.bytes: [x1, x2]\n"
+                           "scenes: synthetic:object,gaussians=300\ncameras: [0, 2]\n"
+                        << size;
+    return file;
+}
+
+std::vector<std::string> csv_rows(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+/// The designs of front.csv that are on the front.
+std::vector<Goals> front_in(const std::string& folder) {
+    std::vector<Goals> front;
+    for (const std::string& line : csv_rows(read_file(folder + "/front.csv"))) {
+        std::istringstream cells(line);
+        std::vector<std::string> row;
+        for (std::string cell; std::getline(cells, cell, ',');) {
+            row.push_back(cell);
+        }
+        if (row.size() == 8 && row[6] == "1") { // design, three keys, two goals, on_front, baseline
+            front.push_back({std::stod(row[4]), std::stod(row[5])});
+        }
+    }
+    return front;
+}
+
+Outcome explore(const std::string& file, const std::string& out,
+                const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"explore", file, "--out", out, "--jobs", "2"};
+    words.insert(words.end(), more.begin(), more.end());
+    return degs(words);
+}
+
+// With one rung every design runs at full size, so its front is that of all designs.
+TEST(Explore, FindsTheFrontOfAllDesigns) {
+    const Folder folder;
+    const std::string file = space(folder);
+    EXPECT_EQ(explore(file, folder / "all", {"--rungs", "1"}).code, 0);
+    const Outcome searched = explore(file, folder / "halved");
+    EXPECT_EQ(searched.code, 0) << searched.err;
+    const std::vector<Goals> found = front_in(folder / "halved");
+    const std::vector<Goals> all = front_in(folder / "all");
+    EXPECT_GE(all.size(), 4U);
+    for (const Goals& best : all) { // small images may lose one of two that are nearly the same
+        EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                                [&best](const Goals& other) {
+                                    return other[0] <= 1.01 * best[0] && other[1] <= 1.01 * best[1];
+                                }))
+            << best[0] << " mm2, " << best[1] << " ms";
+    }
+    const auto explored = nlohmann::json::parse(read_file(folder / "halved/explore.json"));
+    ASSERT_EQ(explored["rungs"].size(), 3U);
+    EXPECT_EQ(explored["rungs"][0]["designs"].size(), 24U);
+    EXPECT_LE(explored["rungs"][2]["designs"].size(), 9U); // eight and the baseline
+    EXPECT_EQ(explored["rungs"][0]["divisor"], 4);
+    for (const char* file_name : {"index.html", "results.csv", "front.svg", "rung-1/results.csv"}) {
+        EXPECT_TRUE(fs::exists(folder / ("halved/" + std::string(file_name)))) << file_name;
+    }
+}
+
+TEST(Explore, GoesOnInItsFolder) {
+    const Folder folder;
+    const std::string file = space(folder);
+    EXPECT_EQ(explore(file, folder / "out").code, 0);
+    const std::string before = read_file(folder / "out/explore.json");
+    fs::remove(fs::directory_iterator(folder / "out/points")->path());
+    const Outcome again = explore(file, folder / "out");
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(read_file(folder / "out/explore.json"), before);
+}
+
+TEST(Explore, RefusesWhatItCannotSearch) {
+    const Folder folder;
+    expect_mistake(explore(space(folder, ""), folder / "a"), "needs 'width' or 'resolutions'");
+    expect_mistake(explore(space(folder), folder / "b", {"--goals", "area_mm2,latency"}),
+                   "latency");
+    const auto refuses = [&folder](const std::string& goals, const std::string& words,
+                                   const std::vector<std::string>& more = {}) {
+        std::vector<std::string> options{"--goals", goals};
+        options.insert(options.end(), more.begin(), more.end());
+        expect_mistake(explore(space(folder), folder / "c", options), words);
+        EXPECT_FALSE(fs::exists(folder / "c"));
+    };
+    refuses("throughput_fps,latency_ms", "has no throughput_fps, so it cannot be a goal");
+    refuses("area_mm2,image.ssim", "needs reference images", {"--no-reference"});
+    refuses("area_mm2,dram.bytes_read", "for the arrays alone", {"--array-only"});
+    refuses("area_mm2,dram.utilization", "neither small nor large values are better; allowed are ");
+    refuses("host.sim_s,area_mm2", "neither small nor large values are better; allowed are ");
+    refuses("fps,fps", "twice");
+    refuses("area_mm2,design", "which is no measure; 'degs config --stats --of compare' lists");
+    refuses("latency,area_mm2",
+            "which is no measure; did you mean 'latency_ms', 'ratio.latency' or "
+            "'ratio.latency_per_mm2'? 'degs config");
+    refuses("area_mm2,area", "did you mean 'area_mm2'? 'degs");
+    refuses("area_mm2,fsp", "did you mean 'fps'? 'degs");
+}
+
+// What is good when it is large gives the front of what is good when it is small.
+TEST(Explore, MakesGoalsLargeWhereThatIsBetter) {
+    const Folder folder;
+    const std::string file = space(folder);
+    const auto names_on_front = [&](const std::string& goals, const std::string& out) {
+        EXPECT_EQ(explore(file, folder / out, {"--goals", goals}).code, 0);
+        std::vector<std::string> designs;
+        for (const std::string& line : csv_rows(read_file(folder / (out + "/front.csv")))) {
+            std::vector<std::string> row;
+            std::istringstream cells(line);
+            for (std::string cell; std::getline(cells, cell, ',');) {
+                row.push_back(cell);
+            }
+            if (row.size() == 8 && row[6] == "1") {
+                designs.push_back(row[1] + " " + row[2] + " " + row[3]);
+            }
+        }
+        return designs;
+    };
+    const auto slow = names_on_front("area_mm2,latency_ms", "latency");
+    EXPECT_GE(slow.size(), 2U);
+    EXPECT_EQ(names_on_front("area_mm2,fps", "fps"), slow);
+    EXPECT_EQ(names_on_front("area_mm2,ratio.latency", "ratio"), slow);
+    auto turned = names_on_front("fps,area_mm2", "turned"); // the fastest comes first
+    std::reverse(turned.begin(), turned.end());
+    EXPECT_EQ(turned, slow);
+    const auto explored = nlohmann::json::parse(read_file(folder / "fps/explore.json"));
+    EXPECT_EQ(explored["better"], nlohmann::json({"smaller", "larger"}));
+    EXPECT_NE(read_file(folder / "fps/front.svg").find("fps (larger is better)"),
+              std::string::npos);
+}
+
+TEST(Measures, KnowTheirDirection) {
+    EXPECT_EQ(direction_of(measure_named("slots.useful", "")), Direction::Maximise);
+    EXPECT_EQ(direction_of(measure_named("slots.boundary", "")), Direction::Minimise);
+    EXPECT_EQ(direction_of(measure_named("slots.drain", "")), Direction::Minimise);
+    EXPECT_EQ(direction_of(measure_named("image.psnr_db", "")), Direction::Maximise);
+    EXPECT_EQ(direction_of(measure_named("image.max_abs_error", "")), Direction::Minimise);
+    EXPECT_EQ(direction_of(measure_named("energy.nj_per_frame", "")), Direction::Minimise);
+    EXPECT_EQ(direction_of(measure_named("host.sim_s", "")), Direction::None);
+    for_each_measure([](Measure m) { // ratios are so made that above 1 is better
+        if (name_of(m).rfind("ratio.", 0) == 0) {
+            EXPECT_EQ(direction_of(m), Direction::Maximise) << name_of(m);
+        }
+    });
+}
+
+} // namespace
+} // namespace degs::sim_test

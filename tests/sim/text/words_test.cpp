@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "sim/accelerator/accelerator_run.hpp"
+#include "sim/report/terminal.hpp"
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+TEST(Words, Grouped) {
+    EXPECT_EQ(grouped(0), "0");
+    EXPECT_EQ(grouped(999), "999");
+    EXPECT_EQ(grouped(1000), "1 000");
+    EXPECT_EQ(grouped(210422), "210 422");
+    EXPECT_EQ(grouped(~std::uint64_t{0}), "18 446 744 073 709 551 615");
+}
+
+TEST(Words, ThreeDigits) {
+    EXPECT_EQ(three_digits(0), "0");
+    EXPECT_EQ(three_digits(2.1084), "2.11");
+    EXPECT_EQ(three_digits(473.9), "474");
+    EXPECT_EQ(three_digits(51234), "51200");
+    EXPECT_EQ(three_digits(0.000386), "0.000386");
+    EXPECT_EQ(three_digits(9.999), "10.0");
+    EXPECT_EQ(three_digits(99.96), "100");
+    EXPECT_EQ(three_digits(-0.5), "-0.500");
+}
+
+TEST(Words, AsTyped) {
+    EXPECT_EQ(as_typed(16384), "16384");
+    EXPECT_EQ(as_typed(12.3456789), "12.3456789");
+    EXPECT_EQ(as_typed(204.8 * 3 / 8), "76.8");
+    EXPECT_EQ(as_typed(0), "0");
+}
+
+TEST(Words, Scaled) {
+    EXPECT_EQ(scaled(0.0), "0");
+    EXPECT_EQ(scaled(999.4), "999");
+    EXPECT_EQ(scaled(999.6), "1.00 k");
+    EXPECT_EQ(scaled(54512345.0), "54.5 M");
+    EXPECT_EQ(scaled(1e18), "1000000 T");
+    EXPECT_EQ(percent(0.8336), "83.4");
+    EXPECT_EQ(percent(0.5, 0), "50");
+}
+
+TEST(Words, Progress) {
+    EXPECT_EQ(progress_line("loading x.ply", 3.2, 0), "loading x.ply · 3 s");
+    EXPECT_EQ(progress_line("simulation", 10, 0.25), "simulation 25 % · 10 s, about 30 s to go");
+    EXPECT_EQ(progress_line("simulation", 10, 1), "simulation 100 % · 10 s, about 0 s to go");
+}
+
+TEST(Words, LayoutAlignsTheSecondColumn) {
+    EXPECT_EQ(layout({{"a", "x"}, {"long", "y"}}), "a     x\nlong  y\n");
+}
+
+AcceleratorResult lawful() {
+    AcceleratorResult result;
+    result.pes = 4;
+    result.window.include(10);
+    result.window.include(12);
+    result.slots.useful = 5;
+    result.slots.drain = 7; // 4 PEs x 3 cycles in all
+    result.conservation = {{"in = out", 9, 9}};
+    result.tiles = result.tiles_listed = 2;
+    return result;
+}
+
+std::string broken_law(const AcceleratorResult& result) {
+    try {
+        check_result(result);
+    } catch (const std::logic_error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Laws, BreachesAreNamed) {
+    EXPECT_EQ(broken_law(lawful()), "");
+    AcceleratorResult result = lawful();
+    result.slots.useful++;
+    EXPECT_NE(broken_law(result).find("13 is not 12"), std::string::npos);
+    result = lawful();
+    result.conservation[0].right = 8;
+    EXPECT_NE(broken_law(result).find("in = out"), std::string::npos);
+    result = lawful();
+    result.tiles = 1;
+    result.stopped = 777;
+    EXPECT_NE(broken_law(result).find("deadlocked"), std::string::npos);
+    EXPECT_NE(broken_law(result).find("777 and 1 of 2 tiles"), std::string::npos);
+}
+
+TEST(SteadyFps, IsOfAllFramesButTheFirstAndTheLast) {
+    AcceleratorResult result;
+    result.clock_ghz = 2;
+    EXPECT_FALSE(steady_fps(result));
+    result.frames = {{0, 1000}};
+    EXPECT_FALSE(steady_fps(result));
+    result.frames = {{0, 1000}, {0, 1400}};
+    EXPECT_FALSE(steady_fps(result));
+    result.frames = {{0, 1000}, {0, 1400}, {0, 2000}, {0, 2100}};
+    EXPECT_DOUBLE_EQ(steady_fps(result).value(), 4e6); // 2 frames in 1000 cycles of 0.5 ns
+}
+
+TEST(LimitingStage, IsTheBusiestOne) {
+    AcceleratorResult result;
+    result.stages = {{"span", "", false, 8, 0, 0.7, {}}, {"blending", "", true, 8, 0, 0.9, {}}};
+    result.memory_utilization = 0.8;
+    EXPECT_EQ(limiting_stage(result), "blending");
+    result.memory_utilization = 0.95;
+    EXPECT_EQ(limiting_stage(result), "memory");
+}
+
+} // namespace
+} // namespace degs::sim
