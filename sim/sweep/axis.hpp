@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "config/config_document.hpp"
 #include "config/config_tree.hpp"
-#include "sim/sweep/quantity.hpp"
+#include "config/quantity.hpp"
 
 namespace degs::sim {
 
