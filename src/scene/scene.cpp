@@ -116,8 +116,8 @@ SceneContent content_of(const SceneSpec& spec) {
         scan.add_opacity(g.opacity);
         scan.add_scale(std::min({g.log_scale.x, g.log_scale.y, g.log_scale.z}));
     }
-    if (scan.looks_activated() && scene.size() >= kFewestToJudge) {
-        content.notes.emplace_back(kActivatedNote);
+    if (std::string note = activated_note(scan, scene.size()); !note.empty()) {
+        content.notes.push_back(std::move(note));
     }
     if (const std::uint64_t dropped = sanitize(scene); dropped > 0) {
         content.notes.push_back(std::to_string(dropped) +
