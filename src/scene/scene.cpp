@@ -15,6 +15,7 @@
 #include "scene/dynamic/dynamic_scene.hpp"
 #include "scene/dynamic/spacetime_ply.hpp"
 #include "scene/input_file.hpp"
+#include "scene/scene_cameras.hpp"
 #include "scene/scene_formats.hpp"
 #include "scene/scene_spec.hpp"
 #include "scene/synthetic/synthetic.hpp"
@@ -191,19 +192,21 @@ Scene load_scene(const std::string& spec, const std::string& cameras_path) {
     return scene;
 }
 
-std::size_t camera_count(const std::string& spec, const std::string& cameras_path) {
+std::vector<Camera> cameras_of_scene(const std::string& spec, const std::string& cameras_path) {
     const SceneSpec asked = parse_scene_spec(spec);
     std::string cameras = cameras_path;
     if (cameras.empty() && asked.synthetic) {
-        return load_scene(spec).cameras.size();
+        return load_scene(spec).cameras;
     }
     if (!asked.synthetic) {
         const InputFile exists(file_of(asked));
         cameras = cameras.empty() ? cameras_beside(file_of(asked)) : cameras;
     }
-    const std::vector<Camera> found =
-        cameras.empty() ? read_scene_cameras(file_of(asked)) : read_camera_file(cameras).cameras;
-    return std::max<std::size_t>(found.size(), 1);
+    return cameras.empty() ? read_scene_cameras(file_of(asked)) : read_camera_file(cameras).cameras;
+}
+
+std::size_t camera_count(const std::string& spec, const std::string& cameras_path) {
+    return std::max<std::size_t>(cameras_of_scene(spec, cameras_path).size(), 1);
 }
 
 Camera select_camera(const Scene& scene, int index) {
