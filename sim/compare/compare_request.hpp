@@ -48,7 +48,8 @@ struct LoadedConfigs {
 /// the file without folder and extension. A file with a list `points` is a study: every
 /// point is a configuration, called by its key `name`, and its views count, or with `quick` those of
 /// its section 'quick'; several studies must have the same ones. An override is "path=value" for all
-/// or "NAME:path=value" for one; `memory` is a file for put_memory() of all. Throws InputError for every mistake, also for a name that is
+/// or "NAME:path=value" for one; `memory` is a file for put_memory() of all.
+/// Throws InputError for every mistake, also for a name that is
 /// empty, unknown or given twice.
 LoadedConfigs load_compared(const std::vector<std::string>& words,
                             const std::vector<std::string>& overrides, bool quick = false,
