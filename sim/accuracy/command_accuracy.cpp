@@ -38,6 +38,7 @@ struct AccuracyOptions {
     std::vector<std::string> only;  ///< hard cases
     std::vector<std::string> speed; ///< configurations, as written
     std::vector<std::string> overrides;
+    std::string memory; ///< of these configurations
     std::vector<std::string> fidelities{"strict", "exact", "within:1%", "analytic"};
     std::uint64_t seeds = 5;
     bool own_numbers = false; ///< --numbers was given
@@ -164,9 +165,9 @@ void run_hard(const AccuracyOptions& options) {
 
 SpeedRequest speed_request(const AccuracyOptions& options) {
     SpeedRequest request;
-    request.designs =
-        speed_designs(options.speed, options.overrides,
-                      options.own_numbers ? options.numbers : std::vector<std::string>());
+    request.designs = speed_designs(
+        options.speed, options.overrides,
+        options.own_numbers ? options.numbers : std::vector<std::string>(), options.memory);
     for (const std::string& name : options.fidelities) {
         speed_fidelity(name); // reports a mistake before anything runs
     }
@@ -309,6 +310,7 @@ void add_accuracy_command(CLI::App& program) {
         ->capture_default_str()
         ->needs(speed);
     add_addressed_overrides_option(*command, options->overrides)->needs(speed);
+    add_memory_option(*command, options->memory)->needs(speed);
     CLI::Option* numbers = command->add_option("--numbers", options->numbers, set_words())
                                ->type_name("NAMES")
                                ->delimiter(',')

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/command_line/suggestion.hpp"
 
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
 
 #include "config/config_words.hpp"
@@ -38,13 +40,30 @@ std::string path_of(const CLI::App& command) {
                : path_of(*command.get_parent()) + " " + command.get_name();
 }
 
+/// The commands that have the option: "run, sweep".
+std::string commands_with(const std::string& option, const CommandEntry& program) {
+    std::vector<std::string> names;
+    for (const CommandEntry& command : program.commands) {
+        const std::vector<std::string> options = candidates_for(option, command);
+        if (std::find(options.begin(), options.end(), option) != options.end()) {
+            names.push_back(command.name());
+        }
+    }
+    return config_words::list(names);
+}
+
 /// `word` is what the library could not use.
-std::string unexpected(const std::string& word, const CLI::App& command) {
+std::string unexpected(const std::string& word, const CLI::App& program, const CLI::App& command) {
     const std::string name = word.substr(0, word.find('=')); // --camera=2
     const std::string meant =
         name.empty() ? "" : config_words::nearest(name, candidates_for(name, describe(command)));
-    return config_words::quote(word) + " is not expected here" +
-           (meant.empty() ? "." : ", did you mean " + config_words::quote(meant) + "?");
+    const std::string start = config_words::quote(word) + " is not expected here";
+    if (!meant.empty()) {
+        return start + ", did you mean " + config_words::quote(meant) + "?";
+    }
+    const std::string others =
+        name.rfind("--", 0) == 0 ? commands_with(name, describe(program)) : "";
+    return start + (others.empty() ? "" : "; it is an option of " + others) + ".";
 }
 
 } // namespace
@@ -58,7 +77,7 @@ std::string explain_mistake(const CLI::App& program, const CLI::ParseError& erro
     reason += ".";
     // The library misses a command or option before it looks at what stands in its place.
     if (const auto extras = program.remaining(true); !extras.empty()) {
-        reason = unexpected(extras.front(), command);
+        reason = unexpected(extras.front(), program, command);
     }
     const std::string path = path_of(command);
     const std::string help =

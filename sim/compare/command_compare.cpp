@@ -17,12 +17,14 @@ namespace {
 struct CompareOptions {
     std::vector<std::string> configs, overrides;
     ViewOptions views;
+    std::string memory;
     int jobs = 1;
     std::string out = "out";
 };
 
 CompareRequest request_of(const CompareOptions& options) {
-    LoadedConfigs loaded = load_compared(options.configs, options.overrides, options.views.quick);
+    LoadedConfigs loaded =
+        load_compared(options.configs, options.overrides, options.views.quick, options.memory);
     replace_views(options.views, loaded.views);
     CompareRequest request;
     request.configs = std::move(loaded.configs);
@@ -62,6 +64,7 @@ void add_what_options(CLI::App& command, CompareOptions& options) {
         ->required();
     add_study_view_options(command, options.views);
     add_addressed_overrides_option(command, options.overrides);
+    add_memory_option(command, options.memory);
 }
 
 } // namespace

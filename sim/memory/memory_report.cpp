@@ -47,7 +47,7 @@ void describe_energy(const TrafficResult& result, StatsVisitor& v) {
     v.begin_section("energy", "Energy of the DRAM by event.");
     result.energy.describe_with_unit(v);
     v.real("pj_per_bit", pj_per_bit(result), "pJ/bit", "total_nj for each bit of the requests.");
-    v.real("mean_power_w", mean_power_w(result), "W", "total_nj / simulated_us.");
+    v.real("mean_power_w", mean_power_w(result), "W", "total_nj / simulated_us / 1000.");
     v.end_section();
 }
 

@@ -82,6 +82,14 @@ ordered_json variant_of(const PageFacts& facts, const Comparison& comparison, st
             {"pes", value_or_null(comparison.configs[v].pes)}};
 }
 
+ordered_json axes_json(const PageFacts& facts) {
+    ordered_json json = ordered_json::array();
+    for (const PageFacts::Axis& axis : facts.axes) {
+        json.push_back({{"name", axis.name}, {"keys", axis.keys}});
+    }
+    return json;
+}
+
 ordered_json sentences_json(const std::vector<std::pair<std::string, std::string>>& list) {
     ordered_json json = ordered_json::array();
     for (const auto& [name, why] : list) {
@@ -97,6 +105,7 @@ ordered_json data_of(const PageFacts& facts, const Comparison& comparison) {
                          {"array_only", comparison.array_only},
                          {"missing", facts.missing},
                          {"keys", facts.keys},
+                         {"axes", axes_json(facts)},
                          {"measures", measures_json()},
                          {"skipped", sentences_json(facts.skipped)},
                          {"failed", sentences_json(facts.failed)}};

@@ -15,6 +15,11 @@ struct PageFacts {
     std::string title;
     bool swept = false; ///< the keys are axes, else those in which the configurations differ
     std::vector<std::string> keys; ///< one column each
+    struct Axis {
+        std::string name;
+        std::vector<std::size_t> keys; ///< positions in `keys`; they change together
+    };
+    std::vector<Axis> axes; ///< of more than one key
     struct Variant {
         std::string design;
         std::vector<std::optional<std::string>> values; ///< in the order of `keys`

@@ -58,9 +58,10 @@ std::string csv_cell(const std::string& text) {
 
 std::string csv_number(const std::optional<double>& value) {
     const ordered_json json = number_json(value);
-    return json.is_null()     ? ""
-           : json.is_string() ? json.get<std::string>()
-                              : as_typed(*value); // 2.178, not 2.1780000000000004
+    return json.is_null()             ? ""
+           : json.is_string()         ? json.get<std::string>()
+           : json.is_number_integer() ? json.dump()
+                                      : decimal_of(*value);
 }
 
 void put_sampling(nlohmann::ordered_json& run, const ComparisonRow& row) {

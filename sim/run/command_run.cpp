@@ -189,11 +189,7 @@ void add_run_command(CLI::App& program) {
         ->capture_default_str();
     add_sampling_options(*command, options->within, options->seed);
     add_out_option(*command, options->out, "folder for image.exr, image.png and report.json");
-    command
-        ->add_option("--memory", options->memory,
-                     "file of an LPDDR5 memory, as in configs/memory; it overrides the "
-                     "configuration's memory section")
-        ->type_name("FILE");
+    add_memory_option(*command, options->memory);
     add_overrides_option(*command, options->overrides);
     command->add_flag("--no-reference", options->no_reference,
                       "do not render the double-precision image to compare with");

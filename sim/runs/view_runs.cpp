@@ -31,15 +31,6 @@ std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedC
     return groups;
 }
 
-/// All designs see the same path, which turns about what the one with the nearest plane sees.
-double nearest_plane(const std::vector<NamedConfig>& configs) {
-    double nearest = kFarthestNearPlane;
-    for (const NamedConfig& named : configs) {
-        nearest = std::min(nearest, named.config.accelerator().data_path().rules.near);
-    }
-    return nearest;
-}
-
 } // namespace
 
 std::string file_name(const std::string& text) {

@@ -32,6 +32,14 @@ CLI::Option* add_camera_file_option(CLI::App& command, std::string& file) {
         ->type_name("FILE");
 }
 
+CLI::Option* add_memory_option(CLI::App& command, std::string& file) {
+    return command
+        .add_option("--memory", file,
+                    "file of an LPDDR5 memory, as in configs/memory; it overrides the memory "
+                    "section of every design")
+        ->type_name("FILE");
+}
+
 CLI::Option* add_near_option(CLI::App& command, double& near) {
     return command
         .add_option("--near", near,

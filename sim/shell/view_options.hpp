@@ -25,6 +25,9 @@ CLI::Option* add_config_option(CLI::App& command, std::string& config);
 /// Adds --camera-file.
 CLI::Option* add_camera_file_option(CLI::App& command, std::string& file);
 
+/// Adds --memory, the file of an LPDDR5 memory, see put_memory().
+CLI::Option* add_memory_option(CLI::App& command, std::string& file);
+
 /// Adds --near, the near plane of commands without a configuration.
 CLI::Option* add_near_option(CLI::App& command, double& near);
 

@@ -24,7 +24,12 @@ ConfigNode& section_of(ConfigNode& parent, const std::string& key, const std::st
     return parent.children.emplace_back(std::move(section));
 }
 
+} // namespace
+
 void put_memory(ConfigNode& tree, const std::string& file) {
+    if (file.empty()) {
+        return;
+    }
     const std::string place = "--memory " + file;
     ConfigNode& memory = section_of(tree, "memory", place);
     ConfigNode& model = section_of(memory, "model", place);
@@ -34,8 +39,6 @@ void put_memory(ConfigNode& tree, const std::string& file) {
     ConfigNode& keys = section_of(memory, "lpddr5", place);
     keys.children = ConfigSource::from_file(file).tree().children;
 }
-
-} // namespace
 
 RunConfig load_run_config(const std::string& file, const std::vector<std::string>& overrides,
                           const std::string& memory_file) {

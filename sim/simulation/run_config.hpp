@@ -11,6 +11,10 @@ namespace degs::sim {
 
 using RunConfig = Design;
 
+/// Puts the LPDDR5 memory of a file in the place of the memory section of a design (--memory); does
+/// nothing without a name. Throws InputError.
+void put_memory(ConfigNode& tree, const std::string& file);
+
 /// Reads and checks a file with `--set` overrides, on the LPDDR5 memory of another file if one is
 /// named. Throws InputError.
 RunConfig load_run_config(const std::string& file, const std::vector<std::string>& overrides,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <set>
 
 #include "base/error.hpp"
@@ -152,10 +153,16 @@ void check_axis(const ConfigNode& node, const Axis& axis) {
     }
 }
 
+/// The number in the unit of the key, which has the design's own value.
+double number_for(const KeyDoc& key, const Quantity& quantity, const std::string& place) {
+    return quantity.factor ? quantity.number * std::strtod(key.default_value.c_str(), nullptr)
+                           : in_unit_of({key.path, key.doc}, quantity, place);
+}
+
 /// A drawn number; of an integer key, one of the integers from low to high, all as likely.
 double drawn(const Draw& draw, const KeyDoc& key, const std::string& place) {
-    const double low = in_unit_of(key, draw.low, place);
-    const double high = in_unit_of(key, draw.high, place);
+    const double low = number_for(key, draw.low, place);
+    const double high = number_for(key, draw.high, place);
     const bool whole = key.type == "integer";
     const double end = whole ? std::floor(high) + 1 : high;
     const double begin = whole ? std::ceil(low) : low;
@@ -238,7 +245,7 @@ std::string value_text(const AxisValue& value, const KeyDoc& key) {
         throw InputError(value.place + ": key " + quote(key.path) + " is " + quote(value.text) +
                          ", but must be a number with an optional unit.");
     }
-    return as_typed(in_unit_of(key, *quantity, value.place));
+    return as_typed(number_for(key, *quantity, value.place));
 }
 
 } // namespace degs::sim

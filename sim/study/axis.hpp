@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "config/config_document.hpp"
 #include "config/config_tree.hpp"
 #include "sim/study/quantity.hpp"
+#include "config/quantity.hpp"
 
 namespace degs::sim {
 

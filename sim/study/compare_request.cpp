@@ -133,7 +133,8 @@ std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string
 }
 
 LoadedConfigs load_compared(const std::vector<std::string>& words,
-                            const std::vector<std::string>& overrides, bool quick) {
+                            const std::vector<std::string>& overrides, bool quick,
+                            const std::string& memory) {
     Drafts drafts;
     for (const std::string& word : words) {
         if (named(word).name.empty()) {
@@ -155,7 +156,8 @@ LoadedConfigs load_compared(const std::vector<std::string>& words,
     LoadedConfigs loaded;
     loaded.views = drafts.views;
     loaded.study = drafts.study;
-    for (const StudyDesign& draft : drafts.designs) {
+    for (StudyDesign& draft : drafts.designs) {
+        put_memory(draft.tree, memory);
         loaded.configs.push_back(
             {draft.name, load_run_config(ConfigSource::from_tree(
                              draft.tree, overrides_of(draft.name, overrides)))});
@@ -164,8 +166,9 @@ LoadedConfigs load_compared(const std::vector<std::string>& words,
 }
 
 std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
-                                      const std::vector<std::string>& overrides) {
-    LoadedConfigs loaded = load_compared(words, overrides);
+                                      const std::vector<std::string>& overrides,
+                                      const std::string& memory) {
+    LoadedConfigs loaded = load_compared(words, overrides, false, memory);
     const std::string key = first_difference(StudyViews(), loaded.views);
     if (!key.empty()) {
         throw InputError(loaded.study + ": key " + config_words::quote(key) +
@@ -211,6 +214,14 @@ std::vector<std::vector<int>> cameras_by_scene(const CompareRequest& request) {
         }
     }
     return cameras;
+}
+
+double nearest_plane(const std::vector<NamedConfig>& configs) {
+    double nearest = kFarthestNearPlane;
+    for (const NamedConfig& named : configs) {
+        nearest = std::min(nearest, named.config.accelerator().data_path().rules.near);
+    }
+    return nearest;
 }
 
 std::optional<std::vector<int>> parse_cameras(const std::string& text) {

@@ -48,15 +48,18 @@ struct LoadedConfigs {
 /// the file without folder and extension. A file with a list `points` is a study: every
 /// point is a configuration, called by its key `name`, and its views count, or with `quick` those of
 /// its section 'quick'; several studies must have the same ones. An override is "path=value" for all
-/// or "NAME:path=value" for one. Throws InputError for every mistake, also for a name that is
+/// or "NAME:path=value" for one; `memory` is a file for put_memory() of all.
+/// Throws InputError for every mistake, also for a name that is
 /// empty, unknown or given twice.
 LoadedConfigs load_compared(const std::vector<std::string>& words,
-                            const std::vector<std::string>& overrides, bool quick = false);
+                            const std::vector<std::string>& overrides, bool quick = false,
+                            const std::string& memory = "");
 
 /// The same for commands that have views of their own: InputError for a study that says something of
 /// views.
 std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
-                                      const std::vector<std::string>& overrides);
+                                      const std::vector<std::string>& overrides,
+                                      const std::string& memory = "");
 
 /// Takes the views into the request. Throws InputError if there is no scene, and for mistakes in
 /// what they say.
@@ -65,6 +68,10 @@ void put_views(const StudyViews& views, CompareRequest& request);
 /// The cameras of each scene of the request, in its order. Throws InputError if one of them cannot be
 /// opened or does not have a camera that is asked for.
 std::vector<std::vector<int>> cameras_by_scene(const CompareRequest& request);
+
+/// Scene units: all designs see the same camera path, which turns about what the one with the nearest
+/// plane sees.
+double nearest_plane(const std::vector<NamedConfig>& configs);
 
 /// "0,1,2" or "all", which is empty. Throws InputError for anything else and for a number given twice.
 std::optional<std::vector<int>> parse_cameras(const std::string& text);

@@ -34,6 +34,7 @@ struct Study : StudyViews {
     std::string name;
     std::vector<StudyDesign> designs;
     std::vector<std::string> overrides; ///< of the designs, see overrides_of(); not of the file
+    std::string memory; ///< file that took the place of the designs' own memories; empty: none
     std::vector<Axis> axes;
     bool one_at_a_time = false; ///< an axis varies while the others keep the design's own values
     std::string baseline;       ///< name of a design; empty: the first

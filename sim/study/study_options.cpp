@@ -15,6 +15,7 @@ void add_study_options(CLI::App& command, StudyOptions& options) {
         ->type_name("FILE")
         ->required();
     add_addressed_overrides_option(command, options.overrides);
+    add_memory_option(command, options.memory);
     add_study_view_options(command, options);
 }
 
@@ -87,6 +88,10 @@ void replace_views(const ViewOptions& options, StudyViews& views) {
 Study study_of(const StudyOptions& options) {
     Study study = read_study(options.file, options.quick);
     study.overrides = options.overrides;
+    for (StudyDesign& design : study.designs) {
+        put_memory(design.tree, options.memory);
+    }
+    study.memory = options.memory;
     replace_views(options, study);
     study.sampling = sampling_for_runs(options.within, options.seed, study.path.frames);
     return study;
@@ -111,7 +116,7 @@ std::vector<std::string> words_of(const StudyOptions& options) {
     }
     for (const auto& [option, value] :
          {std::pair("--camera", options.cameras), std::pair("--camera-file", options.camera_file),
-          std::pair("--resolution", options.resolutions)}) {
+          std::pair("--memory", options.memory), std::pair("--resolution", options.resolutions)}) {
         if (!value.empty()) {
             add(option, value);
         }

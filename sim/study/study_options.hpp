@@ -30,6 +30,7 @@ struct ViewOptions {
 struct StudyOptions : ViewOptions {
     std::string file;
     std::vector<std::string> overrides;
+    std::string memory; ///< file of --memory; empty: the designs' own
 };
 
 void add_study_options(CLI::App& command, StudyOptions& options);

@@ -5,6 +5,7 @@
 #include "base/visible_text.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/view_options.hpp"
+#include "sim/simulation/warnings.hpp"
 #include "sim/study/study_options.hpp"
 #include "sim/sweep/search_output.hpp"
 #include "sim/text/standard_output.hpp"
@@ -31,10 +32,11 @@ void run(ExploreOptions& options) {
     std::optional<Failure> failure;
     const Search found = search(plan, options.search, options.out, failure);
     if (found.complete) {
-        const OutputFolder folder(options.out, {"front.csv", "front.svg", "explore.json"});
+        const OutputFolder folder(options.out, {"explore.json", "front.csv", "front.svg"});
         write_search(plan, found, options.search, folder);
         print(search_text(plan, found, options.search) +
               "\nall numbers, plots and the page: " + visible(folder.path("")) + "\n");
+        print_warnings(found.rungs.back().warnings);
     }
     if (failure) {
         throw FailureError(*failure);

@@ -7,7 +7,10 @@
 #include "base/error.hpp"
 #include "base/visible_text.hpp"
 #include "config/config_words.hpp"
+#include "scene/cameras/orbit_camera.hpp"
+#include "scene/scene_cameras.hpp"
 #include "sim/process/stopwatch.hpp"
+#include "sim/report/scene_words.hpp"
 #include "sim/runs/view_runs.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/view_options.hpp"
@@ -102,13 +105,32 @@ void submit(const SweepOptions& options, const StudyPlan& plan) {
           "results in " + out + "\n");
 }
 
+/// "96×54": the size of the images on a point's view; `cameras` are those of its scene.
+std::string size_of(const StudyPlan& plan, const StudyPoint& point,
+                    const std::vector<Camera>& cameras) {
+    Camera camera;
+    if (cameras.empty()) { // the view that is generated
+        camera.width = OrbitOptions().width;
+        camera.height = OrbitOptions().height;
+    } else {
+        camera = cameras.at(point.camera);
+    }
+    const ImageSize& size = plan.request.sizes[point.size];
+    return size_words(resize(camera, size.width, size.height));
+}
+
 std::string plan_text(const StudyPlan& plan) {
+    std::vector<std::vector<Camera>> cameras;
+    for (const std::string& scene : plan.request.scenes) {
+        cameras.push_back(cameras_of_scene(scene, plan.request.camera_file));
+    }
     std::string text;
     for (std::size_t p = 0; p < plan.points.size(); ++p) {
         const StudyPoint& point = plan.points[p];
         text += std::to_string(p + 1) + "  " + visible(plan.variants[point.variant].name) + ", " +
                 visible(plan.request.scenes[point.scene]) + ", camera " +
-                std::to_string(point.camera) + "\n";
+                std::to_string(point.camera) + ", " + size_of(plan, point, cameras[point.scene]) +
+                "\n";
     }
     for (const SkippedVariant& skipped : plan.skipped) {
         text += "cannot be built: " + visible(skipped.variant.name) + ": " + visible(skipped.why) +

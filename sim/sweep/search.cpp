@@ -32,13 +32,16 @@ void check_value(const std::string& design, Measure goal, const std::optional<do
 std::vector<std::optional<Goals>> goals_of(const StudyPlan& part, const SweepResults& results,
                                            const SearchOptions& options) {
     std::vector<std::size_t> views(part.variants.size(), 0);
-    std::vector<Goals> logs(part.variants.size(), Goals{});
+    std::vector<Goals> first(part.variants.size(), Goals{});
+    std::vector<Goals> logs(part.variants.size(), Goals{}); // of the ratios to the first view
     for (const ComparisonRow& row : results.comparison.rows) {
-        ++views[row.config];
+        const bool is_first = views[row.config]++ == 0;
         for (std::size_t g = 0; g < options.goals.size(); ++g) {
             const std::optional<double>& value = row.measures[options.goals.at(g)];
             check_value(part.variants[row.config].name, options.goals.at(g), value);
-            logs[row.config].at(g) += std::log(*value);
+            double& base = first[row.config].at(g);
+            base = is_first ? *value : base;
+            logs[row.config].at(g) += std::log(*value / base);
         }
     }
     const std::size_t wanted = part.points.size() / part.variants.size();
@@ -46,7 +49,9 @@ std::vector<std::optional<Goals>> goals_of(const StudyPlan& part, const SweepRes
     for (std::size_t v = 0; v < goals.size(); ++v) {
         if (views[v] == wanted) {
             const auto count = static_cast<double>(wanted);
-            goals[v] = Goals{std::exp(logs[v][0] / count), std::exp(logs[v][1] / count)};
+            // Equal values, such as areas, come out as they are.
+            goals[v] = Goals{first[v][0] * std::exp(logs[v][0] / count),
+                             first[v][1] * std::exp(logs[v][1] / count)};
         }
     }
     return goals;
@@ -75,6 +80,7 @@ std::optional<Rung> run_rung(const StudyPlan& plan, const std::vector<std::size_
     }
     Rung rung;
     rung.divisor = divisor;
+    rung.warnings = results.warnings;
     rung.failed = results.comparison.failed;
     const auto goals = goals_of(part, results, options);
     for (std::size_t v = 0; v < variants.size(); ++v) {

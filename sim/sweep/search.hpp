@@ -58,6 +58,7 @@ struct Rung {
     int divisor = 1; ///< of the sides of the images
     std::vector<Candidate> candidates;
     std::vector<FailedRun> failed;
+    std::vector<std::string> warnings{}; ///< of the runs, each once
 };
 
 /// What a search has found; the last rung has the images that were asked for.

@@ -151,10 +151,12 @@ void write_search(const StudyPlan& plan, const Search& search, const SearchOptio
                   const OutputFolder& folder) {
     std::vector<std::size_t> variants;
     const std::vector<FrontPoint> points = points_of(plan, search.rungs.back(), options, variants);
-    folder.write_text("front.csv", front_csv(plan, options, points, variants));
-    folder.write_text("front.svg", front_svg(plan.name, goal_words(options.goals[0]),
-                                             goal_words(options.goals[1]), points));
-    folder.write_json("explore.json", search_json(plan, search, options));
+    folder.replace([&] {
+        folder.write_text("front.csv", front_csv(plan, options, points, variants));
+        folder.write_text("front.svg", front_svg(plan.name, goal_words(options.goals[0]),
+                                                 goal_words(options.goals[1]), points));
+        folder.write_json("explore.json", search_json(plan, search, options));
+    });
 }
 
 std::string search_text(const StudyPlan& plan, const Search& search, const SearchOptions& options) {

@@ -80,6 +80,8 @@ std::string run_options(const CompareRequest& request) {
     std::string text = std::to_string(request.path.frames);
     if (request.path.frames > 1) {
         text += " of " + as_typed(request.path.step_degrees);
+        const double near = nearest_plane(request.configs);
+        text += near == ProjectionOptions().near_plane ? "" : " about near " + as_typed(near);
     }
     text += request.array_only ? " array_only" : "";
     text += request.reference && !request.sampling ? " reference" : "";

@@ -34,6 +34,11 @@ struct StudyPoint {
 struct StudyPlan {
     std::string name;
     std::vector<std::string> keys; ///< that the axes vary
+    struct LinkedAxis {
+        std::string name;
+        std::vector<std::size_t> keys; ///< positions in `keys`
+    };
+    std::vector<LinkedAxis> linked; ///< axes of several keys that change together
     std::vector<StudyVariant> variants;
     std::size_t baseline = 0; ///< a variant
     std::vector<SkippedVariant> skipped;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -97,6 +98,11 @@ public:
     Variants(const Study& study, StudyPlan& plan)
         : study_(study), plan_(plan), coincide_(study.one_at_a_time) {
         for (const Axis& axis : study.axes) {
+            if (axis.keys.size() > 1 && !axis.random) {
+                StudyPlan::LinkedAxis linked{axis.name, std::vector<std::size_t>(axis.keys.size())};
+                std::iota(linked.keys.begin(), linked.keys.end(), plan.keys.size());
+                plan.linked.push_back(std::move(linked));
+            }
             plan.keys.insert(plan.keys.end(), axis.keys.begin(), axis.keys.end());
             for (const std::string& key : axis.keys) {
                 places_[key] = axis.place;
@@ -206,6 +212,18 @@ private:
     bool coincide_ = false; ///< points that are the same count once
 };
 
+/// --memory chooses the model, so no axis can.
+void check_memory(const Study& study) {
+    for (const Axis& axis : study.axes) {
+        if (!study.memory.empty() &&
+            std::find(axis.keys.begin(), axis.keys.end(), "memory.model") != axis.keys.end()) {
+            throw InputError("--memory " + study.memory +
+                             ": key 'memory.model' is varied by an axis at " + axis.place +
+                             ", so that it cannot be set.");
+        }
+    }
+}
+
 void check_overrides(const Study& study, const std::vector<LoadedDesign>& designs) {
     std::vector<std::string> names;
     for (const LoadedDesign& design : designs) {
@@ -237,6 +255,7 @@ void plan_variants(const Study& study, StudyPlan& plan) {
         designs.push_back(load_design(design, overrides_of(design.name, study.overrides)));
     }
     check_overrides(study, designs);
+    check_memory(study);
     Variants variants(study, plan);
     for (const LoadedDesign& design : designs) {
         variants.add(design);

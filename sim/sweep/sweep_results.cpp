@@ -186,6 +186,9 @@ std::string page_of(const StudyPlan& plan, const SweepResults& results) {
     facts.title = plan.name;
     facts.swept = true;
     facts.keys = plan.keys;
+    for (const StudyPlan::LinkedAxis& axis : plan.linked) {
+        facts.axes.push_back({axis.name, axis.keys});
+    }
     for (const StudyVariant& variant : plan.variants) {
         facts.variants.push_back({variant.design, {variant.values.begin(), variant.values.end()}});
     }
@@ -228,7 +231,7 @@ private:
 } // namespace
 
 std::vector<std::string> sweep_files() {
-    return {kCsv, kJson, kHost, kPage};
+    return {kJson, kCsv, kHost, kPage};
 }
 
 SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
@@ -270,10 +273,12 @@ SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
 }
 
 void write_results(const StudyPlan& plan, const SweepResults& results, const OutputFolder& folder) {
-    folder.write_text(kCsv, results_csv(plan, results));
-    folder.write_text(kHost, host_csv(results));
-    folder.write_json(kJson, results_json(plan, results));
-    folder.write_text(kPage, page_of(plan, results));
+    folder.replace([&] {
+        folder.write_text(kCsv, results_csv(plan, results));
+        folder.write_text(kHost, host_csv(results));
+        folder.write_json(kJson, results_json(plan, results));
+        folder.write_text(kPage, page_of(plan, results));
+    });
 }
 
 std::string results_text(const StudyPlan& plan, const SweepResults& results) {

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "config/config_words.hpp"
 
 namespace degs::sim {
 namespace {
@@ -34,10 +38,17 @@ std::string three_digits(double value) {
     return fixed(shown, std::clamp(2 - magnitude, 0, 9));
 }
 
-std::string as_typed(double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, "%.15g", value);
-    return text;
+std::string decimal_of(double value) {
+    // Of twelve digits one value in thirty lies so near by chance, and then moves by 1e-14 of itself.
+    constexpr double kRoundingOfSums = 1e-14, kRoundingOfOne = 2.3e-16; // relative
+    for (const auto& [digits, rounding] : {std::pair(12, kRoundingOfSums), {15, kRoundingOfOne}}) {
+        char text[64];
+        std::snprintf(text, sizeof text, "%.*g", digits, value);
+        if (std::abs(std::strtod(text, nullptr) - value) <= rounding * std::abs(value)) {
+            return text;
+        }
+    }
+    return config_words::number(value);
 }
 
 std::string scaled(double value) {

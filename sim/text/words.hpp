@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/grouped_number.hpp"
+#include "config/quantity.hpp"
 
 namespace degs::sim {
 
@@ -15,7 +16,12 @@ using degs::grouped;
 std::string three_digits(double value);
 /// Fifteen significant digits at most, without trailing zeros: what a person typed, as it was
 /// typed, and 76.80000000000001, which arithmetic made, as 76.8.
-std::string as_typed(double value);
+inline std::string as_typed(double value) {
+    return decimal_text(value);
+}
+/// The shortest decimal that reads back to the value that was meant: a short one that the value misses
+/// by no more than rounding does (2.178 for 2.1780000000000004, which a sum made), else the value's own.
+std::string decimal_of(double value);
 /// 54512345 -> "54.5 M"; k, M, G and T are decimal.
 std::string scaled(double value);
 inline std::string scaled(std::uint64_t value) {

@@ -6,6 +6,7 @@
 
 #include "config/config_scalar.hpp"
 #include "config/config_words.hpp"
+#include "config/quantity.hpp"
 
 namespace degs {
 namespace {
@@ -14,6 +15,19 @@ using config_scalar::value_of;
 using config_words::join_path;
 using config_words::quote;
 using Kind = ConfigNode::Kind;
+
+/// The value of a number, which may have a unit that fits the sentence of the key.
+template <class Kind>
+auto number_of(const Kind& kind, const ConfigNode& node, const std::string& path, const char* doc) {
+    const ConfigNode converted = in_unit_of({path, doc}, node);
+    const auto value = kind.read(converted);
+    if (!value) {
+        ConfigNode shown = node;
+        shown.text += converted.text == node.text ? "" : " = " + converted.text;
+        config_scalar::reject(shown, path, kind.allowed(node));
+    }
+    return *value;
+}
 
 constexpr const char* kDefault = "default"; // the place of what no source names
 
@@ -91,10 +105,10 @@ void ConfigReader::end_section() {
 }
 
 void ConfigReader::integer(const char* key, std::int64_t& value, std::int64_t low,
-                           std::int64_t high, const char*) {
+                           std::int64_t high, const char* doc) {
     const std::int64_t before = value;
     const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
-        value = value_of(config_scalar::Integer{low, high}, node, path);
+        value = number_of(config_scalar::Integer{low, high}, node, path, doc);
     });
     if (!given) {
         check_standing(path_of(key), value, low, high);
@@ -102,10 +116,10 @@ void ConfigReader::integer(const char* key, std::int64_t& value, std::int64_t lo
     note(key, before != value, config_words::number(value));
 }
 
-void ConfigReader::real(const char* key, double& value, double low, double high, const char*) {
+void ConfigReader::real(const char* key, double& value, double low, double high, const char* doc) {
     const double before = value;
     const bool given = each_value(key, [&](const ConfigNode& node, const std::string& path) {
-        value = value_of(config_scalar::Real{low, high}, node, path);
+        value = number_of(config_scalar::Real{low, high}, node, path, doc);
     });
     if (!given) {
         check_standing(path_of(key), value, low, high);

@@ -110,7 +110,7 @@ void RunEnergy::describe(StatsVisitor& visitor) const {
                  "--array-only.");
     visitor.real("nj_per_frame", nj_per_frame(), "nJ", "total_nj / frames.");
     visitor.real("nj_per_pixel", nj_per_pixel(), "nJ", "total_nj / pixels of all frames.");
-    visitor.real("average_power_w", average_power_w(), "W", "total_nj / time of the run.");
+    visitor.real("average_power_w", average_power_w(), "W", "total_nj / time of the run in ns.");
     visitor.begin_section("blocks", "Every kind of unit and every buffer that was built.");
     for (const BlockEnergy& block : blocks_) {
         visitor.section(block.name, block, block.sentence);

@@ -15,6 +15,7 @@
 #include "scene/dynamic_scene.hpp"
 #include "scene/files/activation_scan.hpp"
 #include "scene/files/input_file.hpp"
+#include "scene/scene_cameras.hpp"
 #include "scene/scene_formats.hpp"
 #include "scene/scene_spec.hpp"
 #include "scene/synthetic/synthetic.hpp"
@@ -116,8 +117,8 @@ SceneContent content_of(const SceneSpec& spec) {
         scan.add_opacity(g.opacity);
         scan.add_scale(std::min({g.log_scale.x, g.log_scale.y, g.log_scale.z}));
     }
-    if (scan.looks_activated() && scene.size() >= kFewestToJudge) {
-        content.notes.emplace_back(kActivatedNote);
+    if (std::string note = activated_note(scan, scene.size()); !note.empty()) {
+        content.notes.push_back(std::move(note));
     }
     if (const std::uint64_t dropped = sanitize(scene); dropped > 0) {
         content.notes.push_back(std::to_string(dropped) +
@@ -191,19 +192,21 @@ Scene load_scene(const std::string& spec, const std::string& cameras_path) {
     return scene;
 }
 
-std::size_t camera_count(const std::string& spec, const std::string& cameras_path) {
+std::vector<Camera> cameras_of_scene(const std::string& spec, const std::string& cameras_path) {
     const SceneSpec asked = parse_scene_spec(spec);
     std::string cameras = cameras_path;
     if (cameras.empty() && asked.synthetic) {
-        return load_scene(spec).cameras.size();
+        return load_scene(spec).cameras;
     }
     if (!asked.synthetic) {
         const InputFile exists(file_of(asked));
         cameras = cameras.empty() ? cameras_beside(file_of(asked)) : cameras;
     }
-    const std::vector<Camera> found =
-        cameras.empty() ? read_scene_cameras(file_of(asked)) : read_camera_file(cameras).cameras;
-    return std::max<std::size_t>(found.size(), 1);
+    return cameras.empty() ? read_scene_cameras(file_of(asked)) : read_camera_file(cameras).cameras;
+}
+
+std::size_t camera_count(const std::string& spec, const std::string& cameras_path) {
+    return std::max<std::size_t>(cameras_of_scene(spec, cameras_path).size(), 1);
 }
 
 Camera select_camera(const Scene& scene, int index) {

@@ -2,16 +2,21 @@
 // What the fuzz targets share: bytes as files, and what a reader may do with them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/error.hpp"
+#include "scene/files/activation_scan.hpp"
+#include "scene/files/axes.hpp"
 #include "scene/files/scene_content.hpp"
 
 namespace degs::fuzz {
@@ -64,6 +69,17 @@ inline const MemoryFolder& folder() {
     std::abort();
 }
 
+/// Calls `read`; whether it did not refuse.
+template <class Read>
+bool accepts(const Read& read) {
+    try {
+        read();
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
 /// Runs a reader. It may refuse its input with an InputError that says something; every other exception
 /// ends the process. Whoever prints the sentence makes its control characters visible.
 template <class Read>
@@ -74,6 +90,31 @@ void read_or_refuse(const Read& read) {
         if (std::string_view(error.what()).empty()) {
             fail("an error says nothing");
         }
+    }
+}
+
+/// To RDF and back only signs change, so that nothing does.
+inline void turn_and_turn_back(const SceneContent& content) {
+    GaussianCloud turned = content.cloud;
+    convert_axes(turned, content.axes, Axes{});
+    convert_axes(turned, Axes{}, content.axes);
+    const std::size_t bytes = turned.means.size() * sizeof(glm::dvec3);
+    if (bytes > 0 && std::memcmp(turned.means.data(), content.cloud.means.data(), bytes) != 0) {
+        fail("positions change when axes are turned and turned back");
+    }
+}
+
+/// Of formats with logarithms of scales: if all of them look activated, a note says so.
+inline void expect_note_of_scales(const SceneContent& content) {
+    const auto small = [](const glm::vec3& s) { return s.x < 1 || s.y < 1 || s.z < 1; };
+    const std::vector<glm::vec3>& scales = content.cloud.scales;
+    const bool activated =
+        scales.size() >= kFewestToJudge && std::none_of(scales.begin(), scales.end(), small);
+    const auto says = [](const std::string& note) {
+        return note.find("seems to hold") != std::string::npos;
+    };
+    if (activated != std::any_of(content.notes.begin(), content.notes.end(), says)) {
+        fail("a note of activated scales is missing, or one too many");
     }
 }
 
@@ -89,6 +130,7 @@ inline void use(SceneContent content) {
     if (!consistent()) {
         fail("the arrays of the cloud disagree");
     }
+    turn_and_turn_back(content);
     sanitize(cloud);
     if (!consistent()) {
         fail("the arrays of the cloud disagree after sanitize()");

@@ -9,6 +9,7 @@
 
 #include "scene/gltf/gltf.hpp"
 #include "scene/synthetic/synthetic.hpp"
+#include "tests/fuzz/fuzz_cache.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 #include "tests/scene/ply/ply_builder.hpp"
 #include "tests/scene/spz/spz_builder.hpp"
@@ -185,6 +186,7 @@ void add_sog(Seeds& seeds) {
         "\"files\":[\"a\"]}}";
     for (const std::string& meta : {version_2, version_1}) {
         seeds.add("sog", listed({{"meta.json", meta}, {"a", image}}, '\1'));
+        seeds.add("sog", listed({{"meta.json", meta}, {"a", image}}, '\x80'));
     }
 }
 
@@ -262,6 +264,16 @@ void add_text(Seeds& seeds) {
                            std::string("\x80\x90\xa0\xff\xff\x80\x80\x80", 8));
 }
 
+/// As fuzz_cache.cpp reads them.
+void add_cache(Seeds& seeds) {
+    const fuzz::KeptEntries kept;
+    for (const fuzz::Entry kind :
+         {fuzz::Entry::Scene, fuzz::Entry::Frame, fuzz::Entry::Reference}) {
+        seeds.add("cache", static_cast<char>(kind) + kept.whole(kind));
+        seeds.add("cache", static_cast<char>(static_cast<int>(kind) + 3) + kept.content(kind));
+    }
+}
+
 } // namespace
 
 void degs::fuzz::run(std::string_view) {}
@@ -279,5 +291,6 @@ int main(int count, char** words) {
     add_gltf(seeds);
     add_cameras(seeds);
     add_text(seeds);
+    add_cache(seeds);
     return 0;
 }

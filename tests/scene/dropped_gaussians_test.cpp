@@ -2,9 +2,12 @@
 // Scenes much of which cannot be drawn, and values that look as if they had been activated already.
 #include "scene/scene.hpp"
 
+#include <algorithm>
+
 #include "tests/scene/gltf/glb_builder.hpp"
 #include "tests/scene/ply/ply_builder.hpp"
 #include "tests/scene/scene_fixture.hpp"
+#include "tests/scene/spz/spz_builder.hpp"
 
 namespace degs {
 namespace {
@@ -70,10 +73,43 @@ TEST(DroppedGaussians, ActivatedValuesOfAPlyAreAWarning) {
     for (const char* const format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
         EXPECT_THAT(scene_of("a.ply", ply_of(0.9, 0.2, format)).notes,
                     Contains(IsSentenceWith("seems to hold both as they are")));
-        EXPECT_THAT(scene_of("a.ply", ply_of(0.9, -2, format)).notes,
+        EXPECT_THAT(scene_of("a.ply", ply_of(3, -2, format)).notes,
                     Not(Contains(HasSubstr("as they are"))));
+    }
+}
+
+// One may have been activated without the other.
+TEST(DroppedGaussians, ActivatedScalesOrOpacitiesOfAPlyAreAWarning) {
+    for (const char* const format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
         EXPECT_THAT(scene_of("a.ply", ply_of(3, 0.2, format)).notes,
-                    Not(Contains(HasSubstr("as they are"))));
+                    Contains(IsSentenceWith("No scale is negative, so the file seems to hold its "
+                                            "scales as they are; they were read as logarithms,")));
+        EXPECT_THAT(scene_of("a.ply", ply_of(0.9, -2, format)).notes,
+                    Contains(IsSentenceWith("No opacity is outside 0 to 1, so the file seems to "
+                                            "hold its opacities as they are; they were read as "
+                                            "logits,")));
+    }
+}
+
+// Three Gaussians say nothing.
+TEST(DroppedGaussians, FewGaussiansSayNothing) {
+    PlyBuilder ply = PlyBuilder::splat();
+    for (int row = 0; row < 3; ++row) {
+        ply.add_row([](const std::string&) { return 0.5; });
+    }
+    EXPECT_THAT(scene_of("a.ply", ply.file()).notes, Not(Contains(HasSubstr("as they are"))));
+}
+
+TEST(DroppedGaussians, ActivatedScalesOfSpzAreAWarning) {
+    for (const unsigned version : {2U, 3U, 4U}) {
+        test::SpzBuilder spz = test::SpzBuilder::scene(version, 5, 0);
+        std::string& scales = spz.attributes[3];
+        ASSERT_EQ(scales.size(), 15U);
+        std::fill(scales.begin(), scales.end(), static_cast<char>(163)); // exp(0.1875)
+        EXPECT_THAT(scene_of("a.spz", spz.file()).notes,
+                    Contains(IsSentenceWith("hold its scales as they are")));
+        scales[7] = static_cast<char>(159);
+        EXPECT_THAT(scene_of("a.spz", spz.file()).notes, Not(Contains(HasSubstr("as they are"))));
     }
 }
 

@@ -21,6 +21,18 @@ scenes: [synthetic:single, "synthetic:object,gaussians=300"]
 width: 64
 YAML
 "$program" sweep "$folder/study.yaml" --out "$folder/sweep" >/dev/null 2>&1
+cat >"$folder/linked.yaml" <<YAML
+study: linked
+designs:
+  - include: $configs/degs-64.yaml
+    name: degs-64
+axes:
+  shape: {keys: {scheduler.banks: [4, 8, 16], array.pes_per_bank: [16, 8, 4]}}
+  memory.bandwidth_gb_per_s: 51.2..204.8 x2
+scenes: synthetic:single
+width: 64
+YAML
+"$program" sweep "$folder/linked.yaml" --out "$folder/linked" >/dev/null 2>&1
 "$program" compare "$configs/degs-16.yaml" "$configs/gscore-16.yaml" --scene synthetic:object,gaussians=300 \
     --width 64 --out "$folder/compare" >/dev/null 2>&1
 
@@ -82,5 +94,11 @@ try() { # PAGE ROWS ALL
 }
 try sweep 6 12
 try compare 2 2
+# Linked keys are one axis, and ticks are the values themselves.
+chromium --headless --no-sandbox --disable-gpu --user-data-dir="$folder/user" --window-size=1500,1000 \
+    --virtual-time-budget=20000 --dump-dom "file://$folder/linked/index.html" >"$folder/dom" 2>/dev/null
+for text in 'latency_ms over shape' '>4, 16</text>' '>8, 8</text>' '>16, 4</text>' '>204.8</text>' '>102.4</text>'; do
+    grep -qF -- "$text" "$folder/dom" || { echo "the page of linked keys has no $text"; failed=1; }
+done
 ! grep -oE '(src|href)="https?:[^"]*"|@import|url\(["'\'']?http' "$folder"/*/index.html || { echo "a page needs a network"; failed=1; }
 exit "$failed"

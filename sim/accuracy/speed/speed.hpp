@@ -45,7 +45,8 @@ SpeedFidelity speed_fidelity(const std::string& name);
 /// in `ideal` and in every named set, or without names in `fp32` and in their own. Throws InputError.
 std::vector<SpeedDesign> speed_designs(const std::vector<std::string>& configs,
                                        const std::vector<std::string>& overrides,
-                                       const std::vector<std::string>& numbers);
+                                       const std::vector<std::string>& numbers,
+                                       const std::string& memory = "");
 
 /// One run. Errors are those against the run of the same design in `strict` and `ideal`.
 struct SpeedRow {

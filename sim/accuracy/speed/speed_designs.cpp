@@ -56,9 +56,10 @@ SpeedFidelity speed_fidelity(const std::string& name) {
 
 std::vector<SpeedDesign> speed_designs(const std::vector<std::string>& configs,
                                        const std::vector<std::string>& overrides,
-                                       const std::vector<std::string>& numbers) {
+                                       const std::vector<std::string>& numbers,
+                                       const std::string& memory) {
     std::vector<SpeedDesign> designs;
-    const std::vector<NamedConfig> own = load_configs(configs, overrides);
+    const std::vector<NamedConfig> own = load_configs(configs, overrides, memory);
     for (std::size_t c = 0; c < own.size(); ++c) {
         const std::string own_set = set_of_design(own[c].config);
         std::vector<std::string> sets{"ideal"};
@@ -76,7 +77,7 @@ std::vector<SpeedDesign> speed_designs(const std::vector<std::string>& configs,
                     changes.push_back(addressed(own[c].name, path, kOfTheSet));
                 }
             }
-            designs.push_back({own[c].name, set, load_configs(configs, changes)[c].config});
+            designs.push_back({own[c].name, set, load_configs(configs, changes, memory)[c].config});
         }
     }
     return designs;

@@ -7,13 +7,30 @@
   const isNumber = (value) => typeof value === "number";
   const infinite = (value) => (value === "inf" ? Infinity : value);
 
+  /** A number without what arithmetic adds to a decimal: 204.8, 0.3, 32 768. */
+  const exact = (value) => {
+    const short = Number(value.toPrecision(12));
+    const magnitude = Math.abs(short);
+    return magnitude !== 0 && (magnitude >= 1e15 || magnitude < 1e-4) ? short.toExponential()
+      : Number.isInteger(short) && magnitude >= 10000 ? short.toLocaleString("en").replaceAll(",", "\u202f")
+      : String(short);
+  };
+
   // Columns: how a run's values are called, read and written.
   const keyColumns = data.keys.map((key, k) => {
     const texts = data.variants.map((v) => v.values[k]);
     const numeric = texts.every((t) => t === null || (t !== "" && !Number.isNaN(Number(t))));
-    return { name: key, unit: "", kind: "key", numeric, sentence: "Key of the configuration.",
+    return { name: key, unit: "", kind: "key", numeric, keys: [k], sentence: "Key of the configuration.",
       of: (run) => { const t = data.variants[run.variant].values[k]; return numeric && t !== null ? Number(t) : t; } };
   });
+  // Keys that change together are one axis, whose values are those of its keys: "8, 8". Its values stand in the order
+  // of its first numeric key.
+  const axisColumns = data.axes.map((axis) => ({
+    name: axis.name, unit: "", kind: "axis", numeric: false, keys: axis.keys,
+    sentence: `Keys that change together: ${axis.keys.map((k) => data.keys[k]).join(", ")}.`,
+    of: (run) => axis.keys.map((k) => keyColumns[k].of(run)).map((v) => (isNumber(v) ? exact(v) : String(v)))
+      .join(", ") }));
+  const inAxis = new Set(data.axes.flatMap((axis) => axis.keys));
   const measureColumns = data.measures.map((m, i) => ({
     name: m.name, unit: m.unit, kind: "measure", numeric: true,
     sentence: m.better ? `${m.sentence} (${m.better})` : m.sentence,
@@ -33,7 +50,7 @@
   const pes = { name: "pes", unit: "PEs", kind: "key", numeric: true, sentence: "Processing elements.",
     of: (run) => data.variants[run.variant].pes };
   const areMorePes = new Set(data.variants.map((v) => v.pes)).size > 1;
-  const columns = [point, design, ...keyColumns, ...(areMorePes ? [pes] : []), view, ...measureColumns, limit,
+  const columns = [point, design, ...axisColumns, ...keyColumns, ...(areMorePes ? [pes] : []), view, ...measureColumns, limit,
     ...stageColumns];
   const columnOf = new Map(columns.map((c) => [c.name, c]));
   const isBaseline = (run) => run.variant === data.baseline;
@@ -49,8 +66,7 @@
     if (value === null || value === undefined) return "–";
     if (value === Infinity) return "∞";
     if (!isNumber(value)) return String(value);
-    if (column.kind !== "measure") return Number.isInteger(value) && Math.abs(value) < 10000 ? String(value)
-      : digits(value);
+    if (column.kind !== "measure") return exact(value);
     return column.unit === "share" ? `${(100 * value).toFixed(1)} %` : digits(value);
   };
   const heading = (column) => column.name + (column.unit && column.unit !== "share" ? `, ${column.unit}` : "")
@@ -65,13 +81,14 @@
   const option = (column) => ({ label: heading(column), value: column.name });
   const numericColumns = columns.filter((c) => c.numeric && c !== point);
   const ys = [...measureColumns, ...stageColumns];
-  const varied = keyColumns.filter((c) => new Set(data.runs.map(c.of)).size > 1);
+  const varied = [...axisColumns, ...keyColumns.filter((c) => !inAxis.has(c.keys[0]))]
+    .filter((c) => new Set(data.runs.map(c.of)).size > 1);
   const area = columnOf.has("area_mm2") && measureColumns.includes(columnOf.get("area_mm2")) ? "area_mm2" : "design";
   const defaultColour = new Set(data.runs.map(design.of)).size > 1 ? "design" : (varied[1] ?? limit).name;
   choose(at("y"), ys.map(option), "latency_ms");
-  choose(at("x"), [...numericColumns, ...keyColumns.filter((c) => !c.numeric), design].map(option),
+  choose(at("x"), [...axisColumns, ...numericColumns, ...keyColumns.filter((c) => !c.numeric), design].map(option),
     data.swept && varied.length > 0 ? varied[0].name : area);
-  choose(at("colour"), [design, ...keyColumns, ...(areMorePes ? [pes] : []), view, limit].map(option), defaultColour);
+  choose(at("colour"), [design, ...axisColumns, ...keyColumns, ...(areMorePes ? [pes] : []), view, limit].map(option), defaultColour);
   choose(at("view"), [...(data.views.length > 1 ? [{ label: `all ${data.views.length}`, value: "all" }] : []),
     ...data.views.map((v, i) => ({ label: v.words, value: String(i) }))], "0");
   at("view-label").hidden = data.views.length < 2;
@@ -122,10 +139,15 @@
     const numbers = values.filter((v) => isNumber(v) && Number.isFinite(v));
     return numbers.length > 1 && numbers.every((v) => v > 0) && d3.max(numbers) / d3.min(numbers) >= 7.9;
   };
-  const ticks = (column) => (value) => (column.unit === "share" ? `${Math.round(1000 * value) / 10} %` : digits(value));
+  const ticks = (column) => (value) => (column.unit === "share" ? `${exact(100 * value)} %` : exact(value));
   /** Options of one axis: logarithmic where factors matter, with the values themselves as ticks if they are few. */
   const scaleOf = (column, runs) => {
     const values = [...new Set(runs.map(column.of).filter((v) => v !== null && v !== Infinity))];
+    if (column.kind === "axis") {
+      const first = column.keys.map((k) => keyColumns[k]).find((c) => c.numeric);
+      const sorted = first ? d3.sort(runs, first.of) : runs;
+      return { type: "point", label: heading(column), domain: [...new Set(sorted.map(column.of))] };
+    }
     if (!column.numeric) return { type: "point", label: heading(column) };
     const few = column.kind === "key" && values.length <= 8;
     return { type: isLogarithmic(values) ? "log" : "linear", label: heading(column), nice: !few, grid: true,
@@ -145,14 +167,19 @@
     return value !== null && value !== Infinity && value !== undefined;
   });
 
-  /** Lines join points that differ in the horizontal key alone. */
+  /** The runs in the order of the horizontal axis. */
+  const inOrder = (x, runs) => {
+    const first = x.kind === "axis" ? x.keys.map((k) => keyColumns[k]).find((c) => c.numeric) ?? x : x;
+    return d3.sort(runs, first.of);
+  };
+  /** Lines join points that differ in the horizontal key, or the keys of the horizontal axis, alone. */
   const lineKey = (x) => (run) => JSON.stringify([run.view, design.of(run),
-    ...keyColumns.filter((c) => c !== x).map((c) => c.of(run))]);
+    ...keyColumns.filter((c) => !(x.keys ?? []).includes(c.keys[0])).map((c) => c.of(run))]);
   const lines = (runs, x, y, stroke) => {
-    if (x.kind !== "key") return [];
+    if (x.kind !== "key" && x.kind !== "axis") return [];
     const groups = d3.group(runs, lineKey(x));
     const joined = [...groups.values()].filter((g) => g.length > 1).flat();
-    return [Plot.line(d3.sort(joined, x.of), { x: x.of, y: y.of, z: lineKey(x), stroke, strokeOpacity: 0.6 })];
+    return [Plot.line(inOrder(x, joined), { x: x.of, y: y.of, z: lineKey(x), stroke, strokeOpacity: 0.6 })];
   };
   const drawMain = (runs) => {
     const x = columnOf.get(at("x").value);
@@ -195,13 +222,13 @@
       const host = at("keys").children[i];
       const good = runs.filter(drawable(x, y));
       const others = good.filter((run) => data.variants[run.variant].values.every((value, k) =>
-        data.keys[k] === x.name || value === base[k]));
+        x.keys.includes(k) || value === base[k]));
       plot(host, {
         height: 240, marginLeft: 56, marginBottom: 64,
         x: { ...scaleOf(x, good), inset: 8, tickRotate: -25, labelOffset: 56 },
         y: { ...scaleOf(y, good), inset: 6, ticks: 5 },
         marks: [Plot.dot(good, { x: x.of, y: y.of, r: 2.5, fill: "currentColor", fillOpacity: 0.25 }),
-          Plot.line(d3.sort(others, x.of), { x: x.of, y: y.of, z: (run) => `${run.view} ${design.of(run)}`,
+          Plot.line(inOrder(x, others), { x: x.of, y: y.of, z: (run) => `${run.view} ${design.of(run)}`,
             stroke: view.of, strokeWidth: 2, marker: "circle" }),
           Plot.dot(others.filter(isBaseline), { x: x.of, y: y.of, r: 7, stroke: "currentColor" }),
           Plot.tip(good, Plot.pointer({ x: x.of, y: y.of, title: tipOf, maxRadius: 30 }))],

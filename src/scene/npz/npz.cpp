@@ -102,23 +102,27 @@ private:
     void read_scales_and_opacities() {
         const NpyArray scales = require("scales", 3), opacities = require("opacities", 1);
         ActivationScan scan;
-        for (std::uint64_t i = 0; i < scales.size() && scan.looks_activated(); ++i) {
+        for (std::uint64_t i = 0; i < scales.size() && scan.scales_look_activated(); ++i) {
             scan.add_scale(scales.at(i));
         }
-        for (std::uint64_t i = 0; i < count_ && scan.looks_activated(); ++i) {
+        for (std::uint64_t i = 0; i < count_ && scan.opacities_look_activated(); ++i) {
             scan.add_opacity(opacities.at(i));
         }
-        const bool raw = !scan.looks_activated();
-        if (!raw) {
-            content_.notes.emplace_back(
-                "No scale is negative and no opacity outside 0 to 1, so both "
-                "were taken as they are, not as logarithms and logits.");
+        bool as_scales = scan.scales_look_activated();
+        bool as_opacities = scan.opacities_look_activated();
+        if (as_scales != as_opacities &&
+            count_ < kFewestToJudge) { // too few to differ in one alone
+            as_scales = as_opacities = false;
+        }
+        if (std::string note = taken_as_they_are_note(as_scales, as_opacities); !note.empty()) {
+            content_.notes.push_back(std::move(note));
         }
         for (std::uint64_t i = 0; i < count_; ++i) {
             const glm::dvec3 s(scales.at(3 * i), scales.at(3 * i + 1), scales.at(3 * i + 2));
             const double o = opacities.at(i);
-            cloud().scales.emplace_back(raw ? glm::exp(s) : s);
-            cloud().opacities.push_back(static_cast<float>(raw ? 1 / (1 + std::exp(-o)) : o));
+            cloud().scales.emplace_back(as_scales ? s : glm::exp(s));
+            cloud().opacities.push_back(
+                static_cast<float>(as_opacities ? o : 1 / (1 + std::exp(-o))));
         }
     }
 

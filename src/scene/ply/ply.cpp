@@ -58,8 +58,13 @@ public:
         rows_.finish();
         return std::move(cloud_);
     }
-    /// After read(). A few Gaussians say nothing.
-    bool looks_activated() const { return activated_ && count_ >= kFewestToJudge; }
+    /// After read(); empty if the values look as the format has them.
+    std::string note() const {
+        ActivationScan scan;
+        scan.add_scale(scales_activated_ ? 0 : -1);
+        scan.add_opacity(opacities_activated_ ? 0 : -1);
+        return activated_note(scan, count_);
+    }
 
 private:
     void allocate(const PlySplatLayout& layout) {
@@ -120,7 +125,8 @@ private:
         for (const Binding<float>& binding : floats_) {
             copy(strip, binding, first, rows);
         }
-        if (activated_.load(std::memory_order_relaxed)) {
+        if (scales_activated_.load(std::memory_order_relaxed) ||
+            opacities_activated_.load(std::memory_order_relaxed)) {
             scan(first, rows);
         }
         for (std::size_t i = first; i < first + rows; ++i) {
@@ -137,8 +143,11 @@ private:
                 found.add_scale(cloud_.scales[i][axis]);
             }
         }
-        if (!found.looks_activated()) {
-            activated_.store(false, std::memory_order_relaxed);
+        if (!found.scales_look_activated()) {
+            scales_activated_.store(false, std::memory_order_relaxed);
+        }
+        if (!found.opacities_look_activated()) {
+            opacities_activated_.store(false, std::memory_order_relaxed);
         }
     }
 
@@ -184,7 +193,7 @@ private:
     int scales_;
     bool rgb_;
     GaussianCloud cloud_;
-    std::atomic<bool> activated_{true};
+    std::atomic<bool> scales_activated_{true}, opacities_activated_{true};
     std::vector<float> filters_;
     std::vector<Binding<double>> means_;
     std::vector<Binding<float>> floats_;
@@ -201,13 +210,16 @@ SceneContent read_ply(const std::string& path) {
     file.seek(header.data_begin);
     if (is_compressed_ply(header)) {
         content.cloud = read_compressed_ply(file, header);
+        if (std::string note = activated_note(content.cloud.scales); !note.empty()) {
+            content.notes.push_back(std::move(note));
+        }
         return content;
     }
     const PlySplatLayout layout = find_splat_layout(path, header, content.notes);
     CloudReader reader(file, header, layout);
     content.cloud = reader.read();
-    if (reader.looks_activated()) {
-        content.notes.emplace_back(kActivatedNote);
+    if (std::string note = reader.note(); !note.empty()) {
+        content.notes.push_back(std::move(note));
     }
     content.traits.antialiased = content.traits.antialiased || layout.has_filter_3d;
     return content;

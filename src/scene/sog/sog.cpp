@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/visible_text.hpp"
+#include "scene/files/activation_scan.hpp"
 #include "scene/files/input_file.hpp"
 #include "scene/files/scene_folder.hpp"
 #include "scene/sog/sog_files.hpp"
@@ -60,6 +61,9 @@ public:
         read_colours();
         if (meta_.degree > 0) {
             read_rest(palette, labels);
+        }
+        if (std::string note = activated_note(content_.cloud.scales); !note.empty()) {
+            content_.notes.push_back(std::move(note));
         }
         content_.traits.antialiased = meta_.antialiased;
         take_render_model("model", meta_.model, content_);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/files/activation_scan.hpp"
 #include "scene/files/half_float.hpp"
 #include "scene/files/input_file.hpp"
 #include "scene/spz/spz_header.hpp"
@@ -92,6 +93,9 @@ public:
         content_.traits.antialiased = (header_.flags & kSpzAntialiased) != 0;
         content_.notes.insert(content_.notes.end(), records.notes.begin(), records.notes.end());
         note_flags_and_degree();
+        if (std::string note = activated_note(content_.cloud.scales); !note.empty()) {
+            content_.notes.push_back(std::move(note));
+        }
         return std::move(content_);
     }
 

@@ -142,5 +142,37 @@ TEST(TrainedFrame, MovesCamerasOfTheOriginalData) {
                 test::IsSentenceWith("principal points up to 2.5 px off"));
 }
 
+// A COLMAP model is in the coordinates of the original data as well, beside the scene and by its name.
+TEST(TrainedFrame, MovesCamerasOfAColmapModel) {
+    for (const bool binary : {false, true}) {
+        const test::Folder folder;
+        write_ply(make_synthetic({"object", 50, 1}).cloud, folder.path("s.ply"));
+        if (binary) {
+            const test::ColmapImage image{7, 1, {1, 0, 0, 0}, {-1, -2, -3}, "a.jpg", 0};
+            folder.write("sparse/0/cameras.bin",
+                         test::colmap_cameras({{1, 1, 64, 48, {50, 50, 32, 24}}}));
+            folder.write("sparse/0/images.bin", test::colmap_images({image}));
+        } else {
+            folder.write("sparse/0/cameras.txt", "1 PINHOLE 64 48 50 50 32 24\n");
+            folder.write("sparse/0/images.txt", "7 1 0 0 0 -1 -2 -3 1 a.jpg\n\n");
+        }
+        for (const std::string& named : {std::string(), folder.path("sparse/0")}) {
+            std::filesystem::remove(folder.path("dataparser_transforms.json"));
+            EXPECT_EQ(load_scene(folder.path("s.ply"), named).cameras.at(0).position,
+                      glm::dvec3(1, 2, 3));
+            folder.write("dataparser_transforms.json",
+                         R"({"transform": [[0,1,0,0],[-1,0,0,0],[0,0,1,-3]], "scale": 2})");
+            const Scene scene = load_scene(folder.path("s.ply"), named);
+            EXPECT_EQ(scene.cameras.at(0).position, glm::dvec3(4, -2, 0));
+            EXPECT_EQ(scene.cameras.at(0).camera_to_world[0], glm::dvec3(0, -1, 0));
+            EXPECT_THAT(scene.notes,
+                        testing::Contains(test::IsSentenceWith("are moved by " + folder.path(""))));
+            folder.write("dataparser_transforms.json", R"({"scale": 2})");
+            EXPECT_THAT(test::complaint([&] { load_scene(folder.path("s.ply"), named); }),
+                        test::IsSentenceWith("dataparser_transforms.json"));
+        }
+    }
+}
+
 } // namespace
 } // namespace degs

@@ -36,6 +36,26 @@ TEST(Words, AsTyped) {
     EXPECT_EQ(as_typed(0), "0");
 }
 
+TEST(Words, DecimalOfIsTheOneThatWasMeant) {
+    EXPECT_EQ(decimal_of(0.1 + 0.2), "0.3");
+    EXPECT_EQ(decimal_of(204.79999999999998), "204.8");
+    EXPECT_EQ(decimal_of(0.00752206900000001), "0.007522069");
+    double sum = 0;
+    for (int i = 0; i < 30; ++i) {
+        sum += 0.3141;
+    }
+    EXPECT_EQ(decimal_of(sum), "9.423");
+    EXPECT_EQ(decimal_of(-2.1780000000000004), "-2.178");
+    EXPECT_EQ(decimal_of(0), "0");
+    EXPECT_EQ(decimal_of(12345.678901234 + 1e-12), "12345.678901234");
+}
+
+TEST(Words, DecimalOfReadsBackWhereNothingShorterWasMeant) {
+    for (const double value : {1.0 / 3, 2e9 / 7, 3.14159265358979312, 1e-300 / 7, 1 - 0x1p-40}) {
+        EXPECT_EQ(std::stod(decimal_of(value)), value);
+    }
+}
+
 TEST(Words, Scaled) {
     EXPECT_EQ(scaled(0.0), "0");
     EXPECT_EQ(scaled(999.4), "999");

@@ -33,7 +33,7 @@ void describe_timing(const AcceleratorResult& run, StatsVisitor& v) {
     v.begin_section("timing", "Dates count from the start of the run.");
     v.count("cycles", run.cycles, "cycles", "Last pixel of the last frame in memory.");
     v.real("latency_ms", frame_ns * 1e-6, "ms", "Last pixel of the first frame in memory.");
-    v.real("fps", ratio(1e9, frame_ns), "frames/s", "1 / latency_ms.");
+    v.real("fps", ratio(1e9, frame_ns), "frames/s", "1000 / latency_ms.");
     v.real("clock_ghz", run.clock_ghz, "GHz", "Clock of the configuration.");
     v.count("preprocessing_cycles", first.preprocessed, "cycles",
             "All tile lists of the first frame complete.");

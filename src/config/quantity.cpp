@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+<<<<<<<< HEAD:sim/study/quantity.cpp
 #include "sim/study/quantity.hpp"
+========
+#include "config/quantity.hpp"
+>>>>>>>> 696d3cc9dea435ee97ea4c0d9faae603e596921e:src/config/quantity.cpp
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
+#include <cstdio>
 
 #include "base/error.hpp"
 #include "config/config_words.hpp"
 
-namespace degs::sim {
+namespace degs {
 namespace {
 
 using config_words::quote;
@@ -50,14 +55,14 @@ constexpr std::array<Unit, 22> kUnits{{
 }};
 
 /// Whether the sentence of a key begins with the whole words `meaning`.
-bool means(const KeyDoc& key, const std::string& meaning) {
+bool means(const QuantityKey& key, const std::string& meaning) {
     const std::string& doc = key.doc;
     return doc.compare(0, meaning.size(), meaning) == 0 &&
            (doc.size() == meaning.size() ||
             std::isalnum(static_cast<unsigned char>(doc[meaning.size()])) == 0);
 }
 
-std::string units_of(const KeyDoc& key) {
+std::string units_of(const QuantityKey& key) {
     std::vector<std::string> names;
     for (const Unit& unit : kUnits) {
         if (means(key, unit.meaning)) {
@@ -65,6 +70,25 @@ std::string units_of(const KeyDoc& key) {
         }
     }
     return names.empty() ? "none" : config_words::list(names);
+}
+
+/// Whether the text behind a number is a unit, or a word that somebody takes for one. What follows
+/// 1 in 1e3, 1e and 0x10 is not.
+bool looks_like_unit(const std::string& text) {
+    const auto is_known = [&text](const Unit& unit) { return text == unit.name; };
+    const auto is_of_word = [](char c) {
+        return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '/';
+    };
+    return std::any_of(kUnits.begin(), kUnits.end(), is_known) ||
+           (!text.empty() && text != "e" && text != "E" &&
+            std::all_of(text.begin(), text.end(), is_of_word));
+}
+
+/// 010 means ten to YAML 1.2 and eight to YAML 1.1.
+bool has_leading_zero(const std::string& text) {
+    const std::size_t first = text.find_first_not_of('-');
+    return first != std::string::npos && text[first] == '0' && first + 1 < text.size() &&
+           std::isdigit(static_cast<unsigned char>(text[first + 1])) != 0;
 }
 
 /// The decimal number at the front of [at, end); moves `at` behind it.
@@ -108,10 +132,13 @@ std::optional<Quantity> parse_quantity(const std::string& text) {
     return quantity;
 }
 
-double in_unit_of(const KeyDoc& key, const Quantity& quantity, const std::string& place) {
-    if (quantity.factor) {
-        return quantity.number * std::strtod(key.default_value.c_str(), nullptr);
-    }
+std::string decimal_text(double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.15g", value);
+    return text;
+}
+
+double in_unit_of(const QuantityKey& key, const Quantity& quantity, const std::string& place) {
     if (quantity.unit.empty()) {
         return quantity.number;
     }
@@ -124,4 +151,18 @@ double in_unit_of(const KeyDoc& key, const Quantity& quantity, const std::string
                      quote(key.path) + " (" + key.doc + "); its units: " + units_of(key) + ".");
 }
 
-} // namespace degs::sim
+ConfigNode in_unit_of(const QuantityKey& key, const ConfigNode& node) {
+    if (node.kind != ConfigNode::Kind::kScalar || node.quoted) {
+        return node;
+    }
+    const std::optional<Quantity> quantity = parse_quantity(node.text);
+    if (!quantity || quantity->factor || has_leading_zero(node.text) ||
+        !looks_like_unit(quantity->unit)) {
+        return node;
+    }
+    ConfigNode converted = node;
+    converted.text = decimal_text(in_unit_of(key, *quantity, node.place));
+    return converted;
+}
+
+} // namespace degs

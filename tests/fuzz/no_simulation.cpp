@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// The headers of the cache pull in SystemC, whose library asks for this function. Nothing here simulates.
+#include <cstdlib>
+
+#include <systemc>
+
+int sc_main(int, char**) {
+    std::abort();
+}
