@@ -9,7 +9,7 @@
 
 #include "config/config_document.hpp"
 #include "config/config_tree.hpp"
-#include "sim/study/quantity.hpp"
+#include "config/quantity.hpp"
 #include "config/quantity.hpp"
 
 namespace degs::sim {

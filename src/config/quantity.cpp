@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-<<<<<<<< HEAD:sim/study/quantity.cpp
-#include "sim/study/quantity.hpp"
-========
 #include "config/quantity.hpp"
->>>>>>>> 696d3cc9dea435ee97ea4c0d9faae603e596921e:src/config/quantity.cpp
 
 #include <algorithm>
 #include <array>
