@@ -12,6 +12,9 @@ namespace {
 
 // A stage or the memory is the cause of waiting if it is busy for this share of the time.
 constexpr double kBusy = 0.6;
+// A part of the time before the first task is its cause if it is that long, and another one that is
+// shorter by less than this is so, too: to shorten only one of the two leaves the other.
+constexpr double kLong = 0.3, kAlike = 0.1;
 
 /// The cause of a loss in words and by its name in LossKeys.
 struct Cause {
@@ -44,7 +47,7 @@ public:
         const Cycle after =
             any && run_.cycles > run_.window.last ? run_.cycles - run_.window.last - 1 : 0;
         add(before(first), ratio_of(first, 1) * run_.pes);
-        add({"after the last task", memory_bound() ? "memory" : "readout"},
+        add({"after the last task", after_cause(ratio_of(after, 1))},
             ratio_of(after, 1) * run_.pes);
         std::stable_sort(losses.begin(), losses.end(),
                          [](const Loss& a, const Loss& b) { return a.share > b.share; });
@@ -53,7 +56,39 @@ public:
 
 private:
     bool limited_memory() const { return run_.memory_gb_per_s > 0; }
-    bool memory_bound() const { return limited_memory() && run_.memory_utilization >= kBusy; }
+    /// What a stage or a stream did while the array worked, as a part of all that it did: the first
+    /// task waits for the rest.
+    double later(double prepares) const { return 1 - prepares / frames(); }
+    double frames() const { return std::max(1.0, ratio_of(run_.frames.size(), 1)); }
+
+    /// Share of the window of the array in which the data bus was busy.
+    double memory_in_window() const {
+        if (!limited_memory() || run_.window.empty()) {
+            return 0;
+        }
+        double all = 0, beside = 0;
+        for (const StreamUse& stream : run_.streams) {
+            const double bytes = ratio_of(stream.bytes_read + stream.bytes_written, 1);
+            all += bytes;
+            beside += bytes * later(stream.prepares);
+        }
+        const double busy = run_.memory_utilization * ratio_of(run_.memory_window, 1);
+        return all > 0 ? busy * beside / all / ratio_of(run_.window.cycles(), 1) : 0;
+    }
+    bool memory_bound() const { return memory_in_window() >= kBusy; }
+
+    /// Share of the window of the array in which the units of a stage were busy.
+    double in_window(const StageUse& stage) const {
+        return run_.window.empty() ? 0
+                                   : stage.busy_cycles / stage.units * later(stage.prepares) /
+                                         ratio_of(run_.window.cycles(), 1);
+    }
+
+    /// The last pixels are read out, and then on their way to the memory.
+    std::string after_cause(double cycles) const {
+        const double latency = keys_.number("memory.latency_ns").value_or(0) * run_.clock_ghz;
+        return memory_bound() ? "memory" : latency > cycles / 2 ? "latency" : "readout";
+    }
 
     /// Tiles wait for their contexts while finished ones wait for the memory.
     Cause cause_of(const SlotClass& slot) const {
@@ -74,57 +109,69 @@ private:
         });
     }
 
-    /// What kept the first tasks of the run from coming earlier.
+    /// What kept the first tasks of the run from coming earlier. Memory and stages prepare a frame
+    /// at the same time, so it is the one that took longest; of two that took equally long, both.
     Cause before(Cycle first) const {
         const std::string words = "before the first task";
         if (run_.array_only || first == 0) {
             return {words, "none"};
         }
-        std::uint64_t bytes = 0;
-        for (const StreamUse& stream : run_.streams) {
-            bytes += stream.prepares ? stream.bytes_read + stream.bytes_written : 0;
+        const std::vector<Part> parts = preparation(ratio_of(first, 1));
+        if (parts.empty() || parts.front().share < kLong) {
+            return {words, "latency"};
         }
-        const double cycles = ratio_of(first, 1);
-        const double frames = std::max(1.0, ratio_of(run_.frames.size(), 1));
-        const double memory = limited_memory() ? rate_of(bytes, run_.memory_gb_per_s) *
-                                                     run_.clock_ghz / frames / cycles
-                                               : 0;
-        if (memory >= kBusy) {
-            return {words + ", for memory", "memory"};
-        }
-        Cause most{words, "latency"};
-        double share = 0.3; // less is latency
-        const auto consider = [&](const char* name, double part) {
-            if (part > share) {
-                share = part;
-                most = {words + ", for " + name, name};
-            }
-        };
-        for (const StageUse& stage : run_.stages) {
-            if (stage.name == "projection" || stage.name == "grouping") {
-                consider(stage.name.c_str(), stage.busy_cycles / stage.units / frames / cycles);
+        std::string name = parts.front().name;
+        for (std::size_t i = 1; i < parts.size(); ++i) {
+            if (parts[i].share > parts.front().share - kAlike) {
+                name += " and " + parts[i].name;
             }
         }
-        if (const auto rate = keys_.number("binning.pairs_per_cycle")) {
-            consider("binning", ratio_of(result_.workload.tile_pairs, 1) / *rate / cycles);
-        }
-        return most;
+        return {words + ", for " + name, name};
     }
 
-    /// The busiest of those that come before the array.
-    Cause starvation() const {
-        const StageUse* busiest = nullptr;
+    struct Part {
+        std::string name;
+        double share; ///< of the time before the first task
+    };
+
+    /// Longest first; of equal ones, in this order.
+    std::vector<Part> preparation(double cycles) const {
+        std::vector<Part> parts;
+        double bytes = 0;
+        for (const StreamUse& stream : run_.streams) {
+            bytes += stream.prepares * ratio_of(stream.bytes_read + stream.bytes_written, 1);
+        }
+        if (limited_memory()) {
+            parts.push_back(
+                {"memory", bytes / run_.memory_gb_per_s * run_.clock_ghz / frames() / cycles});
+        }
         for (const StageUse& stage : run_.stages) {
-            if (!stage.array && (busiest == nullptr || stage.busy > busiest->busy)) {
-                busiest = &stage;
+            parts.push_back(
+                {stage.name, stage.prepares * stage.busy_cycles / stage.units / frames() / cycles});
+        }
+        if (const auto rate = keys_.number("binning.pairs_per_cycle")) {
+            parts.push_back({"binning", ratio_of(result_.workload.tile_pairs, 1) / *rate / cycles});
+        }
+        std::stable_sort(parts.begin(), parts.end(),
+                         [](const Part& a, const Part& b) { return a.share > b.share; });
+        return parts;
+    }
+
+    /// The busiest of those that come before the array, while it worked.
+    Cause starvation() const {
+        std::string busiest;
+        double most = 0;
+        for (const StageUse& stage : run_.stages) {
+            if (!stage.array && in_window(stage) > most) {
+                most = in_window(stage);
+                busiest = stage.name;
             }
         }
-        const double stage = busiest == nullptr ? 0 : busiest->busy;
-        if (memory_bound() && run_.memory_utilization >= stage) {
+        if (memory_bound() && memory_in_window() >= most) {
             return {"starved, for memory", "memory"};
         }
-        if (stage >= kBusy) {
-            return {"starved, for " + busiest->name, busiest->name};
+        if (most >= kBusy) {
+            return {"starved, for " + busiest, busiest};
         }
         return {"starved", "gaps"};
     }
@@ -155,8 +202,8 @@ std::string losses_line(const RunResult& result) {
     std::string line;
     for (const Loss& loss : losses) {
         line += (line.empty() ? "" : " · ") + loss.reason + " " + percent(loss.share) +
-                (line.empty() ? " % of the frame" : " %") +
-                (loss.keys.empty() ? "" : " (" + choice_of(loss.keys) + ")");
+                (line.empty() ? " % of the frame" : " %") + " (" +
+                (loss.keys.empty() ? "no key is known to move it" : choice_of(loss.keys)) + ")";
     }
     return line.empty() ? "none" : line;
 }

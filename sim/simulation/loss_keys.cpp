@@ -41,7 +41,7 @@ std::optional<double> LossKeys::number(const std::string& key) const {
 bool LossKeys::can_move(const LossKey& knob) const {
     const std::string key = knob.key;
     const nlohmann::ordered_json* const now = value(key);
-    if (now == nullptr) {
+    if (now == nullptr || (*knob.linked != 0 && value(knob.linked) == nullptr)) {
         return false;
     }
     if (result_.accelerator.array_only && key.rfind("memory.", 0) == 0) {
@@ -92,8 +92,9 @@ bool LossKeys::allows(const std::vector<std::string>& settings) const {
 std::vector<std::string> LossKeys::movable() const {
     std::vector<std::string> keys;
     for (const LossKey& knob : keys_) {
-        if (value(knob.key) != nullptr && allows(knob)) {
-            keys.emplace_back(knob.key);
+        if (value(knob.key) != nullptr && (*knob.linked == 0 || value(knob.linked) != nullptr) &&
+            allows(knob)) {
+            keys.push_back(knob.name());
         }
     }
     return keys;
@@ -102,9 +103,8 @@ std::vector<std::string> LossKeys::movable() const {
 std::vector<std::string> LossKeys::of(const std::string& cause) const {
     std::vector<std::string> keys;
     for (const LossKey& knob : keys_) {
-        if (cause == knob.cause && can_move(knob) && is_movable(knob.key)) {
-            const std::string linked = knob.linked;
-            const std::string key = knob.key + (linked.empty() ? "" : " and " + linked);
+        const std::string key = knob.name();
+        if (cause == knob.cause && can_move(knob) && is_movable(key) && !is_idle(key)) {
             keys.push_back(knob.way == Way::Raise   ? "raise " + key
                            : knob.way == Way::Lower ? "lower " + key
                                                     : key + "=" + knob.limit);

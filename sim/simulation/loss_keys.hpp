@@ -24,7 +24,7 @@ public:
 
     /// "raise KEY", "lower KEY and KEY" or "KEY=VALUE", the one that moves most on close-ups first. A
     /// key is missing if the design does not have it, if it is at its limit or idle because of other
-    /// keys, or if the design allows no step of it.
+    /// keys or in this run, or if the design allows no step of it.
     std::vector<std::string> of(const std::string& cause) const;
     /// The value of a key, if the design has it and it is a number above 0.
     std::optional<double> number(const std::string& key) const;
@@ -32,10 +32,11 @@ public:
 private:
     const nlohmann::ordered_json* value(const std::string& key) const;
     bool can_move(const LossKey& knob) const;
-    bool is_movable(const std::string& key) const {
-        const std::vector<std::string>& keys = result_.movable_keys;
+    static bool has(const std::vector<std::string>& keys, const std::string& key) {
         return std::find(keys.begin(), keys.end(), key) != keys.end();
     }
+    bool is_movable(const std::string& key) const { return has(result_.movable_keys, key); }
+    bool is_idle(const std::string& key) const { return has(result_.accelerator.idle_keys, key); }
     bool allows(const LossKey& knob) const;
     bool allows(const std::vector<std::string>& settings) const;
 

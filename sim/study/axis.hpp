@@ -10,7 +10,6 @@
 #include "config/config_document.hpp"
 #include "config/config_tree.hpp"
 #include "config/quantity.hpp"
-#include "config/quantity.hpp"
 
 namespace degs::sim {
 

@@ -12,7 +12,6 @@ std::vector<LossKey> GbuConfig::loss_keys() const {
             {"dispatch", "engines.count", Way::Raise, kNoLimit},
             {"gaps", "engines.queue_depth", Way::Raise, "4096"},
             {"boundary", "engines.end_probe", Way::Set, "false"},
-            {"terminated", "engines.termination_cycles", Way::Lower, "1"},
             {"blocked", "pixel_buffer.bytes", Way::Raise, kNoLimit},
             {"blocked", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
             {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},

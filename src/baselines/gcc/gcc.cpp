@@ -4,21 +4,9 @@
 #include <algorithm>
 
 #include "modules/kit/memory/stream_kinds.hpp"
+#include "baselines/gcc/streams.hpp"
 
 namespace degs::gcc {
-namespace {
-
-constexpr StreamKind kMeans{"means", StreamData::Scene,
-                            "Positions of all Gaussians, read by Stage I.", true};
-constexpr StreamKind kGroupListsWritten{"group_lists_written", StreamData::Own,
-                                        "Entries of the lists of groups, written by Stage I.",
-                                        true};
-constexpr StreamKind kGroupListsRead{"group_lists_read", StreamData::Own,
-                                     "The same entries, read by Stage II group by group."};
-constexpr StreamKind kShapes{"shapes", StreamData::Scene,
-                             "Scale, rotation and opacity of listed Gaussians, read by Stage II."};
-
-} // namespace
 
 std::unique_ptr<RenderEngine> Config::build(const char* module, const Timebase& time,
                                             RenderJob& job, const BuildOptions& options) const {

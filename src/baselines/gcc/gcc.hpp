@@ -71,6 +71,8 @@ private:
     void collect_slots(AcceleratorResult& result) const;
     void collect_stages(AcceleratorResult& result) const;
     void collect_activity(AcceleratorResult& result) const;
+    void collect_preparation(AcceleratorResult& result) const;
+    void collect_idle_keys(AcceleratorResult& result) const;
     void collect_laws(AcceleratorResult& result) const;
     void explain(AcceleratorResult& result) const;
 

@@ -144,8 +144,10 @@ void Grouping::regroup(std::uint32_t f) {
 }
 
 void Grouping::write(std::uint64_t region, std::uint64_t entries, Cycle least_cycles) {
-    const Cycle busy = std::max(least_cycles, ceil_div(entries, config_.entries_per_cycle));
-    grouper_.work(busy, stats_.busy);
+    const Cycle entry_cycles = ceil_div(entries, config_.entries_per_cycle);
+    grouper_.work(std::max(least_cycles, entry_cycles), stats_.busy);
+    stats_.mean_cycles += least_cycles;
+    stats_.entry_cycles += entry_cycles;
     stats_.entries_written += entries;
     Completion& oldest = acknowledged_[writes_++ % acknowledged_.size()];
     grouper_.wait_for_memory(oldest);

@@ -35,6 +35,8 @@ public:
     };
     struct Stats {
         Cycle busy = 0;
+        /// What `busy` would be if the other rate had no limit; not numbers of results.
+        Cycle mean_cycles = 0, entry_cycles = 0;
         std::uint64_t gaussians = 0, entries_written = 0, view_entries = 0;
         void describe(StatsVisitor& v) const {
             v.count("gaussians", gaussians, "Gaussians", "Gaussians whose mean was read.");

@@ -6,12 +6,19 @@ namespace degs::gcc {
 
 std::vector<LossKey> Config::loss_keys() const {
     using Way = LossKey::Way;
+    const bool channels = memory.model == MemoryModel::Lpddr5;
+    const char* const rate = channels ? "memory.lpddr5.channels" : "memory.bandwidth_gb_per_s";
     return with(
         {
             {"projection", "projection.units", Way::Raise, kNoLimit},
             {"colour", "colour.units", Way::Raise, kNoLimit},
             {"grouping", "grouping.means_per_cycle", Way::Raise, kNoLimit},
             {"grouping", "grouping.entries_per_cycle", Way::Raise, kNoLimit},
+            {"grouping", "grouping.means_per_cycle", Way::Raise, kNoLimit,
+             "grouping.entries_per_cycle"},
+            {"drain", "view_size", Way::Lower, "16"},
+            {"memory and grouping", "grouping.means_per_cycle", Way::Raise, kNoLimit, rate},
+            {"grouping and memory", "grouping.means_per_cycle", Way::Raise, kNoLimit, rate},
             {"gaps", "group_buffer_bytes", Way::Raise, kNoLimit},
             {"terminated", "array.skip_cycles", Way::Lower, "0"},
             {"conflict", "array.discovery_cycles", Way::Lower, "1"},

@@ -4,6 +4,7 @@
 
 #include "base/grouped_number.hpp"
 #include "baselines/gcc/gcc.hpp"
+#include "baselines/gcc/streams.hpp"
 
 namespace degs::gcc {
 
@@ -26,8 +27,65 @@ void Engine::collect(AcceleratorResult& result) const {
                      config_.tile_contexts(), image_buffers_);
     collect_activity(result);
     streams_.collect(result);
+    collect_preparation(result);
+    collect_idle_keys(result);
     collect_laws(result);
     explain(result);
+}
+
+// The first task of a frame waits for all of Stage I, and of Stages II and III for the first group
+// of each cluster, in which no Gaussian is masked yet.
+void Engine::collect_preparation(AcceleratorResult& result) const {
+    if (!grouping_) {
+        return;
+    }
+    double first = 0;
+    for (std::size_t c = 0; c < std::min(arrays_.size(), job_.tiles.size()); ++c) {
+        first += static_cast<double>(
+            std::min<std::uint64_t>(config_.projection.group, job_.tiles[c].count));
+    }
+    const double frames = std::max(1.0, ratio_of(result.frames.size(), 1));
+    const auto share_of = [&](std::uint64_t gaussians) {
+        return gaussians == 0 ? 0 : std::min(1.0, first * frames / ratio_of(gaussians, 1));
+    };
+    const double listed = share_of(sum_of(projection_, &ProjectionStage::Stats::entries));
+    const double projected = share_of(sum_of(projection_, &ProjectionStage::Stats::shapes));
+    const double coloured = share_of(sum_of(colour_, &ColourStage::Stats::coloured));
+    for (StageUse& stage : result.stages) {
+        stage.prepares = stage.name == "projection" ? projected
+                         : stage.name == "colour"   ? coloured
+                                                    : stage.prepares;
+    }
+    for (StreamUse& stream : result.streams) {
+        stream.prepares = stream.name == kGroupListsRead.name     ? listed
+                          : stream.name == kShapes.name           ? projected
+                          : stream.name == stream_kinds::kSh.name ? coloured
+                                                                  : stream.prepares;
+    }
+}
+
+void Engine::collect_idle_keys(AcceleratorResult& result) const {
+    constexpr double kMatters = 0.2;     // of the cycles of Stage I
+    constexpr std::size_t kFewViews = 8; // for each cluster: one that comes late decides
+    if (grouping_) {
+        const Grouping::Stats& g = grouping_->stats();
+        const bool means = ratio_of(g.busy - g.entry_cycles, 1) > kMatters * ratio_of(g.busy, 1);
+        const bool entries = ratio_of(g.busy - g.mean_cycles, 1) > kMatters * ratio_of(g.busy, 1);
+        const std::string mean_key = "grouping.means_per_cycle";
+        const std::string entry_key = "grouping.entries_per_cycle";
+        if (!means) {
+            result.idle_keys.push_back(mean_key);
+        }
+        if (!entries) {
+            result.idle_keys.push_back(entry_key);
+        }
+        if (means || entries) {
+            result.idle_keys.push_back(mean_key + " and " + entry_key);
+        }
+    }
+    if (job_.tiles.size() > kFewViews * arrays_.size() * job_.frames.size()) {
+        result.idle_keys.emplace_back("view_size");
+    }
 }
 
 void Engine::collect_slots(AcceleratorResult& result) const {
@@ -42,7 +100,8 @@ void Engine::collect_slots(AcceleratorResult& result) const {
 void Engine::collect_stages(AcceleratorResult& result) const {
     if (grouping_) {
         const Grouping::Stats& g = grouping_->stats();
-        add_stage(result, {"grouping", "Stage I: groups by depth."}, 1, g.busy, counters_of(g));
+        add_stage(result, {"grouping", "Stage I: groups by depth.", false, 1}, 1, g.busy,
+                  counters_of(g));
     }
     if (dispatcher_) {
         const TileDispatcher::Stats& d = dispatcher_->stats();

@@ -69,6 +69,7 @@ private:
     void collect_activity(AcceleratorResult& result) const;
     void collect_laws(AcceleratorResult& result) const;
     void collect_supply_laws(AcceleratorResult& result) const;
+    void collect_idle_keys(AcceleratorResult& result) const;
     void explain(AcceleratorResult& result) const;
     void explain_ports(AcceleratorResult& result) const;
 

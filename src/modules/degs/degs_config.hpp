@@ -122,6 +122,10 @@ struct DegsConfig : AcceleratorConfig {
     int tile_contexts() const override { return clusters * contexts(); }
     TileCoupling tile_coupling(bool array_only) const override;
     std::vector<LossKey> loss_keys() const override;
+    /// Of the keys of the window of waiting segments, those that did not limit a run in which a bank
+    /// had up to `high_water` segments and `feature_waits` of the entries of the Feature Buffer, 0 to
+    /// 1, had to wait for a free one.
+    std::vector<std::string> idle_window_keys(std::uint64_t high_water, double feature_waits) const;
     TrafficConfig records() const override { return traffic; }
     cost::BillOfMaterials bill() const override;
     RecordOrder record_order() const override { return memory.layout; }
@@ -212,6 +216,8 @@ struct DegsConfig : AcceleratorConfig {
     }
 
 private:
+    /// What the waiting segments of a bank are limited by.
+    const char* queue_key() const;
     PixelBuffer::TilePixels tile_pixels() const { return {tile_size, pipeline.pixel_bits()}; }
     /// Packets in which a segment may lie at most.
     int packets_per_segment() const;

@@ -3,6 +3,13 @@
 #include "modules/degs/degs_config.hpp"
 
 namespace degs {
+namespace {
+
+constexpr const char* kFeatures = "feature_buffer.bytes";
+// A splat waits for its entry of the Feature Buffer so rarely that more entries would not help.
+constexpr double kRare = 0.02;
+
+} // namespace
 
 // The Packing Buffer holds the waiting segments, as many as it has room for if queue_segments_per_pe is 0, and the
 // packets, up to lead_packets.
@@ -12,10 +19,6 @@ std::vector<LossKey> DegsConfig::loss_keys() const {
         {"slicing", "slicing.count", Way::Raise, "64"},
         {"slicing", "slicing.splats_per_cycle", Way::Raise, "16"},
         {"span", "span.count", Way::Raise, "256"},
-        {"packing", "scheduler.issue_width", Way::Raise, kNoLimit},
-        {"packing", "scheduler.segments_per_cycle", Way::Raise, kNoLimit},
-        {"boundary", "pipeline.span_ends", Way::Set, "exact"},
-        {"boundary", "span.parsing", Way::Set, "true"},
         {"terminated", "scheduler.termination", Way::Set, "pixel"},
         {"ports", "pixel_buffer.sram_banks", Way::Raise, kNoLimit},
         {"ports", "packing.ports", Way::Set, "0"},
@@ -23,27 +26,52 @@ std::vector<LossKey> DegsConfig::loss_keys() const {
         {"blocked", "pixel_buffer.bytes", Way::Raise, kNoLimit},
         {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
     };
+    keys.push_back(span.parsing ? LossKey{"boundary", "pipeline.span_ends", Way::Set, "exact"}
+                                : LossKey{"boundary", "span.parsing", Way::Set, "true"});
     if (spans_are_pooled()) {
         keys.push_back({"span", "span.rows_per_cycle", Way::Raise, "64"});
     }
-    const bool fill_buffer = scheduler.queue_segments_per_pe == 0;
+    // A bank issues no more than it takes in.
+    const bool takes_less = scheduler.segments_per_cycle < scheduler.issue_width;
+    keys.push_back({"packing",
+                    takes_less ? "scheduler.segments_per_cycle" : "scheduler.issue_width",
+                    Way::Raise, kNoLimit});
+    const char* const queue = queue_key();
+    const char* const most = scheduler.queue_segments_per_pe == 0 ? kNoLimit : "256";
     for (const char* cause : {"gaps", "conflict"}) {
         keys.push_back({cause, "slicing.interleave", Way::Raise, "16"});
-        if (fill_buffer) {
-            keys.push_back({cause, "packing.bytes", Way::Raise, kNoLimit});
-        } else {
-            keys.push_back({cause, "scheduler.queue_segments_per_pe", Way::Raise, "256"});
-        }
+        keys.push_back({cause, queue, Way::Raise, most});
+        keys.push_back({cause, queue, Way::Raise, most, kFeatures});
     }
     keys.push_back(
         {"conflict", "scheduler.reuse_cycles", Way::Lower, "1", "array.writeback_cycles"});
-    keys.push_back({"conflict", "tile_size", Way::Raise, "1024", "pixel_buffer.bytes"});
     if (packing_depth() < packing.lead_packets) {
         keys.push_back({"full", "packing.bytes", Way::Raise, kNoLimit});
     } else {
         keys.push_back({"full", "packing.lead_packets", Way::Raise, "65536"});
     }
     return with(keys, common_loss_keys(memory));
+}
+
+const char* DegsConfig::queue_key() const {
+    return scheduler.queue_segments_per_pe == 0 ? "packing.bytes"
+                                                : "scheduler.queue_segments_per_pe";
+}
+
+// More waiting segments need more splats in the Feature Buffer: what has no entry cannot wait.
+std::vector<std::string> DegsConfig::idle_window_keys(std::uint64_t high_water,
+                                                      double feature_waits) const {
+    const bool queue_was_full = high_water >= static_cast<std::uint64_t>(queue_depth());
+    const bool features_were = feature_waits > kRare;
+    const std::string queue = queue_key();
+    std::vector<std::string> idle;
+    if (!queue_was_full || features_were) {
+        idle.push_back(queue);
+    }
+    if (!queue_was_full || !features_were) {
+        idle.push_back(queue + " and " + kFeatures);
+    }
+    return idle;
 }
 
 } // namespace degs

@@ -197,7 +197,25 @@ void Degs::collect(AcceleratorResult& result) const {
     streams_.collect(result);
     collect_laws(result);
     collect_supply_laws(result);
+    collect_idle_keys(result);
     explain(result);
+}
+
+void Degs::collect_idle_keys(AcceleratorResult& result) const {
+    std::uint64_t high_water = 0, waits = 0, entries = 0;
+    for (const auto& bank : blocks_.banks) {
+        high_water = std::max(high_water, bank->stats().queue_high_water);
+        waits += bank->features().stats().waits;
+        entries += bank->features().stats().entries;
+    }
+    const double share = entries == 0 ? 0 : ratio_of(waits, entries);
+    for (std::string& key : config_.idle_window_keys(high_water, share)) {
+        result.idle_keys.push_back(std::move(key));
+    }
+    constexpr std::uint64_t kFewTiles = 24; // of a cluster: streams would wait for the longest
+    if (job_.tiles.size() < kFewTiles * config_.clusters * result.frames.size()) {
+        result.idle_keys.emplace_back("slicing.interleave");
+    }
 }
 
 } // namespace degs

@@ -28,6 +28,9 @@ struct StageUse {
     double busy_cycles = 0;
     double busy = 0;
     Counters counters; ///< of the units
+    /// Share of its work for a frame that is over when the first task of this frame can start; 0 for
+    /// stages that tasks pass one after the other. Not a number of results.
+    double prepares = 0;
     void describe(StatsVisitor& visitor) const;
 };
 
@@ -46,9 +49,9 @@ struct BufferUse {
 };
 
 struct StreamUse {
-    std::string name;      ///< key in results
-    std::string sentence;  ///< what it carries
-    bool prepares = false; ///< see StreamKind
+    std::string name;     ///< key in results
+    std::string sentence; ///< what it carries
+    double prepares = 0;  ///< the same as of a stage, of its bytes
     std::uint64_t bytes_read = 0, bytes_written = 0, requests = 0;
     LatencyHistogram read_latency; ///< date of a request to its last byte; empty on a plain bus
     void describe(StatsVisitor& visitor) const;
@@ -107,6 +110,9 @@ struct AcceleratorResult {
     std::uint64_t background_tiles = 0, tiles_cancelled = 0;
     Cycle stopped = 0; ///< nothing was left to happen at this date
     std::vector<Conservation> conservation;
+    /// Of the keys that the accelerator names for its losses (LossKey::name()), those that limited
+    /// nothing in this run, so that to move them changes nothing.
+    std::vector<std::string> idle_keys;
     std::vector<std::string> left_out;               ///< sentences for --explain
     std::vector<Image> images;                       ///< one per frame
     TimelineRecord timeline;                         ///< if the run was asked for one

@@ -2,6 +2,7 @@
 // The keys of a design that move a loss of PE-cycles. Every accelerator answers for its own.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "modules/kit/config/main_memory_config.hpp"
@@ -14,6 +15,7 @@ struct LossKey {
 
     /// What PE-cycles are lost for: a class of slots, a stage that is busy, or one of
     /// * `memory`, its bandwidth, and `latency`, of memory or of the stages before the first task
+    /// * two of them, "memory and projection", that work at the same time and take equally long
     /// * `gaps`, an array that starves while nothing in front of it is busy
     /// * `full`, blocked by a full Packing Buffer, and `readout`, the pixels of the last tiles
     const char* cause;
@@ -21,6 +23,9 @@ struct LossKey {
     Way way;
     const char* limit;
     const char* linked = ""; ///< key that has to move with it
+
+    /// "KEY" or "KEY and KEY"
+    std::string name() const { return *linked == 0 ? key : std::string(key) + " and " + linked; }
 };
 
 inline constexpr const char* kNoLimit = "1e9"; ///< but the range of the key

@@ -58,6 +58,7 @@ void add_stage(AcceleratorResult& result, const Title& title, std::size_t units,
     stage.name = title.name;
     stage.sentence = title.sentence;
     stage.array = title.array;
+    stage.prepares = title.prepares;
     stage.units = static_cast<int>(units);
     stage.busy_cycles = static_cast<double>(busy_cycles);
     stage.busy = ratio_of(busy_cycles, units * result.cycles);

@@ -29,7 +29,8 @@ std::uint64_t sum_of(const Units& units, std::uint64_t Stats::*counter) {
 struct Title {
     const char* name;
     const char* sentence;
-    bool array = false; ///< see StageUse
+    bool array = false;  ///< see StageUse
+    double prepares = 0; ///< likewise
 };
 
 /// Adds a stage, or nothing if there are no units. The cycles of `result` must be known.

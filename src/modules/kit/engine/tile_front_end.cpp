@@ -109,16 +109,20 @@ void TileFrontEnd::collect(AcceleratorResult& result) const {
     using P = ProjectionUnit::Stats;
     const Cycle projecting =
         std::max(sum_of(projection_, &P::project_busy), sum_of(projection_, &P::shade_busy));
-    add_stage(
-        result,
-        {"projection", "Projection Units; projecting and shading overlap, the busier counts."},
-        projection_.size(), projecting, Counters().add(projection_));
+    add_stage(result,
+              {"projection", "Projection Units; projecting and shading overlap, the busier counts.",
+               false, 1},
+              projection_.size(), projecting, Counters().add(projection_));
     add_stage(result, {"sorting", "Sorting Units; waiting for memory is not busy."},
               sorting_.size(), sum_of(sorting_, &SortingUnit::Stats::sort_busy),
               Counters().add(sorting_));
     using H = HierarchicalSorter::Stats;
     const Cycle hierarchical =
         std::max(sum_of(hierarchical_, &H::coarse_busy), sum_of(hierarchical_, &H::fine_busy));
+    if (!hierarchical_.empty() &&
+        sum_of(hierarchical_, &H::coarse_busy) < sum_of(hierarchical_, &H::fine_busy)) {
+        result.idle_keys.emplace_back("sorting.keys_per_cycle"); // the rate of the coarse step
+    }
     add_stage(result,
               {"sorting", "Hierarchical Sorters; the two steps overlap, the busier counts."},
               hierarchical_.size(), hierarchical, Counters().add(hierarchical_));

@@ -67,10 +67,13 @@ void MemoryStreams::collect_streams(AcceleratorResult& result) const {
         auto stream = std::find_if(result.streams.begin(), result.streams.end(),
                                    [&](const StreamUse& s) { return s.name == name(i); });
         if (stream == result.streams.end()) {
-            stream = result.streams.insert(
-                stream,
-                StreamUse{
-                    name(i), streams_[i].kind.sentence, streams_[i].kind.prepares, 0, 0, 0, {}});
+            stream = result.streams.insert(stream, StreamUse{name(i),
+                                                             streams_[i].kind.sentence,
+                                                             streams_[i].kind.prepares ? 1.0 : 0.0,
+                                                             0,
+                                                             0,
+                                                             0,
+                                                             {}});
         }
         stream->bytes_read += traffic.bytes_read;
         stream->bytes_written += traffic.bytes_written;
