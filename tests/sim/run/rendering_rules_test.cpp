@@ -177,9 +177,9 @@ TEST(RulesOfNumbers, CutsHoldInEveryNumberSet) {
                 Words words = arguments;
                 words.insert(words.end(), {"--out", folder / fidelity, "--fidelity", fidelity});
                 expect_success(degs(words));
-                auto json = report_in(folder / fidelity);
-                json.erase("host");
-                return json;
+                auto document = report_in(folder / fidelity);
+                document.erase("host");
+                return document;
             };
             const auto exact = report("exact");
             EXPECT_EQ(exact, report("strict"));

@@ -10,6 +10,8 @@
 namespace degs::sim_test {
 namespace {
 
+using Words = std::vector<std::string>;
+
 TEST(HelpCommand, SaysWhatTheOptionSays) {
     for (const std::vector<std::string>& command :
          std::vector<std::vector<std::string>>{{}, {"run"}, {"scene"}, {"scene", "info"}}) {
@@ -104,7 +106,6 @@ std::vector<std::string> completions(const std::vector<std::string>& words,
 }
 
 TEST(BashCompletion, KnowsCommandsOptionsAndValues) {
-    using Words = std::vector<std::string>;
     EXPECT_EQ(completions({"degs", "re"}), (Words{"registers", "render"}));
     EXPECT_EQ(completions({"degs", "co"}), (Words{"compare", "config"}));
     EXPECT_EQ(completions({"degs", "scene", ""}),
@@ -155,7 +156,6 @@ TEST(ZshCompletion, HasTheOptionsAndCommandsOfTheHelp) {
     const Outcome outcome = degs({"help", "--zsh-completion"});
     expect_success(outcome);
     EXPECT_EQ(outcome.out.rfind("#compdef degs\n", 0), 0U);
-    using Words = std::vector<std::string>;
     for (const Words& command : std::vector<Words>{{"run"},
                                                    {"compare"},
                                                    {"render"},

@@ -15,7 +15,7 @@
 namespace degs {
 namespace {
 
-constexpr int kTile = 8;
+constexpr int kTilePixels = 8;
 
 /// q' of a pixel from its definition, in long double.
 long double exponent_of(const ProjectedSplat& s, int x, int y) {
@@ -39,17 +39,18 @@ double size_of_terms(const GemmRow<T>& v, double x, double y, const GemmSplat<T>
 
 template <class T>
 void expect_exponents(int origin_of_image) {
-    const FrameWorkload frame = test::soft_frame(3, 300, 160, 120, kTile);
+    const FrameWorkload frame = test::soft_frame(3, 300, 160, 120, kTilePixels);
     const double epsilon = std::numeric_limits<T>::epsilon();
     for (const ProjectedSplat& splat : frame.splats) {
         const int px = static_cast<int>(std::lround(splat.mu_x));
         const int py = static_cast<int>(std::lround(splat.mu_y));
         const auto s = gemm_splat<T>(splat, px, py, 2 * std::log(splat.opacity));
-        const int ox = origin_of_image == 0 ? 0 : px / kTile * kTile + kTile / 2;
-        const int oy = origin_of_image == 0 ? 0 : py / kTile * kTile + kTile / 2;
+        const int ox = origin_of_image == 0 ? 0 : px / kTilePixels * kTilePixels + kTilePixels / 2;
+        const int oy = origin_of_image == 0 ? 0 : py / kTilePixels * kTilePixels + kTilePixels / 2;
         const GemmRow<T> v = s.row(ox, oy);
-        for (int i = 0; i < kTile * kTile; ++i) {
-            const int x = px / kTile * kTile + i % kTile, y = py / kTile * kTile + i / kTile;
+        for (int i = 0; i < kTilePixels * kTilePixels; ++i) {
+            const int x = px / kTilePixels * kTilePixels + i % kTilePixels,
+                      y = py / kTilePixels * kTilePixels + i / kTilePixels;
             const T got = gemm_product(v, gemm_monomials<T>(T(x - ox), T(y - oy)));
             // Mean, conic and fold are rounded once each; a term has at most 8 operations.
             const double bound = 16 * epsilon * size_of_terms(v, x - ox, y - oy, s, ox, oy);
@@ -84,32 +85,32 @@ TEST(ExponentGemm, ByHand) {
 
 // In double precision, against a loop of its own over pixels and splats: the same bits.
 TEST(ExponentGemm, DataPathAddsInTheOrderOfTheReduction) {
-    const FrameWorkload frame = test::soft_frame(9, 400, 64, 48, kTile);
+    const FrameWorkload frame = test::soft_frame(9, 400, 64, 48, kTilePixels);
     DataPathOptions options = named_numbers("fp64");
     options.gemm = ExponentGemm{GemmOrigin::Tile, {}, {}};
-    const auto path = make_data_path(options, kTile, 1);
+    const auto path = make_data_path(options, kTilePixels, 1);
     path->add_frame(frame);
     const std::size_t tile = 3 * frame.tiles_x + 4;
-    const int x0 = 4 * kTile, y0 = 3 * kTile;
+    const int x0 = 4 * kTilePixels, y0 = 3 * kTilePixels;
     struct Pixel {
         double t = 1, rgb[3] = {0, 0, 0};
         bool live = true;
-    } pixels[kTile * kTile];
+    } pixels[kTilePixels * kTilePixels];
     for (auto i = frame.tile_begin[tile]; i < frame.tile_begin[tile + 1]; ++i) {
         const ProjectedSplat& s = frame.splats[frame.tile_splats[i]];
         PixelTest test;
         test.splat = frame.tile_splats[i];
-        test.mask = bits_between(0, kTile);
+        test.mask = bits_between(0, kTilePixels);
         test.x = x0;
         test.y = y0;
-        BlendOutcome outcomes[kTile];
-        path->test_rows(test, kTile, outcomes);
+        BlendOutcome outcomes[kTilePixels];
+        path->test_rows(test, kTilePixels, outcomes);
         const double ax = s.cov_c / s.det, b = -s.cov_b / s.det, c = s.cov_a / s.det;
         const double dx = (std::nearbyint(s.mu_x) - (x0 + 4)) + (s.mu_x - std::nearbyint(s.mu_x));
         const double dy = (std::nearbyint(s.mu_y) - (y0 + 4)) + (s.mu_y - std::nearbyint(s.mu_y));
         const double e = (ax * dx * dx + 2 * b * dx * dy + c * dy * dy) - 2 * std::log(s.opacity);
-        for (int p = 0; p < kTile * kTile; ++p) {
-            const double x = p % kTile - 4, y = p / kTile - 4;
+        for (int p = 0; p < kTilePixels * kTilePixels; ++p) {
+            const double x = p % kTilePixels - 4, y = p / kTilePixels - 4;
             double q = ax * (x * x);
             q += c * (y * y);
             q += 2 * b * (x * y);
@@ -132,8 +133,8 @@ TEST(ExponentGemm, DataPathAddsInTheOrderOfTheReduction) {
             pixel.t = after;
         }
     }
-    for (int p = 0; p < kTile * kTile; ++p) {
-        const PixelValue value = path->read_pixel(0, p / kTile, p % kTile);
+    for (int p = 0; p < kTilePixels * kTilePixels; ++p) {
+        const PixelValue value = path->read_pixel(0, p / kTilePixels, p % kTilePixels);
         EXPECT_EQ(value.transmittance, pixels[p].t) << p;
         for (int k = 0; k < 3; ++k) {
             EXPECT_EQ(value.rgb[k], pixels[p].rgb[k]) << p;
@@ -143,7 +144,7 @@ TEST(ExponentGemm, DataPathAddsInTheOrderOfTheReduction) {
 
 // FP16 operands and FP32 sums: the exponent is off by no more than the roundings of the operands.
 TEST(ExponentGemm, HalfOperandsCostWhatTheirRoundingCosts) {
-    const FrameWorkload frame = test::soft_frame(5, 300, 96, 64, kTile);
+    const FrameWorkload frame = test::soft_frame(5, 300, 96, 64, kTilePixels);
     const auto render = [&](const NumberFormat& operands) {
         DataPathOptions options = named_numbers("ideal");
         options.set = number_set("ideal");
