@@ -13,8 +13,8 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <zlib.h>
 
-#include <baselines/design.hpp>
 #include <base/error.hpp>
+#include <baselines/design.hpp>
 #include <driver/degs_driver.h>
 #include <platform/accelerator.hpp>
 #include <scene/scene.hpp>

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "modules/kit/memory/stream_kinds.hpp"
 #include "baselines/gcc/streams.hpp"
+#include "modules/kit/memory/stream_kinds.hpp"
 
 namespace degs::gcc {
 
