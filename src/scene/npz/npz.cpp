@@ -110,11 +110,12 @@ private:
         }
         bool as_scales = scan.scales_look_activated();
         bool as_opacities = scan.opacities_look_activated();
-        if (as_scales != as_opacities &&
-            count_ < kFewestToJudge) { // too few to differ in one alone
+        std::string note = taken_as_they_are_note(as_scales, as_opacities);
+        if (as_scales != as_opacities && count_ < kFewestToTake) {
             as_scales = as_opacities = false;
+            note = activated_note(scan, count_);
         }
-        if (std::string note = taken_as_they_are_note(as_scales, as_opacities); !note.empty()) {
+        if (!note.empty()) {
             content_.notes.push_back(std::move(note));
         }
         for (std::uint64_t i = 0; i < count_; ++i) {

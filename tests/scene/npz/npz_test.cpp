@@ -111,29 +111,40 @@ TEST(Npz, ReadsValuesThatAreReadyToDraw) {
     EXPECT_THAT(content.notes[0], IsSentenceWith("not as logarithms"));
 }
 
-NpzBuilder four_gaussians(float scale, float opacity) {
+NpzBuilder even_gaussians(std::size_t count, float scale, float opacity) {
+    const std::string n = std::to_string(count);
     NpzBuilder npz;
-    npz.add("means", "(4, 3)", std::vector<float>(12, 1));
-    npz.add("quats", "(4, 4)", std::vector<float>(16, 0.5F));
-    npz.add("scales", "(4, 3)", std::vector<float>(12, scale));
-    npz.add("opacities", "(4,)", std::vector<float>(4, opacity));
-    npz.add("sh0", "(4, 1, 3)", std::vector<float>(12, 0.25F));
+    npz.add("means", "(" + n + ", 3)", std::vector<float>(3 * count, 1));
+    npz.add("quats", "(" + n + ", 4)", std::vector<float>(4 * count, 0.5F));
+    npz.add("scales", "(" + n + ", 3)", std::vector<float>(3 * count, scale));
+    npz.add("opacities", "(" + n + ",)", std::vector<float>(count, opacity));
+    npz.add("sh0", "(" + n + ", 1, 3)", std::vector<float>(3 * count, 0.25F));
     return npz;
 }
 
 // Scales and opacities are looked at each for itself.
 TEST(Npz, ReadsScalesOrOpacitiesThatAreReadyToDraw) {
-    const SceneContent scales = content_of(four_gaussians(0.2F, 3));
+    const SceneContent scales = content_of(even_gaussians(100, 0.2F, 3));
     EXPECT_EQ(scales.cloud.scales[0].x, 0.2F);
     EXPECT_FLOAT_EQ(scales.cloud.opacities[0], 1 / (1 + std::exp(-3.0F)));
     EXPECT_THAT(scales.notes, testing::Contains(IsSentenceWith(
                                   "No scale is negative, so the scales were taken as they are, not "
                                   "as logarithms.")));
-    const SceneContent opacities = content_of(four_gaussians(-2, 0.9F));
+    const SceneContent opacities = content_of(even_gaussians(100, -2, 0.9F));
     EXPECT_FLOAT_EQ(opacities.cloud.scales[0].x, std::exp(-2.0F));
     EXPECT_EQ(opacities.cloud.opacities[0], 0.9F);
     EXPECT_THAT(opacities.notes, testing::Contains(IsSentenceWith("the opacities were taken as")));
-    EXPECT_TRUE(content_of(four_gaussians(-2, 3)).notes.empty());
+    EXPECT_TRUE(content_of(even_gaussians(100, -2, 3)).notes.empty());
+}
+
+// A few logarithms of large scales, or logits of even opacities, look the same by chance.
+TEST(Npz, DoubtsScalesOrOpacitiesOfFewGaussians) {
+    const SceneContent scales = content_of(even_gaussians(99, 0.2F, 3));
+    EXPECT_FLOAT_EQ(scales.cloud.scales[0].x, std::exp(0.2F));
+    EXPECT_THAT(scales.notes, testing::Contains(IsSentenceWith("they were read as logarithms")));
+    const SceneContent opacities = content_of(even_gaussians(99, -2, 0.9F));
+    EXPECT_FLOAT_EQ(opacities.cloud.opacities[0], 1 / (1 + std::exp(-0.9F)));
+    EXPECT_THAT(opacities.notes, testing::Contains(IsSentenceWith("they were read as logits")));
 }
 
 TEST(Npz, DropsDegreeFour) {
