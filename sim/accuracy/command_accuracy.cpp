@@ -6,7 +6,6 @@
 
 #include "base/error.hpp"
 #include "base/visible_text.hpp"
-#include "baselines/orange/config.hpp"
 #include "scene/files/input_file.hpp"
 #include "scene/scene_spec.hpp"
 #include "sim/accuracy/accuracy.hpp"
@@ -18,6 +17,7 @@
 #include "sim/shell/scene_list.hpp"
 #include "sim/shell/view_options.hpp"
 #include "sim/text/standard_output.hpp"
+#include "splat/pixels/quantized_gemm.hpp"
 
 namespace degs::sim {
 namespace {
@@ -107,9 +107,8 @@ SceneAccuracyRequest scene_request(const AccuracyOptions& options) {
     request.tile_size = options.tile_size;
     request.near_plane = options.near_plane;
     if (!options.products.empty()) {
-        orange::Config::Gemm gemm;
-        gemm.origin = options.products == "tile" ? GemmOrigin::Tile : GemmOrigin::Image;
-        request.gemm = gemm;
+        request.gemm =
+            half_precision_gemm(options.products == "tile" ? GemmOrigin::Tile : GemmOrigin::Image);
     }
     request.error_images = !options.no_error_images;
     return request;
@@ -265,8 +264,7 @@ void add_scene_options(CLI::App& command, AccuracyOptions& options) {
     command
         .add_option(
             "--products", options.products,
-            "exponents as products of matrices, as the array of orange forms them, from the middle "
-            "of "
+            "exponents as products of matrices, as a systolic array forms them, from the middle of "
             "each tile or from the corner of the image; number sets multiply FP16 and add FP32")
         ->check(CLI::IsMember({"tile", "image"}));
     command.add_flag("--no-error-images", options.no_error_images,

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "modules/kit/job/family_size.hpp"
+#include "splat/pixels/quantized_gemm.hpp"
 #include "tlm/ceil_div.hpp"
 
 namespace degs::orange {
@@ -20,7 +21,7 @@ Config::Config() {
     pixel_buffer.readout_pixels = 256;
 }
 
-Config::Gemm::Gemm() : ExponentGemm{GemmOrigin::Tile, parse_format("fp16"), parse_format("fp32")} {}
+Config::Gemm::Gemm() : ExponentGemm(half_precision_gemm(GemmOrigin::Tile)) {}
 
 void Config::Gemm::describe(ConfigVisitor& visitor) {
     visitor.choice(

@@ -13,6 +13,10 @@ Rounder rounder_of(const std::optional<ExponentGemm>& gemm, NumberFormat Exponen
 
 } // namespace
 
+ExponentGemm half_precision_gemm(GemmOrigin origin) {
+    return {origin, parse_format("fp16"), parse_format("fp32")};
+}
+
 QuantizedGemm::QuantizedGemm(const QuantizedRow& row, const std::optional<ExponentGemm>& gemm)
     : gemm_(gemm), unit_(row.unit()), operand_(rounder_of(gemm, &ExponentGemm::operands)),
       sum_(rounder_of(gemm, &ExponentGemm::sums)), q_(row.set().q) {}

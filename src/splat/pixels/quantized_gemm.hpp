@@ -10,6 +10,9 @@
 
 namespace degs {
 
+/// Products with FP16 operands and single-precision sums, as tensor cores and arrays like them have.
+ExponentGemm half_precision_gemm(GemmOrigin origin);
+
 /// Exponents of a number set as products of matrices (exponent_gemm.hpp). A vector unit forms coefficients and
 /// monomials in single precision and rounds each once to the format of the operands; every product and every sum is
 /// rounded to that of the sums, and the exponent to that of q.
