@@ -27,8 +27,9 @@ private:
 
 /// Gaussians of which the values say something about their whole scene.
 constexpr std::size_t kFewestToJudge = 4;
-/// Gaussians of which one kind of values alone, scales or opacities, decides how a file of an open format is read. Large
-/// units of length or even opacities keep a few logarithms or logits within the range as well, but not a hundred.
+/// Gaussians of which one kind of values alone, scales or opacities, decides how a file of an open
+/// format is read. Large units of length or even opacities keep a few logarithms or logits within
+/// the range as well, but not a hundred.
 constexpr std::size_t kFewestToTake = 100;
 
 /// What a reader says of a file whose format has logarithms and logits, and some of whose values do not
