@@ -29,7 +29,7 @@ struct Times {
         fragments = report["slots"]["useful"].get<double>();
         accesses = 0;
         for (const auto& count :
-             report.value("/memory/channels/accesses"_json_pointer, nlohmann::json::object())) {
+             report.value("/dram/channels/accesses"_json_pointer, nlohmann::json::object())) {
             accesses += count.get<double>();
         }
     }
