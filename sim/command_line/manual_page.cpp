@@ -58,7 +58,8 @@ void add_command(const CommandEntry& command, std::string& page) {
 
 constexpr const char* kDescription =
     R"(.B degs
-renders scenes of 3D Gaussians on transaction\-level models of accelerators. It reports the cycles that a frame takes, what every processing element did or waited for,
+renders scenes of 3D Gaussians on transaction\-level models of accelerators. It reports the cycles
+that a frame takes, what every processing element did or waited for,
 how busy the memory was, and how far the image is from double precision. An accelerator is
 described by a configuration file; files for many designs are installed with the program.
 .PP

@@ -137,7 +137,7 @@ std::string memory_words(const MemoryFacts& facts) {
     const LatencyHistogram& latency = latency_of(result);
     std::string text = layout(
         {{"memory", facts.memory.name + " · " + std::to_string(memory.channels) + " channels · " +
-                        as_typed(memory.peak_gb_per_s()) + " GB/s"},
+                        decimal_text(memory.peak_gb_per_s()) + " GB/s"},
          {"traffic", facts.shape.pattern + " · " + std::to_string(facts.shape.request_bytes) +
                          " B · " + mix_words(facts.shape) + " · " + grouped(result.requests) +
                          " requests · queues of " + std::to_string(memory.controller.read_queue)},

@@ -41,11 +41,13 @@ std::vector<double> LogAxis::ticks() const {
 void draw_log_axes(Svg& svg, const LogAxis& x, const LogAxis& y) {
     for (const double tick : y.ticks()) {
         svg.line(x.begin, y.at(tick), x.end, y.at(tick), kGrid, 1);
-        svg.text(x.begin - 8, y.at(tick) + 4, as_typed(tick), {kSmallText, kGrey, "end", false});
+        svg.text(x.begin - 8, y.at(tick) + 4, decimal_text(tick),
+                 {kSmallText, kGrey, "end", false});
     }
     for (const double tick : x.ticks()) {
         svg.line(x.at(tick), y.begin, x.at(tick), y.begin + 5, kGrey, 1);
-        svg.text(x.at(tick), y.begin + 19, as_typed(tick), {kSmallText, kGrey, "middle", false});
+        svg.text(x.at(tick), y.begin + 19, decimal_text(tick),
+                 {kSmallText, kGrey, "middle", false});
     }
     svg.line(x.begin, y.begin, x.end, y.begin, kGrey, 1);
 }

@@ -22,7 +22,8 @@ struct LatencyAxes {
 void draw_axes(Svg& svg, const LatencyAxes& axes, double tick) {
     for (double ns = 0; ns <= axes.top_ns * 1.001; ns += tick) {
         svg.line(kChartLeft, axes.y(ns), kChartRight, axes.y(ns), kGrid, 1);
-        svg.text(kChartLeft - 8, axes.y(ns) + 4, as_typed(ns), {kSmallText, kGrey, "end", false});
+        svg.text(kChartLeft - 8, axes.y(ns) + 4, decimal_text(ns),
+                 {kSmallText, kGrey, "end", false});
     }
     for (int tenth = 0; tenth <= 10; ++tenth) {
         const double x = axes.x(tenth / 10.0);

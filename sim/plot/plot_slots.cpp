@@ -127,7 +127,7 @@ void draw_axis(Svg& svg, const Columns& columns, double top, double bottom, doub
     for (int i = 0; i * tick <= longest * 1.0001; ++i) {
         const double x = columns.left + i * tick * scale;
         svg.line(x, top, x, bottom, kGrid, 1);
-        svg.text(x, bottom + 17, as_typed(i * tick) + (i == 0 ? " ms" : ""),
+        svg.text(x, bottom + 17, decimal_text(i * tick) + (i == 0 ? " ms" : ""),
                  {kSmallText, kGrey, "middle", false});
     }
 }

@@ -84,10 +84,12 @@ private:
                                          ratio_of(run_.window.cycles(), 1);
     }
 
-    /// The last pixels are read out, and then on their way to the memory.
+    /// The last pixels are read out, and then on their way to the memory. Only a memory whose latency
+    /// is a key names one for it; LPDDR5 leaves memory.latency_ns without effect.
     std::string after_cause(double cycles) const {
         const double latency = keys_.number("memory.latency_ns").value_or(0) * run_.clock_ghz;
-        return memory_bound() ? "memory" : latency > cycles / 2 ? "latency" : "readout";
+        const bool is_latency = latency > cycles / 2 && !keys_.of("latency").empty();
+        return memory_bound() ? "memory" : is_latency ? "latency" : "readout";
     }
 
     /// Tiles wait for their contexts while finished ones wait for the memory.

@@ -66,7 +66,7 @@ bool LossKeys::allows(const LossKey& knob) const {
         const double now = value(name)->get<double>();
         const double to =
             knob.way == Way::Raise ? std::max(now, 1.0) * factor : std::floor(now / factor);
-        return name + "=" + as_typed(to);
+        return name + "=" + decimal_text(to);
     };
     for (const double factor : {2.0, 4.0, 8.0, 16.0}) {
         const std::string first = setting(key, factor);

@@ -21,12 +21,12 @@ namespace {
 /// `sides` in double, so that no product of two int overflows.
 void check_pixels(double width, double height) {
     if (width * height > static_cast<double>(kMostPixels)) {
-        throw InputError("An image of " + as_typed(width) + " x " + as_typed(height) +
+        throw InputError("An image of " + decimal_text(width) + " x " + decimal_text(height) +
                          " pixels is too large; at most " + grouped(kMostPixels) +
                          " pixels (8192 x 4320) are allowed.");
     }
     if (std::max(width, height) > kMostImageSide) {
-        throw InputError("An image of " + as_typed(width) + " x " + as_typed(height) +
+        throw InputError("An image of " + decimal_text(width) + " x " + decimal_text(height) +
                          " pixels cannot be written as PNG; at most " + grouped(kMostImageSide) +
                          " pixels to a side are allowed.");
     }

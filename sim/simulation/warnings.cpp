@@ -31,7 +31,7 @@ std::vector<std::string> near_plane_warnings(const CullCounts& culled,
     if (culled.near_in_view == 0) {
         return {};
     }
-    return {"The near plane at z = " + as_typed(options.near_plane) + " removes " +
+    return {"The near plane at z = " + decimal_text(options.near_plane) + " removes " +
             grouped(culled.near_in_view) + " of " + grouped(gaussians) +
             " Gaussians, although they lie inside the view; pipeline.rules.near, or --near of "
             "commands without a configuration, sets another plane."};

@@ -34,10 +34,10 @@ std::string soc_svg(const std::string& title, const std::vector<SocPoint>& point
     svg.text(16, 30, title, {16, kInk, "start", true});
     for (int i = 0; i <= kTicks; ++i) {
         svg.line(kChartLeft, y(i * y_tick), kChartRight, y(i * y_tick), kGrid, 1);
-        svg.text(kChartLeft - 8, y(i * y_tick) + 4, as_typed(i * y_tick),
+        svg.text(kChartLeft - 8, y(i * y_tick) + 4, decimal_text(i * y_tick),
                  {kSmallText, kGrey, "end", false});
         svg.line(x(i * x_tick), kSocTop, x(i * x_tick), kChartBottom, kGrid, 1);
-        svg.text(x(i * x_tick), kChartBottom + 18, as_typed(i * x_tick),
+        svg.text(x(i * x_tick), kChartBottom + 18, decimal_text(i * x_tick),
                  {kSmallText, kGrey, "middle", false});
     }
     svg.text((kChartLeft + kChartRight) / 2, kChartBottom + 42,

@@ -53,7 +53,7 @@ std::string soc_words(const SocRequest& request, const View& view, const SocResu
     TextTable table({"CPU asks GB/s", "gets", "display", "accelerator GB/s", "frame ms", "slower"});
     const double alone = result.points.front().frame.latency_ns;
     for (const SocPoint& p : result.points) {
-        table.add({as_typed(p.offered_gb_per_s), three_digits(p.cpu_gb_per_s),
+        table.add({decimal_text(p.offered_gb_per_s), three_digits(p.cpu_gb_per_s),
                    three_digits(p.display_gb_per_s), three_digits(p.accelerator_gb_per_s),
                    three_digits(p.frame.latency_ns / 1e6),
                    three_digits(p.frame.latency_ns / alone) + "x"});
@@ -61,7 +61,7 @@ std::string soc_words(const SocRequest& request, const View& view, const SocResu
     const std::string heading = request.config.accelerator().name + " · " + view.scene.name +
                                 " · " + std::to_string(view.camera.width) + "×" +
                                 std::to_string(view.camera.height) + " · " + request.memory.name +
-                                ", " + as_typed(request.memory.peak_gb_per_s()) + " GB/s · " +
+                                ", " + decimal_text(request.memory.peak_gb_per_s()) + " GB/s · " +
                                 std::to_string(request.cores) + " cores";
     return visible(heading) + "\n" + table.text() + "pixels  the same under every load · " +
            three_digits(result.psnr_db) + " dB against double precision, 8 bits per channel\n" +

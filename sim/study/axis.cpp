@@ -237,7 +237,7 @@ std::string value_text(const AxisValue& value, const KeyDoc& key) {
         return value.text;
     }
     if (value.draw) {
-        return as_typed(drawn(*value.draw, key, value.place));
+        return decimal_text(drawn(*value.draw, key, value.place));
     }
     const std::optional<Quantity> quantity =
         value.quantity ? value.quantity : parse_quantity(value.text);
@@ -245,7 +245,7 @@ std::string value_text(const AxisValue& value, const KeyDoc& key) {
         throw InputError(value.place + ": key " + quote(key.path) + " is " + quote(value.text) +
                          ", but must be a number with an optional unit.");
     }
-    return as_typed(number_for(key, *quantity, value.place));
+    return decimal_text(number_for(key, *quantity, value.place));
 }
 
 } // namespace degs::sim

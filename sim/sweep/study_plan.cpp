@@ -79,14 +79,14 @@ std::vector<std::string> digests_of_scenes(const CompareRequest& request) {
 std::string run_options(const CompareRequest& request) {
     std::string text = std::to_string(request.path.frames);
     if (request.path.frames > 1) {
-        text += " of " + as_typed(request.path.step_degrees);
+        text += " of " + decimal_text(request.path.step_degrees);
         const double near = nearest_plane(request.configs);
-        text += near == ProjectionOptions().near_plane ? "" : " about near " + as_typed(near);
+        text += near == ProjectionOptions().near_plane ? "" : " about near " + decimal_text(near);
     }
     text += request.array_only ? " array_only" : "";
     text += request.reference && !request.sampling ? " reference" : "";
     if (const std::optional<SamplingRequest>& sampling = request.sampling) {
-        text += " within " + as_typed(sampling->within) + " " + sampling->measure + " " +
+        text += " within " + decimal_text(sampling->within) + " " + sampling->measure + " " +
                 std::to_string(sampling->seed);
     }
     return text;

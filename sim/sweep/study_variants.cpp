@@ -63,7 +63,7 @@ const KeyDoc& key_of(const LoadedDesign& design, const std::string& path,
 /// The value of a design as it stands, written as axes write theirs.
 std::string own_text(const KeyDoc& key) {
     if (key.type == "integer" || key.type == "real") {
-        return as_typed(std::strtod(key.default_value.c_str(), nullptr));
+        return decimal_text(std::strtod(key.default_value.c_str(), nullptr));
     }
     return key.type == "text" ? nlohmann::json::parse(key.default_value).get<std::string>()
                               : key.default_value;

@@ -11,14 +11,10 @@
 
 namespace degs::sim {
 
+using degs::decimal_text;
 using degs::grouped;
 /// Three significant digits without exponent: 2.108 -> "2.11", 473.9 -> "474", 51234 -> "51200".
 std::string three_digits(double value);
-/// Fifteen significant digits at most, without trailing zeros: what a person typed, as it was
-/// typed, and 76.80000000000001, which arithmetic made, as 76.8.
-inline std::string as_typed(double value) {
-    return decimal_text(value);
-}
 /// The shortest decimal that reads back to the value that was meant: a short one that the value misses
 /// by no more than rounding does (2.178 for 2.1780000000000004, which a sum made), else the value's own.
 std::string decimal_of(double value);

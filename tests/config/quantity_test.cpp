@@ -65,6 +65,9 @@ TEST(Quantity, IsNoTextAndNoNumberWrittenWrong) {
 }
 
 TEST(Quantity, TextOfADecimalHasNoRounding) {
+    EXPECT_EQ(decimal_text(0), "0");
+    EXPECT_EQ(decimal_text(16384), "16384");
+    EXPECT_EQ(decimal_text(12.3456789), "12.3456789");
     EXPECT_EQ(decimal_text(0.07 * 100), "7");
     EXPECT_EQ(decimal_text(51.2 * 4), "204.8");
     EXPECT_EQ(decimal_text(0.1 + 0.2), "0.3");

@@ -40,7 +40,7 @@ public:
         }
     }
 
-    /// What the cache has written.
+    /// The bytes of an entry as the cache wrote them.
     const std::string& whole(Entry kind) const { return whole_.at(at(kind)); }
     std::string content(Entry kind) const {
         return whole(kind).substr(whole(kind).size() - content_bytes(kind));

@@ -216,7 +216,7 @@ struct DegsConfig : AcceleratorConfig {
     }
 
 private:
-    /// What the waiting segments of a bank are limited by.
+    /// The key that limits how many segments wait in a bank.
     const char* queue_key() const;
     PixelBuffer::TilePixels tile_pixels() const { return {tile_size, pipeline.pixel_bits()}; }
     /// Packets in which a segment may lie at most.

@@ -82,6 +82,25 @@ TEST(Losses, KeysOfAnotherMemoryModelAreNotNamed) {
 }
 
 // The waiting segments share it with the packets: with few of them there is nothing to choose from.
+// LPDDR5 has no use for the bus's latency, so that it decides no cause either.
+TEST(Losses, TheLatencyOfTheBusSaysNothingAboutLpddr5) {
+    for (const char* const design : {"degs-64", "gscore-64", "gbu-64", "orange-o2"}) {
+        const auto losses = [&](const std::string& latency) {
+            const Folder folder;
+            const Outcome outcome =
+                degs({"run", config(design), "--scene", kObject, "--width", "240", "--memory",
+                      config("memory/lpddr5-6400x256"), "--no-reference", "--set",
+                      "memory.latency_ns=" + latency, "--out", folder / "out"});
+            EXPECT_EQ(outcome.code, 0) << outcome.err;
+            return report_in(folder / "out")["losses"];
+        };
+        const nlohmann::json expected = losses("0");
+        EXPECT_FALSE(expected.empty());
+        EXPECT_EQ(losses("100"), expected) << design;
+        EXPECT_EQ(losses("5000"), expected) << design;
+    }
+}
+
 TEST(Losses, ATinyPackingBufferLeavesNoChoice) {
     const std::string filled = "scheduler.queue_segments_per_pe=0";
     const std::string line =

@@ -29,13 +29,6 @@ TEST(Words, ThreeDigits) {
     EXPECT_EQ(three_digits(-0.5), "-0.500");
 }
 
-TEST(Words, AsTyped) {
-    EXPECT_EQ(as_typed(16384), "16384");
-    EXPECT_EQ(as_typed(12.3456789), "12.3456789");
-    EXPECT_EQ(as_typed(204.8 * 3 / 8), "76.8");
-    EXPECT_EQ(as_typed(0), "0");
-}
-
 TEST(Words, DecimalOfIsTheOneThatWasMeant) {
     EXPECT_EQ(decimal_of(0.1 + 0.2), "0.3");
     EXPECT_EQ(decimal_of(204.79999999999998), "204.8");

@@ -51,7 +51,7 @@ struct BufferUse {
 struct StreamUse {
     std::string name;     ///< key in results
     std::string sentence; ///< what it carries
-    double prepares = 0;  ///< the same as of a stage, of its bytes
+    double prepares = 0;  ///< share of its bytes; see StageUse::prepares
     std::uint64_t bytes_read = 0, bytes_written = 0, requests = 0;
     LatencyHistogram read_latency; ///< date of a request to its last byte; empty on a plain bus
     void describe(StatsVisitor& visitor) const;

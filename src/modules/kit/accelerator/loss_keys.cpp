@@ -34,11 +34,7 @@ std::vector<LossKey> common_loss_keys(const MainMemoryConfig& memory) {
     if (channels) {
         return with(bandwidth, front_end);
     }
-    return with(with(bandwidth,
-                     {
-                         {"latency", "memory.latency_ns", Way::Lower, "0"},
-                     }),
-                front_end);
+    return with(with(bandwidth, {{"latency", "memory.latency_ns", Way::Lower, "0"}}), front_end);
 }
 
 } // namespace degs

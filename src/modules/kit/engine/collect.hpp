@@ -30,7 +30,7 @@ struct Title {
     const char* name;
     const char* sentence;
     bool array = false;  ///< see StageUse
-    double prepares = 0; ///< likewise
+    double prepares = 0; ///< see StageUse
 };
 
 /// Adds a stage, or nothing if there are no units. The cycles of `result` must be known.
