@@ -3,7 +3,7 @@
 // docs/adding-an-accelerator.md, built and run by row_sweep_test.cpp.
 #pragma once
 
-#include "modules/kit/engine/tile_array_engine.hpp"
+#include "modules/kit/engine/array_accelerator.hpp"
 #include "tlm/has_process.hpp"
 
 namespace degs::example {
@@ -93,11 +93,11 @@ private:
     SlotAccount pending_; // idle slots since the last one that did something
 };
 
-class RowSweep : public TileArrayEngine {
+class RowSweep : public ArrayAccelerator {
 public:
     RowSweep(const char* name, const Parts& parts, const Timebase& time, RenderJob& job,
              const BuildOptions& options)
-        : TileArrayEngine(name, parts, time, job, options),
+        : ArrayAccelerator(name, parts, time, job, options),
           array_("array", time, job, share_of(0).inputs, parts.contexts) {
         connect(array_);
     }
@@ -118,7 +118,7 @@ private:
 
 struct RowSweepConfig : AcceleratorConfig {
     int tile_size = 16; ///< px, also the number of lanes
-    TileArrayEngine::Parts parts;
+    ArrayAccelerator::Parts parts;
 
     RowSweepConfig() { name = "row-sweep-16"; }
     std::unique_ptr<AcceleratorConfig> clone() const override {
@@ -163,7 +163,7 @@ struct RowSweepConfig : AcceleratorConfig {
     }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override {
-        TileArrayEngine::Parts sized = parts;
+        ArrayAccelerator::Parts sized = parts;
         sized.front.sort_capacity = 1024;
         sized.front.frames_in_flight = frames_in_flight;
         sized.frame_end = frame_end;

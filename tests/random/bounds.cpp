@@ -4,7 +4,7 @@
 
 #include "baselines/gbu/config.hpp"
 #include "baselines/orange/config.hpp"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/random/promises.hpp"
 
 namespace degs::trials {
@@ -46,7 +46,7 @@ void check_dates(const Finished& run, Complaints& complaints) {
     }
     complaints.equal("the run ends with its last frame", r.cycles, last);
     // Queues of GBU may run dry later, and ORANGE finishes products of tiles whose pixels have all ended.
-    if (dynamic_cast<const GbuConfig*>(&run.config) == nullptr &&
+    if (dynamic_cast<const gbu::Config*>(&run.config) == nullptr &&
         dynamic_cast<const orange::Config*>(&run.config) == nullptr) {
         complaints.at_most("the blending window ends before the run",
                            r.window.empty() ? 0 : r.window.last, r.cycles);

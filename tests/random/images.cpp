@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "accuracy/data_path_renderer.hpp"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "splat/frame/tile_window.hpp"
 #include "splat/reference/reference_renderer.hpp"
 #include "tests/random/promises.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bill of materials of GBU, and the activity of each block of it; docs/cost.md explains both.
-#include "baselines/gbu/gbu.hpp"
+#include "baselines/gbu/engine.hpp"
 
-namespace degs {
+namespace degs::gbu {
 
-cost::BillOfMaterials GbuConfig::bill() const {
+cost::BillOfMaterials Config::bill() const {
     const cost::Technology::Gbu& rows = cost.gbu;
     constexpr int kReadAndWritten = 2;
     constexpr int kSortingSteps = 2;
@@ -30,7 +30,7 @@ cost::BillOfMaterials GbuConfig::bill() const {
     return bill;
 }
 
-void Gbu::collect_activity(AcceleratorResult& result) const {
+void Engine::collect_activity(AcceleratorResult& result) const {
     using E = TileEngine::Stats;
     using R = ReuseCache::Stats;
     const auto bytes = [](std::uint64_t records, int record_bytes) {
@@ -54,4 +54,4 @@ void Gbu::collect_activity(AcceleratorResult& result) const {
     add_pixel_activity(result, job(), config_.pixel_bytes());
 }
 
-} // namespace degs
+} // namespace degs::gbu

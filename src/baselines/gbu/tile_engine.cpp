@@ -5,7 +5,7 @@
 
 #include "tlm/has_process.hpp"
 
-namespace degs {
+namespace degs::gbu {
 namespace {
 
 constexpr int kLaneBlock = 32; // pixels that DataPath::test() takes at a time
@@ -281,4 +281,4 @@ void TileEngine::account_idle() {
                     slots.terminated - slots.blocked;
 }
 
-} // namespace degs
+} // namespace degs::gbu

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bill of materials of GCC, and the activity of each block of it; docs/cost.md explains both.
-#include "baselines/gcc/gcc.hpp"
+#include "baselines/gcc/engine.hpp"
 
 namespace degs::gcc {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/grouped_number.hpp"
-#include "baselines/gcc/gcc.hpp"
+#include "baselines/gcc/engine.hpp"
 #include "baselines/gcc/streams.hpp"
 
 namespace degs::gcc {

@@ -6,7 +6,7 @@
 #include "splat/pixels/tested_pixels.hpp"
 #include "tlm/has_process.hpp"
 
-namespace degs {
+namespace degs::gscore {
 
 void LockstepArray::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("lanes", lanes, 16, 1024, "pixel lanes; GSCore has 64, a square of 8 x 8 px");
@@ -323,4 +323,4 @@ void LockstepArray::close_window() {
     }
 }
 
-} // namespace degs
+} // namespace degs::gscore

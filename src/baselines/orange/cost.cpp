@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bill of materials of ORANGE, and the activity of each block of it; docs/cost.md explains both.
-#include "baselines/orange/orange.hpp"
+#include "baselines/orange/engine.hpp"
 
 namespace degs::orange {
 
@@ -31,7 +31,7 @@ cost::BillOfMaterials Config::bill() const {
 }
 
 // A batch is written and read once in each of its three places.
-void Orange::collect_activity(AcceleratorResult& result) const {
+void Engine::collect_activity(AcceleratorResult& result) const {
     using V = VectorUnit::Stats;
     const VectorUnit::Config& vector = config_.cores.vector;
     const auto rate = [](std::uint64_t count) { return rate_of(count, 1); };

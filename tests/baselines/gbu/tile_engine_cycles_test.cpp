@@ -15,9 +15,9 @@ using test::TileEngineBench;
 class Ticks {
 public:
     std::vector<Cycle> tile_done;
-    TileEngine::Stats stats;
+    gbu::TileEngine::Stats stats;
 
-    Ticks(const TileEngine::Config& config, const FrameWorkload& frame,
+    Ticks(const gbu::TileEngine::Config& config, const FrameWorkload& frame,
           const std::vector<ChunkFeed>& feed)
         : config_(config), frame_(frame), feed_(feed),
           job_(make_render_job({&frame},
@@ -196,7 +196,7 @@ private:
         stats.queue_wait += waiting_ ? 1 : 0;
     }
 
-    TileEngine::Config config_;
+    gbu::TileEngine::Config config_;
     const FrameWorkload& frame_;
     std::vector<ChunkFeed> feed_;
     RenderJob job_;
@@ -220,7 +220,7 @@ class SmallRunTileEngineCycles : public ::testing::TestWithParam<unsigned> {};
 TEST_P(SmallRunTileEngineCycles, AgreeWithTheClosedForm) {
     std::mt19937 random(GetParam());
     const auto upto = [&random](unsigned n) { return static_cast<int>(random() % n); };
-    TileEngine::Config config;
+    gbu::TileEngine::Config config;
     const int tile = upto(4) == 0 ? 40 : 16; // 40: intervals longer than one call takes
     config.row_pes = upto(3) == 0 ? 1 + upto(tile) : tile;
     config.queue_depth = 1 + upto(upto(2) == 0 ? 3 : 20);
@@ -249,8 +249,8 @@ TEST_P(SmallRunTileEngineCycles, AgreeWithTheClosedForm) {
     bench.run(feed);
     bench.expect_reference();
     const Ticks ticks(config, bench.frame, feed);
-    const TileEngine::Stats& fast = bench.stats();
-    const TileEngine::Stats& slow = ticks.stats;
+    const gbu::TileEngine::Stats& fast = bench.stats();
+    const gbu::TileEngine::Stats& slow = ticks.stats;
     ASSERT_EQ(ticks.tile_done.size(), bench.units[0]->tile_done.size());
     for (std::size_t t = 0; t < ticks.tile_done.size(); ++t) {
         EXPECT_EQ(bench.done(t), ticks.tile_done[t]) << "tile " << t;

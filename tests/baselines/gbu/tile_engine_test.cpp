@@ -33,7 +33,7 @@ TEST(TileEngine, OneSplatOverTheWholeTile) {
 }
 
 TEST(TileEngine, WithoutTheProbeAnEntryTakesItsPixels) {
-    TileEngine::Config config = small_engine();
+    gbu::TileEngine::Config config = small_engine();
     config.end_probe = false;
     TileEngineBench bench(config, make_frame(many(3, blanket(8, 8, 20, 0.1)), 16, 16, 16));
     bench.run(bench.lists({0}));
@@ -86,7 +86,7 @@ TEST(TileEngine, SplatsOfOnePixelAreTakenOnePerCycle) {
 }
 
 TEST(TileEngine, AFullQueueHoldsGenerationUntilAnEntryIsLoaded) {
-    TileEngine::Config config = small_engine();
+    gbu::TileEngine::Config config = small_engine();
     config.queue_depth = 2;
     // Two splats on row 4 fill its queue while the first is worked on; the one after them, on
     // another row, waits behind the fourth.
@@ -102,7 +102,7 @@ TEST(TileEngine, AFullQueueHoldsGenerationUntilAnEntryIsLoaded) {
 }
 
 TEST(TileEngine, RowsWithRoomArePushedWhileAnotherWaits) {
-    TileEngine::Config config = small_engine();
+    gbu::TileEngine::Config config = small_engine();
     config.queue_depth = 1;
     std::vector<ProjectedSplat> splats = many(3, one_row(0, 9, 4, 0.1));
     splats.push_back(blanket(8, 8, 20, 0.1)); // waits for row 4 alone
@@ -177,7 +177,7 @@ TEST(TileEngine, FewerPesThanRowsTakeTheirRowsInTurn) {
 }
 
 TEST(TileEngine, LatenciesShiftDatesAndNothingElse) {
-    TileEngine::Config config = small_engine();
+    gbu::TileEngine::Config config = small_engine();
     config.generation_latency = 8;
     config.row_pe_latency = 10;
     // A list in three chunks that are all there: the pipeline is filled once.
@@ -240,7 +240,7 @@ class SmallRunTileEngine : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(SmallRunTileEngine, RendersTheReference) {
     const unsigned seed = GetParam();
-    TileEngine::Config config = small_engine(seed % 3 == 0 ? 8 : 16);
+    gbu::TileEngine::Config config = small_engine(seed % 3 == 0 ? 8 : 16);
     config.queue_depth = 1 + static_cast<int>(seed % 5);
     TileEngineBench bench(config, test::random_frame(seed, 40, 37, 16, 400));
     std::vector<TileNumber> all(bench.job.tiles.size());

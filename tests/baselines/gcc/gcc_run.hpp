@@ -2,7 +2,7 @@
 // Whole GCCs on frames made by hand, and what must hold of every run.
 #pragma once
 
-#include "baselines/gcc/gcc.hpp"
+#include "baselines/gcc/engine.hpp"
 #include "tests/modules/degs/accelerator_fixture.hpp"
 
 namespace degs::test {

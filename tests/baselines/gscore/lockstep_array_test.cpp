@@ -13,7 +13,7 @@ using test::make_frame;
 using test::make_splat;
 using test::one_pixel;
 using test::one_row;
-using Config = LockstepArray::Config;
+using Config = gscore::LockstepArray::Config;
 
 Config lanes(int n) {
     Config config;
@@ -35,7 +35,7 @@ void expect_one_tile(const Config& config, const std::vector<ProjectedSplat>& sp
     LockstepBench bench("bench", config, make_frame(splats, 16, 16, 16), {});
     bench.chunks_of_all_tiles();
     LockstepBench::start();
-    const LockstepArray::Stats& stats = bench.stats();
+    const gscore::LockstepArray::Stats& stats = bench.stats();
     EXPECT_EQ(stats.passes, expected.passes);
     EXPECT_EQ(stats.window.first, LockstepBench::kStart);
     EXPECT_EQ(stats.window.cycles(), expected.passes);

@@ -12,7 +12,7 @@ using test::blanket;
 using test::LockstepBench;
 using test::make_frame;
 using test::one_pixel;
-using Config = LockstepArray::Config;
+using Config = gscore::LockstepArray::Config;
 
 /// `tiles` tiles in a row, all covered by each of `count` splats.
 FrameWorkload blankets(int tiles, int count, double opacity) {
@@ -195,8 +195,9 @@ TEST_P(SmallRunLockstep, ExactEqualsStrict) {
     strict.chunks_of_all_tiles();
     LockstepBench::start();
     exact.expect_sound();
-    static_assert(std::is_trivially_copyable_v<LockstepArray::Stats>);
-    EXPECT_EQ(std::memcmp(&exact.stats(), &strict.stats(), sizeof(LockstepArray::Stats)), 0);
+    static_assert(std::is_trivially_copyable_v<gscore::LockstepArray::Stats>);
+    EXPECT_EQ(std::memcmp(&exact.stats(), &strict.stats(), sizeof(gscore::LockstepArray::Stats)),
+              0);
     EXPECT_EQ(exact.tile_done, strict.tile_done);
     EXPECT_EQ(exact.tile_state, strict.tile_state);
     for (std::size_t i = 0; i < sizes().inputs; ++i) {

@@ -125,7 +125,7 @@ private:
         c.gaussian_buffer.ports.sram_banks = among({1, 1, 3});
         c.gaussian_buffer.temporary = chance(3) ? ParameterLife::Spans : ParameterLife::Sliced;
         c.span_buffer.ports.ports = among({0, 0, 1, 2});
-        c.packing.ports.ports = among({0, 0, 1, 2});
+        c.packing.segment_ports.ports = among({0, 0, 1, 2});
         c.feature_buffer.fill.cycles = among({0, 1, 5});
         c.feature_buffer.fill.ports.ports = among({0, 0, 1, 2});
         c.feature_buffer.fill.ports.sram_banks = among({1, 2, 8});

@@ -2,7 +2,7 @@
 // Whole accelerators on frames made by hand, and what must hold of every run.
 #pragma once
 
-#include "modules/degs/degs.hpp"
+#include "modules/degs/engine.hpp"
 #include "tests/modules/degs/accelerator_fixture.hpp"
 
 namespace degs::test {

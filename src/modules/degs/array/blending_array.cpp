@@ -10,6 +10,13 @@
 
 namespace degs {
 
+void ArraySlice::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("pes_per_bank", pes_per_bank, 1, TaskPacket::kMaxRuns,
+                    "PEs per array slice (paper Table II)");
+    visitor.integer("writeback_cycles", writeback_cycles, 1, 64,
+                    "cycles from execution to written-back pixel state and feedback (paper: 4)");
+}
+
 ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config,
                        const Timebase& time, RenderJob& job, int index, int slices,
                        int segment_length)

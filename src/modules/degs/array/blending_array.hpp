@@ -24,8 +24,9 @@ namespace degs {
 class ArraySlice : public sc_core::sc_module, private Pumped {
 public:
     struct Config {
-        int width = 8;            ///< PEs
+        int pes_per_bank = 8;
         int writeback_cycles = 4; ///< execution to pixel state written back (paper: 4)
+        // What follows from the blocks around the slice; their own sections have the keys.
         TerminationGrain termination = TerminationGrain::Segment;
         int region_listeners = 0; ///< Slicing Units of a stream if they skip dead rows, else 0
         int streams = 1;          ///< tile streams
@@ -34,6 +35,7 @@ public:
         bool granted = false;     ///< tiles come one by one, see TileEnd
         bool scoreboard = true;   ///< no pixel comes again before its write-back
         bool tests = false;       ///< PEs test whether their pixel is inside the ellipse
+        void describe(ConfigVisitor& visitor);
     };
     struct Stats {
         SlotAccount slots; ///< executed tasks by class; idle slots are the Packing Unit's

@@ -24,7 +24,7 @@ int places_of(int tiles) {
 bool DrawnBank::can_run(const IssueBank& bank) {
     const PackingUnit& packing = bank.packing_;
     const int domains = Segmenter::domains_per_tile(
-        bank.job_.tile_size, bank.config_.segment_length, bank.config_.count);
+        bank.job_.tile_size, bank.config_.segment_length, bank.config_.banks);
     const Cycle cooled = ceil_div(bank.config_.segment_length, packing.config_.width) + 1 +
                          static_cast<Cycle>(bank.config_.reuse_cycles);
     return packing.draws() && !packing.packets_ && packing.part_ == nullptr &&
@@ -39,7 +39,7 @@ DrawnBank::DrawnBank(IssueBank& bank)
       stream_(bank.streams_[0]), input_(stream_.inputs[0]), spans_(*bank.drawn_spans_),
       features_(bank.features_), self_(bank.self_),
       domains_(Segmenter::domains_per_tile(bank.job_.tile_size, bank.config_.segment_length,
-                                           bank.config_.count)),
+                                           bank.config_.banks)),
       segment_length_(bank.config_.segment_length),
       segments_per_cycle_(bank.config_.segments_per_cycle), spans_per_cycle_(bank.spans_per_cycle_),
       issue_width_(bank.config_.issue_width), reuse_(bank.config_.reuse_cycles),

@@ -30,15 +30,21 @@ namespace degs {
 class PackingUnit : public sc_core::sc_module {
 public:
     struct Config {
-        int width = 8;          ///< tasks per packet = PEs per array slice
+        int bytes = 32 * 1024; ///< of the Packing Buffer of all banks
+        int task_bytes = 16;
+        int lead_packets = 5;   ///< packets that may wait for the array slice
         int latency_cycles = 2; ///< issue to execution, unloaded: pack, read the buffer
-        int depth = 32;         ///< packets that wait in the Packing Buffer
         /// A packet may have tasks of different spans; false: of one span only, so that a segment of
         /// another span closes an open packet.
         bool reorganisation = true;
+        SramPorts segment_ports; ///< of the waiting segments, which the Issue Bank keeps
+        // What follows from the blocks around the unit; their own sections have the keys.
+        int width = 8;  ///< tasks per packet = PEs per array slice
+        int depth = 32; ///< packets that wait in the Packing Buffer
         /// A packet has no two tasks that want the same port of the Pixel or Feature Buffer in one
         /// cycle: a task that finds its port taken begins the next packet [assumed].
         PacketPorts::Config ports{};
+        void describe(ConfigVisitor& visitor);
     };
     struct Stats {
         std::uint64_t packets = 0, tasks = 0;

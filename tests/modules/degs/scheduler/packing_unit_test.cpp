@@ -35,8 +35,17 @@ struct PackingBench {
     std::unique_ptr<Script> driver, listener;
 
     explicit PackingBench(bool reorganisation = true, const PacketPorts::Config& ports = {})
-        : unit("unit", {4, static_cast<int>(kLatency), 8, reorganisation, ports}) {
+        : unit("unit", config_of(reorganisation, ports)) {
         unit.out.bind(ring);
+    }
+    static PackingUnit::Config config_of(bool reorganisation, const PacketPorts::Config& ports) {
+        PackingUnit::Config config;
+        config.width = 4;
+        config.latency_cycles = static_cast<int>(kLatency);
+        config.depth = 8;
+        config.reorganisation = reorganisation;
+        config.ports = ports;
+        return config;
     }
     void drive(const std::function<void()>& body) {
         ring.connect_writer(bank);

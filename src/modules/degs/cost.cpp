@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bill of materials of DeGS, and the activity of each block of it; docs/cost.md explains both.
-#include "modules/degs/degs.hpp"
+#include "modules/degs/engine.hpp"
 
 namespace degs {
 
@@ -50,7 +50,7 @@ cost::BillOfMaterials DegsConfig::bill() const {
                   many * packing.bytes,
                   kReadAndWritten * clusters * scheduler.banks *
                       (packet_bytes() + scheduler.segment_bytes),
-                  {packing.ports.ports});
+                  {packing.segment_ports.ports});
     bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."},
                   rows.pixel_buffer, many * pixel_buffer.bytes,
                   kReadAndWritten * pes() * pixel_bytes(), shape(pixel_buffer.ports));

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/grouped_number.hpp"
-#include "modules/degs/degs.hpp"
+#include "modules/degs/engine.hpp"
 
 namespace degs {
 
