@@ -116,9 +116,17 @@ private:
     RowSweepArray array_;
 };
 
+/// What the blocks take: those of DeGS, of the paper's Table I.
+struct RowSweepCostRows {
+    cost::UnitRow projection{0.92, 0.60, 4}, sorting{0.02, 0.01, 4}, blending{0.88, 0.23, 64};
+    cost::SramRow gaussian_buffer{0.31, 0.01, 72 * 1024, 192};
+    cost::SramRow pixel_buffer{0.12, 0.01, 16 * 1024, 1024};
+};
+
 struct RowSweepConfig : AcceleratorConfig {
     int tile_size = 16; ///< px, also the number of lanes
     ArrayAccelerator::Parts parts;
+    RowSweepCostRows cost_rows;
 
     RowSweepConfig() { name = "row-sweep-16"; }
     std::unique_ptr<AcceleratorConfig> clone() const override {
@@ -146,18 +154,16 @@ struct RowSweepConfig : AcceleratorConfig {
         parts.front.traffic.geometry_bytes = kFloatGeometryBytes;
         parts.front.traffic.sh_value_bytes = kFloatBytes;
     }
-    /// Units and memories as in the rows of DeGS.
     cost::BillOfMaterials bill() const override {
-        const cost::Technology::Degs& rows = cost.degs;
         cost::BillOfMaterials bill(cost, clock_ghz);
-        bill.add_units({"projection", "Projection Units.", true}, rows.projection,
+        bill.add_units({"projection", "Projection Units.", true}, cost_rows.projection,
                        parts.front.projection.count);
-        bill.add_units({"sorting", "Sorting Units.", true}, rows.sorting,
+        bill.add_units({"sorting", "Sorting Units.", true}, cost_rows.sorting,
                        parts.front.sorting.count);
-        bill.add_units({"blending", "Lanes."}, rows.blending, pes());
-        bill.add_sram({"gaussian_buffer", "Splats and lists."}, rows.gaussian_buffer,
-                      rows.gaussian_buffer.bytes, 2 * records().splat_bytes);
-        bill.add_sram({"pixel_buffer", "Tiles in flight."}, rows.pixel_buffer,
+        bill.add_units({"blending", "Lanes."}, cost_rows.blending, pes());
+        bill.add_sram({"gaussian_buffer", "Splats and lists."}, cost_rows.gaussian_buffer,
+                      cost_rows.gaussian_buffer.bytes, 2 * records().splat_bytes);
+        bill.add_sram({"pixel_buffer", "Tiles in flight."}, cost_rows.pixel_buffer,
                       parts.pixel_buffer.bytes, 2 * pes() * parts.pixel_bytes);
         return bill;
     }
@@ -169,8 +175,19 @@ struct RowSweepConfig : AcceleratorConfig {
         sized.frame_end = frame_end;
         sized.contexts = tile_contexts();
         sized.splat_chunks = 8;
-        sized.buffer_bytes = cost.degs.gaussian_buffer.bytes;
+        sized.buffer_bytes = cost_rows.gaussian_buffer.bytes;
         return std::make_unique<RowSweep>(module, sized, time, job, options);
+    }
+
+private:
+    void describe_rows(ConfigVisitor& visitor) override {
+        cost::RowSection section("row_sweep", "rows of the row sweep", cost, visitor);
+        section.row("projection", cost_rows.projection, "Projection Units");
+        section.row("sorting", cost_rows.sorting, "Sorting Units");
+        section.row("blending", cost_rows.blending, "lanes");
+        section.row("gaussian_buffer", cost_rows.gaussian_buffer, "splats and lists");
+        section.row("pixel_buffer", cost_rows.pixel_buffer, "tiles in flight");
+        section.end();
     }
 };
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "baselines/gbu/cost.hpp"
 #include "baselines/gbu/tile_engine.hpp"
 #include "modules/kit/engine/tiled_config.hpp"
 #include "modules/kit/front_end/hierarchical_sorter.hpp"
@@ -32,6 +33,7 @@ struct Config : TiledConfig<Config> {
     ListBuffer list_buffer;
     Cache reuse_cache;
     Engines engines;
+    CostRows cost_rows;
 
     Config();
     void describe(ConfigVisitor& visitor) override;
@@ -64,6 +66,7 @@ struct Config : TiledConfig<Config> {
     }
 
 private:
+    void describe_rows(ConfigVisitor& visitor) override;
     void require_sizes(ConfigVisitor& visitor) const;
 };
 

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "baselines/gscore/cost.hpp"
 #include "baselines/gscore/lockstep_array.hpp"
 #include "modules/kit/engine/tiled_config.hpp"
 #include "modules/kit/front_end/hierarchical_sorter.hpp"
@@ -26,6 +27,7 @@ struct Config : TiledConfig<Config> {
     HierarchicalSorter::Config sorting;
     Buffer buffer;
     LockstepArray::Config array;
+    CostRows cost_rows;
 
     Config();
     void describe(ConfigVisitor& visitor) override;
@@ -53,6 +55,7 @@ struct Config : TiledConfig<Config> {
     }
 
 private:
+    void describe_rows(ConfigVisitor& visitor) override;
     BufferShare splat_share() const { return {1.0 - buffer.sort_share, fetchers()}; }
     /// Of one cluster: one that works on all tiles has a fetcher for each sorter.
     int fetchers() const { return clusters > 1 ? 1 : sorting.count; }

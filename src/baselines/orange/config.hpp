@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "baselines/orange/cost.hpp"
 #include "baselines/orange/systolic_array.hpp"
 #include "baselines/orange/vector_unit.hpp"
 #include "modules/kit/engine/tiled_config.hpp"
@@ -34,6 +35,7 @@ struct Config : TiledConfig<Config> {
     HierarchicalSorter::Config sorting;
     Cores cores;
     Scratchpad scratchpad;
+    CostRows cost_rows;
 
     Config();
     void describe(ConfigVisitor& visitor) override;
@@ -64,6 +66,7 @@ struct Config : TiledConfig<Config> {
     int sort_capacity() const;
 
 private:
+    void describe_rows(ConfigVisitor& visitor) override;
     void require_sizes(ConfigVisitor& visitor) const;
 };
 

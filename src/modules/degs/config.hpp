@@ -5,6 +5,7 @@
 #include <string>
 
 #include "modules/degs/array/blending_array.hpp"
+#include "modules/degs/cost.hpp"
 #include "modules/degs/scheduler/issue_bank.hpp"
 #include "modules/degs/span_engine/gaussian_slicing_unit.hpp"
 #include "modules/degs/span_engine/span_buffer.hpp"
@@ -48,6 +49,7 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
     PackingUnit::Config packing;
     FeatureBuffer::Config feature_buffer;
     ArraySlice::Config array;
+    DegsCostRows cost_rows;
 
     DegsConfig() { name = "degs-64"; }
     void describe(ConfigVisitor& visitor) override;
@@ -147,6 +149,7 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
     }
 
 private:
+    void describe_rows(ConfigVisitor& visitor) override;
     /// The key that limits how many segments wait in a bank.
     const char* queue_key() const;
     /// Packets in which a segment may lie at most.

@@ -4,8 +4,31 @@
 
 namespace degs {
 
+void DegsCostRows::describe(cost::RowSection& section) {
+    section.row("projection", projection, "Projection Units");
+    section.row("sorting", sorting, "Sorting Units");
+    section.row("span_engine", span_engine,
+                "Gaussian Slicing Units and Span Units, 2 + 8, which weigh the same [assumed]");
+    section.row("packing_scheduler", packing_scheduler, "Issue Banks with Packing Units");
+    section.share("scheduler_width_share", scheduler_width_share,
+                  "share of an Issue Bank that follows array.pes_per_bank, which is 8 in its row; "
+                  "0: Table II widens the packets and Table I counts banks [assumed]");
+    section.row("blending", blending, "Blending Array");
+    section.row("gaussian_buffer", gaussian_buffer, "Gaussian Buffer");
+    section.row("feature_buffer", feature_buffer, "Feature Buffer");
+    section.row("span_buffer", span_buffer, "Span Buffer");
+    section.row("packing_buffer", packing_buffer, "Packing Buffer");
+    section.row("pixel_buffer", pixel_buffer, "Pixel Buffer");
+}
+
+void DegsConfig::describe_rows(ConfigVisitor& visitor) {
+    cost::RowSection section("degs", "rows of DeGS (paper Table I)", cost, visitor);
+    cost_rows.describe(section);
+    section.end();
+}
+
 cost::BillOfMaterials DegsConfig::bill() const {
-    const cost::Technology::Degs& rows = cost.degs;
+    const DegsCostRows& rows = cost_rows;
     const double width = array.pes_per_bank * rows.packing_scheduler.units;
     const double share = rows.scheduler_width_share;
     const auto shape = [](const BankedSramPorts& ports) {

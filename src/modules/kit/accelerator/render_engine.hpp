@@ -118,6 +118,10 @@ protected:
     void describe_common(ConfigVisitor& visitor);
     /// The keys of the cost model, last because they are many.
     void describe_cost(ConfigVisitor& visitor);
+
+private:
+    /// The rows of the cost model that only this accelerator has: a cost::RowSection named after its kind.
+    virtual void describe_rows(ConfigVisitor& visitor) = 0;
 };
 
 /// The job of rendering `frames` with the data path that `config` asks for.
