@@ -54,8 +54,8 @@ enum class PeNumbers { Table, Run };
 /// less.
 enum class Precision { Half, Single, Double };
 
-/// The constants that all accelerators share; defaults are those of configs/cost/28nm.yaml. Each accelerator has rows of
-/// its own, see RowSection.
+/// The constants that all accelerators share; defaults are those of configs/cost/28nm.yaml. Each
+/// accelerator has rows of its own, see RowSection.
 struct Technology {
     struct Sram {
         double bank_share = 0.2;  ///< of the area, that follows the number of SRAM banks

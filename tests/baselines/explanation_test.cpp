@@ -77,9 +77,10 @@ TEST_F(SmallRunExplanation, TakenPorts) {
     config.pixel_buffer.ports.ports = 1;
     config.pixel_buffer.ports.sram_banks = 8;
     run(config);
-    EXPECT_GT(result.slots.ports, 0U);
-    EXPECT_THAT(result.left_out, Contains(StartsWith("Taken SRAM ports left " +
-                                                     grouped(result.slots.ports) + " PE-cycles")));
+    EXPECT_GT(result.slots[Slot::Ports], 0U);
+    EXPECT_THAT(result.left_out,
+                Contains(StartsWith("Taken SRAM ports left " + grouped(result.slots[Slot::Ports]) +
+                                    " PE-cycles")));
     EXPECT_THAT(result.left_out, Not(Contains(StartsWith("Every SRAM had"))));
 }
 

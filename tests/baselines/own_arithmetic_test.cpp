@@ -40,7 +40,7 @@ struct OwnRun {
           run(name, config, {&frame}) {}
     void expect_own_image() const {
         run.expect_sound();
-        EXPECT_EQ(run.result().slots.useful, expected.useful);
+        EXPECT_EQ(run.result().slots[Slot::Useful], expected.useful);
         EXPECT_TRUE(test::same_bytes(run.image(), expected.image));
     }
     FrameWorkload frame;

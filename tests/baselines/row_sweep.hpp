@@ -37,11 +37,11 @@ private:
     void run() {
         for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
             if (number >= static_cast<TileNumber>(contexts_)) {
-                wait_and_account(Idle::Blocked, [&] { context_free->get(self_); });
+                wait_and_account(Slot::Blocked, [&] { context_free->get(self_); });
             }
             SplatChunk chunk;
             while (!chunk.last) {
-                wait_and_account(Idle::Starved,
+                wait_and_account(Slot::Starved,
                                  [&] { chunk = in[number % in.size()]->get(self_); });
                 sweep(chunk);
             }
@@ -52,10 +52,10 @@ private:
     }
     /// Idle slots count once a slot follows: what lies outside the window is nobody's.
     template <class Wait>
-    void wait_and_account(Idle cause, const Wait& wait) {
+    void wait_and_account(Slot cause, const Wait& wait) {
         const Cycle before = self_.local();
         wait();
-        pending_.idle(cause, lanes() * (self_.local() - before));
+        pending_[cause] += lanes() * (self_.local() - before);
     }
     void sweep(const SplatChunk& chunk) {
         const JobTile& tile = job_.tiles[chunk.tile];
@@ -81,9 +81,9 @@ private:
         window.include(self_.local());
         const auto useful = static_cast<std::uint64_t>(__builtin_popcount(outcome.useful));
         const auto ended = static_cast<std::uint64_t>(__builtin_popcount(outcome.terminated));
-        slots.useful += useful;
-        slots.terminated += ended;
-        slots.boundary += lanes() - useful - ended; // also lanes outside the image
+        slots[Slot::Useful] += useful;
+        slots[Slot::Terminated] += ended;
+        slots[Slot::Boundary] += lanes() - useful - ended; // also lanes outside the image
         self_.advance();
     }
     std::uint64_t lanes() const { return static_cast<std::uint64_t>(job_.tile_size); }

@@ -41,6 +41,8 @@ struct Config : TiledConfig<Config> {
     int tile_size_px() const override { return tile_size; }
     int tile_contexts() const override { return engines.count * contexts(); }
     TileCoupling tile_coupling(bool array_only) const override;
+    /// Queues of rows whose pixels have ended run dry later.
+    bool ends_with_its_pixels() const override { return false; }
     std::vector<LossKey> loss_keys() const override;
     cost::BillOfMaterials bill() const override;
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,

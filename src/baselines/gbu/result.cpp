@@ -27,7 +27,7 @@ void Engine::collect_stages(AcceleratorResult& result) const {
               sum_of(engines_, &TileEngine::Stats::splats), std::move(generation));
     const SlotAccount& s = result.slots;
     add_stage(result, {"row_pes", "Row PEs of the tile engines.", true}, config_.pes(),
-              s.useful + s.boundary + s.terminated, std::move(row_pes));
+              s[Slot::Useful] + s[Slot::Boundary] + s[Slot::Terminated], std::move(row_pes));
 }
 
 void Engine::collect_buffers(AcceleratorResult& result) const {
@@ -65,7 +65,8 @@ void Engine::collect_laws(AcceleratorResult& result) const {
             {"splats fetched = taken by Row Generation + abandoned", records_fetched(),
              sum_of(engines_, &E::splats) + sum_of(engines_, &E::splats_abandoned)},
             {"pixels of row entries + end probes = slots executed",
-             sum_of(engines_, &E::pixels) + probes, s.useful + s.boundary + s.terminated},
+             sum_of(engines_, &E::pixels) + probes,
+             s[Slot::Useful] + s[Slot::Boundary] + s[Slot::Terminated]},
             {"tiles granted = worked on", dispatcher().stats().tiles, sum_of(engines_, &E::tiles)},
         });
 }

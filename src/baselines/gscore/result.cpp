@@ -38,7 +38,7 @@ void Engine::collect_laws(AcceleratorResult& result) const {
                     sum_of(arrays_, &A::splats) + sum_of(arrays_, &A::splats_discarded)});
     laws.push_back({"lanes x passes = lanes evaluated",
                     sum_of(arrays_, &A::passes) * config_.array.lanes,
-                    s.useful + s.boundary + s.terminated});
+                    s[Slot::Useful] + s[Slot::Boundary] + s[Slot::Terminated]});
     if (granted()) {
         laws.push_back(
             {"tiles granted = worked on", dispatcher().stats().tiles, sum_of(arrays_, &A::tiles)});

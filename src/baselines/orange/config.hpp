@@ -46,6 +46,8 @@ struct Config : TiledConfig<Config> {
     DataPathOptions data_path() const override;
     int tile_contexts() const override { return cores.count * contexts(); }
     TileCoupling tile_coupling(bool /*array_only*/) const override { return {}; }
+    /// Products of a tile whose pixels have ended are finished.
+    bool ends_with_its_pixels() const override { return false; }
     std::vector<LossKey> loss_keys() const override;
     cost::BillOfMaterials bill() const override;
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,

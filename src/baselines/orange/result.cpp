@@ -74,7 +74,7 @@ void Engine::collect_laws(AcceleratorResult& result) const {
             {"products of numbers = splats x pixels of a tile x 6", s.executed(),
              splats * config_.tile_area() * kGemmDepth},
             {"multiplier-cycles of products = executed + padding", sum_of(arrays_, &A::busy) * macs,
-             s.executed() + s.padding},
+             s.executed() + s[Slot::Padding]},
             {"tiles granted = worked on", dispatcher().stats().tiles,
              sum_of(vector_units_, &V::tiles)},
         });

@@ -57,6 +57,11 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
     int tile_size_px() const override { return tile_size; }
     int tile_contexts() const override { return clusters * contexts(); }
     TileCoupling tile_coupling(bool array_only) const override;
+    PixelSearch pixel_search() const override {
+        return {span.parsing ? PixelSearch::How::Solve : PixelSearch::How::Box,
+                slicing.rows == SlicedRows::Tile};
+    }
+    bool keeps_pixel_order() const override { return scheduler.scoreboard; }
     std::vector<LossKey> loss_keys() const override;
     /// Of the keys of the window of waiting segments, those that did not limit a run in which a bank
     /// had up to `high_water` segments and `feature_waits` of the entries of the Feature Buffer, 0 to

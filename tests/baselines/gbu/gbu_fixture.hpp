@@ -54,11 +54,11 @@ inline void expect_sound(const GbuRun& run) {
     const AcceleratorResult result = run.result();
     EXPECT_EQ(result.tiles, run.job().tiles.size());
     expect_laws(result, run.gbu().config().pes());
-    EXPECT_EQ(result.slots.conflict, 0U);
+    EXPECT_EQ(result.slots[Slot::Conflict], 0U);
 }
 
 inline void expect_reference(const GbuRun& run) {
-    expect_reference_pixels(run.job(), run.result().slots.useful);
+    expect_reference_pixels(run.job(), run.result().slots[Slot::Useful]);
 }
 
 } // namespace degs::test

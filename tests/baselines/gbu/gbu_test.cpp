@@ -81,7 +81,7 @@ TEST(SmallRunGbu, TheArrayAloneNeedsNoMemoryAndNoFrontEnd) {
     test::expect_sound(run);
     test::expect_reference(run);
     EXPECT_LT(run.result().cycles, whole.result().cycles);
-    EXPECT_EQ(run.result().slots.useful, whole.result().slots.useful);
+    EXPECT_EQ(run.result().slots[Slot::Useful], whole.result().slots[Slot::Useful]);
 }
 
 TEST(SmallRunGbu, FramesOverlapAsFarAsTheyMay) {

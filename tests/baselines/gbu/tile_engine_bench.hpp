@@ -140,7 +140,7 @@ struct TileEngineBench {
         const Image reference = render_reference(frame, counts);
         std::uint64_t useful = 0;
         for (const auto& unit : units) {
-            useful += unit->engine.stats().slots.useful;
+            useful += unit->engine.stats().slots[Slot::Useful];
         }
         EXPECT_EQ(useful, counts.fragments);
         EXPECT_EQ(image.fragments, reference.fragments);
@@ -156,9 +156,9 @@ private:
         const gbu::TileEngine::Stats& s = u.engine.stats();
         const SlotAccount& slots = s.slots;
         EXPECT_EQ(slots.total(), s.window.cycles() * static_cast<std::uint64_t>(config.row_pes));
-        EXPECT_EQ(slots.useful + slots.boundary + slots.terminated,
+        EXPECT_EQ(slots[Slot::Useful] + slots[Slot::Boundary] + slots[Slot::Terminated],
                   s.pixels + (config.end_probe ? s.entries : 0));
-        EXPECT_EQ(slots.conflict + slots.drain, 0U);
+        EXPECT_EQ(slots[Slot::Conflict] + slots[Slot::Drain], 0U);
     }
     void script(const std::function<void()>& body) {
         scripts.push_back(

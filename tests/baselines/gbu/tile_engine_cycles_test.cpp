@@ -69,7 +69,7 @@ private:
         }
         stats.window.include(now_);
         if (pe.done == pe.current.pixels.length) {
-            stats.slots.boundary++;
+            stats.slots[Slot::Boundary]++;
         } else {
             stats.pixels++;
             pixel(pe.current.pixels, pe.done);
@@ -86,9 +86,9 @@ private:
         test.x = tile_->x + test.column;
         test.y = tile_->y + pixels.row;
         const BlendOutcome outcome = job_.path->test(test);
-        stats.slots.useful += outcome.useful;
-        stats.slots.boundary += outcome.boundary;
-        stats.slots.terminated += outcome.terminated;
+        stats.slots[Slot::Useful] += outcome.useful;
+        stats.slots[Slot::Boundary] += outcome.boundary;
+        stats.slots[Slot::Terminated] += outcome.terminated;
         stats.pixels_ended += outcome.ended;
         Row& row = rows_[static_cast<std::size_t>(pixels.row)];
         if (outcome.ended != 0 && --row.live == 0) {
@@ -257,9 +257,9 @@ TEST_P(SmallRunTileEngineCycles, AgreeWithTheClosedForm) {
     }
     EXPECT_EQ(fast.window.first, slow.window.first);
     EXPECT_EQ(fast.window.last, slow.window.last);
-    EXPECT_EQ(fast.slots.useful, slow.slots.useful);
-    EXPECT_EQ(fast.slots.boundary, slow.slots.boundary);
-    EXPECT_EQ(fast.slots.terminated, slow.slots.terminated);
+    EXPECT_EQ(fast.slots[Slot::Useful], slow.slots[Slot::Useful]);
+    EXPECT_EQ(fast.slots[Slot::Boundary], slow.slots[Slot::Boundary]);
+    EXPECT_EQ(fast.slots[Slot::Terminated], slow.slots[Slot::Terminated]);
     EXPECT_EQ(fast.splats, slow.splats);
     EXPECT_EQ(fast.splats_abandoned, slow.splats_abandoned);
     EXPECT_EQ(fast.entries, slow.entries);

@@ -69,7 +69,7 @@ inline void expect_sound(const GccRun& run) {
 }
 
 inline void expect_reference(const GccRun& run) {
-    expect_reference_pixels(run.job(), run.result().slots.useful);
+    expect_reference_pixels(run.job(), run.result().slots[Slot::Useful]);
 }
 
 } // namespace degs::test

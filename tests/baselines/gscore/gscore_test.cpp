@@ -133,7 +133,7 @@ TEST(Gscore, FinishedTilesAreNeitherSortedNorFetched) {
     EXPECT_EQ(count_of(result, "blending", "splats"), 4U * 3);
     EXPECT_EQ(count_of(all.result(), "sorting", "keys_sorted"), 4U * 2000);
     EXPECT_EQ(count_of(all.result(), "fetching", "records"), 4U * 2000);
-    EXPECT_EQ(all.result().slots.useful, result.slots.useful);
+    EXPECT_EQ(all.result().slots[Slot::Useful], result.slots[Slot::Useful]);
 }
 
 std::uint64_t bytes_read(const AcceleratorResult& result, const std::string& stream) {
@@ -169,7 +169,7 @@ TEST(Gscore, ArrayOnlyNeverStarves) {
     sc_core::sc_start();
     run.expect_sound();
     const AcceleratorResult result = run.result();
-    EXPECT_EQ(result.slots.starved, 0U);
+    EXPECT_EQ(result.slots[Slot::Starved], 0U);
     EXPECT_LT(result.cycles, result.window.cycles() + 40);
 }
 
@@ -206,7 +206,7 @@ TEST(ShapeGscore, FinerSubtileTestsTakeFewerPasses) {
     for (std::size_t i = 1; i < runs.size(); ++i) {
         EXPECT_LT(count_of(runs[i]->result(), "blending", "passes"),
                   count_of(runs[i - 1]->result(), "blending", "passes"));
-        EXPECT_EQ(runs[i]->result().slots.useful, runs[0]->result().slots.useful);
+        EXPECT_EQ(runs[i]->result().slots[Slot::Useful], runs[0]->result().slots[Slot::Useful]);
         EXPECT_TRUE(test::same_bytes(runs[i]->image(), runs[0]->image()));
     }
 }
@@ -252,9 +252,9 @@ TEST(GscoreClusters, ShareTheWorkOfTheArrayAlone) {
     EXPECT_EQ(one.result().window.cycles(), 4U * 4 * 60);
     EXPECT_EQ(two.result().window.cycles(), 2U * 4 * 60 + 1);
     const SlotAccount& slots = two.result().slots;
-    EXPECT_EQ(slots.starved, 64U);
-    EXPECT_EQ(slots.drain, 64U);
-    EXPECT_EQ(slots.useful, one.result().slots.useful);
+    EXPECT_EQ(slots[Slot::Starved], 64U);
+    EXPECT_EQ(slots[Slot::Drain], 64U);
+    EXPECT_EQ(slots[Slot::Useful], one.result().slots[Slot::Useful]);
 }
 
 // Tiles that end after three splats: their lists are sorted to the end, their records are not

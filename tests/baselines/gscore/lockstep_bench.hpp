@@ -100,7 +100,8 @@ public:
         const gscore::LockstepArray::Stats& s = stats();
         const std::uint64_t lanes = static_cast<std::uint64_t>(array_.config().lanes);
         EXPECT_EQ(s.slots.total(), lanes * s.window.cycles());
-        EXPECT_EQ(s.slots.useful + s.slots.boundary + s.slots.terminated, lanes * s.passes);
+        EXPECT_EQ(s.slots[Slot::Useful] + s.slots[Slot::Boundary] + s.slots[Slot::Terminated],
+                  lanes * s.passes);
         EXPECT_EQ(s.splats + s.splats_discarded, job_.frames[0]->tile_pairs());
         EXPECT_LE(s.splats_skipped, s.splats);
         EXPECT_EQ(finished_, job_.tiles.size()) << "the bench did not come to its end";

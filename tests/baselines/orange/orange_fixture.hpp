@@ -51,8 +51,8 @@ inline void expect_sound(const OrangeRun& run) {
     const AcceleratorResult result = run.result();
     EXPECT_EQ(result.tiles, run.job().tiles.size());
     expect_laws(result, run.orange().config().pes());
-    EXPECT_EQ(result.slots.conflict + result.slots.ports, 0U);
-    EXPECT_EQ(result.slots.useful % kGemmDepth, 0U);
+    EXPECT_EQ(result.slots[Slot::Conflict] + result.slots[Slot::Ports], 0U);
+    EXPECT_EQ(result.slots[Slot::Useful] % kGemmDepth, 0U);
 }
 
 inline void expect_reference(const OrangeRun& run) {

@@ -240,7 +240,7 @@ void expect_same_tiles(const SlotRecorder& a, const SlotRecorder& b) {
         const TileActivity& x = a.tiles()[t];
         const TileActivity& y = b.tiles()[t];
         for (const SlotClass& each : kSlotClasses) {
-            EXPECT_EQ(x.slots.*each.slots, y.slots.*each.slots) << each.name << " of tile " << t;
+            EXPECT_EQ(x.slots[each.slot], y.slots[each.slot]) << each.name << " of tile " << t;
         }
         EXPECT_EQ(x.window.first, y.window.first) << "tile " << t;
         EXPECT_EQ(x.window.last, y.window.last) << "tile " << t;

@@ -87,9 +87,9 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
         if ((run.part & first_task) != 0 || early) {
             outcome_ = plain_ ? job_.path->blend(run.task) : blend_otherwise(context, run, now);
             const auto count = [](std::uint32_t mask) { return __builtin_popcount(mask); };
-            stats_.slots.useful += count(outcome_.useful);
-            stats_.slots.boundary += count(outcome_.boundary);
-            stats_.slots.terminated += count(outcome_.terminated);
+            stats_.slots[Slot::Useful] += count(outcome_.useful);
+            stats_.slots[Slot::Boundary] += count(outcome_.boundary);
+            stats_.slots[Slot::Terminated] += count(outcome_.terminated);
         }
         if (Kind == Tasks::Recorded) {
             record(run, now);

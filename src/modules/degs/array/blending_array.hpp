@@ -185,9 +185,9 @@ ArraySlice::count_drawn(std::uint32_t mask, std::uint32_t inside, std::uint32_t 
     };
     const std::uint64_t all_inside = count(mask & inside);
     const std::uint64_t all_useful = count(mask & useful);
-    stats_.slots.useful += all_useful;
-    stats_.slots.boundary += count(mask) - all_inside;
-    stats_.slots.terminated += all_inside - all_useful;
+    stats_.slots[Slot::Useful] += all_useful;
+    stats_.slots[Slot::Boundary] += count(mask) - all_inside;
+    stats_.slots[Slot::Terminated] += all_inside - all_useful;
 }
 
 inline __attribute__((always_inline)) void ArraySlice::pass_packet(Cycle date) {

@@ -166,9 +166,9 @@ Cycle DrawnBank::end_drawn(int number, const Waiting& segment, std::uint32_t tas
     return last;
 }
 
-void DrawnBank::send_part(Idle cause) {
+void DrawnBank::send_part(Slot cause) {
     const int tasks = tasks_;
-    packing_.idle_.idle(cause, width_ - tasks);
+    packing_.idle_[cause] += width_ - tasks;
     tasks_ = 0;
     send(tasks);
 }
@@ -188,7 +188,7 @@ bool DrawnBank::finish_tiles() {
             break;
         }
         if (open() && ends_tile_) {
-            send_part(Idle::Starved);
+            send_part(Slot::Starved);
         }
         packing_.ended_tile_ = tile.number;
         packing_.ended_context_ = tile.context;
@@ -209,14 +209,14 @@ bool DrawnBank::finish_tiles() {
     return true;
 }
 
-Idle DrawnBank::idle_cause() const {
+Slot DrawnBank::idle_cause() const {
     if (size_ == 0) {
-        return Idle::Starved;
+        return Slot::Starved;
     }
-    return issuable() == 0  ? Idle::Blocked
+    return issuable() == 0  ? Slot::Blocked
            : width_limited_ ? bank_.width_cause_
-           : no_room_       ? Idle::Blocked
-                            : Idle::Conflict;
+           : no_room_       ? Slot::Blocked
+                            : Slot::Conflict;
 }
 
 // See IssueBank::next_date(). All ends of pixels that are due are in their ring.

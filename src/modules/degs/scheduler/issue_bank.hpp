@@ -149,7 +149,7 @@ private:
     bool over() const { return tiles_.over() && closing_ == 0; }
 
     // Dates.
-    Idle idle_cause() const;
+    Slot idle_cause() const;
     Cycle next_ready(Cycle now) const;
     Cycle next_date(Cycle now);
     bool watch_inputs(Cycle now);
@@ -185,7 +185,7 @@ private:
     std::uint64_t sequence_ = 0; // segments so far
     bool no_room_ = false;       // a ready segment waits for room in the Packing Buffer
     bool width_limited_ = false;
-    Idle width_cause_;               // what limits the width
+    Slot width_cause_;               // what limits the width
     bool features_full_ = false;     // a span waits for a Feature Buffer entry
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
     Stats stats_;

@@ -175,7 +175,7 @@ struct SchedulerBench {
     /// The slots between first and last execution: executed tasks and idle ones.
     std::uint64_t accounted() const {
         const SlotAccount& s = stats().slots;
-        return s.useful + s.boundary + s.terminated + packing.idle().total();
+        return s[Slot::Useful] + s[Slot::Boundary] + s[Slot::Terminated] + packing.idle().total();
     }
     std::uint64_t window_slots() const {
         return stats().window.cycles() * static_cast<std::uint64_t>(sizes.width);
