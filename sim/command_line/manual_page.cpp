@@ -73,7 +73,7 @@ Simulate the 64\-PE design of the paper on a generated scene:
 .B degs run configs/degs\-64.yaml \-\-scene synthetic:object \-\-camera 2
 .TP
 Compare two accelerators on two views of a scene, two simulations at a time:
-.B degs compare configs/degs\-64.yaml configs/gscore\-64.yaml \-\-scene scene.ply \-\-camera 0,1 \-\-jobs 2
+.B degs compare configs/degs\-64.yaml configs/degs\-64\-tuned.yaml \-\-scene scene.ply \-\-camera 0,1 \-\-jobs 2
 .TP
 Explain every key of a configuration file:
 .B degs config configs/degs\-64.yaml

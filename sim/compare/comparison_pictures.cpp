@@ -23,7 +23,7 @@ SlotBar bar_of(const Comparison& comparison, const ComparisonRow& row) {
     bar.last_ms = row.last_task_ms.value_or(bar.end_ms);
     bar.end_ms = std::max(bar.end_ms, bar.last_ms);
     for (std::size_t c = 0; c < bar.shares.size(); ++c) {
-        bar.shares[c] = row.measures[slot_measure(c)].value_or(0);
+        bar.shares[c] = row.measures[slot_measure(kSlotClasses[c].slot)].value_or(0);
     }
     return bar;
 }

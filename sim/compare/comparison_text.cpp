@@ -43,7 +43,7 @@ std::vector<std::string> slot_cells(const Measures& m, const std::vector<std::si
     std::vector<std::string> cells;
     cells.reserve(classes.size() + 1);
     for (const std::size_t c : classes) {
-        cells.push_back(share(m[slot_measure(c)]));
+        cells.push_back(share(m[slot_measure(kSlotClasses[c].slot)]));
     }
     cells.push_back(share(m[Measure::FrameUtilization]));
     return cells;
@@ -133,7 +133,7 @@ std::vector<std::size_t> slot_classes(const Comparison& comparison) {
     std::vector<std::size_t> classes;
     for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
         const auto occurs = [c](const ComparisonRow& row) {
-            return row.measures[slot_measure(c)].value_or(0) > 0;
+            return row.measures[slot_measure(kSlotClasses[c].slot)].value_or(0) > 0;
         };
         if (!kSlotClasses[c].rare ||
             std::any_of(comparison.rows.begin(), comparison.rows.end(), occurs)) {

@@ -38,8 +38,8 @@ public:
             return losses;
         }
         for (const SlotClass& slot : kSlotClasses) {
-            if (slot.slots != &SlotAccount::useful) {
-                add(cause_of(slot), ratio_of(run_.slots.*slot.slots, 1));
+            if (slot.slot != Slot::Useful) {
+                add(cause_of(slot), ratio_of(run_.slots[slot.slot], 1));
             }
         }
         const bool any = !run_.window.empty();
@@ -94,10 +94,10 @@ private:
 
     /// Tiles wait for their contexts while finished ones wait for the memory.
     Cause cause_of(const SlotClass& slot) const {
-        if (slot.slots == &SlotAccount::starved) {
+        if (slot.slot == Slot::Starved) {
             return starvation();
         }
-        if (slot.slots != &SlotAccount::blocked) {
+        if (slot.slot != Slot::Blocked) {
             return {slot.name, slot.name};
         }
         return memory_bound()       ? Cause{"blocked, for memory", "memory"}

@@ -14,33 +14,29 @@ namespace degs::sim {
 namespace {
 
 struct MeasureRule {
-    const char* name;      ///< null: that of the class of slots
-    const char* statistic; ///< of a report, which describes it; null: not one of them alone
-    bool mean;
-    Direction better;
+    const char* name = nullptr; ///< null: that of the class of slots
+    const char* statistic =
+        nullptr; ///< of a report, which describes it; null: not one of them alone
+    bool mean = false;
+    Direction better = Direction::None;
     const char* unit = nullptr; ///< this and the next: where no statistic describes it
     const char* sentence = nullptr;
+    const SlotClass* slot = nullptr; ///< whose share it is
 };
 
 constexpr Direction kNone = Direction::None;
 constexpr Direction kLeast = Direction::Minimise;
 constexpr Direction kMost = Direction::Maximise;
 
-constexpr std::array<MeasureRule, kMeasures> kRules{{
+// The measures before and behind the shares of the slots.
+constexpr std::array<MeasureRule, 5> kBeforeSlots{{
     {"cycles", "timing.cycles", false, kLeast},
     {"preprocessing_cycles", "timing.preprocessing_cycles", false, kLeast},
     {"latency_ms", "timing.latency_ms", true, kLeast},
     {"fps", "timing.fps", true, kMost},
     {"throughput_fps", "timing.throughput_fps", true, kMost},
-    {nullptr, nullptr, false, kMost}, // nine classes of slots, of which the first is useful
-    {nullptr, nullptr, false, kLeast},
-    {nullptr, nullptr, false, kLeast},
-    {nullptr, nullptr, false, kLeast},
-    {nullptr, nullptr, false, kLeast},
-    {nullptr, nullptr, false, kLeast},
-    {nullptr, nullptr, false, kLeast},
-    {nullptr, nullptr, false, kLeast},
-    {nullptr, nullptr, false, kLeast},
+}};
+constexpr std::array<MeasureRule, 19> kBehindSlots{{
     {"slots.utilization", "slots.utilization", true, kMost},
     {"slots.frame_utilization", "slots.frame_utilization", true, kMost},
     {"dram.bytes_read", "dram.bytes_read", false, kLeast},
@@ -65,13 +61,26 @@ constexpr std::array<MeasureRule, kMeasures> kRules{{
     {"host.sim_s", "host.sim_s", false, kNone},
 }};
 
+constexpr std::array<MeasureRule, kMeasures> all_rules() {
+    static_assert(kBeforeSlots.size() + kSlotClasses.size() + kBehindSlots.size() == kMeasures);
+    std::array<MeasureRule, kMeasures> rules{};
+    std::size_t next = 0;
+    for (const MeasureRule& rule : kBeforeSlots) {
+        rules[next++] = rule;
+    }
+    for (const SlotClass& slot : kSlotClasses) {
+        rules[next].slot = &slot;
+        rules[next++].better = slot.slot == Slot::Useful ? kMost : kLeast;
+    }
+    for (const MeasureRule& rule : kBehindSlots) {
+        rules[next++] = rule;
+    }
+    return rules;
+}
+constexpr std::array<MeasureRule, kMeasures> kRules = all_rules();
+
 const MeasureRule& rule_of(Measure measure) {
     return kRules[index_of(measure)];
-}
-
-/// A position in kSlotClasses.
-int slot_class_of(Measure measure) {
-    return index_of(measure) - index_of(Measure::Useful);
 }
 
 /// Empty for what does not exist for this run.
@@ -100,8 +109,10 @@ void read_statistics(const RunResult& result, Measures& measures) {
 
 void read_slots(const SlotAccount& slots, Measures& measures) {
     const std::uint64_t total = slots.total();
-    for (std::size_t c = 0; total != 0 && c < kSlotClasses.size(); ++c) {
-        measures[slot_measure(c)] = ratio_of(slots.*kSlotClasses[c].slots, total);
+    for (const SlotClass& each : kSlotClasses) {
+        if (total != 0) {
+            measures[slot_measure(each.slot)] = ratio_of(slots[each.slot], total);
+        }
     }
 }
 
@@ -162,7 +173,7 @@ std::vector<Statistic> measure_statistics(const std::vector<Statistic>& report) 
             row.sentence = rule.sentence;
         } else {
             row.unit = "share";
-            row.sentence = kSlotClasses.at(slot_class_of(m)).sentence;
+            row.sentence = rule.slot->sentence;
         }
         row.path = name_of(m);
         list.push_back(row);
@@ -171,10 +182,8 @@ std::vector<Statistic> measure_statistics(const std::vector<Statistic>& report) 
 }
 
 std::string name_of(Measure measure) {
-    if (const char* name = rule_of(measure).name) {
-        return name;
-    }
-    return std::string("slots.") + kSlotClasses.at(slot_class_of(measure)).name;
+    const MeasureRule& rule = rule_of(measure);
+    return rule.slot != nullptr ? std::string("slots.") + rule.slot->name : rule.name;
 }
 
 bool has_mean(Measure measure) {

@@ -20,16 +20,8 @@ enum class Measure {
     LatencyMs,
     Fps,
     ThroughputFps, ///< of the camera path
-    Useful,        ///< this and the next eight: shares of the slots, in the order of kSlotClasses
-    Boundary,
-    Terminated,
-    Conflict,
-    Ports,
-    Padding,
-    Starved,
-    Blocked,
-    Drain,
-    Utilization,
+    FirstSlot,     ///< shares of the slots, in the order of kSlotClasses, see slot_measure()
+    Utilization = FirstSlot + kSlotClasses.size(),
     FrameUtilization,
     DramRead,    ///< bytes
     DramWritten, ///< bytes
@@ -63,9 +55,9 @@ void for_each_measure(const Act& act) {
     }
 }
 
-/// The share of a class of slots; `slot_class` is a position in kSlotClasses.
-constexpr Measure slot_measure(std::size_t slot_class) {
-    return static_cast<Measure>(index_of(Measure::Useful) + slot_class);
+/// The share of a class of slots.
+constexpr Measure slot_measure(Slot slot) {
+    return static_cast<Measure>(index_of(Measure::FirstSlot) + static_cast<int>(slot));
 }
 
 /// Which values of a measure are better.

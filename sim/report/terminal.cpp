@@ -73,11 +73,11 @@ std::string slots_line(const AcceleratorResult& run) {
     }
     std::string line;
     for (const SlotClass& slot : kSlotClasses) {
-        if (s.*slot.slots == 0 && !line.empty()) {
+        if (s[slot.slot] == 0 && !line.empty()) {
             continue; // what did not occur is not worth its room
         }
         line += (line.empty() ? "" : "  ") + std::string(slot.name) + " " +
-                percent(ratio_of(s.*slot.slots, total)) + (line.empty() ? " %" : "");
+                percent(ratio_of(s[slot.slot], total)) + (line.empty() ? " %" : "");
     }
     return line + (run.hazards == 0 ? "" : "  HAZARDS " + grouped(run.hazards));
 }

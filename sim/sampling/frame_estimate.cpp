@@ -60,10 +60,10 @@ double value_of(const AcceleratorResult& run, const std::string& path) {
         return rate_of(run.cycles, 1);
     }
     if (path == "slots.useful") {
-        return rate_of(run.slots.useful, 1);
+        return rate_of(run.slots[Slot::Useful], 1);
     }
     if (path == "slots.utilization") {
-        return ratio_of(run.slots.useful, run.slots.total());
+        return ratio_of(run.slots[Slot::Useful], run.slots.total());
     }
     if (path == "dram.bytes_read") {
         return bytes_read(run);
@@ -115,7 +115,7 @@ void FrameEstimate::add_block(std::size_t block, std::size_t group, const SlotAc
     std::vector<double> measured;
     measured.reserve(kSlotClasses.size() + 1);
     for (const SlotClass& slot : kSlotClasses) {
-        measured.push_back(rate_of(slots.*slot.slots, 1));
+        measured.push_back(rate_of(slots[slot.slot], 1));
     }
     measured.push_back(rate_of(slots.total(), 1));
     regression_.add(block, group, std::move(measured));
@@ -138,7 +138,7 @@ void FrameEstimate::end(const AcceleratorResult& earlier, const AcceleratorResul
 FrameEstimate::Slots FrameEstimate::edge_slots() const {
     Slots slots{};
     for (std::size_t i = 0; i < kTotal; ++i) {
-        slots[i] = rate_of(edges_.*kSlotClasses[i].slots, 1);
+        slots[i] = rate_of(edges_[kSlotClasses[i].slot], 1);
     }
     slots[kTotal] = rate_of(edges_.total(), 1);
     return slots;
@@ -169,13 +169,13 @@ AcceleratorResult FrameEstimate::frame_of(const Slots& slots,
     const Cycle after_last = raw_.window.empty() ? 0 : raw_.cycles - raw_.window.last - 1;
     const Cycle after_run = std::max(raw_.memory_window, raw_.cycles) - raw_.cycles;
     for (std::size_t i = 0; i < kTotal; ++i) {
-        frame.slots.*kSlotClasses[i].slots = rounded(slots[i]);
+        frame.slots[kSlotClasses[i].slot] = rounded(slots[i]);
     }
     const auto largest = std::max_element(kSlotClasses.begin(), kSlotClasses.end(),
                                           [&frame](const SlotClass& a, const SlotClass& b) {
-                                              return frame.slots.*a.slots < frame.slots.*b.slots;
+                                              return frame.slots[a.slot] < frame.slots[b.slot];
                                           });
-    frame.slots.*largest->slots += pes * blending - frame.slots.total(); // what rounding left
+    frame.slots[largest->slot] += pes * blending - frame.slots.total(); // what rounding left
     frame.window.last = frame.window.first + blending - 1;
     frame.cycles = frame.window.first + blending + after_last;
     frame.memory_window = frame.cycles + after_run;

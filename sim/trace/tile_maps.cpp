@@ -32,7 +32,7 @@ constexpr Measured kMeasured[] = {
     {"list_length", "Splats in the list of a tile",
      [](const TileRecord& t) { return ratio_of(t.splats, 1); }},
     {"fragments", "Useful fragments of a tile",
-     [](const TileRecord& t) { return ratio_of(t.activity.slots.useful, 1); }},
+     [](const TileRecord& t) { return ratio_of(t.activity.slots[Slot::Useful], 1); }},
     {"cycles", "Cycles from the first task of a tile to its last",
      [](const TileRecord& t) { return ratio_of(busy_time(t), 1); }},
     {"residence", "Cycles from the first task of a tile until its pixels are read out",
@@ -45,7 +45,7 @@ constexpr Measured kMeasured[] = {
     {"useful_share", "Useful share of the PE-cycles that a tile took",
      [](const TileRecord& t) {
          const std::uint64_t total = t.activity.slots.total();
-         return total == 0 ? 0.0 : ratio_of(t.activity.slots.useful, total);
+         return total == 0 ? 0.0 : ratio_of(t.activity.slots[Slot::Useful], total);
      }},
 };
 
@@ -150,7 +150,7 @@ TileMaps tile_maps_of(const RunResult& result) {
     for (std::size_t s = 0; s < kSlotClasses.size(); ++s) {
         add(slot_name(s), std::string("PE-cycles of a tile: ") + kSlotClasses[s].name,
             [s](const TileRecord& t) {
-                return ratio_of(t.activity.slots.*kSlotClasses[s].slots, 1);
+                return ratio_of(t.activity.slots[kSlotClasses[s].slot], 1);
             });
     }
     return maps;

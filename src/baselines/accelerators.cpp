@@ -5,7 +5,7 @@
 #include "baselines/gcc/config.hpp"
 #include "baselines/gscore/config.hpp"
 #include "baselines/orange/config.hpp"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 
 namespace degs {
 namespace {
@@ -19,7 +19,7 @@ std::unique_ptr<AcceleratorConfig> make() {
 
 const std::vector<AcceleratorKind>& accelerator_kinds() {
     static const std::vector<AcceleratorKind> kinds{
-        {"degs", &make<DegsConfig>}, {"gscore", &make<GscoreConfig>},   {"gbu", &make<GbuConfig>},
+        {"degs", &make<DegsConfig>}, {"gscore", &make<gscore::Config>}, {"gbu", &make<gbu::Config>},
         {"gcc", &make<gcc::Config>}, {"orange", &make<orange::Config>},
     };
     return kinds;

@@ -23,6 +23,8 @@ void Design::describe(ConfigVisitor& visitor) {
         model_ = accelerator_kinds()[kind_].make();
     }
     model_->describe(visitor);
+    // A file of cost constants has the rows of all accelerators.
+    visitor.of_others("cost", names, "it belongs to another accelerator");
 }
 
 Design load_design(const std::string& file, const std::vector<std::string>& overrides) {

@@ -81,6 +81,14 @@ public:
         (void)key, (void)decider, (void)reason;
     }
 
+    /// Says that sections `keys` of the section `section` of this one, as far as they were not visited, are those of
+    /// other structs, which may stand in a file that both include. A reader does not look at them, and warns if an
+    /// override gives a key of theirs. `reason` completes "has no effect, because".
+    virtual void of_others(const char* section, const std::vector<const char*>& keys,
+                           const char* reason) {
+        (void)section, (void)keys, (void)reason;
+    }
+
     void integer(const char* key, int& value, int low, int high, const char* doc) {
         std::int64_t wide = value;
         integer(key, wide, low, high, doc);

@@ -41,6 +41,12 @@ std::string short_place(const std::string& place, const std::string& before) {
     return " at " + (same ? "line " + place.substr(colon) : place);
 }
 
+void require_section(const ConfigNode& node, const std::string& path) {
+    if (node.kind != Kind::kSection && node.kind != Kind::kNull) {
+        config_scalar::reject(node, path, "a section of keys");
+    }
+}
+
 } // namespace
 
 ConfigReader::ConfigReader(const ConfigSource& source) : source_(source) {
@@ -93,8 +99,8 @@ void ConfigReader::begin_section(const char* key, const char*) {
     const std::string path = declare(key);
     const ConfigNode* outer = open_.back().node;
     const ConfigNode* node = outer == nullptr ? nullptr : outer->find(key);
-    if (node != nullptr && node->kind != Kind::kSection && node->kind != Kind::kNull) {
-        config_scalar::reject(*node, path, "a section of keys");
+    if (node != nullptr) {
+        require_section(*node, path);
     }
     known_[path];
     open_.push_back({path, node});
@@ -222,6 +228,24 @@ void ConfigReader::unused(const char* key, const char* decider, const char* reas
     }
 }
 
+void ConfigReader::of_others(const char* section, const std::vector<const char*>& keys,
+                             const char* reason) {
+    std::vector<std::string>& known = known_[path_of(section)];
+    for (const char* key : keys) {
+        if (std::find(known.begin(), known.end(), key) != known.end()) {
+            continue;
+        }
+        const std::string path = join_path(path_of(section), key);
+        of_others_.push_back(path + ".");
+        for (const auto& override : source_.overrides_) {
+            if (override.path.rfind(of_others_.back(), 0) == 0) {
+                warnings_.push_back(override.value.place + ": key " + quote(override.path) +
+                                    " has no effect, because " + reason + ".");
+            }
+        }
+    }
+}
+
 void ConfigReader::finish() const {
     reject_unknown(source_.root_, "");
     for (const auto& override : source_.overrides_) {
@@ -239,15 +263,29 @@ void ConfigReader::reject_unknown(const ConfigNode& section, const std::string& 
     }
     for (const ConfigNode& child : section.children) {
         const auto& keys = known->second;
+        const std::string below = join_path(path, child.key);
+        if (is_of_others(below + ".")) {
+            require_section(child, below);
+            continue;
+        }
         if (std::find(keys.begin(), keys.end(), child.key) == keys.end()) {
             fail_unknown(child.place, path, child.key);
         }
-        reject_unknown(child, join_path(path, child.key));
+        reject_unknown(child, below);
     }
+}
+
+// Whether a section, or a key below one, belongs to other structs.
+bool ConfigReader::is_of_others(const std::string& path) const {
+    return std::any_of(of_others_.begin(), of_others_.end(),
+                       [&](const std::string& section) { return path.rfind(section, 0) == 0; });
 }
 
 void ConfigReader::reject_unknown(const std::string& override_path,
                                   const std::string& place) const {
+    if (is_of_others(override_path)) {
+        return;
+    }
     std::string section;
     std::string rest = override_path;
     while (known_.count(section) != 0) {

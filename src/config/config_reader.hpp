@@ -32,6 +32,8 @@ public:
     void advise(bool in_proportion, const ConfigRule& rule) override;
     void advise_if_set(bool of_use, const ConfigRule& rule) override;
     void unused(const char* key, const char* decider, const char* reason) override;
+    void of_others(const char* section, const std::vector<const char*>& keys,
+                   const char* reason) override;
 
     /// Rejects keys that nobody asked for, then the first rule that does not hold.
     void finish() const;
@@ -54,6 +56,7 @@ private:
     bool each_value(const char* key, const Parse& parse);
     template <class Number>
     void check_standing(const std::string& path, Number value, Number low, Number high) const;
+    bool is_of_others(const std::string& path) const;
     void reject_unknown(const ConfigNode& section, const std::string& path) const;
     void reject_unknown(const std::string& override_path, const std::string& place) const;
     [[noreturn]] void fail_unknown(const std::string& place, const std::string& section,
@@ -64,6 +67,7 @@ private:
     std::vector<Section> open_;
     std::map<std::string, std::vector<std::string>> known_; // keys by path of their section
     std::map<std::string, std::string> values_;             // as text, by path
+    std::vector<std::string> of_others_;                    // paths of sections
     std::set<std::string> changed_;                         // paths of values unlike the default
     std::string broken_rule_;                               // the sentence; empty while all hold
     std::vector<std::string> warnings_;

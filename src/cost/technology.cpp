@@ -16,18 +16,27 @@ void describe_row(Row& row, ConfigVisitor& visitor) {
 }
 
 /// A row whose leakage is more than its power would have a negative energy per operation.
-void require_power(const char* key, const Row& row, const Technology& technology,
-                   ConfigVisitor& visitor) {
-    const double leakage = kWPerMw * technology.leakage_mw_per_mm2 * row.area_mm2;
-    const std::string path = std::string(key) + ".power_w";
-    const std::string area = std::string(key) + ".area_mm2";
-    visitor.require(row.power_w >= leakage, {path.c_str(),
-                                             "must not be below the leakage of its area",
-                                             config_words::number(leakage),
-                                             {area.c_str(), "leakage_mw_per_mm2"}});
-}
 
 } // namespace
+
+RowSection::RowSection(const char* name, const char* doc, const Technology& technology,
+                       ConfigVisitor& visitor)
+    : name_(name), technology_(technology), visitor_(visitor) {
+    visitor_.begin_section(name, doc);
+}
+
+void RowSection::end() {
+    visitor_.end_section();
+    for (const auto& [key, row] : rows_) {
+        const double leakage = kWPerMw * technology_.leakage_mw_per_mm2 * row->area_mm2;
+        const std::string power = name_ + "." + key + ".power_w";
+        const std::string area = name_ + "." + key + ".area_mm2";
+        visitor_.require(row->power_w >= leakage, {power.c_str(),
+                                                   "must not be below the leakage of its area",
+                                                   config_words::number(leakage),
+                                                   {area.c_str(), "leakage_mw_per_mm2"}});
+    }
+}
 
 void UnitRow::describe(ConfigVisitor& visitor) {
     describe_row(*this, visitor);
@@ -52,67 +61,6 @@ void PortedSramRow::describe(ConfigVisitor& visitor) {
     visitor.integer("sram_banks", sram_banks, 1, 4096,
                     "SRAM banks of a part that the area contains; the default of the buffer's key "
                     "[assumed]");
-}
-
-void Technology::Degs::describe(ConfigVisitor& visitor) {
-    visitor.section("projection", projection, "Projection Units");
-    visitor.section("sorting", sorting, "Sorting Units");
-    visitor.section("span_engine", span_engine,
-                    "Gaussian Slicing Units and Span Units, 2 + 8, which weigh the same [assumed]");
-    visitor.section("packing_scheduler", packing_scheduler, "Issue Banks with Packing Units");
-    visitor.real("scheduler_width_share", scheduler_width_share, 0, 1,
-                 "share of an Issue Bank that follows array.pes_per_bank, which is 8 in its row; "
-                 "0: Table II widens the packets and Table I counts banks [assumed]");
-    visitor.section("blending", blending, "Blending Array");
-    visitor.section("gaussian_buffer", gaussian_buffer, "Gaussian Buffer");
-    visitor.section("feature_buffer", feature_buffer, "Feature Buffer");
-    visitor.section("span_buffer", span_buffer, "Span Buffer");
-    visitor.section("packing_buffer", packing_buffer, "Packing Buffer");
-    visitor.section("pixel_buffer", pixel_buffer, "Pixel Buffer");
-}
-
-void Technology::Gscore::describe(ConfigVisitor& visitor) {
-    visitor.section("preprocessing", preprocessing,
-                    "P & S: pairs of a culling and conversion unit and a sorting unit");
-    visitor.real("sorting_share", sorting_share, 0, 1,
-                 "share of P & S that sorts; 0.02 of 0.94 mm2 in DeGS [assumed]");
-    visitor.section("blending", blending, "lanes");
-    visitor.section("sram", sram, "all buffers");
-}
-
-void Technology::Gbu::describe(ConfigVisitor& visitor) {
-    visitor.section("preprocessing", preprocessing,
-                    "P & S: pairs of a culling and conversion unit and a sorting unit");
-    visitor.real("sorting_share", sorting_share, 0, 1,
-                 "share of P & S that sorts; 0.02 of 0.94 mm2 in DeGS [assumed]");
-    visitor.section("scheduler", scheduler,
-                    "Row Generation and dispatch, which Table I does not shade: one for any array");
-    visitor.section("blending", blending, "Row PEs");
-    visitor.section("sram", sram, "all buffers");
-}
-
-void Technology::Gcc::describe(ConfigVisitor& visitor) {
-    visitor.section("preprocessing", preprocessing,
-                    "P & S: 4 lanes of Stage I, 4 projection units and 4 SH units, which weigh the "
-                    "same [assumed]");
-    visitor.section("blending", blending, "PEs of the window");
-    visitor.section("sram", sram, "all buffers");
-}
-
-void Technology::Orange::describe(ConfigVisitor& visitor) {
-    visitor.section("preprocessing", preprocessing,
-                    "projection and sorting: energy as in GSCore, on the area of the vector units");
-    visitor.real("sorting_share", sorting_share, 0, 1,
-                 "share of preprocessing that sorts, as in GSCore [assumed]");
-    visitor.section("array", array,
-                    "multipliers of the systolic arrays: FP16 units of 3000 um2 and 1.5 pJ "
-                    "(Horowitz, ISSCC 2014, at 45 nm), 0.39 of the area and half of the energy at "
-                    "28 nm [assumed]");
-    visitor.section("vector_unit", vector_unit,
-                    "lanes of the vector units: 1.7 and 2 times as much as a multiplier [assumed]");
-    visitor.section("sram", sram,
-                    "scratchpads and Pixel Buffer: what is left of the area, at GSCore's area and "
-                    "energy per byte [assumed]");
 }
 
 void Technology::Sram::describe(ConfigVisitor& visitor) {
@@ -167,39 +115,6 @@ void Technology::describe(ConfigVisitor& visitor) {
     visitor.section("sram", sram, "how the area of a buffer follows its banks and ports");
     visitor.section("pe", pe, "number formats of PEs");
     visitor.section("dram", dram, "main memory");
-    visitor.section("degs", degs, "rows of DeGS (paper Table I)");
-    visitor.section("gscore", gscore, "rows of GSCore (paper Table I)");
-    visitor.section("gbu", gbu, "rows of GBU (paper Table I)");
-    visitor.section("gcc", gcc, "rows of GCC (paper Table I)");
-    visitor.section("orange", orange,
-                    "ORANGE with four cores: 13.74 mm2 in all, its only public figure");
-    const auto require = [&](const char* key, const Row& row) {
-        require_power(key, row, *this, visitor);
-    };
-    require("degs.projection", degs.projection);
-    require("degs.sorting", degs.sorting);
-    require("degs.span_engine", degs.span_engine);
-    require("degs.packing_scheduler", degs.packing_scheduler);
-    require("degs.blending", degs.blending);
-    require("degs.gaussian_buffer", degs.gaussian_buffer);
-    require("degs.feature_buffer", degs.feature_buffer);
-    require("degs.span_buffer", degs.span_buffer);
-    require("degs.packing_buffer", degs.packing_buffer);
-    require("degs.pixel_buffer", degs.pixel_buffer);
-    require("gscore.preprocessing", gscore.preprocessing);
-    require("gscore.blending", gscore.blending);
-    require("gscore.sram", gscore.sram);
-    require("gbu.preprocessing", gbu.preprocessing);
-    require("gbu.scheduler", gbu.scheduler);
-    require("gbu.blending", gbu.blending);
-    require("gbu.sram", gbu.sram);
-    require("gcc.preprocessing", gcc.preprocessing);
-    require("gcc.blending", gcc.blending);
-    require("gcc.sram", gcc.sram);
-    require("orange.preprocessing", orange.preprocessing);
-    require("orange.array", orange.array);
-    require("orange.vector_unit", orange.vector_unit);
-    require("orange.sram", orange.sram);
 }
 
 double Technology::leakage_w(double area_mm2) const {

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "config/config.hpp"
 
@@ -52,42 +54,9 @@ enum class PeNumbers { Table, Run };
 /// less.
 enum class Precision { Half, Single, Double };
 
-/// Every constant of the model; defaults are those of configs/cost/28nm.yaml.
+/// The constants that all accelerators share; defaults are those of configs/cost/28nm.yaml. Each
+/// accelerator has rows of its own, see RowSection.
 struct Technology {
-    struct Degs {
-        UnitRow projection{0.92, 0.60, 4}, sorting{0.02, 0.01, 4}, span_engine{0.17, 0.09, 10};
-        UnitRow packing_scheduler{0.07, 0.04, 8}, blending{0.88, 0.23, 64};
-        double scheduler_width_share = 0; ///< of an Issue Bank, that follows the PEs it feeds
-        PortedSramRow gaussian_buffer{{0.31, 0.01, 72 * 1024, 192}, 1, 4};
-        PortedSramRow feature_buffer{{0.03, 0.001, 8 * 1024, 256}, 1, 8};
-        PortedSramRow span_buffer{{0.04, 0.001, 2 * 1024, 128}, 1, 1};
-        PortedSramRow packing_buffer{{0.16, 0.02, 32 * 1024, 2240}, 2, 1};
-        PortedSramRow pixel_buffer{{0.12, 0.01, 16 * 1024, 1024}, 1, 32};
-        void describe(ConfigVisitor& visitor);
-    };
-    struct Gscore {
-        UnitRow preprocessing{0.89, 0.58, 4}, blending{1.81, 0.25, 64};
-        double sorting_share = 0.02; ///< of preprocessing
-        SramRow sram{1.25, 0.04, 272 * 1024, 2240};
-        void describe(ConfigVisitor& visitor);
-    };
-    struct Gbu {
-        UnitRow preprocessing{0.89, 0.58, 4}, scheduler{0.24, 0.07, 1}, blending{2.88, 0.88, 64};
-        double sorting_share = 0.02; ///< of preprocessing
-        SramRow sram{0.43, 0.06, 91 * 1024, 2368};
-        void describe(ConfigVisitor& visitor);
-    };
-    struct Gcc {
-        UnitRow preprocessing{0.72, 0.30, 12}, blending{0.96, 0.44, 64};
-        SramRow sram{1.01, 0.05, 190 * 1024, 2112};
-        void describe(ConfigVisitor& visitor);
-    };
-    struct Orange {
-        UnitRow preprocessing{0, 0.58, 4}, array{4.8, 3.1, 4096}, vector_unit{4.1, 3.0, 2048};
-        double sorting_share = 0.02; ///< of preprocessing
-        SramRow sram{4.84, 0.15, 1032 * 1024, 8256};
-        void describe(ConfigVisitor& visitor);
-    };
     struct Sram {
         double bank_share = 0.2;  ///< of the area, that follows the number of SRAM banks
         double port_share = 0.75; ///< of the area, that each port after the first adds
@@ -113,11 +82,6 @@ struct Technology {
     Sram sram;
     Pe pe;
     Dram dram;
-    Degs degs;
-    Gscore gscore;
-    Gbu gbu;
-    Gcc gcc;
-    Orange orange;
 
     void describe(ConfigVisitor& visitor);
 
@@ -131,6 +95,34 @@ struct Technology {
 
 private:
     double dynamic_pj_per_cycle(const Row& row) const;
+};
+
+/// The rows of an accelerator: the section `name` of the section of a Technology, which is open. An accelerator
+/// describes its rows between the constructor and end().
+class RowSection {
+public:
+    RowSection(const char* name, const char* doc, const Technology& technology,
+               ConfigVisitor& visitor);
+    RowSection(const RowSection&) = delete;
+    RowSection& operator=(const RowSection&) = delete;
+
+    template <class AnyRow>
+    void row(const char* key, AnyRow& row, const char* doc) {
+        visitor_.section(key, row, doc);
+        rows_.emplace_back(key, &row);
+    }
+    /// A share of a row, 0 to 1.
+    void share(const char* key, double& value, const char* doc) {
+        visitor_.real(key, value, 0, 1, doc);
+    }
+    /// Closes the section, and demands that no row leaks more than its power.
+    void end();
+
+private:
+    std::string name_;
+    const Technology& technology_;
+    ConfigVisitor& visitor_;
+    std::vector<std::pair<std::string, const Row*>> rows_;
 };
 
 } // namespace degs::cost

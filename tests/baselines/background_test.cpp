@@ -4,7 +4,7 @@
 #include "baselines/gbu/config.hpp"
 #include "baselines/gcc/config.hpp"
 #include "baselines/gscore/config.hpp"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/baselines/engine_run.hpp"
 
 namespace degs {
@@ -41,10 +41,10 @@ TEST(SmallRunBackground, OfDegsWaitsForTheScene) {
     expect_scene_read_first(DegsConfig());
 }
 TEST(SmallRunBackground, OfGscoreWaitsForTheScene) {
-    expect_scene_read_first(GscoreConfig());
+    expect_scene_read_first(gscore::Config());
 }
 TEST(SmallRunBackground, OfGbuWaitsForTheScene) {
-    expect_scene_read_first(GbuConfig());
+    expect_scene_read_first(gbu::Config());
 }
 TEST(SmallRunBackground, OfGccWaitsForTheScene) {
     expect_scene_read_first(gcc::Config());

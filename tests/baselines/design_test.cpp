@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "baselines/design.hpp"
 #include "config/config_document.hpp"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 
 namespace degs::test {
 namespace {

@@ -38,7 +38,7 @@ public:
         EXPECT_EQ(engine_->finished_tiles(), job_.tiles.size());
         expect_laws(result(), pes_);
     }
-    void expect_reference() const { expect_reference_pixels(job_, result().slots.useful); }
+    void expect_reference() const { expect_reference_pixels(job_, result().slots[Slot::Useful]); }
     /// Every number of the result in words, to compare runs by.
     std::string words() const;
 
@@ -54,9 +54,9 @@ inline std::string EngineRun::words() const {
     const AcceleratorResult r = result();
     std::ostringstream out;
     const SlotAccount& s = r.slots;
-    out << r.cycles << ' ' << r.window.first << '-' << r.window.last << " slots " << s.useful << ' '
-        << s.boundary << ' ' << s.terminated << ' ' << s.conflict << ' ' << s.starved << ' '
-        << s.blocked << ' ' << s.drain << '\n';
+    out << r.cycles << ' ' << r.window.first << '-' << r.window.last << " slots " << s[Slot::Useful]
+        << ' ' << s[Slot::Boundary] << ' ' << s[Slot::Terminated] << ' ' << s[Slot::Conflict] << ' '
+        << s[Slot::Starved] << ' ' << s[Slot::Blocked] << ' ' << s[Slot::Drain] << '\n';
     for (const FrameDates& frame : r.frames) {
         out << "frame " << frame.preprocessed << ' ' << frame.finished << '\n';
     }

@@ -6,7 +6,7 @@
 #include "baselines/gbu/config.hpp"
 #include "baselines/gcc/config.hpp"
 #include "baselines/gscore/config.hpp"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/baselines/engine_run.hpp"
 
 namespace degs {
@@ -77,14 +77,15 @@ TEST_F(SmallRunExplanation, TakenPorts) {
     config.pixel_buffer.ports.ports = 1;
     config.pixel_buffer.ports.sram_banks = 8;
     run(config);
-    EXPECT_GT(result.slots.ports, 0U);
-    EXPECT_THAT(result.left_out, Contains(StartsWith("Taken SRAM ports left " +
-                                                     grouped(result.slots.ports) + " PE-cycles")));
+    EXPECT_GT(result.slots[Slot::Ports], 0U);
+    EXPECT_THAT(result.left_out,
+                Contains(StartsWith("Taken SRAM ports left " + grouped(result.slots[Slot::Ports]) +
+                                    " PE-cycles")));
     EXPECT_THAT(result.left_out, Not(Contains(StartsWith("Every SRAM had"))));
 }
 
 TEST_F(SmallRunExplanation, Gscore) {
-    run(GscoreConfig());
+    run(gscore::Config());
     expect(count("fetching", "records_cancelled"),
            {sentence(count("blending", "splats_skipped"), " splats took no slot"),
             sentence(count("blending", "splats_discarded"), " splats had been fetched when")});
@@ -92,7 +93,7 @@ TEST_F(SmallRunExplanation, Gscore) {
 }
 
 TEST_F(SmallRunExplanation, Gbu) {
-    run(GbuConfig());
+    run(gbu::Config());
     expect(count("fetching", "records_cancelled"),
            {AllOf(sentence(count("row_generation", "rows_skipped"), " rows of splats were left"),
                   HasSubstr(" and " + grouped(count("row_pes", "entries_dropped")) +

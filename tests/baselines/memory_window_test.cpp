@@ -57,12 +57,12 @@ FrameWorkload opaque_frame(int tile_size) {
 
 // Splats of cancelled tiles are still on their way when the last pixel is in memory.
 TEST(SmallRunMemoryWindow, ReadsOfCancelledTilesProlongIt) {
-    GscoreConfig config;
+    gscore::Config config;
     config.memory.model = MemoryModel::Lpddr5;
     config.traffic.burst_bytes = 4096;
     const FrameWorkload frame = opaque_frame(config.tile_size_px());
     const EngineRun run("gscore", config, {&frame});
-    GscoreConfig on_bus = config;
+    gscore::Config on_bus = config;
     on_bus.memory.model = MemoryModel::Bus;
     on_bus.memory.latency_ns = 0;
     on_bus.memory.bandwidth_gb_per_s = 20;
@@ -79,7 +79,7 @@ TEST(SmallRunMemoryWindow, ReadsOfCancelledTilesProlongIt) {
 
 // 9.29289 GHz are 107.61 ps, simulated as 108.
 TEST(SmallRunMemoryWindow, CountsCyclesAsTheyWereSimulated) {
-    GscoreConfig config;
+    gscore::Config config;
     config.clock_ghz = 9.29289;
     config.memory.bandwidth_gb_per_s = 0.05;
     const FrameWorkload frame = test::random_frame(3, 40, 30, config.tile_size_px(), 60);

@@ -2,7 +2,7 @@
 // Every baseline in every number set: sound, finite, near the reference.
 #include <cmath>
 
-#include "baselines/gscore/gscore.hpp"
+#include "baselines/gscore/engine.hpp"
 #include "splat/images/image_metrics.hpp"
 #include "tests/baselines/engine_run.hpp"
 #include "tests/baselines/gbu/gbu_fixture.hpp"
@@ -35,9 +35,9 @@ FrameWorkload frame_for(const AcceleratorConfig& config) {
 }
 
 TEST_P(SmallRunNumberSets, RunEverywhere) {
-    GbuConfig gbu = test::gbu_of(16, 4, 8);
+    gbu::Config gbu = test::gbu_of(16, 4, 8);
     gbu.pipeline.numbers = GetParam();
-    GscoreConfig gscore;
+    gscore::Config gscore;
     gscore.pipeline.numbers = GetParam();
     gcc::Config gcc = test::gcc_of(64);
     gcc.pipeline.numbers = GetParam();

@@ -3,7 +3,7 @@
 // bit, that of pixels that check every splat of their tile's list, in every number format.
 #include <cmath>
 
-#include "baselines/gscore/gscore.hpp"
+#include "baselines/gscore/engine.hpp"
 #include "tests/baselines/engine_run.hpp"
 #include "tests/baselines/gbu/gbu_fixture.hpp"
 #include "tests/baselines/gcc/gcc_run.hpp"
@@ -40,7 +40,7 @@ struct OwnRun {
           run(name, config, {&frame}) {}
     void expect_own_image() const {
         run.expect_sound();
-        EXPECT_EQ(run.result().slots.useful, expected.useful);
+        EXPECT_EQ(run.result().slots[Slot::Useful], expected.useful);
         EXPECT_TRUE(test::same_bytes(run.image(), expected.image));
     }
     FrameWorkload frame;
@@ -51,7 +51,7 @@ struct OwnRun {
 class SmallRunOwnArithmetic : public ::testing::TestWithParam<Arithmetic> {};
 
 TEST_P(SmallRunOwnArithmetic, OfGbuIsThatOfItsPixels) {
-    GbuConfig config = test::gbu_of(16, 4, 8);
+    gbu::Config config = test::gbu_of(16, 4, 8);
     config.pipeline.numbers = GetParam();
     const OwnRun gbu("gbu", config);
     sc_core::sc_start();
@@ -59,7 +59,7 @@ TEST_P(SmallRunOwnArithmetic, OfGbuIsThatOfItsPixels) {
 }
 
 TEST_P(SmallRunOwnArithmetic, OfGscoreIsThatOfItsPixels) {
-    GscoreConfig config;
+    gscore::Config config;
     config.pipeline.numbers = GetParam();
     config.array.lanes = 16;
     const OwnRun boxes("obb", config);

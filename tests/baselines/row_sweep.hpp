@@ -3,7 +3,7 @@
 // docs/adding-an-accelerator.md, built and run by row_sweep_test.cpp.
 #pragma once
 
-#include "modules/kit/engine/tile_array_engine.hpp"
+#include "modules/kit/engine/array_accelerator.hpp"
 #include "tlm/has_process.hpp"
 
 namespace degs::example {
@@ -37,11 +37,11 @@ private:
     void run() {
         for (TileNumber number = 0; number < job_.tiles.size(); ++number) {
             if (number >= static_cast<TileNumber>(contexts_)) {
-                wait_and_account(Idle::Blocked, [&] { context_free->get(self_); });
+                wait_and_account(Slot::Blocked, [&] { context_free->get(self_); });
             }
             SplatChunk chunk;
             while (!chunk.last) {
-                wait_and_account(Idle::Starved,
+                wait_and_account(Slot::Starved,
                                  [&] { chunk = in[number % in.size()]->get(self_); });
                 sweep(chunk);
             }
@@ -52,10 +52,10 @@ private:
     }
     /// Idle slots count once a slot follows: what lies outside the window is nobody's.
     template <class Wait>
-    void wait_and_account(Idle cause, const Wait& wait) {
+    void wait_and_account(Slot cause, const Wait& wait) {
         const Cycle before = self_.local();
         wait();
-        pending_.idle(cause, lanes() * (self_.local() - before));
+        pending_[cause] += lanes() * (self_.local() - before);
     }
     void sweep(const SplatChunk& chunk) {
         const JobTile& tile = job_.tiles[chunk.tile];
@@ -81,9 +81,9 @@ private:
         window.include(self_.local());
         const auto useful = static_cast<std::uint64_t>(__builtin_popcount(outcome.useful));
         const auto ended = static_cast<std::uint64_t>(__builtin_popcount(outcome.terminated));
-        slots.useful += useful;
-        slots.terminated += ended;
-        slots.boundary += lanes() - useful - ended; // also lanes outside the image
+        slots[Slot::Useful] += useful;
+        slots[Slot::Terminated] += ended;
+        slots[Slot::Boundary] += lanes() - useful - ended; // also lanes outside the image
         self_.advance();
     }
     std::uint64_t lanes() const { return static_cast<std::uint64_t>(job_.tile_size); }
@@ -93,11 +93,11 @@ private:
     SlotAccount pending_; // idle slots since the last one that did something
 };
 
-class RowSweep : public TileArrayEngine {
+class RowSweep : public ArrayAccelerator {
 public:
     RowSweep(const char* name, const Parts& parts, const Timebase& time, RenderJob& job,
              const BuildOptions& options)
-        : TileArrayEngine(name, parts, time, job, options),
+        : ArrayAccelerator(name, parts, time, job, options),
           array_("array", time, job, share_of(0).inputs, parts.contexts) {
         connect(array_);
     }
@@ -116,9 +116,17 @@ private:
     RowSweepArray array_;
 };
 
+/// What the blocks take: those of DeGS, of the paper's Table I.
+struct RowSweepCostRows {
+    cost::UnitRow projection{0.92, 0.60, 4}, sorting{0.02, 0.01, 4}, blending{0.88, 0.23, 64};
+    cost::SramRow gaussian_buffer{0.31, 0.01, 72 * 1024, 192};
+    cost::SramRow pixel_buffer{0.12, 0.01, 16 * 1024, 1024};
+};
+
 struct RowSweepConfig : AcceleratorConfig {
     int tile_size = 16; ///< px, also the number of lanes
-    TileArrayEngine::Parts parts;
+    ArrayAccelerator::Parts parts;
+    RowSweepCostRows cost_rows;
 
     RowSweepConfig() { name = "row-sweep-16"; }
     std::unique_ptr<AcceleratorConfig> clone() const override {
@@ -146,31 +154,40 @@ struct RowSweepConfig : AcceleratorConfig {
         parts.front.traffic.geometry_bytes = kFloatGeometryBytes;
         parts.front.traffic.sh_value_bytes = kFloatBytes;
     }
-    /// Units and memories as in the rows of DeGS.
     cost::BillOfMaterials bill() const override {
-        const cost::Technology::Degs& rows = cost.degs;
         cost::BillOfMaterials bill(cost, clock_ghz);
-        bill.add_units({"projection", "Projection Units.", true}, rows.projection,
+        bill.add_units({"projection", "Projection Units.", true}, cost_rows.projection,
                        parts.front.projection.count);
-        bill.add_units({"sorting", "Sorting Units.", true}, rows.sorting,
+        bill.add_units({"sorting", "Sorting Units.", true}, cost_rows.sorting,
                        parts.front.sorting.count);
-        bill.add_units({"blending", "Lanes."}, rows.blending, pes());
-        bill.add_sram({"gaussian_buffer", "Splats and lists."}, rows.gaussian_buffer,
-                      rows.gaussian_buffer.bytes, 2 * records().splat_bytes);
-        bill.add_sram({"pixel_buffer", "Tiles in flight."}, rows.pixel_buffer,
+        bill.add_units({"blending", "Lanes."}, cost_rows.blending, pes());
+        bill.add_sram({"gaussian_buffer", "Splats and lists."}, cost_rows.gaussian_buffer,
+                      cost_rows.gaussian_buffer.bytes, 2 * records().splat_bytes);
+        bill.add_sram({"pixel_buffer", "Tiles in flight."}, cost_rows.pixel_buffer,
                       parts.pixel_buffer.bytes, 2 * pes() * parts.pixel_bytes);
         return bill;
     }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override {
-        TileArrayEngine::Parts sized = parts;
+        ArrayAccelerator::Parts sized = parts;
         sized.front.sort_capacity = 1024;
         sized.front.frames_in_flight = frames_in_flight;
         sized.frame_end = frame_end;
         sized.contexts = tile_contexts();
         sized.splat_chunks = 8;
-        sized.buffer_bytes = cost.degs.gaussian_buffer.bytes;
+        sized.buffer_bytes = cost_rows.gaussian_buffer.bytes;
         return std::make_unique<RowSweep>(module, sized, time, job, options);
+    }
+
+private:
+    void describe_rows(ConfigVisitor& visitor) override {
+        cost::RowSection section("row_sweep", "rows of the row sweep", cost, visitor);
+        section.row("projection", cost_rows.projection, "Projection Units");
+        section.row("sorting", cost_rows.sorting, "Sorting Units");
+        section.row("blending", cost_rows.blending, "lanes");
+        section.row("gaussian_buffer", cost_rows.gaussian_buffer, "splats and lists");
+        section.row("pixel_buffer", cost_rows.pixel_buffer, "tiles in flight");
+        section.end();
     }
 };
 

@@ -26,7 +26,7 @@ TEST_P(RowSweep, PaintsTheReferenceAndStrictAgrees) {
     exact.expect_sound();
     alone.expect_sound();
     EXPECT_EQ(exact.words(), strict.words());
-    EXPECT_EQ(alone.result().slots.useful, exact.result().slots.useful);
+    EXPECT_EQ(alone.result().slots[Slot::Useful], exact.result().slots[Slot::Useful]);
     ReferenceCounts counts;
     const Image reference = render_reference(frame, counts);
     EXPECT_GT(compare_images(reference, exact.image()).psnr_db, 100);
@@ -42,8 +42,8 @@ TEST(RowSweepSlots, TakesARowPerCycle) {
     sc_core::sc_start();
     const AcceleratorResult result = run.result();
     EXPECT_EQ(result.window.cycles(), 16U + 1U);
-    EXPECT_EQ(result.slots.useful, 256U + 1U);
-    EXPECT_EQ(result.slots.boundary, 15U);
+    EXPECT_EQ(result.slots[Slot::Useful], 256U + 1U);
+    EXPECT_EQ(result.slots[Slot::Boundary], 15U);
 }
 
 TEST(RowSweepConfiguration, IsConfiguredLikeAnyOther) {

@@ -5,7 +5,7 @@
 #include "baselines/gbu/config.hpp"
 #include "baselines/gcc/config.hpp"
 #include "baselines/gscore/config.hpp"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/baselines/engine_run.hpp"
 
 namespace degs {
@@ -35,7 +35,7 @@ void expect_all_tiles_cancelled(const AcceleratorConfig& config, const FrameWork
 // The buffer in front of the array holds the chunks of all tiles, so that fetchers and sorters are
 // done before the first tile is.
 TEST(SmallRunWires, GscoreEndsManyTilesAheadOfTheArray) {
-    GscoreConfig config;
+    gscore::Config config;
     config.array.lanes = 16;
     config.buffer.bytes = 4 * 1024 * 1024;
     expect_all_tiles_cancelled(config, wall(14));
@@ -59,7 +59,7 @@ TEST(SmallRunWires, DegsEndsRegionsLongBeforeTheyAreSeen) {
 }
 
 TEST(SmallRunWires, GbuEndsManyTilesAheadOfTheEngines) {
-    GbuConfig config;
+    gbu::Config config;
     config.tile_size = 16;
     config.engines.row_pes = 16;
     config.list_buffer.chunks = 256;

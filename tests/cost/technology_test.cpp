@@ -1,37 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// The constants: the shipped file, and what refuses a row.
+// The constants, and what refuses a row.
 #include <gtest/gtest.h>
 
-#include "config/config_document.hpp"
 #include "config/config_source.hpp"
 #include "cost/technology.hpp"
 
 namespace degs::cost {
 namespace {
 
-const std::string kFile = std::string(DEGS_CONFIGS) + "/cost/28nm.yaml";
-
-TEST(Technology, TheFileStatesEveryDefault) {
-    const ConfigSource source = ConfigSource::from_file(kFile);
-    Technology loaded;
-    EXPECT_TRUE(source.load(loaded).empty());
-    EXPECT_EQ(resolved(loaded).dump(2), resolved(Technology{}).dump(2));
-    for (const KeyDoc& key : document(loaded)) {
-        EXPECT_NE(source.place(key.path), "default") << key.path;
+/// A technology with two rows, as the section of a design has it.
+struct Section {
+    Technology technology;
+    UnitRow units{1, 1, 4};
+    SramRow buffer{0.04, 0.001, 2048, 128};
+    void describe(ConfigVisitor& visitor) {
+        technology.describe(visitor);
+        RowSection rows("rows", "rows of a test", technology, visitor);
+        rows.row("units", units, "units");
+        rows.row("buffer", buffer, "a buffer");
+        rows.end();
     }
-}
+};
 
 TEST(Technology, ARowMustNotLeakMoreThanItsPower) {
-    Technology technology;
+    Section section;
     try {
-        ConfigSource::from_overrides({"leakage_mw_per_mm2=26"}).load(technology);
+        ConfigSource::from_overrides({"leakage_mw_per_mm2=26"}).load(section);
         ADD_FAILURE();
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("degs.span_buffer.power_w"), std::string::npos)
+        EXPECT_NE(std::string(error.what()).find("rows.buffer.power_w"), std::string::npos)
             << error.what();
     }
-    ConfigSource::from_overrides({"leakage_mw_per_mm2=25"}).load(technology);
-    EXPECT_NEAR(technology.energy_pj(technology.degs.span_buffer), 0, 1e-12);
+    ConfigSource::from_overrides({"leakage_mw_per_mm2=25"}).load(section);
+    EXPECT_NEAR(section.technology.energy_pj(section.buffer), 0, 1e-12);
+    ConfigSource::from_overrides({"rows.units.power_w=2"}).load(section);
+    EXPECT_EQ(section.units.power_w, 2);
 }
 
 TEST(Technology, PesAreThoseOfTheTableUnlessTheRunDecides) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs::Accelerator on memories that know the four phases only.
 #include "dram/lpddr5.hpp"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 #include "tests/tlm/at_memory.hpp"
 

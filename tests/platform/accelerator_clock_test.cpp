@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs::Accelerator on a clock of the platform.
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
 namespace degs::test {

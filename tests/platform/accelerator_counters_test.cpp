@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the registers of degs::Accelerator count, against the slots of a closed run, and which bits they keep.
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/baselines/engine_run.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
@@ -33,7 +33,7 @@ TEST(SmallRunCounters, FragmentsAreUsefulSlotsWithExactSpanEnds) {
     config.pipeline.span_ends = SpanEnds::Exact;
     const CountedFrame frame(config);
     EXPECT_GT(frame.fragments, 1000U);
-    EXPECT_EQ(frame.fragments, frame.slots.useful);
+    EXPECT_EQ(frame.fragments, frame.slots[Slot::Useful]);
 }
 
 // A pixel outside the ellipse is updated as well, unless it has ended.
@@ -41,8 +41,8 @@ TEST(SmallRunCounters, FragmentsAreMoreThanUsefulSlotsWithOutwardSpanEnds) {
     DegsConfig config;
     ASSERT_EQ(config.pipeline.span_ends, SpanEnds::Outward);
     const CountedFrame frame(config);
-    EXPECT_GT(frame.fragments, frame.slots.useful);
-    EXPECT_LE(frame.fragments, frame.slots.useful + frame.slots.boundary);
+    EXPECT_GT(frame.fragments, frame.slots[Slot::Useful]);
+    EXPECT_LE(frame.fragments, frame.slots[Slot::Useful] + frame.slots[Slot::Boundary]);
 }
 
 TEST(SmallRunCounters, RegistersOfBitsKeepNoReservedBit) {

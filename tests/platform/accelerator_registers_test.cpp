@@ -3,7 +3,7 @@
 #include <fstream>
 #include <regex>
 
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
 namespace degs::test {

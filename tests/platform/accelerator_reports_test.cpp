@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "config/config_source.hpp"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
 namespace degs::test {

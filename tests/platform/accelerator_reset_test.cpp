@@ -4,7 +4,7 @@
 
 #include "baselines/accelerators.hpp"
 #include "config/config_source.hpp"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 #include "tests/tlm/at_memory.hpp"
 

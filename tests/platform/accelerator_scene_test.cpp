@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs::Accelerator with a trained scene in a platform's memory: the pixels are those of a closed
 // job of the same configuration, which is what `degs run` renders.
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "scene/scene.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 #include "tests/scene/scene_fixture.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a start takes over, when the processor that writes it runs ahead of the kernel.
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
 namespace degs::test {

@@ -2,7 +2,7 @@
 // degs::Accelerator with DeGS behind it, on a memory that is not ours.
 #include <glm/gtc/packing.hpp>
 
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
 namespace degs::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What others see of an accelerator that shares an ordinary memory with them.
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 #include "tests/platform/busy_memory.hpp"
 #include "tests/tlm/script.hpp"

@@ -2,7 +2,7 @@
 // Accelerators on memories whose sockets have another width.
 #include "platform/bus_width.hpp"
 
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 #include "tests/tlm/at_memory.hpp"
 

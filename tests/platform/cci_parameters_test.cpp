@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "platform/cci_parameters.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 

@@ -5,7 +5,7 @@
 #include <deque>
 #include <string>
 
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "scene/scene.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 #include "tests/platform/busy_memory.hpp"

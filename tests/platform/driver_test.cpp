@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The driver in C: its header against the model, and a frame through its two functions.
 #include "driver/degs_driver.h"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
 namespace degs::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The keys of the end of a frame: how fast background is written, and how late its end is known.
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
 namespace degs::test {

@@ -6,7 +6,7 @@
 
 #include <tlm_utils/simple_target_socket.h>
 
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
 namespace degs::test {

@@ -2,9 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "baselines/gbu/config.hpp"
-#include "baselines/orange/config.hpp"
-#include "modules/degs/degs_config.hpp"
 #include "tests/random/promises.hpp"
 
 namespace degs::trials {
@@ -45,9 +42,7 @@ void check_dates(const Finished& run, Complaints& complaints) {
         last = r.frames[f].finished;
     }
     complaints.equal("the run ends with its last frame", r.cycles, last);
-    // Queues of GBU may run dry later, and ORANGE finishes products of tiles whose pixels have all ended.
-    if (dynamic_cast<const GbuConfig*>(&run.config) == nullptr &&
-        dynamic_cast<const orange::Config*>(&run.config) == nullptr) {
+    if (run.config.ends_with_its_pixels()) {
         complaints.at_most("the blending window ends before the run",
                            r.window.empty() ? 0 : r.window.last, r.cycles);
     }
@@ -147,8 +142,7 @@ void check_tiles(const Finished& run, Complaints& complaints) {
     complaints.equal("tiles rendered and background",
                      run.result.tiles + run.result.background_tiles, tiles);
     complaints.at_most("tiles cancelled", run.result.tiles_cancelled, run.result.tiles);
-    const auto* degs = dynamic_cast<const DegsConfig*>(&run.config);
-    if (degs == nullptr || degs->scheduler.scoreboard) {
+    if (run.config.keeps_pixel_order()) {
         complaints.equal("hazards", run.result.hazards, std::uint64_t{0});
     }
 }

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "accuracy/data_path_renderer.hpp"
-#include "modules/degs/degs_config.hpp"
 #include "splat/frame/tile_window.hpp"
 #include "splat/reference/reference_renderer.hpp"
 #include "tests/random/promises.hpp"
@@ -16,12 +15,12 @@ namespace {
 using test::BlendedImage;
 using test::checked_image;
 
-/// What spans show, solved or as wide as the splat's box, as those of DeGS do.
-BlendedImage spans_image(const FrameWorkload& work, const DegsConfig& config) {
+/// What the rows of splats show, solved or as wide as the splat's box.
+BlendedImage image_of_rows(const FrameWorkload& work, const AcceleratorConfig& config) {
     DataPathRender options;
     options.numbers = config.data_path();
-    options.rows_in_columns = config.slicing.rows == SlicedRows::Tile;
-    options.parsing = config.span.parsing;
+    options.rows_in_columns = config.pixel_search().rows_of_tile;
+    options.parsing = config.pixel_search().how == PixelSearch::How::Solve;
     DataPathRenderer renderer(work, options);
     BlendedImage expected{renderer.render(all_tiles(work))};
     expected.useful = renderer.counts().useful;
@@ -82,16 +81,17 @@ void compare_counts(const std::string& what, std::uint64_t useful, std::uint64_t
 } // namespace
 
 std::vector<std::string> wrong_images(const Finished& run) {
-    const auto* degs = dynamic_cast<const DegsConfig*>(&run.config);
     if (run.result.hazards != 0) { // only without scoreboard, see broken_bounds()
         return {};
     }
     const DataPathOptions numbers = run.config.data_path();
-    const bool parses = degs != nullptr && degs->span.parsing;
+    const PixelSearch::How how = run.config.pixel_search().how;
+    const bool parses = how == PixelSearch::How::Solve;
+    const bool by_rows = how != PixelSearch::How::Test;
     const bool exact = is_exact(numbers, parses);
     // Coupled arrays look at the pixels near an ellipse only. With formats of the user's own, where
     // level or q saturate, pixels farther away would pass the check, too.
-    const bool knows_own_image = degs != nullptr || !numbers.set;
+    const bool knows_own_image = by_rows || !numbers.set;
     std::vector<std::string> sentences;
     std::uint64_t useful = 0;
     std::uint64_t fragments = 0;
@@ -100,7 +100,7 @@ std::vector<std::string> wrong_images(const Finished& run) {
         const Image& image = run.result.images[f];
         if (knows_own_image) {
             const BlendedImage expected =
-                degs != nullptr ? spans_image(work, *degs) : checked_image(work, numbers);
+                by_rows ? image_of_rows(work, run.config) : checked_image(work, numbers);
             useful += expected.useful;
             if (!same(image, expected.image)) {
                 sentences.push_back(differs(f, "its own arithmetic's", image, expected.image));

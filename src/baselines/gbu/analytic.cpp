@@ -6,12 +6,12 @@
 #include "baselines/gbu/config.hpp"
 #include "modules/kit/analytic/front_end_load.hpp"
 
-namespace degs {
+namespace degs::gbu {
 namespace {
 
-class GbuAnalytic : public FrontEndModel {
+class Analytic : public FrontEndModel {
 public:
-    explicit GbuAnalytic(const GbuConfig& config)
+    explicit Analytic(const Config& config)
         : FrontEndModel(config, config.list_buffer.chunks, kMemory), config_(config) {}
     std::vector<std::string> units() const override {
         return {"projection", "sorting", "generation", "blending", "memory"};
@@ -34,16 +34,16 @@ public:
     int pes() const override { return config_.pes(); }
 
     enum Unit : std::size_t { kGeneration = kArrayUnits, kBlending, kMemory };
-    const GbuConfig& config() const { return config_; }
+    const Config& config() const { return config_; }
 
 private:
-    GbuConfig config_;
+    Config config_;
 };
 
 /// An engine: a splat enters its rows' queues in one cycle if all of them have room.
-class GbuClock : public TileClock {
+class Clock : public TileClock {
 public:
-    explicit GbuClock(const GbuAnalytic& model)
+    explicit Clock(const Analytic& model)
         : model_(model), engines_(model.config().engines), pes_(engines_.row_pes) {}
     void begin(const CoarseTile& tile) override;
     void splat(const CoarseTile& tile) override;
@@ -55,17 +55,17 @@ private:
         std::size_t next = 0;       ///< place in the queue
         std::vector<double> loaded; ///< by place: when the entry left it
     };
-    const GbuAnalytic& model_;
-    const GbuConfig::Engines& engines_;
+    const Analytic& model_;
+    const Config::Engines& engines_;
     std::vector<RowPe> pes_;
     double generated_ = 0, slots_ = 0;
 };
 
-std::unique_ptr<TileClock> GbuAnalytic::clock(const FrameWorkload&) const {
-    return std::make_unique<GbuClock>(*this);
+std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload&) const {
+    return std::make_unique<Clock>(*this);
 }
 
-void GbuClock::begin(const CoarseTile&) {
+void Clock::begin(const CoarseTile&) {
     for (RowPe& pe : pes_) {
         pe.free = 0;
         pe.next = 0;
@@ -74,7 +74,7 @@ void GbuClock::begin(const CoarseTile&) {
     generated_ = slots_ = 0;
 }
 
-void GbuClock::splat(const CoarseTile& tile) {
+void Clock::splat(const CoarseTile& tile) {
     double pushed = generated_;
     for (const CoarseSpan& span : tile.spans()) {
         if (!tile.cell_is_live(span.row, 0)) {
@@ -93,7 +93,7 @@ void GbuClock::splat(const CoarseTile& tile) {
     generated_ = pushed + 1;
 }
 
-TileCycles GbuClock::end(const CoarseTile& tile) {
+TileCycles Clock::end(const CoarseTile& tile) {
     const FrontEndLoad& front = model_.front();
     const double entries = tile.entries(), walked = tile.walked();
     double last = generated_;
@@ -106,17 +106,17 @@ TileCycles GbuClock::end(const CoarseTile& tile) {
     cycles.bytes = front.tile_bytes(entries, walked, tile.pixels());
     cycles.walked = walked;
     cycles.busy[kSortingUnits] = model_.sort_cycles(entries, walked).all / model_.sorters();
-    cycles.busy[GbuAnalytic::kGeneration] = walked / model_.engines();
-    cycles.busy[GbuAnalytic::kBlending] = cycles.slots / model_.pes();
-    cycles.busy[GbuAnalytic::kMemory] = front.memory.cycles(cycles.bytes);
+    cycles.busy[Analytic::kGeneration] = walked / model_.engines();
+    cycles.busy[Analytic::kBlending] = cycles.slots / model_.pes();
+    cycles.busy[Analytic::kMemory] = front.memory.cycles(cycles.bytes);
     cycles.time = std::max(last, front.fetch_cycles(walked));
     return cycles;
 }
 
 } // namespace
 
-std::unique_ptr<AnalyticModel> GbuConfig::analytic() const {
-    return std::make_unique<GbuAnalytic>(*this);
+std::unique_ptr<AnalyticModel> Config::analytic() const {
+    return std::make_unique<Analytic>(*this);
 }
 
-} // namespace degs
+} // namespace degs::gbu

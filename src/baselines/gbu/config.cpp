@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/gbu/config.hpp"
 
-namespace degs {
+namespace degs::gbu {
 
-GbuConfig::GbuConfig() {
+Config::Config() {
     name = "gbu-64";
     projection.latency_cycles = 128;
     traffic.geometry_bytes = 44;
@@ -13,7 +13,7 @@ GbuConfig::GbuConfig() {
     pixel_buffer.state_bytes = 8;
 }
 
-void GbuConfig::ListBuffer::describe(ConfigVisitor& visitor) {
+void Config::ListBuffer::describe(ConfigVisitor& visitor) {
     visitor.integer("bytes", bytes, 16, 1 << 30,
                     "bytes for lists being sorted: what is left of 91 KB (DeGS paper, Table I) "
                     "beside the other buffers [assumed]");
@@ -21,7 +21,7 @@ void GbuConfig::ListBuffer::describe(ConfigVisitor& visitor) {
                     "chunks of splat records in front of each engine [assumed]");
 }
 
-void GbuConfig::Engines::describe(ConfigVisitor& visitor) {
+void Config::Engines::describe(ConfigVisitor& visitor) {
     visitor.integer("count", count, 1, 256,
                     "tile engines, each on a tile of its own: PEs / rows of a tile [assumed]");
     TileEngine::Config::describe(visitor);
@@ -30,13 +30,13 @@ void GbuConfig::Engines::describe(ConfigVisitor& visitor) {
                     "counted as SRAM, limits nothing [assumed]");
 }
 
-void GbuConfig::Cache::describe(ConfigVisitor& visitor) {
+void Config::Cache::describe(ConfigVisitor& visitor) {
     visitor.integer("bytes", bytes, 0, 1 << 30,
                     "bytes of splat records kept between tiles, all engines together (GBU: 32 KB); "
                     "0: none");
 }
 
-TileCoupling GbuConfig::tile_coupling(bool array_only) const {
+TileCoupling Config::tile_coupling(bool array_only) const {
     if (reuse_cache.bytes == 0 || array_only) {
         return {};
     }
@@ -45,7 +45,7 @@ TileCoupling GbuConfig::tile_coupling(bool array_only) const {
             "reuse_cache.bytes=0"};
 }
 
-void GbuConfig::describe(ConfigVisitor& visitor) {
+void Config::describe(ConfigVisitor& visitor) {
     describe_common(visitor);
     visitor.integer("tile_size", tile_size, 4, 1024,
                     "px; grows with the PEs like the tiles of DeGS [assumed]");
@@ -67,7 +67,7 @@ void GbuConfig::describe(ConfigVisitor& visitor) {
     require_sizes(visitor);
 }
 
-void GbuConfig::require_sizes(ConfigVisitor& visitor) const {
+void Config::require_sizes(ConfigVisitor& visitor) const {
     visitor.require(engines.row_pes <= tile_size, {"engines.row_pes",
                                                    "must not be above tile_size",
                                                    std::to_string(tile_size),
@@ -86,4 +86,4 @@ void GbuConfig::require_sizes(ConfigVisitor& visitor) const {
                      {"engines.count", "traffic.splat_bytes"}});
 }
 
-} // namespace degs
+} // namespace degs::gbu

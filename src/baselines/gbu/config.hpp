@@ -3,22 +3,16 @@
 
 #include <string>
 
+#include "baselines/gbu/cost.hpp"
 #include "baselines/gbu/tile_engine.hpp"
-#include "modules/kit/accelerator/render_engine.hpp"
-#include "modules/kit/config/main_memory_config.hpp"
+#include "modules/kit/engine/tiled_config.hpp"
 #include "modules/kit/front_end/hierarchical_sorter.hpp"
-#include "modules/kit/front_end/projection_unit.hpp"
-#include "modules/kit/front_end/splat_fetcher.hpp"
-#include "modules/kit/front_end/tile_binner.hpp"
-#include "modules/kit/front_end/tile_monitor.hpp"
-#include "modules/kit/job/traffic.hpp"
-#include "modules/kit/pixels/pixel_buffer.hpp"
 
-namespace degs {
+namespace degs::gbu {
 
 /// The standalone GBU (Ye et al., HPCA 2025) with GSCore's projection and sorting, as the DeGS paper
 /// compares against it; defaults are its 64-PE design. Values that neither paper gives are [assumed].
-struct GbuConfig : AcceleratorConfig {
+struct Config : TiledConfig<Config> {
     struct ListBuffer {
         int bytes = 15 * 1024; ///< lists being sorted
         int chunks = 4;        ///< splat chunks in front of an engine
@@ -35,38 +29,22 @@ struct GbuConfig : AcceleratorConfig {
     };
 
     int tile_size = 32;
-    PipelineConfig pipeline;
-    TrafficConfig traffic;
-    ProjectionUnit::Config projection;
-    TileBinner::Config binning;
     HierarchicalSorter::Config sorting;
     ListBuffer list_buffer;
-    SplatFetcher::Config fetching;
     Cache reuse_cache;
     Engines engines;
-    PixelBuffer::Config pixel_buffer;
-    TileMonitor::Config monitor;
-    MainMemoryConfig memory;
+    CostRows cost_rows;
 
-    GbuConfig();
-    std::unique_ptr<AcceleratorConfig> clone() const override {
-        return std::make_unique<GbuConfig>(*this);
-    }
+    Config();
     void describe(ConfigVisitor& visitor) override;
     void scale_to(int pes) override;
     int tile_size_px() const override { return tile_size; }
-    TileMode tile_mode() const override { return pipeline.tiles; }
-    DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return engines.count * contexts(); }
     TileCoupling tile_coupling(bool array_only) const override;
+    /// Queues of rows whose pixels have ended run dry later.
+    bool ends_with_its_pixels() const override { return false; }
     std::vector<LossKey> loss_keys() const override;
-    TrafficConfig records() const override { return traffic; }
     cost::BillOfMaterials bill() const override;
-    RecordOrder record_order() const override { return memory.layout; }
-    void read_floats() override {
-        traffic.geometry_bytes = kFloatGeometryBytes;
-        traffic.sh_value_bytes = kFloatBytes;
-    }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
     std::unique_ptr<AnalyticModel> analytic() const override;
@@ -88,12 +66,10 @@ struct GbuConfig : AcceleratorConfig {
         return std::int64_t{engines.count} * list_buffer.chunks * fetching.chunk *
                traffic.splat_bytes;
     }
-    /// Bytes of the state of a pixel, which need not be whole ones.
-    double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
 
 private:
-    PixelBuffer::TilePixels tile_pixels() const { return {tile_size, pipeline.pixel_bits()}; }
+    void describe_rows(ConfigVisitor& visitor) override;
     void require_sizes(ConfigVisitor& visitor) const;
 };
 
-} // namespace degs
+} // namespace degs::gbu

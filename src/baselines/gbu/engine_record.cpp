@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace degs {
+namespace degs::gbu {
 
 void EngineRecord::begin_entry(TileNumber tile, std::size_t pe, Cycle from, Cycle to) {
     if (busy_ != nullptr) {
@@ -62,4 +62,4 @@ void EngineRecord::close(TileNumber tile, Cycle end) {
     }
 }
 
-} // namespace degs
+} // namespace degs::gbu

@@ -8,7 +8,7 @@
 #include "modules/kit/job/slot_recorder.hpp"
 #include "splat/pixels/data_path.hpp"
 
-namespace degs {
+namespace degs::gbu {
 
 /// The slots of a tile engine with their dates: its Row PEs run ahead of each other, so every one
 /// has a date up to which its time is accounted for.
@@ -39,4 +39,4 @@ private:
     std::vector<std::pair<Cycle, Cycle>> blocked_; // since the last slot
 };
 
-} // namespace degs
+} // namespace degs::gbu

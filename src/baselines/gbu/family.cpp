@@ -7,7 +7,7 @@
 #include "baselines/gbu/config.hpp"
 #include "modules/kit/job/family_size.hpp"
 
-namespace degs {
+namespace degs::gbu {
 namespace {
 
 // How the SRAM of 91 KB per 64 PEs is spent at the sizes of the shipped files [assumed]: what is left
@@ -35,7 +35,7 @@ int between(int pes, const SharesOfSram& low, const SharesOfSram& high, int Shar
 
 } // namespace
 
-void GbuConfig::scale_to(int pes) {
+void Config::scale_to(int pes) {
     constexpr int kLeast = 8, kMost = 4096;
     require_family_size(
         "gbu", pes, kMost, "must be a multiple of the rows of its tile, from 8 to 4096",
@@ -60,4 +60,4 @@ void GbuConfig::scale_to(int pes) {
     pixel_buffer.readout_pixels = pes;
 }
 
-} // namespace degs
+} // namespace degs::gbu

@@ -2,9 +2,9 @@
 // What moves the losses of GBU.
 #include "baselines/gbu/config.hpp"
 
-namespace degs {
+namespace degs::gbu {
 
-std::vector<LossKey> GbuConfig::loss_keys() const {
+std::vector<LossKey> Config::loss_keys() const {
     using Way = LossKey::Way;
     return with(
         {
@@ -19,4 +19,4 @@ std::vector<LossKey> GbuConfig::loss_keys() const {
         common_loss_keys(memory));
 }
 
-} // namespace degs
+} // namespace degs::gbu

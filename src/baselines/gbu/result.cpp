@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "base/grouped_number.hpp"
-#include "baselines/gbu/gbu.hpp"
+#include "baselines/gbu/engine.hpp"
 
-namespace degs {
+namespace degs::gbu {
 
-void Gbu::collect_slots(AcceleratorResult& result) const {
+void Engine::collect_slots(AcceleratorResult& result) const {
     for (const auto& engine : engines_) {
         add_slots(result, engine->stats().slots, engine->stats().window);
     }
@@ -16,7 +16,7 @@ void Gbu::collect_slots(AcceleratorResult& result) const {
     }
 }
 
-void Gbu::collect_stages(AcceleratorResult& result) const {
+void Engine::collect_stages(AcceleratorResult& result) const {
     Counters generation;
     Counters row_pes;
     for (const auto& engine : engines_) {
@@ -27,10 +27,10 @@ void Gbu::collect_stages(AcceleratorResult& result) const {
               sum_of(engines_, &TileEngine::Stats::splats), std::move(generation));
     const SlotAccount& s = result.slots;
     add_stage(result, {"row_pes", "Row PEs of the tile engines.", true}, config_.pes(),
-              s.useful + s.boundary + s.terminated, std::move(row_pes));
+              s[Slot::Useful] + s[Slot::Boundary] + s[Slot::Terminated], std::move(row_pes));
 }
 
-void Gbu::collect_buffers(AcceleratorResult& result) const {
+void Engine::collect_buffers(AcceleratorResult& result) const {
     add_buffer(result, {"list_buffer", "Lists of the Sorting Units."}, config_.list_buffer.bytes)
         .counters.count("keys_per_unit", config_.sort_capacity(), "keys",
                         "List entries that one Sorting Unit holds.");
@@ -53,7 +53,7 @@ void Gbu::collect_buffers(AcceleratorResult& result) const {
     add_pixel_buffer(result, config_.pixel_buffer.bytes, config_.tile_contexts(), pixel_buffers());
 }
 
-void Gbu::collect_laws(AcceleratorResult& result) const {
+void Engine::collect_laws(AcceleratorResult& result) const {
     using E = TileEngine::Stats;
     const std::uint64_t probes = config_.engines.end_probe ? sum_of(engines_, &E::entries) : 0;
     const SlotAccount& s = result.slots;
@@ -65,12 +65,13 @@ void Gbu::collect_laws(AcceleratorResult& result) const {
             {"splats fetched = taken by Row Generation + abandoned", records_fetched(),
              sum_of(engines_, &E::splats) + sum_of(engines_, &E::splats_abandoned)},
             {"pixels of row entries + end probes = slots executed",
-             sum_of(engines_, &E::pixels) + probes, s.useful + s.boundary + s.terminated},
+             sum_of(engines_, &E::pixels) + probes,
+             s[Slot::Useful] + s[Slot::Boundary] + s[Slot::Terminated]},
             {"tiles granted = worked on", dispatcher().stats().tiles, sum_of(engines_, &E::tiles)},
         });
 }
 
-void Gbu::collect_engines(AcceleratorResult& result) const {
+void Engine::collect_engines(AcceleratorResult& result) const {
     collect_slots(result);
     collect_stages(result);
     collect_buffers(result);
@@ -83,4 +84,4 @@ void Gbu::collect_engines(AcceleratorResult& result) const {
                               " row entries dropped, because every pixel of the row had ended.");
 }
 
-} // namespace degs
+} // namespace degs::gbu

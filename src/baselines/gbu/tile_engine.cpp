@@ -5,7 +5,7 @@
 
 #include "tlm/has_process.hpp"
 
-namespace degs {
+namespace degs::gbu {
 namespace {
 
 constexpr int kLaneBlock = 32; // pixels that DataPath::test() takes at a time
@@ -185,9 +185,9 @@ Cycle TileEngine::execute(const Entry& entry, Cycle load) {
         test.x = tile_->x + test.column;
         test.mask = first_bits(entry.length - done);
         const BlendOutcome outcome = job_.path->test(test);
-        slots.useful += __builtin_popcount(outcome.useful);
-        slots.boundary += __builtin_popcount(outcome.boundary);
-        slots.terminated += __builtin_popcount(outcome.terminated);
+        slots[Slot::Useful] += __builtin_popcount(outcome.useful);
+        slots[Slot::Boundary] += __builtin_popcount(outcome.boundary);
+        slots[Slot::Terminated] += __builtin_popcount(outcome.terminated);
         if (Recorded) {
             record_->pixels(number_, load + done, outcome);
         }
@@ -202,7 +202,7 @@ Cycle TileEngine::execute(const Entry& entry, Cycle load) {
     }
     stats_.entries++;
     stats_.pixels += entry.length;
-    slots.boundary += config_.end_probe ? 1 : 0;
+    slots[Slot::Boundary] += config_.end_probe ? 1 : 0;
     if (Recorded && config_.end_probe) {
         record_->end_probe(number_, load + entry.length);
     }
@@ -275,10 +275,10 @@ void TileEngine::account_idle() {
     if (stats_.window.empty() || stats_.window.last < started_) {
         return;
     }
-    slots.blocked += blocked_;
+    slots[Slot::Blocked] += blocked_;
     blocked_ = 0;
-    slots.starved = stats_.window.cycles() * pes_.size() - slots.useful - slots.boundary -
-                    slots.terminated - slots.blocked;
+    slots[Slot::Starved] = stats_.window.cycles() * pes_.size() - slots[Slot::Useful] -
+                           slots[Slot::Boundary] - slots[Slot::Terminated] - slots[Slot::Blocked];
 }
 
-} // namespace degs
+} // namespace degs::gbu

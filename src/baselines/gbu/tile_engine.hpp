@@ -13,7 +13,7 @@
 #include "stats/statistics.hpp"
 #include "tlm/dated_fifo.hpp"
 
-namespace degs {
+namespace degs::gbu {
 
 /// One row-centric tile engine of GBU: Row Generation and a Row PE per tile row, each with a queue
 /// of row entries. Generation takes one listed splat per cycle, solves the interval of pixels with
@@ -137,4 +137,4 @@ private:
     Stats stats_;
 };
 
-} // namespace degs
+} // namespace degs::gbu

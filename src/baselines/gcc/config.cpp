@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/gcc/config.hpp"
 
-#include <algorithm>
-
-#include "modules/kit/job/family_size.hpp"
 #include "tlm/ceil_div.hpp"
 
 namespace degs::gcc {
@@ -40,26 +37,6 @@ void Config::describe(ConfigVisitor& visitor) {
     visitor.section("memory", memory, "off-chip memory");
     describe_cost(visitor);
     require_sizes(visitor);
-}
-
-void Config::scale_to(int pes) {
-    constexpr int kWidest = 64, kWindowsPerSide = 16;
-    require_family_size("gcc", pes, kWidest * kWidest,
-                        "must be a square, because the window has a PE per pixel, and at most 4096",
-                        [](int number) {
-                            const int side = whole_root(number);
-                            return side * side == number;
-                        });
-    name = "gcc-" + std::to_string(pes);
-    array.window = whole_root(pes);
-    view_size = std::max(4, kWindowsPerSide * array.window);
-    group_buffer_bytes = per_pe(group_buffer_bytes, pes);
-    const int per_gaussian = group_bytes() / listed_gaussians();
-    projection.group =
-        std::min(projection.group, power_of_two_below(group_buffer_bytes / per_gaussian));
-    colour.block = std::max(colour.block, ceil_div(view_size, BlockMask::kMaxBlocks));
-    image_buffer.bytes = image_buffer.state_bytes * view_size * view_size;
-    image_buffer.readout_pixels = pes;
 }
 
 void Config::require_sizes(ConfigVisitor& visitor) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "baselines/gcc/colour_stage.hpp"
+#include "baselines/gcc/cost.hpp"
 #include "baselines/gcc/grouping.hpp"
 #include "baselines/gcc/projection_stage.hpp"
 #include "baselines/gcc/window_array.hpp"
@@ -31,6 +32,7 @@ struct Config : AcceleratorConfig {
     PixelBuffer::Config image_buffer;
     TileMonitor::Config monitor;
     MainMemoryConfig memory;
+    CostRows cost_rows;
 
     Config();
     std::unique_ptr<AcceleratorConfig> clone() const override {
@@ -74,6 +76,7 @@ struct Config : AcceleratorConfig {
     }
 
 private:
+    void describe_rows(ConfigVisitor& visitor) override;
     PixelBuffer::TilePixels view_pixels() const { return {view_size, pipeline.pixel_bits()}; }
     void require_sizes(ConfigVisitor& visitor) const;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bill of materials of GCC, and the activity of each block of it; docs/cost.md explains both.
-#include "baselines/gcc/gcc.hpp"
+#include "baselines/gcc/engine.hpp"
 
 namespace degs::gcc {
 namespace {
@@ -11,8 +11,22 @@ constexpr int kReadAndWritten = 2;
 
 } // namespace
 
+void CostRows::describe(cost::RowSection& section) {
+    section.row("preprocessing", preprocessing,
+                "P & S: 4 lanes of Stage I, 4 projection units and 4 SH units, which weigh the "
+                "same [assumed]");
+    section.row("blending", blending, "PEs of the window");
+    section.row("sram", sram, "all buffers");
+}
+
+void Config::describe_rows(ConfigVisitor& visitor) {
+    cost::RowSection section("gcc", "rows of GCC (paper Table I)", cost, visitor);
+    cost_rows.describe(section);
+    section.end();
+}
+
 cost::BillOfMaterials Config::bill() const {
-    const cost::Technology::Gcc& rows = cost.gcc;
+    const CostRows& rows = cost_rows;
     const int records = kRingsOfShapes * projection.units + kRingsOfColours * colour.units;
     cost::BillOfMaterials bill(cost, clock_ghz);
     bill.add_units({"grouping", "Lanes of Stage I, a mean per cycle each.", true},

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/grouped_number.hpp"
-#include "baselines/gcc/gcc.hpp"
+#include "baselines/gcc/engine.hpp"
 #include "baselines/gcc/streams.hpp"
 
 namespace degs::gcc {
@@ -131,9 +131,10 @@ void Engine::collect_laws(AcceleratorResult& result) const {
     auto& laws = result.conservation;
     laws.push_back({"slots of windows and skips = useful + boundary + terminated",
                     sum_of(arrays_, &A::windows) * pes + skipped,
-                    s.useful + s.boundary + s.terminated});
+                    s[Slot::Useful] + s[Slot::Boundary] + s[Slot::Terminated]});
     laws.push_back({"valid pixels of live windows = useful + terminated",
-                    sum_of(arrays_, &A::valid_pixels) + skipped, s.useful + s.terminated});
+                    sum_of(arrays_, &A::valid_pixels) + skipped,
+                    s[Slot::Useful] + s[Slot::Terminated]});
     if (dispatcher_) {
         laws.push_back(
             {"views granted = views of the job", dispatcher_->stats().tiles, job_.tiles.size()});

@@ -91,7 +91,7 @@ void WindowArray::render_view(SplatChunk chunk) {
 SplatChunk WindowArray::next_chunk() {
     const Cycle asked = self_.local();
     const SplatChunk chunk = in[views_ % in.size()]->get(self_);
-    idle(Idle::Starved, asked, self_.local());
+    idle(Slot::Starved, asked, self_.local());
     return chunk;
 }
 
@@ -100,7 +100,7 @@ void WindowArray::await_context() {
     for (; startable_ <= views_; ++startable_) {
         context_free->get(self_);
     }
-    idle(Idle::Blocked, asked, self_.local());
+    idle(Slot::Blocked, asked, self_.local());
 }
 
 void WindowArray::start_view(TileNumber number) {
@@ -145,13 +145,13 @@ void WindowArray::render(std::uint32_t splat, const ProjectedSplat& projected) {
     footprint_.solve(*job_.path, splat, *view_);
     const SlotAccount before = stats_.slots;
     evaluate(splat);
-    const std::uint64_t useful = stats_.slots.useful - before.useful;
-    const std::uint64_t terminated = stats_.slots.terminated - before.terminated;
+    const std::uint64_t useful = stats_.slots[Slot::Useful] - before[Slot::Useful];
+    const std::uint64_t terminated = stats_.slots[Slot::Terminated] - before[Slot::Terminated];
     traverse(projected);
     if (part_ != nullptr) {
         record_splat(useful, terminated);
     }
-    stats_.slots.boundary +=
+    stats_.slots[Slot::Boundary] +=
         (stats_.windows - windows) * config_.pes() - (stats_.valid_pixels - valid);
 }
 
@@ -186,8 +186,8 @@ void WindowArray::evaluate_run(std::uint32_t splat, int y, const PixelRange& col
         test.column = column;
         test.mask = ~0U >> (kLanes - std::min(kLanes, columns.last - column + 1));
         const BlendOutcome outcome = job_.path->test(test);
-        stats_.slots.useful += __builtin_popcount(outcome.useful);
-        stats_.slots.terminated += __builtin_popcount(outcome.terminated);
+        stats_.slots[Slot::Useful] += __builtin_popcount(outcome.useful);
+        stats_.slots[Slot::Terminated] += __builtin_popcount(outcome.terminated);
         if (outcome.ended != 0) {
             note_ended(y, column, outcome.ended);
         }
@@ -294,16 +294,16 @@ void WindowArray::report_block(int block) {
 
 void WindowArray::wait_until(Cycle date) {
     if (date > self_.local()) {
-        idle(Idle::Conflict, self_.local(), date);
+        idle(Slot::Conflict, self_.local(), date);
         self_.advance_to(date);
     }
 }
 
-void WindowArray::idle(Idle cause, Cycle from, Cycle to) {
+void WindowArray::idle(Slot cause, Cycle from, Cycle to) {
     const std::uint64_t slots = (to - from) * config_.pes();
-    pending_idle_.idle(cause, slots);
+    pending_idle_[cause] += slots;
     if (part_ != nullptr) {
-        part_->idle(slot_of(cause), from, to, slots);
+        part_->idle(cause, from, to, slots);
     }
     idle_pending_ = true;
 }
@@ -325,7 +325,7 @@ void WindowArray::record_splat(std::uint64_t useful, std::uint64_t terminated) {
 
 // Idle time lies inside the window of activity only if a slot follows it, and one has gone before.
 void WindowArray::settle_idle() {
-    pending_idle_.terminated += pending_skips_ * config_.pes();
+    pending_idle_[Slot::Terminated] += pending_skips_ * config_.pes();
     if (!stats_.window.empty()) {
         stats_.slots += pending_idle_;
         stats_.skip_cycles += pending_skips_;

@@ -104,7 +104,7 @@ private:
     void end_pixels(std::size_t window);
     void report_block(int block);
     void wait_until(Cycle date);
-    void idle(Idle cause, Cycle from, Cycle to);
+    void idle(Slot cause, Cycle from, Cycle to);
     void settle_idle();
     void record_splat(std::uint64_t useful, std::uint64_t terminated);
     std::size_t window_at(int row, int column) const { return row * grid_ + column; }

@@ -7,12 +7,12 @@
 #include "modules/kit/analytic/front_end_load.hpp"
 #include "splat/frame/subtile_cover.hpp"
 
-namespace degs {
+namespace degs::gscore {
 namespace {
 
-class GscoreAnalytic : public FrontEndModel {
+class Analytic : public FrontEndModel {
 public:
-    explicit GscoreAnalytic(const GscoreConfig& config)
+    explicit Analytic(const Config& config)
         : FrontEndModel(config, config.splat_chunks(), kMemory), config_(config) {}
     std::vector<std::string> units() const override {
         return {"projection", "sorting", "blending", "memory"};
@@ -38,15 +38,15 @@ public:
     int pes() const override { return config_.pes(); }
 
     enum Unit : std::size_t { kBlending = kArrayUnits, kMemory };
-    const GscoreConfig& config() const { return config_; }
+    const Config& config() const { return config_; }
 
 private:
-    GscoreConfig config_;
+    Config config_;
 };
 
-class GscoreClock : public TileClock {
+class Clock : public TileClock {
 public:
-    GscoreClock(const GscoreAnalytic& model, const FrameWorkload& frame)
+    Clock(const Analytic& model, const FrameWorkload& frame)
         : model_(model), frame_(frame), grid_(frame.tile_size, model.config().array.side()) {}
     void begin(const CoarseTile& tile) override {
         passes_ = 0;
@@ -59,19 +59,19 @@ private:
     SubtileMask live(const CoarseTile& tile) const;
     SubtileMask named(const CoarseTile& tile, SubtileMask among) const;
 
-    const GscoreAnalytic& model_;
+    const Analytic& model_;
     const FrameWorkload& frame_;
     SubtileGrid grid_;
     SubtileMask inside_ = 0;
     double passes_ = 0;
 };
 
-std::unique_ptr<TileClock> GscoreAnalytic::clock(const FrameWorkload& frame) const {
-    return std::make_unique<GscoreClock>(*this, frame);
+std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload& frame) const {
+    return std::make_unique<Clock>(*this, frame);
 }
 
 /// Those with a pixel that has not ended.
-SubtileMask GscoreClock::live(const CoarseTile& tile) const {
+SubtileMask Clock::live(const CoarseTile& tile) const {
     SubtileMask mask = 0;
     for (int row = 0, s = 0; row < grid_.per_side(); ++row) {
         for (int column = 0; column < grid_.per_side(); ++column, ++s) {
@@ -84,7 +84,7 @@ SubtileMask GscoreClock::live(const CoarseTile& tile) const {
 }
 
 /// Those of `among` that the solved splat touches.
-SubtileMask GscoreClock::named(const CoarseTile& tile, SubtileMask among) const {
+SubtileMask Clock::named(const CoarseTile& tile, SubtileMask among) const {
     switch (model_.config().array.subtile_skip) {
     case SubtileTest::Obb:
         return grid_.meeting(OrientedBox(frame_.splats[tile.splat()]), tile.x(), tile.y(), among);
@@ -100,11 +100,11 @@ SubtileMask GscoreClock::named(const CoarseTile& tile, SubtileMask among) const 
     }
 }
 
-void GscoreClock::splat(const CoarseTile& tile) {
+void Clock::splat(const CoarseTile& tile) {
     passes_ += __builtin_popcount(named(tile, live(tile)));
 }
 
-TileCycles GscoreClock::end(const CoarseTile& tile) {
+TileCycles Clock::end(const CoarseTile& tile) {
     const FrontEndLoad& front = model_.front();
     const double entries = tile.entries(), walked = tile.walked();
     TileCycles cycles;
@@ -113,16 +113,16 @@ TileCycles GscoreClock::end(const CoarseTile& tile) {
     cycles.bytes = front.tile_bytes(entries, walked, tile.pixels());
     cycles.walked = walked;
     cycles.busy[kSortingUnits] = model_.sort_cycles(entries, walked).all / model_.sorters();
-    cycles.busy[GscoreAnalytic::kBlending] = passes_ / model_.engines();
-    cycles.busy[GscoreAnalytic::kMemory] = front.memory.cycles(cycles.bytes);
+    cycles.busy[Analytic::kBlending] = passes_ / model_.engines();
+    cycles.busy[Analytic::kMemory] = front.memory.cycles(cycles.bytes);
     cycles.time = std::max(passes_, front.fetch_cycles(walked));
     return cycles;
 }
 
 } // namespace
 
-std::unique_ptr<AnalyticModel> GscoreConfig::analytic() const {
-    return std::make_unique<GscoreAnalytic>(*this);
+std::unique_ptr<AnalyticModel> Config::analytic() const {
+    return std::make_unique<Analytic>(*this);
 }
 
-} // namespace degs
+} // namespace degs::gscore

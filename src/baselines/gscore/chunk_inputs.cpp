@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace degs {
+namespace degs::gscore {
 
 TileNumber ChunkInputs::next_tile() {
     return granted_ ? next_granted() : next_of_job();
@@ -88,4 +88,4 @@ Cycle ChunkInputs::next_arrival(FifoBase* wanted, Cycle limit) {
     return date;
 }
 
-} // namespace degs
+} // namespace degs::gscore

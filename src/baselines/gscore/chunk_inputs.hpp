@@ -9,7 +9,7 @@
 #include "modules/kit/job/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
 
-namespace degs {
+namespace degs::gscore {
 
 /// The rings through which an array gets its tiles' splats. Either all tiles of the job come, tile
 /// t on ring t modulo their number, or tiles are granted: they come one by one, ascending, on the
@@ -55,4 +55,4 @@ private:
     std::uint64_t discarded_ = 0;
 };
 
-} // namespace degs
+} // namespace degs::gscore

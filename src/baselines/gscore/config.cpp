@@ -3,12 +3,11 @@
 
 #include <algorithm>
 
-#include "modules/kit/job/family_size.hpp"
 #include "tlm/ceil_div.hpp"
 
-namespace degs {
+namespace degs::gscore {
 
-void GscoreConfig::Buffer::describe(ConfigVisitor& visitor) {
+void Config::Buffer::describe(ConfigVisitor& visitor) {
     visitor.integer("bytes", bytes, 256, 1 << 30,
                     "bytes in all, pixel_buffer.bytes included (paper Table I: 8 x 34 KB)");
     visitor.real("sort_share", sort_share, 0.05, 0.95,
@@ -16,7 +15,7 @@ void GscoreConfig::Buffer::describe(ConfigVisitor& visitor) {
                  "sorted splats [assumed]");
 }
 
-GscoreConfig::GscoreConfig() {
+Config::Config() {
     name = "gscore-64";
     projection.latency_cycles = 128;
     traffic.geometry_bytes = 44;
@@ -25,7 +24,7 @@ GscoreConfig::GscoreConfig() {
     pixel_buffer.bytes = 8 * 1024; // two tiles of 16 x 16 px
 }
 
-void GscoreConfig::describe(ConfigVisitor& visitor) {
+void Config::describe(ConfigVisitor& visitor) {
     describe_common(visitor);
     visitor.integer(
         "clusters", clusters, 1, 64,
@@ -47,43 +46,7 @@ void GscoreConfig::describe(ConfigVisitor& visitor) {
     require_sizes(visitor);
 }
 
-void GscoreConfig::scale_to(int pes) {
-    require_family_size(
-        "gscore", pes, 1024, "must be a square of 4, 8, 16 or 32 px", [](int number) {
-            const int side = whole_root(number);
-            return side * side == number && side >= 4 && power_of_two_below(side) == side;
-        });
-    name = "gscore-" + std::to_string(pes);
-    array.lanes = pes;
-    buffer.bytes = per_pe(buffer.bytes, pes);
-    constexpr int kTiles = 2;
-    pixel_buffer.bytes = kTiles * pixel_buffer.state_bytes * array.tile_size() * array.tile_size();
-    pixel_buffer.readout_pixels = pes;
-}
-
-// The reference traffic of the buffer: a splat per cycle for the array, and keys in both steps.
-cost::BillOfMaterials GscoreConfig::bill() const {
-    const cost::Technology::Gscore& rows = cost.gscore;
-    constexpr int kReadAndWritten = 2;
-    constexpr int kSortingSteps = 2;
-    cost::BillOfMaterials bill(cost, clock_ghz);
-    bill.add_units({"projection", "Culling and conversion units.", true}, rows.preprocessing,
-                   projection.count, 1 - rows.sorting_share);
-    bill.add_units({"sorting", "Hierarchical sorting units.", true}, rows.preprocessing,
-                   sorting.count, rows.sorting_share);
-    bill.add_units({"blending", "Lanes of the volume rendering cores."}, rows.blending, pes(), 1,
-                   cost.pe_factors(pipeline.precision()));
-    bill.add_sram({"gaussian_buffer", "Sorted splats and lists being sorted."}, rows.sram,
-                  std::int64_t{clusters} * shared_bytes(),
-                  kReadAndWritten * (clusters * traffic.splat_bytes +
-                                     kSortingSteps * sorting.count * traffic.list_entry_bytes));
-    bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."}, rows.sram,
-                  std::int64_t{clusters} * pixel_buffer.bytes,
-                  kReadAndWritten * pes() * pixel_bytes());
-    return bill;
-}
-
-void GscoreConfig::require_sizes(ConfigVisitor& visitor) const {
+void Config::require_sizes(ConfigVisitor& visitor) const {
     pixel_buffer.require_tiles(visitor, "pixel_buffer", tile_pixels(), 1,
                                {"array.lanes", "clusters"}, kMostContexts / clusters);
     const int lists = ceil_div(sorting.chunk * traffic.list_entry_bytes, clusters);
@@ -96,4 +59,4 @@ void GscoreConfig::require_sizes(ConfigVisitor& visitor) const {
          "sorting.chunk", "clusters"});
 }
 
-} // namespace degs
+} // namespace degs::gscore

@@ -3,24 +3,17 @@
 
 #include <string>
 
+#include "baselines/gscore/cost.hpp"
 #include "baselines/gscore/lockstep_array.hpp"
-#include "modules/kit/accelerator/render_engine.hpp"
-#include "modules/kit/config/main_memory_config.hpp"
-#include "modules/kit/config/pipeline_config.hpp"
+#include "modules/kit/engine/tiled_config.hpp"
 #include "modules/kit/front_end/hierarchical_sorter.hpp"
-#include "modules/kit/front_end/projection_unit.hpp"
-#include "modules/kit/front_end/splat_fetcher.hpp"
-#include "modules/kit/front_end/tile_binner.hpp"
-#include "modules/kit/front_end/tile_monitor.hpp"
 #include "modules/kit/job/buffer_share.hpp"
-#include "modules/kit/job/traffic.hpp"
-#include "modules/kit/pixels/pixel_buffer.hpp"
 
-namespace degs {
+namespace degs::gscore {
 
 /// A complete GSCore (Lee et al., ASPLOS 2024) with the memory of this project's comparisons;
 /// defaults are its 64 lanes. Descriptions mark the values that its publication leaves open.
-struct GscoreConfig : AcceleratorConfig {
+struct Config : TiledConfig<Config> {
     /// On-chip memory as one figure, as in the paper's Table I; the Pixel Buffer is part of it.
     struct Buffer {
         int bytes = 272 * 1024;
@@ -31,48 +24,28 @@ struct GscoreConfig : AcceleratorConfig {
     /// Arrays, each with its buffers and on a tile of its own, behind one front end. `array`,
     /// `buffer` and `pixel_buffer` describe one of them.
     int clusters = 1;
-    PipelineConfig pipeline;
-    TrafficConfig traffic;
-    ProjectionUnit::Config projection;
-    TileBinner::Config binning;
     HierarchicalSorter::Config sorting;
-    SplatFetcher::Config fetching;
     Buffer buffer;
     LockstepArray::Config array;
-    PixelBuffer::Config pixel_buffer;
-    TileMonitor::Config monitor;
-    MainMemoryConfig memory;
+    CostRows cost_rows;
 
-    GscoreConfig();
-    std::unique_ptr<AcceleratorConfig> clone() const override {
-        return std::make_unique<GscoreConfig>(*this);
-    }
+    Config();
     void describe(ConfigVisitor& visitor) override;
     void scale_to(int pes) override;
     int pes() const override { return clusters * array.lanes; }
     int tile_size_px() const override { return array.tile_size(); }
-    TileMode tile_mode() const override { return pipeline.tiles; }
-    DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return clusters * contexts(); }
     TileCoupling tile_coupling(bool /*array_only*/) const override {
         return TileCoupling::of_clusters(clusters);
     }
     std::vector<LossKey> loss_keys() const override;
-    TrafficConfig records() const override { return traffic; }
     cost::BillOfMaterials bill() const override;
-    RecordOrder record_order() const override { return memory.layout; }
-    void read_floats() override {
-        traffic.geometry_bytes = kFloatGeometryBytes;
-        traffic.sh_value_bytes = kFloatBytes;
-    }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
     std::unique_ptr<AnalyticModel> analytic() const override;
 
     /// Tile contexts of one cluster.
     int contexts() const { return pixel_buffer.contexts(tile_pixels()); }
-    /// Bytes of the state of a pixel, which need not be whole ones.
-    double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
     /// Splat chunks that a fetcher's share of the buffer holds.
     int splat_chunks() const { return splat_share().bytes_of(shared_bytes()) / chunk_bytes(); }
     /// Keys that a sorter's share of the buffers of all clusters holds.
@@ -82,7 +55,7 @@ struct GscoreConfig : AcceleratorConfig {
     }
 
 private:
-    PixelBuffer::TilePixels tile_pixels() const { return {tile_size_px(), pipeline.pixel_bits()}; }
+    void describe_rows(ConfigVisitor& visitor) override;
     BufferShare splat_share() const { return {1.0 - buffer.sort_share, fetchers()}; }
     /// Of one cluster: one that works on all tiles has a fetcher for each sorter.
     int fetchers() const { return clusters > 1 ? 1 : sorting.count; }
@@ -93,4 +66,4 @@ private:
     void require_sizes(ConfigVisitor& visitor) const;
 };
 
-} // namespace degs
+} // namespace degs::gscore

@@ -6,7 +6,7 @@
 #include "splat/pixels/tested_pixels.hpp"
 #include "tlm/has_process.hpp"
 
-namespace degs {
+namespace degs::gscore {
 
 void LockstepArray::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("lanes", lanes, 16, 1024, "pixel lanes; GSCore has 64, a square of 8 x 8 px");
@@ -262,9 +262,9 @@ int LockstepArray::evaluate(int subtile, std::uint32_t splat) {
         terminated += __builtin_popcount(outcomes_[row].terminated);
         ended += __builtin_popcount(outcomes_[row].ended);
     }
-    stats_.slots.useful += useful;
-    stats_.slots.terminated += terminated;
-    stats_.slots.boundary += config_.lanes - useful - terminated;
+    stats_.slots[Slot::Useful] += useful;
+    stats_.slots[Slot::Terminated] += terminated;
+    stats_.slots[Slot::Boundary] += config_.lanes - useful - terminated;
     return ended;
 }
 
@@ -275,8 +275,8 @@ void LockstepArray::account_wait(Cluster& cluster, Cycle at) {
         const Cycle wait = at - cluster.free;
         const Cycle blocked = std::min(wait, blocked_ - cluster.blocked);
         const std::uint64_t width = config_.lanes / config_.clusters;
-        stats_.slots.blocked += blocked * width;
-        stats_.slots.starved += (wait - blocked) * width;
+        stats_.slots[Slot::Blocked] += blocked * width;
+        stats_.slots[Slot::Starved] += (wait - blocked) * width;
         if (recorded_) {
             record_wait(cluster, at, blocked);
         }
@@ -293,9 +293,11 @@ int LockstepArray::record_pass(const Cluster& cluster, Cycle at, int subtile, st
     const SlotAccount& now = stats_.slots;
     SlotPart& part = *cluster.part;
     part.work(number_, at, cluster.free);
-    part.add(Slot::Useful, number_, at, cluster.free, now.useful - before.useful);
-    part.add(Slot::Boundary, number_, at, cluster.free, now.boundary - before.boundary);
-    part.add(Slot::Terminated, number_, at, cluster.free, now.terminated - before.terminated);
+    part.add(Slot::Useful, number_, at, cluster.free, now[Slot::Useful] - before[Slot::Useful]);
+    part.add(Slot::Boundary, number_, at, cluster.free,
+             now[Slot::Boundary] - before[Slot::Boundary]);
+    part.add(Slot::Terminated, number_, at, cluster.free,
+             now[Slot::Terminated] - before[Slot::Terminated]);
     return ended;
 }
 
@@ -315,12 +317,12 @@ void LockstepArray::close_window() {
             return;
         }
         if (cluster.first == kNever) {
-            stats_.slots.drain += stats_.window.cycles() * width;
+            stats_.slots[Slot::Drain] += stats_.window.cycles() * width;
         } else {
-            stats_.slots.starved += (cluster.first - stats_.window.first) * width;
-            stats_.slots.drain += (stats_.window.last + 1 - cluster.free) * width;
+            stats_.slots[Slot::Starved] += (cluster.first - stats_.window.first) * width;
+            stats_.slots[Slot::Drain] += (stats_.window.last + 1 - cluster.free) * width;
         }
     }
 }
 
-} // namespace degs
+} // namespace degs::gscore

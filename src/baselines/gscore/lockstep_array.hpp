@@ -15,7 +15,7 @@
 #include "stats/statistics.hpp"
 #include "tlm/dated_fifo.hpp"
 
-namespace degs {
+namespace degs::gscore {
 
 /// The volume rendering cores of GSCore: a fixed square of pixel lanes in lock step (paper, Sec.
 /// II-B; Lee et al., ASPLOS 2024). A tile is cut into sub-tiles of the lanes' size. For each splat
@@ -130,4 +130,4 @@ private:
     Stats stats_;
 };
 
-} // namespace degs
+} // namespace degs::gscore

@@ -2,9 +2,9 @@
 // What moves the losses of GSCore.
 #include "baselines/gscore/config.hpp"
 
-namespace degs {
+namespace degs::gscore {
 
-std::vector<LossKey> GscoreConfig::loss_keys() const {
+std::vector<LossKey> Config::loss_keys() const {
     using Way = LossKey::Way;
     return with(
         {
@@ -18,4 +18,4 @@ std::vector<LossKey> GscoreConfig::loss_keys() const {
         common_loss_keys(memory));
 }
 
-} // namespace degs
+} // namespace degs::gscore

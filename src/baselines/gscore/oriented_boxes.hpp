@@ -6,7 +6,7 @@
 #include "modules/kit/job/render_job.hpp"
 #include "splat/frame/subtile_cover.hpp"
 
-namespace degs {
+namespace degs::gscore {
 
 /// The oriented boxes of a job's splats, made when a frame is first asked for. Shared by all arrays
 /// that look at the same frames.
@@ -30,4 +30,4 @@ private:
     std::uint32_t frames_ = 0;
 };
 
-} // namespace degs
+} // namespace degs::gscore

@@ -10,9 +10,9 @@
 namespace degs::orange {
 namespace {
 
-class OrangeAnalytic : public FrontEndModel {
+class Analytic : public FrontEndModel {
 public:
-    explicit OrangeAnalytic(const Config& config)
+    explicit Analytic(const Config& config)
         : FrontEndModel(config, config.scratchpad.splat_batches, kMemory), config_(config) {}
     std::vector<std::string> units() const override {
         return {"projection", "sorting", "systolic_arrays", "vector_units", "memory"};
@@ -44,22 +44,22 @@ private:
     Config config_;
 };
 
-class OrangeClock : public TileClock {
+class Clock : public TileClock {
 public:
-    explicit OrangeClock(const OrangeAnalytic& model) : model_(model) {}
+    explicit Clock(const Analytic& model) : model_(model) {}
     void begin(const CoarseTile&) override {}
     void splat(const CoarseTile&) override {}
     TileCycles end(const CoarseTile& tile) override;
 
 private:
-    const OrangeAnalytic& model_;
+    const Analytic& model_;
 };
 
-std::unique_ptr<TileClock> OrangeAnalytic::clock(const FrameWorkload&) const {
-    return std::make_unique<OrangeClock>(*this);
+std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload&) const {
+    return std::make_unique<Clock>(*this);
 }
 
-TileCycles OrangeClock::end(const CoarseTile& tile) {
+TileCycles Clock::end(const CoarseTile& tile) {
     const Config& config = model_.config();
     const FrontEndLoad& front = model_.front();
     const VectorUnit::Config& vector = config.cores.vector;
@@ -85,9 +85,9 @@ TileCycles OrangeClock::end(const CoarseTile& tile) {
     cycles.bytes = front.tile_bytes(entries, fetched, tile.pixels());
     cycles.walked = fetched;
     cycles.busy[kSortingUnits] = model_.sort_cycles(entries, fetched).all / model_.sorters();
-    cycles.busy[OrangeAnalytic::kArray] = array / model_.engines();
-    cycles.busy[OrangeAnalytic::kVector] = blending / model_.engines();
-    cycles.busy[OrangeAnalytic::kMemory] = front.memory.cycles(cycles.bytes);
+    cycles.busy[Analytic::kArray] = array / model_.engines();
+    cycles.busy[Analytic::kVector] = blending / model_.engines();
+    cycles.busy[Analytic::kMemory] = front.memory.cycles(cycles.bytes);
     cycles.time = std::max({array, blending, front.fetch_cycles(fetched)});
     return cycles;
 }
@@ -95,7 +95,7 @@ TileCycles OrangeClock::end(const CoarseTile& tile) {
 } // namespace
 
 std::unique_ptr<AnalyticModel> Config::analytic() const {
-    return std::make_unique<OrangeAnalytic>(*this);
+    return std::make_unique<Analytic>(*this);
 }
 
 } // namespace degs::orange

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "baselines/orange/config.hpp"
 
-#include <algorithm>
-
-#include "modules/kit/job/family_size.hpp"
 #include "splat/pixels/quantized_gemm.hpp"
 #include "tlm/ceil_div.hpp"
 
@@ -106,23 +103,6 @@ std::int64_t Config::batches_bytes() const {
 int Config::sort_capacity() const {
     const std::int64_t left = cores.count * (scratchpad.bytes - batches_bytes());
     return static_cast<int>(left / sorting.count / traffic.list_entry_bytes);
-}
-
-// One core with a square array; the rest of the core grows with the array's sides.
-void Config::scale_to(int pes) {
-    constexpr int kMost = 1 << 14;
-    require_family_size(
-        "orange", pes, kMost, "must be a square of a power of two from 2 to 128", [](int number) {
-            const int side = whole_root(number);
-            return side >= 2 && side * side == number && power_of_two_below(side) == side;
-        });
-    const int side = whole_root(pes);
-    name = "orange-" + std::to_string(pes);
-    cores.count = 1;
-    cores.array.rows = cores.array.columns = side;
-    cores.vector.lanes = std::max(1, cores.vector.lanes * side / 32);
-    pixel_buffer.bytes /= 4;
-    pixel_buffer.readout_pixels /= 4;
 }
 
 void Config::require_sizes(ConfigVisitor& visitor) const {

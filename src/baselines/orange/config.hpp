@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "baselines/orange/cost.hpp"
 #include "baselines/orange/systolic_array.hpp"
 #include "baselines/orange/vector_unit.hpp"
-#include "modules/kit/accelerator/render_engine.hpp"
-#include "modules/kit/config/main_memory_config.hpp"
-#include "modules/kit/config/pipeline_config.hpp"
+#include "modules/kit/engine/tiled_config.hpp"
 #include "modules/kit/front_end/hierarchical_sorter.hpp"
-#include "modules/kit/front_end/projection_unit.hpp"
-#include "modules/kit/front_end/splat_fetcher.hpp"
-#include "modules/kit/front_end/tile_binner.hpp"
-#include "modules/kit/front_end/tile_monitor.hpp"
-#include "modules/kit/job/traffic.hpp"
-#include "modules/kit/pixels/pixel_buffer.hpp"
 
 namespace degs::orange {
 
 /// ORANGE (Li et al., HPCA 2026), an NPU that blends by products of matrices, with GSCore's projection and sorting;
 /// defaults are O-4, its four cores. Most of its values are not public: those are [assumed].
-struct Config : AcceleratorConfig {
+struct Config : TiledConfig<Config> {
     struct Cores {
         int count = 4;
         SystolicArray::Config array;
@@ -38,40 +31,25 @@ struct Config : AcceleratorConfig {
     };
 
     int tile_size = 8;
-    PipelineConfig pipeline;
     Gemm gemm;
-    TrafficConfig traffic;
-    ProjectionUnit::Config projection;
-    TileBinner::Config binning;
     HierarchicalSorter::Config sorting;
-    SplatFetcher::Config fetching;
     Cores cores;
     Scratchpad scratchpad;
-    PixelBuffer::Config pixel_buffer;
-    TileMonitor::Config monitor;
-    MainMemoryConfig memory;
+    CostRows cost_rows;
 
     Config();
-    std::unique_ptr<AcceleratorConfig> clone() const override {
-        return std::make_unique<Config>(*this);
-    }
     void describe(ConfigVisitor& visitor) override;
     void scale_to(int pes) override;
     /// Multipliers of all systolic arrays.
     int pes() const override { return cores.count * cores.array.macs(); }
     int tile_size_px() const override { return tile_size; }
-    TileMode tile_mode() const override { return pipeline.tiles; }
     DataPathOptions data_path() const override;
     int tile_contexts() const override { return cores.count * contexts(); }
     TileCoupling tile_coupling(bool /*array_only*/) const override { return {}; }
+    /// Products of a tile whose pixels have ended are finished.
+    bool ends_with_its_pixels() const override { return false; }
     std::vector<LossKey> loss_keys() const override;
-    TrafficConfig records() const override { return traffic; }
     cost::BillOfMaterials bill() const override;
-    RecordOrder record_order() const override { return memory.layout; }
-    void read_floats() override {
-        traffic.geometry_bytes = kFloatGeometryBytes;
-        traffic.sh_value_bytes = kFloatBytes;
-    }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
     std::unique_ptr<AnalyticModel> analytic() const override;
@@ -80,8 +58,6 @@ struct Config : AcceleratorConfig {
     int tile_area() const { return tile_size * tile_size; }
     /// Tile contexts of one core.
     int contexts() const { return pixel_buffer.contexts(tile_pixels()) / cores.count; }
-    /// Bytes of the state of a pixel, which need not be whole ones.
-    double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
     /// Bytes of a batch in each of its three places.
     std::int64_t splat_batch_bytes() const;
     std::int64_t coefficient_batch_bytes() const;
@@ -92,7 +68,7 @@ struct Config : AcceleratorConfig {
     int sort_capacity() const;
 
 private:
-    PixelBuffer::TilePixels tile_pixels() const { return {tile_size, pipeline.pixel_bits()}; }
+    void describe_rows(ConfigVisitor& visitor) override;
     void require_sizes(ConfigVisitor& visitor) const;
 };
 

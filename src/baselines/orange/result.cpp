@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The counters of ORANGE in the terms that all accelerators share.
 #include "base/grouped_number.hpp"
-#include "baselines/orange/orange.hpp"
+#include "baselines/orange/engine.hpp"
 
 namespace degs::orange {
 
-void Orange::collect_engines(AcceleratorResult& result) const {
+void Engine::collect_engines(AcceleratorResult& result) const {
     collect_slots(result);
     collect_stages(result);
     collect_buffers(result);
@@ -18,7 +18,7 @@ void Orange::collect_engines(AcceleratorResult& result) const {
                               " had been formed, when every pixel of their tile had ended.");
 }
 
-void Orange::collect_slots(AcceleratorResult& result) const {
+void Engine::collect_slots(AcceleratorResult& result) const {
     result.slots_per_fragment = kGemmDepth;
     for (const auto& unit : vector_units_) {
         add_slots(result, unit->account().slots(), unit->account().window());
@@ -28,7 +28,7 @@ void Orange::collect_slots(AcceleratorResult& result) const {
     }
 }
 
-void Orange::collect_stages(AcceleratorResult& result) const {
+void Engine::collect_stages(AcceleratorResult& result) const {
     using A = SystolicArray::Stats;
     add_stage(result, {"systolic_arrays", "Systolic arrays, busy with a product.", true},
               arrays_.size(), sum_of(arrays_, &A::busy), Counters().add(arrays_));
@@ -37,7 +37,7 @@ void Orange::collect_stages(AcceleratorResult& result) const {
               Counters().add(vector_units_));
 }
 
-void Orange::collect_buffers(AcceleratorResult& result) const {
+void Engine::collect_buffers(AcceleratorResult& result) const {
     const Config::Scratchpad& pad = config_.scratchpad;
     const std::int64_t cores = config_.cores.count;
     const auto bytes = [&](int batches, std::int64_t batch) { return cores * batches * batch; };
@@ -56,7 +56,7 @@ void Orange::collect_buffers(AcceleratorResult& result) const {
     add_pixel_buffer(result, config_.pixel_buffer.bytes, config_.tile_contexts(), pixel_buffers());
 }
 
-void Orange::collect_laws(AcceleratorResult& result) const {
+void Engine::collect_laws(AcceleratorResult& result) const {
     using V = VectorUnit::Stats;
     using A = SystolicArray::Stats;
     const std::uint64_t splats = sum_of(arrays_, &A::splats);
@@ -74,7 +74,7 @@ void Orange::collect_laws(AcceleratorResult& result) const {
             {"products of numbers = splats x pixels of a tile x 6", s.executed(),
              splats * config_.tile_area() * kGemmDepth},
             {"multiplier-cycles of products = executed + padding", sum_of(arrays_, &A::busy) * macs,
-             s.executed() + s.padding},
+             s.executed() + s[Slot::Padding]},
             {"tiles granted = worked on", dispatcher().stats().tiles,
              sum_of(vector_units_, &V::tiles)},
         });

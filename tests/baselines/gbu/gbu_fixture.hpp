@@ -2,15 +2,15 @@
 // Whole GBUs on frames made by hand, and what must hold of every run.
 #pragma once
 
-#include "baselines/gbu/gbu.hpp"
+#include "baselines/gbu/engine.hpp"
 #include "tests/modules/degs/accelerator_fixture.hpp"
 
 namespace degs::test {
 
 /// A GBU of `engines` engines for tiles of `tile` px in double precision; buffers as large as
 /// needed.
-inline GbuConfig gbu_of(int tile, int engines, int row_pes) {
-    GbuConfig c;
+inline gbu::Config gbu_of(int tile, int engines, int row_pes) {
+    gbu::Config c;
     c.pipeline.numbers = Arithmetic::Fp64;
     c.tile_size = tile;
     c.engines.count = engines;
@@ -19,10 +19,10 @@ inline GbuConfig gbu_of(int tile, int engines, int row_pes) {
     return c;
 }
 
-class GbuRun : public AcceleratorRun<Gbu, GbuConfig> {
+class GbuRun : public AcceleratorRun<gbu::Engine, gbu::Config> {
 public:
     using AcceleratorRun::AcceleratorRun;
-    const Gbu& gbu() const { return engine(); }
+    const gbu::Engine& gbu() const { return engine(); }
     /// Every counter of every block.
     Signature signature() const;
 };
@@ -54,11 +54,11 @@ inline void expect_sound(const GbuRun& run) {
     const AcceleratorResult result = run.result();
     EXPECT_EQ(result.tiles, run.job().tiles.size());
     expect_laws(result, run.gbu().config().pes());
-    EXPECT_EQ(result.slots.conflict, 0U);
+    EXPECT_EQ(result.slots[Slot::Conflict], 0U);
 }
 
 inline void expect_reference(const GbuRun& run) {
-    expect_reference_pixels(run.job(), run.result().slots.useful);
+    expect_reference_pixels(run.job(), run.result().slots[Slot::Useful]);
 }
 
 } // namespace degs::test

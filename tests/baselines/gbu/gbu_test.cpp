@@ -43,7 +43,7 @@ TEST(SmallRunGbu, NoSplatsAtAll) {
 
 TEST(SmallRunGbu, ACacheSavesReadsAndChangesNoPixel) {
     const FrameWorkload frame = random_frame(9, 200, 160, 16, 300);
-    GbuConfig config = gbu_of(16, 2, 16);
+    gbu::Config config = gbu_of(16, 2, 16);
     config.reuse_cache.bytes = 0;
     const GbuRun without("without", config, {&frame});
     config.reuse_cache.bytes = 64 * 1024;
@@ -81,7 +81,7 @@ TEST(SmallRunGbu, TheArrayAloneNeedsNoMemoryAndNoFrontEnd) {
     test::expect_sound(run);
     test::expect_reference(run);
     EXPECT_LT(run.result().cycles, whole.result().cycles);
-    EXPECT_EQ(run.result().slots.useful, whole.result().slots.useful);
+    EXPECT_EQ(run.result().slots[Slot::Useful], whole.result().slots[Slot::Useful]);
 }
 
 TEST(SmallRunGbu, FramesOverlapAsFarAsTheyMay) {
@@ -96,7 +96,7 @@ TEST(SmallRunGbu, FramesOverlapAsFarAsTheyMay) {
     for (const FrameWorkload& frame : frames) {
         list.push_back(&frame);
     }
-    GbuConfig config = gbu_of(16, 3, 16);
+    gbu::Config config = gbu_of(16, 3, 16);
     config.frames_in_flight = 1;
     const GbuRun one("one", config, list);
     config.frames_in_flight = 2;
@@ -131,10 +131,10 @@ public:
     int among(std::initializer_list<int> values) {
         return *(values.begin() + upto(static_cast<int>(values.size())));
     }
-    GbuConfig config() {
+    gbu::Config config() {
         const int tile = among({16, 16, 32, 24, 64});
         const int engines = 1 + upto(4);
-        GbuConfig c = gbu_of(tile, engines, chance(3) ? 1 + upto(tile) : tile);
+        gbu::Config c = gbu_of(tile, engines, chance(3) ? 1 + upto(tile) : tile);
         c.engines.queue_depth = among({16, 1, 2, 5});
         c.engines.generation_latency = among({8, 0, 3});
         c.engines.row_pe_latency = among({10, 1, 4});
@@ -167,7 +167,7 @@ class SmallRunGbuFidelity : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(SmallRunGbuFidelity, ExactIsStrict) {
     RandomGbu draw(GetParam());
-    const GbuConfig config = draw.config();
+    const gbu::Config config = draw.config();
     std::vector<FrameWorkload> frames;
     for (int f = draw.chance(3) ? 4 : 1; f > 0; --f) {
         frames.push_back(random_frame(GetParam() * 10 + static_cast<unsigned>(f),
@@ -196,26 +196,26 @@ TEST_P(SmallRunGbuFidelity, ExactIsStrict) {
 INSTANTIATE_TEST_SUITE_P(Random, SmallRunGbuFidelity, ::testing::Range(0U, 120U));
 
 TEST(HostileGbuConfig, ProblemsAreOneSentenceThatNamesTheKeys) {
-    const auto problem = [](void (*change)(GbuConfig&)) {
-        GbuConfig config;
+    const auto problem = [](void (*change)(gbu::Config&)) {
+        gbu::Config config;
         change(config);
         return config.problem();
     };
-    EXPECT_EQ(problem([](GbuConfig&) {}), "");
-    EXPECT_NE(problem([](GbuConfig& c) { c.engines.row_pes = 33; }).find("engines.row_pes"),
+    EXPECT_EQ(problem([](gbu::Config&) {}), "");
+    EXPECT_NE(problem([](gbu::Config& c) { c.engines.row_pes = 33; }).find("engines.row_pes"),
               std::string::npos);
-    EXPECT_NE(problem([](GbuConfig& c) { c.pixel_buffer.bytes = 1; }).find("pixel_buffer.bytes"),
+    EXPECT_NE(problem([](gbu::Config& c) { c.pixel_buffer.bytes = 1; }).find("pixel_buffer.bytes"),
               std::string::npos);
     // A context for one engine is not enough for two.
-    EXPECT_NE(problem([](GbuConfig& c) {
+    EXPECT_NE(problem([](gbu::Config& c) {
                   c.pixel_buffer.bytes = 8 * 32 * 32;
               }).find("pixel_buffer.bytes"),
               std::string::npos);
-    EXPECT_NE(problem([](GbuConfig& c) { c.list_buffer.bytes = 16; }).find("list_buffer.bytes"),
+    EXPECT_NE(problem([](gbu::Config& c) { c.list_buffer.bytes = 16; }).find("list_buffer.bytes"),
               std::string::npos);
-    EXPECT_NE(problem([](GbuConfig& c) { c.reuse_cache.bytes = 63; }).find("reuse_cache.bytes"),
+    EXPECT_NE(problem([](gbu::Config& c) { c.reuse_cache.bytes = 63; }).find("reuse_cache.bytes"),
               std::string::npos);
-    EXPECT_EQ(problem([](GbuConfig& c) { c.reuse_cache.bytes = 0; }), "");
+    EXPECT_EQ(problem([](gbu::Config& c) { c.reuse_cache.bytes = 0; }), "");
 }
 
 } // namespace

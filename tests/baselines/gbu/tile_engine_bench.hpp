@@ -18,8 +18,8 @@
 namespace degs::test {
 
 /// The engine's own cycles are 1, so that dates are easy to follow.
-inline TileEngine::Config small_engine(int row_pes = 16) {
-    TileEngine::Config c;
+inline gbu::TileEngine::Config small_engine(int row_pes = 16) {
+    gbu::TileEngine::Config c;
     c.row_pes = row_pes;
     c.generation_latency = 3;
     c.row_pe_latency = 5;
@@ -40,10 +40,10 @@ struct TileEngineBench {
         DatedFifo<SplatChunk> in;
         DatedFifo<TileNumber> contexts;
         DatedFifo<SliceReport> done, state;
-        TileEngine engine;
+        gbu::TileEngine engine;
         Process feeder, pixels, monitor;
         std::vector<std::pair<Cycle, SliceReport>> tile_done, tile_state;
-        Unit(const std::string& name, const TileEngine::Config& config, const Timebase& time,
+        Unit(const std::string& name, const gbu::TileEngine::Config& config, const Timebase& time,
              RenderJob& job, int first_context, int contexts_count)
             : in((name + "_in").c_str(), time, 1024), contexts((name + "_ctx").c_str(), time, 64),
               done((name + "_done").c_str(), time, 64), state((name + "_state").c_str(), time, 64),
@@ -56,7 +56,7 @@ struct TileEngineBench {
         }
     };
 
-    TileEngine::Config config;
+    gbu::TileEngine::Config config;
     Timebase time;
     FrameWorkload frame;
     RenderJob job;
@@ -67,7 +67,7 @@ struct TileEngineBench {
     /// Date of the context message after the n-th tile of an engine; beyond the list at once.
     std::vector<Cycle> context_dates;
 
-    TileEngineBench(const TileEngine::Config& c, FrameWorkload work, int engines = 1,
+    TileEngineBench(const gbu::TileEngine::Config& c, FrameWorkload work, int engines = 1,
                     int contexts_each = 1, Fidelity fidelity = Fidelity::Exact)
         : config(c), time{ClockDomain(1.0), fidelity}, frame(std::move(work)),
           job(make_render_job({&frame},
@@ -126,7 +126,9 @@ struct TileEngineBench {
     }
     void run(const std::vector<ChunkFeed>& feed) { run(std::vector<std::vector<ChunkFeed>>{feed}); }
 
-    const TileEngine::Stats& stats(std::size_t e = 0) const { return units[e]->engine.stats(); }
+    const gbu::TileEngine::Stats& stats(std::size_t e = 0) const {
+        return units[e]->engine.stats();
+    }
     /// Date at which the first splat of a list that is there at `date` is pushed.
     Cycle first_push(Cycle date = 1) const {
         return date + static_cast<Cycle>(config.generation_latency);
@@ -138,7 +140,7 @@ struct TileEngineBench {
         const Image reference = render_reference(frame, counts);
         std::uint64_t useful = 0;
         for (const auto& unit : units) {
-            useful += unit->engine.stats().slots.useful;
+            useful += unit->engine.stats().slots[Slot::Useful];
         }
         EXPECT_EQ(useful, counts.fragments);
         EXPECT_EQ(image.fragments, reference.fragments);
@@ -151,12 +153,12 @@ struct TileEngineBench {
 
 private:
     void expect_sound(const Unit& u) {
-        const TileEngine::Stats& s = u.engine.stats();
+        const gbu::TileEngine::Stats& s = u.engine.stats();
         const SlotAccount& slots = s.slots;
         EXPECT_EQ(slots.total(), s.window.cycles() * static_cast<std::uint64_t>(config.row_pes));
-        EXPECT_EQ(slots.useful + slots.boundary + slots.terminated,
+        EXPECT_EQ(slots[Slot::Useful] + slots[Slot::Boundary] + slots[Slot::Terminated],
                   s.pixels + (config.end_probe ? s.entries : 0));
-        EXPECT_EQ(slots.conflict + slots.drain, 0U);
+        EXPECT_EQ(slots[Slot::Conflict] + slots[Slot::Drain], 0U);
     }
     void script(const std::function<void()>& body) {
         scripts.push_back(

@@ -15,9 +15,9 @@ using test::TileEngineBench;
 class Ticks {
 public:
     std::vector<Cycle> tile_done;
-    TileEngine::Stats stats;
+    gbu::TileEngine::Stats stats;
 
-    Ticks(const TileEngine::Config& config, const FrameWorkload& frame,
+    Ticks(const gbu::TileEngine::Config& config, const FrameWorkload& frame,
           const std::vector<ChunkFeed>& feed)
         : config_(config), frame_(frame), feed_(feed),
           job_(make_render_job({&frame},
@@ -69,7 +69,7 @@ private:
         }
         stats.window.include(now_);
         if (pe.done == pe.current.pixels.length) {
-            stats.slots.boundary++;
+            stats.slots[Slot::Boundary]++;
         } else {
             stats.pixels++;
             pixel(pe.current.pixels, pe.done);
@@ -86,9 +86,9 @@ private:
         test.x = tile_->x + test.column;
         test.y = tile_->y + pixels.row;
         const BlendOutcome outcome = job_.path->test(test);
-        stats.slots.useful += outcome.useful;
-        stats.slots.boundary += outcome.boundary;
-        stats.slots.terminated += outcome.terminated;
+        stats.slots[Slot::Useful] += outcome.useful;
+        stats.slots[Slot::Boundary] += outcome.boundary;
+        stats.slots[Slot::Terminated] += outcome.terminated;
         stats.pixels_ended += outcome.ended;
         Row& row = rows_[static_cast<std::size_t>(pixels.row)];
         if (outcome.ended != 0 && --row.live == 0) {
@@ -196,7 +196,7 @@ private:
         stats.queue_wait += waiting_ ? 1 : 0;
     }
 
-    TileEngine::Config config_;
+    gbu::TileEngine::Config config_;
     const FrameWorkload& frame_;
     std::vector<ChunkFeed> feed_;
     RenderJob job_;
@@ -220,7 +220,7 @@ class SmallRunTileEngineCycles : public ::testing::TestWithParam<unsigned> {};
 TEST_P(SmallRunTileEngineCycles, AgreeWithTheClosedForm) {
     std::mt19937 random(GetParam());
     const auto upto = [&random](unsigned n) { return static_cast<int>(random() % n); };
-    TileEngine::Config config;
+    gbu::TileEngine::Config config;
     const int tile = upto(4) == 0 ? 40 : 16; // 40: intervals longer than one call takes
     config.row_pes = upto(3) == 0 ? 1 + upto(tile) : tile;
     config.queue_depth = 1 + upto(upto(2) == 0 ? 3 : 20);
@@ -249,17 +249,17 @@ TEST_P(SmallRunTileEngineCycles, AgreeWithTheClosedForm) {
     bench.run(feed);
     bench.expect_reference();
     const Ticks ticks(config, bench.frame, feed);
-    const TileEngine::Stats& fast = bench.stats();
-    const TileEngine::Stats& slow = ticks.stats;
+    const gbu::TileEngine::Stats& fast = bench.stats();
+    const gbu::TileEngine::Stats& slow = ticks.stats;
     ASSERT_EQ(ticks.tile_done.size(), bench.units[0]->tile_done.size());
     for (std::size_t t = 0; t < ticks.tile_done.size(); ++t) {
         EXPECT_EQ(bench.done(t), ticks.tile_done[t]) << "tile " << t;
     }
     EXPECT_EQ(fast.window.first, slow.window.first);
     EXPECT_EQ(fast.window.last, slow.window.last);
-    EXPECT_EQ(fast.slots.useful, slow.slots.useful);
-    EXPECT_EQ(fast.slots.boundary, slow.slots.boundary);
-    EXPECT_EQ(fast.slots.terminated, slow.slots.terminated);
+    EXPECT_EQ(fast.slots[Slot::Useful], slow.slots[Slot::Useful]);
+    EXPECT_EQ(fast.slots[Slot::Boundary], slow.slots[Slot::Boundary]);
+    EXPECT_EQ(fast.slots[Slot::Terminated], slow.slots[Slot::Terminated]);
     EXPECT_EQ(fast.splats, slow.splats);
     EXPECT_EQ(fast.splats_abandoned, slow.splats_abandoned);
     EXPECT_EQ(fast.entries, slow.entries);

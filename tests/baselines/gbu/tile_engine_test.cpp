@@ -24,21 +24,21 @@ TEST(TileEngine, OneSplatOverTheWholeTile) {
     const Cycle load = bench.first_push() + 1;
     EXPECT_EQ(bench.stats().window.first, load);
     EXPECT_EQ(bench.stats().window.last, load + 16); // 16 pixels and the probe
-    EXPECT_EQ(bench.stats().slots.useful, 256U);
-    EXPECT_EQ(bench.stats().slots.boundary, 16U);
-    EXPECT_EQ(bench.stats().slots.starved, 0U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 256U);
+    EXPECT_EQ(bench.stats().slots[Slot::Boundary], 16U);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], 0U);
     EXPECT_EQ(bench.done(), load + 16 + 5);
     EXPECT_EQ(bench.units[0]->tile_state.at(0).first, load + 16 + 5);
     EXPECT_FALSE(bench.units[0]->tile_state.at(0).second.all_ended);
 }
 
 TEST(TileEngine, WithoutTheProbeAnEntryTakesItsPixels) {
-    TileEngine::Config config = small_engine();
+    gbu::TileEngine::Config config = small_engine();
     config.end_probe = false;
     TileEngineBench bench(config, make_frame(many(3, blanket(8, 8, 20, 0.1)), 16, 16, 16));
     bench.run(bench.lists({0}));
     EXPECT_EQ(bench.stats().window.cycles(), 48U);
-    EXPECT_EQ(bench.stats().slots.useful, 48U * 16);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 48U * 16);
     EXPECT_EQ(bench.stats().slots.total(), 48U * 16);
 }
 
@@ -46,17 +46,17 @@ TEST(TileEngine, OnePixelKeepsOnePeBusyForTwoSlots) {
     TileEngineBench bench(small_engine(), make_frame({one_pixel(15, 3)}, 16, 16, 16));
     bench.run(bench.lists({0}));
     EXPECT_EQ(bench.stats().window.cycles(), 2U); // also at the right edge
-    EXPECT_EQ(bench.stats().slots.useful, 1U);
-    EXPECT_EQ(bench.stats().slots.boundary, 1U);
-    EXPECT_EQ(bench.stats().slots.starved, 30U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 1U);
+    EXPECT_EQ(bench.stats().slots[Slot::Boundary], 1U);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], 30U);
 }
 
 TEST(TileEngine, OneRowLeavesTheOtherPesWithoutWork) {
     TileEngineBench bench(small_engine(), make_frame({one_row(2, 11, 7)}, 16, 16, 16));
     bench.run(bench.lists({0}));
     EXPECT_EQ(bench.stats().window.cycles(), 11U);
-    EXPECT_EQ(bench.stats().slots.useful, 10U);
-    EXPECT_EQ(bench.stats().slots.starved, 15U * 11);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 10U);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], 15U * 11);
     EXPECT_EQ(bench.stats().drain_slots, 15U * 11); // generation is done, the others wait
 }
 
@@ -67,8 +67,8 @@ TEST(TileEngine, AnUprightNeedleIsDoneInTwoSlotsOfEveryPe) {
         small_engine(),
         make_frame({test::make_splat(5, 8, std::sqrt(one.cov_a), 1000, 0, 0.5)}, 16, 16, 16));
     bench.run(bench.lists({0}));
-    EXPECT_EQ(bench.stats().slots.useful, 16U);
-    EXPECT_EQ(bench.stats().slots.boundary, 16U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 16U);
+    EXPECT_EQ(bench.stats().slots[Slot::Boundary], 16U);
     EXPECT_EQ(bench.stats().window.cycles(), 2U);
 }
 
@@ -81,12 +81,12 @@ TEST(TileEngine, SplatsOfOnePixelAreTakenOnePerCycle) {
     bench.run(bench.lists({0}));
     EXPECT_EQ(bench.stats().window.first, bench.first_push() + 1);
     EXPECT_EQ(bench.stats().window.cycles(), 101U); // the last one takes two slots
-    EXPECT_EQ(bench.stats().slots.useful, 100U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 100U);
     EXPECT_EQ(bench.stats().queue_wait, 0U);
 }
 
 TEST(TileEngine, AFullQueueHoldsGenerationUntilAnEntryIsLoaded) {
-    TileEngine::Config config = small_engine();
+    gbu::TileEngine::Config config = small_engine();
     config.queue_depth = 2;
     // Two splats on row 4 fill its queue while the first is worked on; the one after them, on
     // another row, waits behind the fourth.
@@ -98,11 +98,11 @@ TEST(TileEngine, AFullQueueHoldsGenerationUntilAnEntryIsLoaded) {
     // Entry 2 takes the cell that entry 0 left at `load`; entry 3 that of entry 1.
     EXPECT_EQ(bench.stats().queue_wait, load + 11 - (bench.first_push() + 3));
     EXPECT_EQ(bench.stats().window.last, load + 43);
-    EXPECT_EQ(bench.stats().slots.useful, 41U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 41U);
 }
 
 TEST(TileEngine, RowsWithRoomArePushedWhileAnotherWaits) {
-    TileEngine::Config config = small_engine();
+    gbu::TileEngine::Config config = small_engine();
     config.queue_depth = 1;
     std::vector<ProjectedSplat> splats = many(3, one_row(0, 9, 4, 0.1));
     splats.push_back(blanket(8, 8, 20, 0.1)); // waits for row 4 alone
@@ -123,9 +123,9 @@ TEST(TileEngine, ATileThatEndsIsAbandoned) {
     const Cycle push = bench.first_push();
     const Cycle end = push + 1 + 2 * 17 + 15;      // slot of the last pixel of the third entry
     EXPECT_EQ(bench.stats().window.last, end + 1); // its probe
-    EXPECT_EQ(bench.stats().slots.useful, 512U);
-    EXPECT_EQ(bench.stats().slots.terminated, 256U);
-    EXPECT_EQ(bench.stats().slots.boundary, 48U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 512U);
+    EXPECT_EQ(bench.stats().slots[Slot::Terminated], 256U);
+    EXPECT_EQ(bench.stats().slots[Slot::Boundary], 48U);
     EXPECT_EQ(bench.stats().pixels_ended, 256U);
     // Entries 0 to 15 fill the queues, 16, 17 and 18 follow the first three loads; 19 waits until
     // the rows have ended.
@@ -163,21 +163,21 @@ TEST(TileEngine, EndedPixelsInsideAnIntervalTakeTheirSlots) {
     splats.push_back(one_row(4, 10, 2, 0.5));
     TileEngineBench bench(small_engine(), make_frame(splats, 16, 16, 16));
     bench.run(bench.lists({0}));
-    EXPECT_EQ(bench.stats().slots.useful, 2U + 6);
-    EXPECT_EQ(bench.stats().slots.terminated, 1U + 1);
-    EXPECT_EQ(bench.stats().slots.boundary, 4U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 2U + 6);
+    EXPECT_EQ(bench.stats().slots[Slot::Terminated], 1U + 1);
+    EXPECT_EQ(bench.stats().slots[Slot::Boundary], 4U);
 }
 
 TEST(TileEngine, FewerPesThanRowsTakeTheirRowsInTurn) {
     TileEngineBench bench(small_engine(8), make_frame({blanket(8, 8, 20)}, 16, 16, 16));
     bench.run(bench.lists({0}));
     EXPECT_EQ(bench.stats().window.cycles(), 34U);
-    EXPECT_EQ(bench.stats().slots.useful, 256U);
-    EXPECT_EQ(bench.stats().slots.starved, 0U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 256U);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], 0U);
 }
 
 TEST(TileEngine, LatenciesShiftDatesAndNothingElse) {
-    TileEngine::Config config = small_engine();
+    gbu::TileEngine::Config config = small_engine();
     config.generation_latency = 8;
     config.row_pe_latency = 10;
     // A list in three chunks that are all there: the pipeline is filled once.
@@ -194,14 +194,14 @@ TEST(TileEngine, WaitsForChunks) {
     EXPECT_EQ(bench.stats().window.first, 5U);
     EXPECT_EQ(bench.stats().window.last, 106U);
     EXPECT_EQ(bench.stats().input_wait, 99U); // from the cycle after its push
-    EXPECT_EQ(bench.stats().slots.starved, 16U * 102 - 4);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], 16U * 102 - 4);
 }
 
 TEST(TileEngine, AnEmptyChunkEndsATile) {
     TileEngineBench bench(small_engine(), make_frame(many(2, one_pixel(3, 3)), 16, 16, 16));
     bench.run({{1, 0, 0, 1, false}, {50, 0, 1, 0, true}});
     EXPECT_EQ(bench.stats().splats, 1U);
-    EXPECT_EQ(bench.stats().slots.useful, 1U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 1U);
     EXPECT_EQ(bench.units[0]->tile_done.size(), 1U);
 }
 
@@ -212,8 +212,8 @@ TEST(TileEngine, WaitingForAContextIsBlocked) {
     bench.run(bench.lists({0, 1}));
     const Cycle end = bench.first_push() + 1 + 11; // the barrier of tile 0
     EXPECT_EQ(bench.stats().window.last, 60U + 11);
-    EXPECT_EQ(bench.stats().slots.blocked, 16 * (60 - end));
-    EXPECT_EQ(bench.stats().slots.useful, 20U);
+    EXPECT_EQ(bench.stats().slots[Slot::Blocked], 16 * (60 - end));
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 20U);
 }
 
 TEST(TileEngine, TheNextTileWaitsForAllPes) {
@@ -222,7 +222,7 @@ TEST(TileEngine, TheNextTileWaitsForAllPes) {
     bench.run(bench.lists({0, 1}));
     // Its records are there, but the first tile keeps PE 4 busy.
     EXPECT_EQ(bench.stats().window.cycles(), 11U + 1 + 11);
-    EXPECT_EQ(bench.stats().slots.blocked, 0U);
+    EXPECT_EQ(bench.stats().slots[Slot::Blocked], 0U);
 }
 
 TEST(TileEngine, EnginesWorkOnTilesOfTheirOwn) {
@@ -240,7 +240,7 @@ class SmallRunTileEngine : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(SmallRunTileEngine, RendersTheReference) {
     const unsigned seed = GetParam();
-    TileEngine::Config config = small_engine(seed % 3 == 0 ? 8 : 16);
+    gbu::TileEngine::Config config = small_engine(seed % 3 == 0 ? 8 : 16);
     config.queue_depth = 1 + static_cast<int>(seed % 5);
     TileEngineBench bench(config, test::random_frame(seed, 40, 37, 16, 400));
     std::vector<TileNumber> all(bench.job.tiles.size());

@@ -155,10 +155,11 @@ private:
 inline void expect_sound(const GccArrayBench& bench) {
     const gcc::WindowArray::Stats& s = bench.stats();
     EXPECT_EQ(s.slots.total(), s.window.cycles() * bench.pes());
-    EXPECT_EQ(s.slots.useful + s.slots.boundary + s.slots.terminated,
+    EXPECT_EQ(s.slots[Slot::Useful] + s.slots[Slot::Boundary] + s.slots[Slot::Terminated],
               (s.windows + s.skip_cycles) * bench.pes());
-    EXPECT_EQ(s.slots.useful + s.slots.terminated, s.valid_pixels + s.skip_cycles * bench.pes());
-    EXPECT_EQ(s.slots.drain, 0U);
+    EXPECT_EQ(s.slots[Slot::Useful] + s.slots[Slot::Terminated],
+              s.valid_pixels + s.skip_cycles * bench.pes());
+    EXPECT_EQ(s.slots[Slot::Drain], 0U);
 }
 
 } // namespace degs::test

@@ -74,7 +74,7 @@ TEST_P(GccArrayRandom, RendersTheReferenceInBothFidelities) {
     test::expect_sound(exact);
     ReferenceCounts counts;
     expect_image(exact.image(), render_reference(frame, counts));
-    EXPECT_EQ(exact.stats().slots.useful, counts.fragments);
+    EXPECT_EQ(exact.stats().slots[Slot::Useful], counts.fragments);
     EXPECT_EQ(exact.stats().pixels_ended, counts.terminated);
     expect_same(exact, strict);
 }

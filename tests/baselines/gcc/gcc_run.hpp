@@ -2,7 +2,7 @@
 // Whole GCCs on frames made by hand, and what must hold of every run.
 #pragma once
 
-#include "baselines/gcc/gcc.hpp"
+#include "baselines/gcc/engine.hpp"
 #include "tests/modules/degs/accelerator_fixture.hpp"
 
 namespace degs::test {
@@ -69,7 +69,7 @@ inline void expect_sound(const GccRun& run) {
 }
 
 inline void expect_reference(const GccRun& run) {
-    expect_reference_pixels(run.job(), run.result().slots.useful);
+    expect_reference_pixels(run.job(), run.result().slots[Slot::Useful]);
 }
 
 } // namespace degs::test

@@ -185,7 +185,7 @@ TEST(SmallRunGccStages, TheArrayAlone) {
     sc_core::sc_start();
     test::expect_sound(alone);
     test::expect_reference(alone);
-    EXPECT_EQ(alone.result().slots.useful, whole.result().slots.useful);
+    EXPECT_EQ(alone.result().slots[Slot::Useful], whole.result().slots[Slot::Useful]);
     EXPECT_LE(alone.result().window.cycles(), whole.result().window.cycles());
     EXPECT_EQ(alone.gcc().grouping(), nullptr);
 }
@@ -251,9 +251,9 @@ TEST(GccClusters, ShareTheWorkOfTheArrayAlone) {
     EXPECT_EQ(one.result().window.cycles(), 4U * 64 * 30);
     EXPECT_EQ(two.result().window.cycles(), 2U * 64 * 30 + 1);
     const SlotAccount& slots = two.result().slots;
-    EXPECT_EQ(slots.starved, 64U);
-    EXPECT_EQ(slots.drain, 64U);
-    EXPECT_EQ(slots.useful, one.result().slots.useful);
+    EXPECT_EQ(slots[Slot::Starved], 64U);
+    EXPECT_EQ(slots[Slot::Drain], 64U);
+    EXPECT_EQ(slots[Slot::Useful], one.result().slots[Slot::Useful]);
 }
 
 // Stage I is shared; units and memories of the others are there once per cluster.

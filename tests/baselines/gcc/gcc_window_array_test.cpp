@@ -45,8 +45,8 @@ TEST_P(GccArray, AFullViewTakesEveryWindowOnce) {
         6 * static_cast<std::uint64_t>((70 + side - 1) / side * ((50 + side - 1) / side));
     EXPECT_EQ(bench->stats().windows, slots);
     EXPECT_EQ(bench->stats().window.cycles(), slots);
-    EXPECT_EQ(bench->stats().slots.useful, 6U * 70 * 50);
-    EXPECT_EQ(bench->stats().slots.boundary, slots * bench->pes() - 6 * 70 * 50); // outside
+    EXPECT_EQ(bench->stats().slots[Slot::Useful], 6U * 70 * 50);
+    EXPECT_EQ(bench->stats().slots[Slot::Boundary], slots * bench->pes() - 6 * 70 * 50); // outside
     EXPECT_EQ(bench->stats().extra_seeds, 0U);
 }
 
@@ -61,8 +61,8 @@ TEST(GccArrayPixels, OnePixelTakesItsWindowAndThoseItTouches) {
     EXPECT_EQ(bench->stats().windows, 1U + 2 + 3 + 1);
     EXPECT_EQ(bench->stats().windows_empty, 0U + 1 + 2 + 0);
     EXPECT_EQ(bench->stats().window.cycles(), 7U);
-    EXPECT_EQ(bench->stats().slots.useful, 4U);
-    EXPECT_EQ(bench->stats().slots.boundary, 7U * 64 - 4);
+    EXPECT_EQ(bench->stats().slots[Slot::Useful], 4U);
+    EXPECT_EQ(bench->stats().slots[Slot::Boundary], 7U * 64 - 4);
 }
 
 // One row inside its row of windows: 32 / 8 slots; on their lower border: as many empty ones.
@@ -71,7 +71,7 @@ TEST(GccArrayPixels, ARowTakesItsRowOfWindows) {
     const auto bench = run(frame, windows_of(8));
     EXPECT_EQ(bench->stats().windows, 4U + 8);
     EXPECT_EQ(bench->stats().windows_empty, 4U);
-    EXPECT_EQ(bench->stats().slots.useful, 64U);
+    EXPECT_EQ(bench->stats().slots[Slot::Useful], 64U);
 }
 
 // A diagonal one pixel wide touches n = 4 windows that share only corners: n seeds, and each of the
@@ -82,7 +82,7 @@ TEST(GccArrayPixels, ANeedleIsSeededInEveryWindow) {
     EXPECT_EQ(bench->stats().windows, 4U + 6);
     EXPECT_EQ(bench->stats().windows_empty, 6U);
     EXPECT_EQ(bench->stats().extra_seeds, 3U);
-    EXPECT_EQ(bench->stats().slots.useful, 32U);
+    EXPECT_EQ(bench->stats().slots[Slot::Useful], 32U);
     EXPECT_EQ(bench->stats().window.cycles(), 10U);
 }
 
@@ -94,7 +94,7 @@ TEST(GccArrayDiscovery, ANeedleWaitsForWhatItsSlotsFind) {
     const auto bench = run(frame, windows_of(8, 4));
     EXPECT_EQ(bench->stats().windows, 10U);
     EXPECT_EQ(bench->stats().window.cycles(), 25U);
-    EXPECT_EQ(bench->stats().slots.conflict, 15U * 64);
+    EXPECT_EQ(bench->stats().slots[Slot::Conflict], 15U * 64);
     // The view is over when that is known: 4 cycles after slot 24, and written back.
     EXPECT_EQ(bench->done()[0].date - bench->stats().window.first, 24U + 4 + 4);
 }
@@ -114,7 +114,7 @@ TEST(GccArrayDiscovery, ARowIsAChain) {
         const Cycle p = i == 0 ? 1 : 4 * i;
         EXPECT_EQ(benches[i]->stats().windows, 12U);
         EXPECT_EQ(benches[i]->stats().window.cycles(), 11 * p + 1);
-        EXPECT_EQ(benches[i]->stats().slots.conflict, (11 * p + 1 - 12) * 64);
+        EXPECT_EQ(benches[i]->stats().slots[Slot::Conflict], (11 * p + 1 - 12) * 64);
         test::expect_sound(*benches[i]);
     }
 }
@@ -130,9 +130,9 @@ TEST(GccArrayDiscovery, OnePixelSplatsTakeTheLatencyEach) {
     const GccArrayBench slow("slow", frame, windows_of(8, 8));
     sc_core::sc_start();
     EXPECT_EQ(fast.stats().window.cycles(), 50U);
-    EXPECT_EQ(fast.stats().slots.conflict, 0U);
+    EXPECT_EQ(fast.stats().slots[Slot::Conflict], 0U);
     EXPECT_EQ(slow.stats().window.cycles(), 49U * 8 + 1);
-    EXPECT_EQ(slow.stats().slots.conflict, 49U * 7 * 64);
+    EXPECT_EQ(slow.stats().slots[Slot::Conflict], 49U * 7 * 64);
 }
 
 // m x m windows seeded in a corner are taken diagonal by diagonal. With P = 3 the array waits twice
@@ -146,7 +146,7 @@ TEST(GccArrayDiscovery, AWideFrontierHidesTheLatency) {
     sc_core::sc_start();
     EXPECT_EQ(three.stats().window.cycles(), 9U + 4);
     EXPECT_EQ(sixteen.stats().window.cycles(), 256U + 4);
-    EXPECT_EQ(sixteen.stats().slots.conflict, 4U * 64);
+    EXPECT_EQ(sixteen.stats().slots[Slot::Conflict], 4U * 64);
 }
 
 // Radius 7 around (28, 4). Left view: columns 21..31, rows 0..11, windows (0..1, 2..3). Right view:
@@ -170,7 +170,7 @@ TEST(GccArrayViews, EachViewIsTraversedOnItsOwn) {
     EXPECT_EQ(bench->stats().splats, 2U);
     EXPECT_EQ(bench->stats().windows, 10U + 4);
     EXPECT_EQ(bench->stats().extra_seeds, 3U + 1);
-    EXPECT_EQ(bench->stats().slots.useful, 48U);
+    EXPECT_EQ(bench->stats().slots[Slot::Useful], 48U);
 }
 
 // Pixels (12 - y, y) of a centre above the view at (20, -8): the clamped centre (20, 0) lies in
@@ -184,7 +184,7 @@ TEST(GccArrayViews, AClampedCentreMayMiss) {
     EXPECT_EQ(bench->stats().windows, 4U);
     EXPECT_EQ(bench->stats().windows_empty, 1U);
     EXPECT_EQ(bench->stats().extra_seeds, 1U);
-    EXPECT_EQ(bench->stats().slots.useful, 13U);
+    EXPECT_EQ(bench->stats().slots[Slot::Useful], 13U);
 }
 
 /// Ends every pixel: alpha 0.99 clamp, T = 1e-2, 1e-4, and the third is refused.
@@ -205,8 +205,8 @@ TEST(GccArrayEnds, AViewThatHasEndedDropsTheRest) {
     EXPECT_EQ(bench->stats().splats, 3U);
     EXPECT_EQ(bench->stats().splats_dropped, 500U);
     EXPECT_EQ(bench->stats().window.cycles(), 48U);
-    EXPECT_EQ(bench->stats().slots.useful, 2U * 1024);
-    EXPECT_EQ(bench->stats().slots.terminated, 1024U);
+    EXPECT_EQ(bench->stats().slots[Slot::Useful], 2U * 1024);
+    EXPECT_EQ(bench->stats().slots[Slot::Terminated], 1024U);
     EXPECT_EQ(bench->stats().pixels_ended, 1024U);
     // The last pixel ends in slot 47 and is written back, and reported, 4 cycles later.
     const Cycle first = bench->stats().window.first;
@@ -252,8 +252,8 @@ TEST_P(GccArraySkip, AnEndedWindowCostsItsSkipAndLeadsOn) {
     EXPECT_EQ(s.windows, 240 + 3 * kRows);
     EXPECT_EQ(s.window.cycles(), 240 * p + kRows * (4 * p - 1 + skip) - (p - 1));
     EXPECT_EQ(s.skip_cycles, kRows * skip);
-    EXPECT_EQ(s.slots.terminated, 64 + kRows * skip * 64); // the third splat of each pixel
-    EXPECT_EQ(s.slots.useful, 2 * 64 + kRows * 24);
+    EXPECT_EQ(s.slots[Slot::Terminated], 64 + kRows * skip * 64); // the third splat of each pixel
+    EXPECT_EQ(s.slots[Slot::Useful], 2 * 64 + kRows * 24);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cycles, GccArraySkip,

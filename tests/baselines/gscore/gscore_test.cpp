@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // GSCore as a whole: random configurations on random frames, and what its front end saves.
-#include "baselines/gscore/gscore.hpp"
+#include "baselines/gscore/engine.hpp"
 
 #include "tests/baselines/engine_run.hpp"
 
@@ -19,9 +19,9 @@ public:
     int among(std::initializer_list<int> values) {
         return values.begin()[upto(static_cast<int>(values.size()) - 1)];
     }
-    GscoreConfig config(unsigned index) {
+    gscore::Config config(unsigned index) {
         for (;;) {
-            const GscoreConfig c = candidate(index);
+            const gscore::Config c = candidate(index);
             if (c.problem().empty()) {
                 return c;
             }
@@ -29,8 +29,8 @@ public:
     }
 
 private:
-    GscoreConfig candidate(unsigned index) {
-        GscoreConfig c;
+    gscore::Config candidate(unsigned index) {
+        gscore::Config c;
         const Arithmetic odd[] = {Arithmetic::Fp32, Arithmetic::Paper, Arithmetic::Tuned};
         c.pipeline.numbers = index % 2 == 0 ? Arithmetic::Fp64 : odd[index / 2 % 3];
         c.pipeline.stop_rule = index % 8 == 1 ? StopRule::After : StopRule::Refuse;
@@ -70,7 +70,7 @@ class SmallRunGscore : public ::testing::TestWithParam<unsigned> {};
 TEST_P(SmallRunGscore, ExactIsStrict) {
     const unsigned index = GetParam();
     RandomGscore draw(index);
-    const GscoreConfig config = draw.config(index);
+    const gscore::Config config = draw.config(index);
     std::vector<FrameWorkload> frames;
     for (int f = index % 4 == 3 ? 3 : 1; f > 0; --f) {
         frames.push_back(test::random_frame(index * 10 + static_cast<unsigned>(f),
@@ -116,7 +116,7 @@ std::uint64_t count_of(const AcceleratorResult& result, const std::string& stage
 TEST(Gscore, FinishedTilesAreNeitherSortedNorFetched) {
     const FrameWorkload frame =
         make_frame(std::vector<ProjectedSplat>(2000, blanket(16, 16, 1e4, 0.98)), 32, 32, 16);
-    GscoreConfig config;
+    gscore::Config config;
     config.buffer.bytes = config.pixel_buffer.bytes + 128 * 1024;
     const EngineRun run("run", config, {&frame});
     config.monitor.cancel = false;
@@ -133,7 +133,7 @@ TEST(Gscore, FinishedTilesAreNeitherSortedNorFetched) {
     EXPECT_EQ(count_of(result, "blending", "splats"), 4U * 3);
     EXPECT_EQ(count_of(all.result(), "sorting", "keys_sorted"), 4U * 2000);
     EXPECT_EQ(count_of(all.result(), "fetching", "records"), 4U * 2000);
-    EXPECT_EQ(all.result().slots.useful, result.slots.useful);
+    EXPECT_EQ(all.result().slots[Slot::Useful], result.slots[Slot::Useful]);
 }
 
 std::uint64_t bytes_read(const AcceleratorResult& result, const std::string& stream) {
@@ -149,8 +149,8 @@ TEST(Gscore, ReadsTheShOfCulledGaussians) {
     FrameWorkload frame = make_frame({blanket(8, 8, 4)}, 16, 16, 16);
     frame.gaussians = 64 * 10;
     frame.sh_degree = 3;
-    const GscoreConfig config;
-    GscoreConfig visible = config;
+    const gscore::Config config;
+    gscore::Config visible = config;
     visible.traffic.sh = ShReads::Visible;
     const EngineRun run("run", config, {&frame});
     const EngineRun frugal("frugal", visible, {&frame});
@@ -165,18 +165,18 @@ TEST(Gscore, ArrayOnlyNeverStarves) {
     const FrameWorkload frame = test::random_frame(7, 120, 80, 16, 600);
     BuildOptions options;
     options.array_only = true;
-    const EngineRun run("run", GscoreConfig{}, {&frame}, Fidelity::Exact, options);
+    const EngineRun run("run", gscore::Config{}, {&frame}, Fidelity::Exact, options);
     sc_core::sc_start();
     run.expect_sound();
     const AcceleratorResult result = run.result();
-    EXPECT_EQ(result.slots.starved, 0U);
+    EXPECT_EQ(result.slots[Slot::Starved], 0U);
     EXPECT_LT(result.cycles, result.window.cycles() + 40);
 }
 
 // The kernel goes on for longer than the frame, and not as long in both fidelities.
 TEST(SmallRunGscore, MemoryEnergyEndsWithTheRun) {
     const FrameWorkload frame = test::random_frame(9, 64, 17, 16, 1500);
-    GscoreConfig config;
+    gscore::Config config;
     config.sorting.fine_cycles_per_key = 1024;
     config.memory.model = MemoryModel::Lpddr5;
     const EngineRun exact("exact", config, {&frame}, Fidelity::Exact);
@@ -197,7 +197,7 @@ TEST(ShapeGscore, FinerSubtileTestsTakeFewerPasses) {
     const FrameWorkload frame = test::random_frame(8, 120, 80, 16, 600);
     std::vector<std::unique_ptr<EngineRun>> runs;
     for (const SubtileTest skip : {SubtileTest::None, SubtileTest::Obb, SubtileTest::Exact}) {
-        GscoreConfig config;
+        gscore::Config config;
         config.array.subtile_skip = skip;
         runs.push_back(std::make_unique<EngineRun>("run" + std::to_string(runs.size()), config,
                                                    std::vector<const FrameWorkload*>{&frame}));
@@ -206,7 +206,7 @@ TEST(ShapeGscore, FinerSubtileTestsTakeFewerPasses) {
     for (std::size_t i = 1; i < runs.size(); ++i) {
         EXPECT_LT(count_of(runs[i]->result(), "blending", "passes"),
                   count_of(runs[i - 1]->result(), "blending", "passes"));
-        EXPECT_EQ(runs[i]->result().slots.useful, runs[0]->result().slots.useful);
+        EXPECT_EQ(runs[i]->result().slots[Slot::Useful], runs[0]->result().slots[Slot::Useful]);
         EXPECT_TRUE(test::same_bytes(runs[i]->image(), runs[0]->image()));
     }
 }
@@ -214,7 +214,7 @@ TEST(ShapeGscore, FinerSubtileTestsTakeFewerPasses) {
 // What a pixel takes does not depend on which array works on its tile, nor on how many there are.
 TEST(GscoreClusters, ChangeNoPixelAndTakeTheTilesInTurn) {
     const FrameWorkload frame = test::random_frame(11, 150, 120, 16, 400);
-    GscoreConfig config;
+    gscore::Config config;
     config.pipeline.numbers = Arithmetic::Fp64;
     std::vector<std::unique_ptr<EngineRun>> runs;
     const int counts[] = {1, 2, 4, 64};
@@ -239,7 +239,7 @@ TEST(GscoreClusters, ChangeNoPixelAndTakeTheTilesInTurn) {
 TEST(GscoreClusters, ShareTheWorkOfTheArrayAlone) {
     const FrameWorkload frame =
         make_frame(std::vector<ProjectedSplat>(60, blanket(32, 8, 1e4, 0.01)), 64, 16, 16);
-    GscoreConfig config;
+    gscore::Config config;
     config.pixel_buffer.bytes = 4 * config.pixel_buffer.state_bytes * 16 * 16;
     BuildOptions alone;
     alone.array_only = true;
@@ -252,9 +252,9 @@ TEST(GscoreClusters, ShareTheWorkOfTheArrayAlone) {
     EXPECT_EQ(one.result().window.cycles(), 4U * 4 * 60);
     EXPECT_EQ(two.result().window.cycles(), 2U * 4 * 60 + 1);
     const SlotAccount& slots = two.result().slots;
-    EXPECT_EQ(slots.starved, 64U);
-    EXPECT_EQ(slots.drain, 64U);
-    EXPECT_EQ(slots.useful, one.result().slots.useful);
+    EXPECT_EQ(slots[Slot::Starved], 64U);
+    EXPECT_EQ(slots[Slot::Drain], 64U);
+    EXPECT_EQ(slots[Slot::Useful], one.result().slots[Slot::Useful]);
 }
 
 // Tiles that end after three splats: their lists are sorted to the end, their records are not
@@ -262,7 +262,7 @@ TEST(GscoreClusters, ShareTheWorkOfTheArrayAlone) {
 TEST(GscoreClusters, StopTheirTilesEarly) {
     const FrameWorkload frame =
         make_frame(std::vector<ProjectedSplat>(2000, blanket(32, 8, 1e4, 0.98)), 64, 16, 16);
-    GscoreConfig config;
+    gscore::Config config;
     config.pipeline.numbers = Arithmetic::Fp64;
     config.clusters = 2;
     const EngineRun run("run", config, {&frame});
@@ -279,14 +279,14 @@ TEST(GscoreClusters, StopTheirTilesEarly) {
 
 // Projection and sorting are shared; lanes and memories are there once per cluster.
 TEST(GscoreClusters, CostLanesAndMemoriesOfTheirOwn) {
-    GscoreConfig config;
+    gscore::Config config;
     const cost::BillOfMaterials one = config.bill();
     config.clusters = 3;
     EXPECT_EQ(config.problem(), "");
     EXPECT_EQ(config.pes(), 3 * 64);
     EXPECT_EQ(config.tile_contexts(), 6);
-    EXPECT_EQ(config.splat_chunks(), 4 * GscoreConfig().splat_chunks());
-    EXPECT_EQ(config.sort_capacity(), 3 * GscoreConfig().sort_capacity());
+    EXPECT_EQ(config.splat_chunks(), 4 * gscore::Config().splat_chunks());
+    EXPECT_EQ(config.sort_capacity(), 3 * gscore::Config().sort_capacity());
     const cost::BillOfMaterials three = config.bill();
     ASSERT_EQ(three.blocks().size(), one.blocks().size());
     for (std::size_t b = 0; b < one.blocks().size(); ++b) {

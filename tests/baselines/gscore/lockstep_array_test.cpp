@@ -13,7 +13,7 @@ using test::make_frame;
 using test::make_splat;
 using test::one_pixel;
 using test::one_row;
-using Config = LockstepArray::Config;
+using Config = gscore::LockstepArray::Config;
 
 Config lanes(int n) {
     Config config;
@@ -35,12 +35,12 @@ void expect_one_tile(const Config& config, const std::vector<ProjectedSplat>& sp
     LockstepBench bench("bench", config, make_frame(splats, 16, 16, 16), {});
     bench.chunks_of_all_tiles();
     LockstepBench::start();
-    const LockstepArray::Stats& stats = bench.stats();
+    const gscore::LockstepArray::Stats& stats = bench.stats();
     EXPECT_EQ(stats.passes, expected.passes);
     EXPECT_EQ(stats.window.first, LockstepBench::kStart);
     EXPECT_EQ(stats.window.cycles(), expected.passes);
-    EXPECT_EQ(stats.slots.useful, expected.useful);
-    EXPECT_EQ(stats.slots.boundary,
+    EXPECT_EQ(stats.slots[Slot::Useful], expected.useful);
+    EXPECT_EQ(stats.slots[Slot::Boundary],
               expected.passes * static_cast<std::uint64_t>(config.lanes) - expected.useful);
     const Cycle end = stats.window.last + 1;
     EXPECT_EQ(bench.tile_done[0], end + static_cast<Cycle>(config.pipeline_cycles));
@@ -70,7 +70,7 @@ TEST_P(FullTile, TakesASlotPerSubtile) {
     const auto pixels = static_cast<std::uint64_t>(s.tile * s.tile);
     EXPECT_EQ(bench.stats().passes, pixels / static_cast<std::uint64_t>(s.lanes));
     EXPECT_EQ(bench.stats().window.cycles(), bench.stats().passes);
-    EXPECT_EQ(bench.stats().slots.useful, pixels);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], pixels);
     EXPECT_EQ(bench.stats().slots.total(), pixels);
     bench.expect_sound();
 }
@@ -136,9 +136,9 @@ TEST_P(Termination, TileStopsWhenItsLastSubtileIsSeenDone) {
     const std::uint64_t late = GetParam() == 1 ? 0 : 3;
     EXPECT_EQ(bench.stats().passes, 12 + late);
     EXPECT_EQ(bench.stats().window.cycles(), 12 + late);
-    EXPECT_EQ(bench.stats().slots.useful, 2U * 256);
-    EXPECT_EQ(bench.stats().slots.terminated, 256 + late * 64);
-    EXPECT_EQ(bench.stats().slots.boundary, 0U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 2U * 256);
+    EXPECT_EQ(bench.stats().slots[Slot::Terminated], 256 + late * 64);
+    EXPECT_EQ(bench.stats().slots[Slot::Boundary], 0U);
     EXPECT_EQ(bench.stats().pixels_ended, 256U);
     EXPECT_EQ(bench.stats().splats, late == 0 ? 3U : 4U);
     EXPECT_EQ(bench.stats().tiles_stopped, 0U); // the list was there to its end
@@ -166,8 +166,8 @@ TEST_P(ChunkAfterTheEnd, IsWorkedOnWhileTheEndIsNotSeen) {
     // splats of the chunk go round the sub-tiles that are not seen done yet, a slot per cycle.
     const Cycle used = GetParam() < 19 ? 19 - GetParam() : 0;
     EXPECT_EQ(bench.stats().passes, 12 + used);
-    EXPECT_EQ(bench.stats().slots.terminated, 256 + used * 64);
-    EXPECT_EQ(bench.stats().slots.starved, used == 0 ? 0 : (GetParam() - 12) * 64);
+    EXPECT_EQ(bench.stats().slots[Slot::Terminated], 256 + used * 64);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], used == 0 ? 0 : (GetParam() - 12) * 64);
     EXPECT_EQ(bench.stats().tiles_stopped, used == 0 ? 1U : 0U);
     EXPECT_EQ(bench.tile_state[0], LockstepBench::kStart + 19 + 1);
     EXPECT_TRUE(bench.all_ended[0]);
@@ -186,8 +186,8 @@ TEST(LockstepArray, DoneSubtilesAreSkipped) {
     bench.chunks_of_all_tiles();
     LockstepBench::start();
     EXPECT_EQ(bench.stats().passes, 3U * 64 + 3);
-    EXPECT_EQ(bench.stats().slots.useful, 2U * 64 + 3 * 64);
-    EXPECT_EQ(bench.stats().slots.terminated, 64U); // the refused ones
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 2U * 64 + 3 * 64);
+    EXPECT_EQ(bench.stats().slots[Slot::Terminated], 64U); // the refused ones
     EXPECT_EQ(bench.stats().pixels_ended, 64U);
     EXPECT_FALSE(bench.all_ended[0]);
     bench.expect_sound();
@@ -200,8 +200,8 @@ TEST(LockstepArray, LanesOutsideTheImageAreBoundary) {
     bench.chunks_of_all_tiles();
     LockstepBench::start();
     EXPECT_EQ(bench.stats().passes, 4U + 2);
-    EXPECT_EQ(bench.stats().slots.useful, 256U + 4 * 16);
-    EXPECT_EQ(bench.stats().slots.boundary, 2U * 64 - 4 * 16);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 256U + 4 * 16);
+    EXPECT_EQ(bench.stats().slots[Slot::Boundary], 2U * 64 - 4 * 16);
     bench.expect_sound();
 }
 
@@ -221,8 +221,8 @@ TEST(LockstepClusters, WorkOnTheirOwnAndMeetAtTheTileEnd) {
     const std::uint64_t both = 2; // the blankets reach into the neighbouring tile as well
     EXPECT_EQ(bench.stats().passes, 2 * both * 4 + 3);
     EXPECT_EQ(bench.stats().window.cycles(), both * 4 + 4 + both * 4);
-    EXPECT_EQ(bench.stats().slots.starved, 2U * 32);
-    EXPECT_EQ(bench.stats().slots.drain, 0U);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], 2U * 32);
+    EXPECT_EQ(bench.stats().slots[Slot::Drain], 0U);
     bench.expect_sound();
 }
 
@@ -237,8 +237,8 @@ TEST(LockstepClusters, OneSubtileEach) {
     bench.chunks_of_all_tiles();
     LockstepBench::start();
     EXPECT_EQ(bench.stats().window.cycles(), 4U + 2 * 4);
-    EXPECT_EQ(bench.stats().slots.useful, 256U + 2);
-    EXPECT_EQ(bench.stats().slots.drain, 3U * 16 * 8);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 256U + 2);
+    EXPECT_EQ(bench.stats().slots[Slot::Drain], 3U * 16 * 8);
     bench.expect_sound();
 }
 
@@ -253,8 +253,8 @@ TEST(LockstepClusters, DoNotWaitForEachOtherWithinATile) {
     bench.chunk(0, 8, LockstepBench::kStart + 5);
     LockstepBench::start();
     EXPECT_EQ(bench.stats().window.cycles(), 5U + 16);
-    EXPECT_EQ(bench.stats().slots.starved, 5U * 32); // cluster 1 until its first splat
-    EXPECT_EQ(bench.stats().slots.drain, 5U * 32);   // cluster 0 at the end
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], 5U * 32); // cluster 1 until its first splat
+    EXPECT_EQ(bench.stats().slots[Slot::Drain], 5U * 32);   // cluster 0 at the end
     bench.expect_sound();
 }
 

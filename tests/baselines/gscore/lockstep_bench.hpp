@@ -30,8 +30,8 @@ public:
     };
     static constexpr Cycle kStart = 20; ///< date of the first chunk
 
-    LockstepBench(const std::string& name, const LockstepArray::Config& config, FrameWorkload frame,
-                  const Sizes& sizes, Fidelity fidelity = Fidelity::Exact)
+    LockstepBench(const std::string& name, const gscore::LockstepArray::Config& config,
+                  FrameWorkload frame, const Sizes& sizes, Fidelity fidelity = Fidelity::Exact)
         : frame_(std::move(frame)), sizes_(sizes), time_{ClockDomain(1.0), fidelity},
           job_(make_render_job({&frame_},
                                {Arithmetic::Fp64, SpanEnds::Exact, 0, StopRule::Refuse, {}},
@@ -89,7 +89,7 @@ public:
     }
     static void start() { sc_core::sc_start(); }
 
-    const LockstepArray::Stats& stats() const { return array_.stats(); }
+    const gscore::LockstepArray::Stats& stats() const { return array_.stats(); }
     const RenderJob& job() const { return job_; }
     const DatedFifo<SplatChunk>& ring(std::size_t i) const { return *rings_[i]; }
     /// The pixel as it was read out.
@@ -97,10 +97,11 @@ public:
         return image_[static_cast<std::size_t>(y * job_.frames[0]->camera.width + x)];
     }
     void expect_sound() const {
-        const LockstepArray::Stats& s = stats();
+        const gscore::LockstepArray::Stats& s = stats();
         const std::uint64_t lanes = static_cast<std::uint64_t>(array_.config().lanes);
         EXPECT_EQ(s.slots.total(), lanes * s.window.cycles());
-        EXPECT_EQ(s.slots.useful + s.slots.boundary + s.slots.terminated, lanes * s.passes);
+        EXPECT_EQ(s.slots[Slot::Useful] + s.slots[Slot::Boundary] + s.slots[Slot::Terminated],
+                  lanes * s.passes);
         EXPECT_EQ(s.splats + s.splats_discarded, job_.frames[0]->tile_pairs());
         EXPECT_LE(s.splats_skipped, s.splats);
         EXPECT_EQ(finished_, job_.tiles.size()) << "the bench did not come to its end";
@@ -168,8 +169,8 @@ private:
     std::vector<std::unique_ptr<DatedFifo<SplatChunk>>> rings_;
     DatedFifo<SliceReport> done_, state_;
     DatedFifo<TileNumber> contexts_;
-    OrientedBoxes boxes_;
-    LockstepArray array_;
+    gscore::OrientedBoxes boxes_;
+    gscore::LockstepArray array_;
     std::vector<std::vector<Feed>> feeds_;
     std::vector<std::unique_ptr<Process>> processes_;
     std::vector<std::unique_ptr<Script>> scripts_;

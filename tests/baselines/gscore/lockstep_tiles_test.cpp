@@ -12,7 +12,7 @@ using test::blanket;
 using test::LockstepBench;
 using test::make_frame;
 using test::one_pixel;
-using Config = LockstepArray::Config;
+using Config = gscore::LockstepArray::Config;
 
 /// `tiles` tiles in a row, all covered by each of `count` splats.
 FrameWorkload blankets(int tiles, int count, double opacity) {
@@ -31,7 +31,7 @@ TEST(LockstepTiles, TwoContextsLeaveNoBubble) {
     bench.chunks_of_all_tiles();
     LockstepBench::start();
     EXPECT_EQ(bench.stats().window.cycles(), 6U * 40);
-    EXPECT_EQ(bench.stats().slots.useful, 6U * 40 * 64);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 6U * 40 * 64);
     bench.expect_sound();
 }
 
@@ -47,8 +47,8 @@ TEST(LockstepTiles, OneContextBlocksBetweenTiles) {
     LockstepBench::start();
     const Cycle gap = 6 + 20 + 1;
     EXPECT_EQ(bench.stats().window.cycles(), 3 * 40 + 2 * gap);
-    EXPECT_EQ(bench.stats().slots.blocked, 2 * gap * 64);
-    EXPECT_EQ(bench.stats().slots.starved, 0U);
+    EXPECT_EQ(bench.stats().slots[Slot::Blocked], 2 * gap * 64);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], 0U);
     bench.expect_sound();
 }
 
@@ -67,8 +67,8 @@ TEST_P(StarvedAndBlocked, AreToldApart) {
     bench.chunk(1, 10, there);
     LockstepBench::start();
     const Cycle blocked = there < free ? free - there : 0;
-    EXPECT_EQ(bench.stats().slots.blocked, blocked * 64);
-    EXPECT_EQ(bench.stats().slots.starved, (there - (LockstepBench::kStart + 40)) * 64);
+    EXPECT_EQ(bench.stats().slots[Slot::Blocked], blocked * 64);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], (there - (LockstepBench::kStart + 40)) * 64);
     EXPECT_EQ(bench.stats().window.last, std::max(free, there) + 39);
     bench.expect_sound();
 }
@@ -104,7 +104,7 @@ TEST(LockstepTiles, RestOfAStoppedTileIsDroppedOnTheSide) {
     LockstepBench::start();
     // 12 slots a tile; tile 1 follows at once, tile 2 when it is there.
     EXPECT_EQ(bench.stats().window.cycles(), 4U * 12);
-    EXPECT_EQ(bench.stats().slots.starved, 0U);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], 0U);
     EXPECT_EQ(bench.stats().tiles_stopped, 1U);
     EXPECT_EQ(bench.stats().splats, 4U * 3);
     EXPECT_EQ(bench.tile_state,
@@ -121,7 +121,7 @@ TEST(LockstepTiles, WithOneInputTheRestIsInTheWay) {
     bench.chunk(1, 20, LockstepBench::kStart + 60);
     LockstepBench::start();
     EXPECT_EQ(bench.stats().window.cycles(), 60U + 12);
-    EXPECT_EQ(bench.stats().slots.starved, (60U - 12) * 64);
+    EXPECT_EQ(bench.stats().slots[Slot::Starved], (60U - 12) * 64);
     bench.expect_sound();
 }
 
@@ -170,7 +170,7 @@ TEST_P(SmallRunLockstep, RendersTheReferenceImage) {
     bench.expect_sound();
     ReferenceCounts counts;
     const Image reference = render_reference(work, counts);
-    EXPECT_EQ(bench.stats().slots.useful, counts.fragments);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], counts.fragments);
     for (int y = 0; y < work.camera.height; ++y) {
         for (int x = 0; x < work.camera.width; ++x) {
             const std::size_t i = reference.at(x, y);
@@ -195,8 +195,9 @@ TEST_P(SmallRunLockstep, ExactEqualsStrict) {
     strict.chunks_of_all_tiles();
     LockstepBench::start();
     exact.expect_sound();
-    static_assert(std::is_trivially_copyable_v<LockstepArray::Stats>);
-    EXPECT_EQ(std::memcmp(&exact.stats(), &strict.stats(), sizeof(LockstepArray::Stats)), 0);
+    static_assert(std::is_trivially_copyable_v<gscore::LockstepArray::Stats>);
+    EXPECT_EQ(std::memcmp(&exact.stats(), &strict.stats(), sizeof(gscore::LockstepArray::Stats)),
+              0);
     EXPECT_EQ(exact.tile_done, strict.tile_done);
     EXPECT_EQ(exact.tile_state, strict.tile_state);
     for (std::size_t i = 0; i < sizes().inputs; ++i) {

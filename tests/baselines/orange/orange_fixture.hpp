@@ -2,7 +2,7 @@
 // Whole ORANGEs on frames made by hand, and what must hold of every run.
 #pragma once
 
-#include "baselines/orange/orange.hpp"
+#include "baselines/orange/engine.hpp"
 #include "tests/modules/degs/accelerator_fixture.hpp"
 
 namespace degs::test {
@@ -21,10 +21,10 @@ inline orange::Config orange_of(int tile, int cores, int rows = 32, int columns 
     return c;
 }
 
-class OrangeRun : public AcceleratorRun<orange::Orange, orange::Config> {
+class OrangeRun : public AcceleratorRun<orange::Engine, orange::Config> {
 public:
     using AcceleratorRun::AcceleratorRun;
-    const orange::Orange& orange() const { return engine(); }
+    const orange::Engine& orange() const { return engine(); }
     /// Every counter of every block.
     Signature signature() const {
         Signature words;
@@ -51,8 +51,8 @@ inline void expect_sound(const OrangeRun& run) {
     const AcceleratorResult result = run.result();
     EXPECT_EQ(result.tiles, run.job().tiles.size());
     expect_laws(result, run.orange().config().pes());
-    EXPECT_EQ(result.slots.conflict + result.slots.ports, 0U);
-    EXPECT_EQ(result.slots.useful % kGemmDepth, 0U);
+    EXPECT_EQ(result.slots[Slot::Conflict] + result.slots[Slot::Ports], 0U);
+    EXPECT_EQ(result.slots[Slot::Useful] % kGemmDepth, 0U);
 }
 
 inline void expect_reference(const OrangeRun& run) {

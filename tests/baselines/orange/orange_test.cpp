@@ -64,9 +64,9 @@ TEST(SmallRunOrange, BatchesFollowEachOtherInTheArray) {
     const Cycle busy = 2 * array.cycles(256, 64) + array.cycles(188, 64);
     EXPECT_EQ(busy, 2U * 2 * (256 + 62) + 2 * (188 + 62));
     EXPECT_EQ(result.window.cycles(), busy);
-    EXPECT_EQ(result.slots.starved, 0U);
+    EXPECT_EQ(result.slots[Slot::Starved], 0U);
     EXPECT_EQ(result.slots.executed(), 700U * 64 * 6);
-    EXPECT_EQ(result.slots.padding, busy * 1024 - 700U * 64 * 6);
+    EXPECT_EQ(result.slots[Slot::Padding], busy * 1024 - 700U * 64 * 6);
 }
 
 // A vector unit of few lanes is what limits: products come first, so the array waits for coefficients.
@@ -86,8 +86,8 @@ TEST(SmallRunOrange, ANarrowVectorUnitStarvesTheArray) {
     // But for the first product, on which it waits, and the rings, it works all the time.
     const Cycle first = config.cores.array.cycles(256, 64);
     EXPECT_LE(run.result().window.cycles(), vector.busy + first);
-    EXPECT_GT(run.result().slots.starved, run.result().slots.executed());
-    EXPECT_EQ(run.result().slots.blocked, 0U);
+    EXPECT_GT(run.result().slots[Slot::Starved], run.result().slots.executed());
+    EXPECT_EQ(run.result().slots[Slot::Blocked], 0U);
 }
 
 // Opaque splats end every pixel of the tile within the first batch: what is fetched or multiplied by then is thrown
@@ -108,7 +108,7 @@ TEST(SmallRunOrange, LeavesATileAfterTheBatchThatEndsIt) {
     };
     EXPECT_EQ(blended(leaves), 256U);
     EXPECT_EQ(blended(stays), 256U * 20);
-    EXPECT_EQ(leaves.result().slots.useful, stays.result().slots.useful);
+    EXPECT_EQ(leaves.result().slots[Slot::Useful], stays.result().slots[Slot::Useful]);
     EXPECT_LT(leaves.result().cycles, stays.result().cycles);
 }
 
@@ -227,7 +227,7 @@ TEST(SmallRunOrange, RecordedSlotsAreThoseOfTheAccount) {
     }
     const SlotAccount slots = run.result().slots;
     for (const SlotClass& each : kSlotClasses) {
-        EXPECT_EQ(recorded.*each.slots, slots.*each.slots) << each.name;
+        EXPECT_EQ(recorded[each.slot], slots[each.slot]) << each.name;
     }
 }
 

@@ -45,9 +45,9 @@ std::vector<std::unique_ptr<DegsRun>> run_all(const Shape& shape, const FrameWor
 
 void expect_tasks(const DegsRun& run, std::uint64_t useful, std::uint64_t boundary) {
     EXPECT_EQ(run.span_tasks(), useful + boundary);
-    EXPECT_EQ(run.slots().useful, useful);
-    EXPECT_EQ(run.slots().boundary, boundary);
-    EXPECT_EQ(run.slots().terminated, 0U);
+    EXPECT_EQ(run.slots()[Slot::Useful], useful);
+    EXPECT_EQ(run.slots()[Slot::Boundary], boundary);
+    EXPECT_EQ(run.slots()[Slot::Terminated], 0U);
 }
 
 // Five rows of a disc with a radius of 2.2 px: 1, 3, 5, 3 and 1 of the 5 columns of its box.
@@ -86,7 +86,7 @@ TEST(SmallRunAblation, WithoutReorganisationTwoSpansTakeTwoPackets) {
         expect_tasks(*runs[i], 2, 0);
         EXPECT_EQ(runs[i]->packets(), packets);
         EXPECT_EQ(runs[i]->window().cycles(), packets);
-        EXPECT_EQ(runs[i]->slots().blocked, i % 2 == 0 ? 0U : 7U); // the first one is closed
+        EXPECT_EQ(runs[i]->slots()[Slot::Blocked], i % 2 == 0 ? 0U : 7U); // the first one is closed
     }
 }
 
@@ -104,9 +104,9 @@ TEST(SmallRunAblation, WithoutReorganisationASpanIsStillCompacted) {
 TEST(SmallRunAblation, EachMechanismSavesPackets) {
     const FrameWorkload frame = test::random_frame(7, 90, 70, 32, 200);
     const auto runs = run_all({32, 2, 8, 8, 8}, frame);
-    EXPECT_EQ(runs[0]->slots().boundary, 0U);
-    EXPECT_EQ(runs[1]->slots().boundary, 0U);
-    EXPECT_GT(runs[2]->slots().boundary, runs[0]->slots().useful / 3);
+    EXPECT_EQ(runs[0]->slots()[Slot::Boundary], 0U);
+    EXPECT_EQ(runs[1]->slots()[Slot::Boundary], 0U);
+    EXPECT_GT(runs[2]->slots()[Slot::Boundary], runs[0]->slots()[Slot::Useful] / 3);
     EXPECT_LT(runs[0]->packets(), runs[1]->packets());
     EXPECT_LT(runs[0]->packets(), runs[2]->packets());
     EXPECT_LT(runs[2]->packets(), runs[3]->packets());

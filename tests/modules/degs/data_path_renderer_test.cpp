@@ -51,7 +51,7 @@ TEST_P(SmallRunAgainstRenderer, SameImageAndTasks) {
     DataPathRenderer renderer(frame, options);
     const Image image = renderer.render(all_tiles(frame));
     EXPECT_TRUE(same_bytes(image, run.image()));
-    EXPECT_EQ(renderer.counts().useful, run.slots().useful);
+    EXPECT_EQ(renderer.counts().useful, run.slots()[Slot::Useful]);
     EXPECT_GT(renderer.counts().terminated, 0U); // some pixels do end
 }
 

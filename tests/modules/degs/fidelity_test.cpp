@@ -125,7 +125,7 @@ private:
         c.gaussian_buffer.ports.sram_banks = among({1, 1, 3});
         c.gaussian_buffer.temporary = chance(3) ? ParameterLife::Spans : ParameterLife::Sliced;
         c.span_buffer.ports.ports = among({0, 0, 1, 2});
-        c.packing.ports.ports = among({0, 0, 1, 2});
+        c.packing.segment_ports.ports = among({0, 0, 1, 2});
         c.feature_buffer.fill.cycles = among({0, 1, 5});
         c.feature_buffer.fill.ports.ports = among({0, 0, 1, 2});
         c.feature_buffer.fill.ports.sram_banks = among({1, 2, 8});
@@ -240,7 +240,7 @@ void expect_same_tiles(const SlotRecorder& a, const SlotRecorder& b) {
         const TileActivity& x = a.tiles()[t];
         const TileActivity& y = b.tiles()[t];
         for (const SlotClass& each : kSlotClasses) {
-            EXPECT_EQ(x.slots.*each.slots, y.slots.*each.slots) << each.name << " of tile " << t;
+            EXPECT_EQ(x.slots[each.slot], y.slots[each.slot]) << each.name << " of tile " << t;
         }
         EXPECT_EQ(x.window.first, y.window.first) << "tile " << t;
         EXPECT_EQ(x.window.last, y.window.last) << "tile " << t;

@@ -2,7 +2,7 @@
 // Whole accelerators on frames made by hand, and what must hold of every run.
 #pragma once
 
-#include "modules/degs/degs.hpp"
+#include "modules/degs/engine.hpp"
 #include "tests/modules/degs/accelerator_fixture.hpp"
 
 namespace degs::test {
@@ -53,10 +53,10 @@ public:
             sum += degs().slices()[b]->stats().slots;
             sum += degs().packing()[b]->idle();
             if (own.empty()) {
-                sum.drain += all.cycles() * width;
+                sum[Slot::Drain] += all.cycles() * width;
             } else {
-                sum.starved += (own.first - all.first) * width;
-                sum.drain += (all.last - own.last) * width;
+                sum[Slot::Starved] += (own.first - all.first) * width;
+                sum[Slot::Drain] += (all.last - own.last) * width;
             }
         }
         return sum;
@@ -142,7 +142,7 @@ inline void expect_sound(const DegsRun& run) {
     const std::uint64_t issued = run.banks(&IssueBank::Stats::tasks_issued);
     EXPECT_EQ(run.span_tasks(), run.banks(&IssueBank::Stats::tasks_in));
     EXPECT_EQ(run.span_tasks(), issued + run.banks(&IssueBank::Stats::tasks_dropped));
-    EXPECT_EQ(issued, slots.useful + slots.boundary + slots.terminated);
+    EXPECT_EQ(issued, slots[Slot::Useful] + slots[Slot::Boundary] + slots[Slot::Terminated]);
     if (degs.config().scheduler.scoreboard) {
         EXPECT_EQ(run.hazards(), 0U);
     }
@@ -168,7 +168,7 @@ inline void expect_reference(const DegsRun& run) {
         EXPECT_TRUE(same_bytes(run.image(f), reference)) << "frame " << f;
         fragments += counts.fragments;
     }
-    EXPECT_EQ(run.slots().useful, fragments);
+    EXPECT_EQ(run.slots()[Slot::Useful], fragments);
 }
 
 } // namespace degs::test

@@ -59,7 +59,7 @@ TEST(SmallRun, HugeBuffersChangeNothing) {
     test::expect_sound(most);
     test::expect_reference(most);
     EXPECT_EQ(most.degs().finished(), large.degs().finished());
-    EXPECT_EQ(most.slots().starved, large.slots().starved);
+    EXPECT_EQ(most.slots()[Slot::Starved], large.slots()[Slot::Starved]);
 }
 
 TEST(SmallRun, MoreContextsThanAreNumberedAreRefused) {
@@ -86,7 +86,7 @@ TEST(SmallRun, GaussiansThatNobodySees) {
 TEST(SmallRun, OnePixelOneSplat) {
     const FrameWorkload frame = make_frame({one_pixel(0, 0)}, 1, 1, 32);
     const auto result = run(tiles_of(32), frame);
-    EXPECT_EQ(result->slots().useful, 1U);
+    EXPECT_EQ(result->slots()[Slot::Useful], 1U);
     EXPECT_EQ(result->slots().total(), 64U); // one cycle of all PEs
     EXPECT_NEAR(result->image().transmittance[0], 0.5F, 1e-6);
 }
@@ -110,7 +110,7 @@ TEST(SmallRun, OneRowGoesToOneBank) {
 TEST(SmallRun, AFullTileTakesPixelsOverPes) {
     const FrameWorkload frame = make_frame({blanket(16, 16, 32)}, 32, 32, 32);
     const auto result = run(tiles_of(32), frame);
-    EXPECT_EQ(result->slots().useful, 1024U);
+    EXPECT_EQ(result->slots()[Slot::Useful], 1024U);
     EXPECT_EQ(result->packets(), 128U);
     EXPECT_EQ(result->window().cycles(), 16U);
 }

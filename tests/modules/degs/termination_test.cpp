@@ -47,8 +47,8 @@ TEST_P(TerminationOf, SegmentsBehindTheReportAreDropped) {
         ++executed;
     }
     EXPECT_EQ(bench.stats().packets, executed);
-    EXPECT_EQ(bench.stats().slots.useful, 2U * 16);
-    EXPECT_EQ(bench.stats().slots.terminated, (executed - 2) * 16);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 2U * 16);
+    EXPECT_EQ(bench.stats().slots[Slot::Terminated], (executed - 2) * 16);
     EXPECT_EQ(bench.stats().pixels_ended, 16U);
     EXPECT_EQ(bench.bank.stats().tasks_dropped, (kSplats - executed) * 16);
     EXPECT_EQ(bench.bank.stats().tasks_in, kSplats * 16);
@@ -76,8 +76,8 @@ TEST(SinglePixels, EndedPixelsAreMaskedOut) {
     sizes.grain = TerminationGrain::Pixel;
     SchedulerBench bench(sizes, splats);
     bench.run(feeds);
-    EXPECT_EQ(bench.stats().slots.useful, 2U + 6 * 15);
-    EXPECT_EQ(bench.stats().slots.terminated, 1U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 2U + 6 * 15);
+    EXPECT_EQ(bench.stats().slots[Slot::Terminated], 1U);
     EXPECT_EQ(bench.bank.stats().tasks_dropped, 6U);
 }
 
@@ -90,8 +90,8 @@ TEST_P(WholeSegments, EndedPixelsAmongLiveOnesCostTheirSlots) {
     sizes.grain = GetParam();
     SchedulerBench bench(sizes, splats);
     bench.run(feeds);
-    EXPECT_EQ(bench.stats().slots.useful, 2U + 6 * 15);
-    EXPECT_EQ(bench.stats().slots.terminated, 1U + 6);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 2U + 6 * 15);
+    EXPECT_EQ(bench.stats().slots[Slot::Terminated], 1U + 6);
     EXPECT_EQ(bench.bank.stats().tasks_dropped, 0U);
 }
 
@@ -128,8 +128,8 @@ TEST_P(OwnPixels, DecideAtIssue) {
     EXPECT_EQ(bench.stats().window.first, 12U);
     EXPECT_EQ(bench.stats().window.last, expected.last);
     EXPECT_EQ(bench.stats().packets, expected.packets);
-    EXPECT_EQ(bench.stats().slots.useful, 2U + 15);
-    EXPECT_EQ(bench.stats().slots.terminated, expected.terminated);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 2U + 15);
+    EXPECT_EQ(bench.stats().slots[Slot::Terminated], expected.terminated);
     EXPECT_EQ(bench.bank.stats().tasks_dropped, expected.dropped);
     EXPECT_EQ(bench.bank.stats().segments_dropped, 0U);
     EXPECT_EQ(bench.accounted(), bench.window_slots());
@@ -187,7 +187,7 @@ TEST(SmallRunTermination, FinerGrainsIssueLess) {
     for (const auto& run : runs) {
         test::expect_sound(*run);
         test::expect_reference(*run);
-        executed.push_back(run->slots().useful + run->slots().terminated);
+        executed.push_back(run->slots()[Slot::Useful] + run->slots()[Slot::Terminated]);
     }
     EXPECT_GT(executed[0], executed[1] + executed[1] / 50);
     EXPECT_GT(executed[1], executed[2] + executed[2] / 50);

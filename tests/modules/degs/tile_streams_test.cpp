@@ -66,7 +66,7 @@ TEST(TileStreams, TwoStreamsFillEachOthersGaps) {
     test::expect_reference(run);
     EXPECT_EQ(run.packets(), 2 * kSplats);
     EXPECT_EQ(run.window().cycles(), chain(kSplats) + 1);
-    EXPECT_EQ(run.slots().useful, 2 * kSplats * 16);
+    EXPECT_EQ(run.slots()[Slot::Useful], 2 * kSplats * 16);
 }
 
 // Two clusters of one stream: each chain has an array of its own. The lists are granted

@@ -10,7 +10,7 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 
-#include <modules/degs/degs_config.hpp>
+#include <modules/degs/config.hpp>
 #include <platform/accelerator.hpp>
 
 namespace {

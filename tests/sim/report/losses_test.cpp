@@ -182,10 +182,10 @@ TEST(Losses, AddUp) {
     run.cycles = 100;
     run.window.include(10);
     run.window.include(89);
-    run.slots.useful = 200;
-    run.slots.conflict = 70;
-    run.slots.starved = 30;
-    run.slots.drain = 20;
+    run.slots[Slot::Useful] = 200;
+    run.slots[Slot::Conflict] = 70;
+    run.slots[Slot::Starved] = 30;
+    run.slots[Slot::Drain] = 20;
     const std::vector<sim::Loss> losses = sim::losses_of(result);
     double sum = 0.5;
     for (const sim::Loss& loss : losses) {

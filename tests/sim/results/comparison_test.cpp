@@ -30,10 +30,10 @@ RunSummary run(double ms, double useful, int pes = 64) {
     m[Measure::LatencyMs] = ms;
     m[Measure::Fps] = 1e3 / ms;
     for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
-        m[slot_measure(c)] = 0;
+        m[slot_measure(kSlotClasses[c].slot)] = 0;
     }
-    m[Measure::Useful] = useful;
-    m[Measure::Boundary] = 1 - useful;
+    m[slot_measure(Slot::Useful)] = useful;
+    m[slot_measure(Slot::Boundary)] = 1 - useful;
     m[Measure::Utilization] = useful;
     m[Measure::FrameUtilization] = useful / 2;
     m[Measure::DramRead] = 3000000;
@@ -83,8 +83,8 @@ TEST(Compare, RatiosAreAgainstTheFirst) {
     EXPECT_DOUBLE_EQ(value(c, 1, Measure::EnergyRatio), 2.5);
     EXPECT_DOUBLE_EQ(value(c, 1, Measure::EnergyRatioPerArea), 1.25);
     EXPECT_EQ(value(c, 1, Measure::Cycles), 5e6);
-    EXPECT_EQ(value(c, 1, Measure::Useful), 0.2);
-    EXPECT_EQ(value(c, 1, Measure::Boundary), 0.8);
+    EXPECT_EQ(value(c, 1, slot_measure(Slot::Useful)), 0.2);
+    EXPECT_EQ(value(c, 1, slot_measure(Slot::Boundary)), 0.8);
     EXPECT_EQ(value(c, 1, Measure::DramRead), 3e6);
     EXPECT_TRUE(c.means.empty()); // of one view
     ASSERT_EQ(c.views.size(), 1U);
@@ -104,7 +104,8 @@ TEST(Compare, WhatDoesNotExistIsEmpty) {
          {Measure::ThroughputFps, Measure::ThroughputRatio, Measure::AreaMm2,
           Measure::LatencyRatioPerArea, Measure::ThroughputRatioPerArea, Measure::DramRead,
           Measure::DramWritten, Measure::DramUtilization, Measure::PsnrDb, Measure::Ssim,
-          Measure::MaxAbsError, Measure::Useful, Measure::Drain, Measure::Utilization}) {
+          Measure::MaxAbsError, slot_measure(Slot::Useful), slot_measure(Slot::Drain),
+          Measure::Utilization}) {
         EXPECT_FALSE(c.rows[0].measures[m]) << name_of(m);
     }
     EXPECT_FALSE(c.views[0].fragments);

@@ -24,8 +24,8 @@ RunResult some_result() {
     result.accelerator.pes = 64;
     result.accelerator.cycles = 3000;
     result.accelerator.frames = {{100, 3000}};
-    result.accelerator.slots.useful = 192;
-    result.accelerator.slots.drain = 64;
+    result.accelerator.slots[Slot::Useful] = 192;
+    result.accelerator.slots[Slot::Drain] = 64;
     result.accelerator.window.include(10);
     result.accelerator.window.include(13);
     result.accelerator.memory_gb_per_s = 204.8;
@@ -80,8 +80,8 @@ TEST(RunSummary, MeasuresAreTheStatistics) {
     const Measures m = measures_of(some_result());
     EXPECT_EQ(m[Measure::Cycles], 3000);
     EXPECT_EQ(m[Measure::LatencyMs], 0.003);
-    EXPECT_EQ(m[Measure::Useful], 0.75);
-    EXPECT_EQ(m[Measure::Drain], 0.25);
+    EXPECT_EQ(m[slot_measure(Slot::Useful)], 0.75);
+    EXPECT_EQ(m[slot_measure(Slot::Drain)], 0.25);
     EXPECT_EQ(m[Measure::Utilization], 0.75);
     EXPECT_EQ(m[Measure::DramUtilization], 1.0 / 3);
     EXPECT_EQ(m[Measure::PsnrDb], std::numeric_limits<double>::infinity());

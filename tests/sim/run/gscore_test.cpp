@@ -23,7 +23,7 @@ TEST(GscoreConfigs, ScaleByTheShadedRowsOfTableI) {
     for (const int lanes : {16, 64, 256, 1024}) {
         SCOPED_TRACE(lanes);
         const RunConfig file = load_gscore("gscore-" + std::to_string(lanes));
-        const auto& c = dynamic_cast<const GscoreConfig&>(file.accelerator());
+        const auto& c = dynamic_cast<const gscore::Config&>(file.accelerator());
         EXPECT_EQ(c.name, "gscore-" + std::to_string(lanes));
         EXPECT_EQ(c.pes(), lanes);
         EXPECT_EQ(c.tile_size_px(), std::max(16, 2 * static_cast<int>(std::sqrt(lanes))));

@@ -6,7 +6,7 @@
 
 #include "baselines/gbu/config.hpp"
 #include "config/config_document.hpp"
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "sim/simulation/run_config.hpp"
 
 namespace degs::sim {
@@ -245,9 +245,9 @@ TEST(Configs, GbuHasTheMemoryOfTableI) {
     for (const int pes : {16, 64, 256, 1024}) {
         SCOPED_TRACE(pes);
         const RunConfig loaded = load("gbu-" + std::to_string(pes));
-        const auto& config = dynamic_cast<const GbuConfig&>(loaded.accelerator());
+        const auto& config = dynamic_cast<const gbu::Config&>(loaded.accelerator());
         if (pes == 64) {
-            EXPECT_EQ(resolved(config).dump(2), resolved(GbuConfig{}).dump(2));
+            EXPECT_EQ(resolved(config).dump(2), resolved(gbu::Config{}).dump(2));
         }
         EXPECT_EQ(config.pes(), pes);
         EXPECT_EQ(config.engines.row_pes, config.tile_size);

@@ -39,7 +39,7 @@ Outcome run_still(const std::string& scene, const std::string& cameras) {
 std::string words_of(const Outcome& outcome) {
     std::string words = std::to_string(outcome.run.cycles);
     for (const SlotClass& slot : kSlotClasses) {
-        words += " " + std::to_string(outcome.run.slots.*slot.slots);
+        words += " " + std::to_string(outcome.run.slots[slot.slot]);
     }
     for (const Image& image : outcome.run.images) {
         words.append(reinterpret_cast<const char*>(image.rgb.data()),

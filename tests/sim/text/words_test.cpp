@@ -74,8 +74,8 @@ AcceleratorResult lawful() {
     result.pes = 4;
     result.window.include(10);
     result.window.include(12);
-    result.slots.useful = 5;
-    result.slots.drain = 7; // 4 PEs x 3 cycles in all
+    result.slots[Slot::Useful] = 5;
+    result.slots[Slot::Drain] = 7; // 4 PEs x 3 cycles in all
     result.conservation = {{"in = out", 9, 9}};
     result.tiles = result.tiles_listed = 2;
     return result;
@@ -93,7 +93,7 @@ std::string broken_law(const AcceleratorResult& result) {
 TEST(Laws, BreachesAreNamed) {
     EXPECT_EQ(broken_law(lawful()), "");
     AcceleratorResult result = lawful();
-    result.slots.useful++;
+    result.slots[Slot::Useful]++;
     EXPECT_NE(broken_law(result).find("13 is not 12"), std::string::npos);
     result = lawful();
     result.conservation[0].right = 8;

@@ -10,6 +10,13 @@
 
 namespace degs {
 
+void ArraySlice::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("pes_per_bank", pes_per_bank, 1, TaskPacket::kMaxRuns,
+                    "PEs per array slice (paper Table II)");
+    visitor.integer("writeback_cycles", writeback_cycles, 1, 64,
+                    "cycles from execution to written-back pixel state and feedback (paper: 4)");
+}
+
 ArraySlice::ArraySlice(const sc_core::sc_module_name& name, const Config& config,
                        const Timebase& time, RenderJob& job, int index, int slices,
                        int segment_length)
@@ -80,9 +87,9 @@ inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket&
         if ((run.part & first_task) != 0 || early) {
             outcome_ = plain_ ? job_.path->blend(run.task) : blend_otherwise(context, run, now);
             const auto count = [](std::uint32_t mask) { return __builtin_popcount(mask); };
-            stats_.slots.useful += count(outcome_.useful);
-            stats_.slots.boundary += count(outcome_.boundary);
-            stats_.slots.terminated += count(outcome_.terminated);
+            stats_.slots[Slot::Useful] += count(outcome_.useful);
+            stats_.slots[Slot::Boundary] += count(outcome_.boundary);
+            stats_.slots[Slot::Terminated] += count(outcome_.terminated);
         }
         if (Kind == Tasks::Recorded) {
             record(run, now);

@@ -24,8 +24,9 @@ namespace degs {
 class ArraySlice : public sc_core::sc_module, private Pumped {
 public:
     struct Config {
-        int width = 8;            ///< PEs
+        int pes_per_bank = 8;
         int writeback_cycles = 4; ///< execution to pixel state written back (paper: 4)
+        // What follows from the blocks around the slice; their own sections have the keys.
         TerminationGrain termination = TerminationGrain::Segment;
         int region_listeners = 0; ///< Slicing Units of a stream if they skip dead rows, else 0
         int streams = 1;          ///< tile streams
@@ -34,6 +35,7 @@ public:
         bool granted = false;     ///< tiles come one by one, see TileEnd
         bool scoreboard = true;   ///< no pixel comes again before its write-back
         bool tests = false;       ///< PEs test whether their pixel is inside the ellipse
+        void describe(ConfigVisitor& visitor);
     };
     struct Stats {
         SlotAccount slots; ///< executed tasks by class; idle slots are the Packing Unit's
@@ -183,9 +185,9 @@ ArraySlice::count_drawn(std::uint32_t mask, std::uint32_t inside, std::uint32_t 
     };
     const std::uint64_t all_inside = count(mask & inside);
     const std::uint64_t all_useful = count(mask & useful);
-    stats_.slots.useful += all_useful;
-    stats_.slots.boundary += count(mask) - all_inside;
-    stats_.slots.terminated += all_inside - all_useful;
+    stats_.slots[Slot::Useful] += all_useful;
+    stats_.slots[Slot::Boundary] += count(mask) - all_inside;
+    stats_.slots[Slot::Terminated] += all_inside - all_useful;
 }
 
 inline __attribute__((always_inline)) void ArraySlice::pass_packet(Cycle date) {

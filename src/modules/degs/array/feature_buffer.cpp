@@ -5,6 +5,20 @@
 
 namespace degs {
 
+void FeatureBuffer::Config::describe(ConfigVisitor& visitor) {
+    visitor.integer("bytes", bytes, 16, 1 << 30, "bytes (paper Table I: 8 KB), split among banks");
+    visitor.integer("entry_bytes", entry_bytes, 1, 256,
+                    "bytes per splat: A, three colours, tag [assumed]");
+    visitor.integer("fill_cycles", fill.cycles, 0, 1024,
+                    "cycles that writing an entry takes, with which its first span waits unless "
+                    "the Packing Unit's pipeline hides it; 0: it is there at once [assumed]");
+    fill.ports.describe(visitor,
+                        "splats written, and splats read by the tasks of a packet, per cycle and "
+                        "SRAM bank; 0: unlimited [assumed]",
+                        "SRAM banks of an Issue Bank's part; entries are dealt to them in turn "
+                        "[assumed]");
+}
+
 FeatureBuffer::FeatureBuffer(int entries, int open_splats, int streams, const Fill& fill)
     : entries_(entries), free_(entries), first_free_(free_.data()), end_free_(first_free_),
       free_count_(entries_.size()), several_open_(open_splats > 1 || streams > 1), fill_(fill),

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "config/config.hpp"
 #include "modules/kit/job/messages.hpp"
 #include "modules/kit/job/sram_ports.hpp"
 #include "stats/statistics.hpp"
@@ -25,6 +26,12 @@ public:
     struct Fill {
         int cycles = 0;        ///< that writing an entry takes; 0: it is there at once
         BankedSramPorts ports; ///< an entry takes a write port of its SRAM bank for that time
+    };
+    struct Config {
+        int bytes = 8 * 1024; ///< of all banks
+        int entry_bytes = 16;
+        Fill fill{0, {{0}, 8}};
+        void describe(ConfigVisitor& visitor);
     };
     struct Stats {
         std::uint64_t entries = 0;

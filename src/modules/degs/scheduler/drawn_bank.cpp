@@ -37,7 +37,7 @@ void DrawnBank::run() {
     }
     now_ = self_.local();
     if (open()) {
-        send_part(Idle::Starved);
+        send_part(Slot::Starved);
     }
     if (bank_.config_.granted) {
         packing_.end_tile(self_, kNoTile, 0);
@@ -219,7 +219,7 @@ DrawnBank::pack(int number, const Waiting& segment, std::uint32_t tasks, int cou
 
 inline __attribute__((always_inline)) void DrawnBank::close_cycles(Cycle until) {
     if (!open() && next_slot_ != 0 && until + latency_ > next_slot_) {
-        packing_.since_last_.idle(idle_cause(), (until + latency_ - next_execution()) * width_);
+        packing_.since_last_[idle_cause()] += (until + latency_ - next_execution()) * width_;
         idle_pending_ = true;
     }
 }

@@ -75,14 +75,14 @@ private:
     [[gnu::noinline]] Cycle end_drawn(int number, const Waiting& segment, std::uint32_t tasks);
     inline void pop(int number);
     inline void send(int tasks);
-    [[gnu::noinline]] void send_part(Idle cause);
+    [[gnu::noinline]] void send_part(Slot cause);
     [[gnu::noinline]] void settle_idle();
     [[gnu::noinline]] bool finish_tiles();
 
     // Dates.
     Cycle next_execution() const { return std::max(now_ + latency_, next_slot_); }
     bool open() const { return tasks_ != 0; }
-    Idle idle_cause() const;
+    Slot idle_cause() const;
     std::uint64_t issuable() const { return occupied_ & startable_; }
     [[gnu::noinline]] Cycle next_date();
     inline void close_cycles(Cycle until);

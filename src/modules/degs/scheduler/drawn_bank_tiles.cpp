@@ -24,7 +24,7 @@ int places_of(int tiles) {
 bool DrawnBank::can_run(const IssueBank& bank) {
     const PackingUnit& packing = bank.packing_;
     const int domains = Segmenter::domains_per_tile(
-        bank.job_.tile_size, bank.config_.segment_length, bank.config_.count);
+        bank.job_.tile_size, bank.config_.segment_length, bank.config_.banks);
     const Cycle cooled = ceil_div(bank.config_.segment_length, packing.config_.width) + 1 +
                          static_cast<Cycle>(bank.config_.reuse_cycles);
     return packing.draws() && !packing.packets_ && packing.part_ == nullptr &&
@@ -39,7 +39,7 @@ DrawnBank::DrawnBank(IssueBank& bank)
       stream_(bank.streams_[0]), input_(stream_.inputs[0]), spans_(*bank.drawn_spans_),
       features_(bank.features_), self_(bank.self_),
       domains_(Segmenter::domains_per_tile(bank.job_.tile_size, bank.config_.segment_length,
-                                           bank.config_.count)),
+                                           bank.config_.banks)),
       segment_length_(bank.config_.segment_length),
       segments_per_cycle_(bank.config_.segments_per_cycle), spans_per_cycle_(bank.spans_per_cycle_),
       issue_width_(bank.config_.issue_width), reuse_(bank.config_.reuse_cycles),
@@ -166,9 +166,9 @@ Cycle DrawnBank::end_drawn(int number, const Waiting& segment, std::uint32_t tas
     return last;
 }
 
-void DrawnBank::send_part(Idle cause) {
+void DrawnBank::send_part(Slot cause) {
     const int tasks = tasks_;
-    packing_.idle_.idle(cause, width_ - tasks);
+    packing_.idle_[cause] += width_ - tasks;
     tasks_ = 0;
     send(tasks);
 }
@@ -188,7 +188,7 @@ bool DrawnBank::finish_tiles() {
             break;
         }
         if (open() && ends_tile_) {
-            send_part(Idle::Starved);
+            send_part(Slot::Starved);
         }
         packing_.ended_tile_ = tile.number;
         packing_.ended_context_ = tile.context;
@@ -209,14 +209,14 @@ bool DrawnBank::finish_tiles() {
     return true;
 }
 
-Idle DrawnBank::idle_cause() const {
+Slot DrawnBank::idle_cause() const {
     if (size_ == 0) {
-        return Idle::Starved;
+        return Slot::Starved;
     }
-    return issuable() == 0  ? Idle::Blocked
+    return issuable() == 0  ? Slot::Blocked
            : width_limited_ ? bank_.width_cause_
-           : no_room_       ? Idle::Blocked
-                            : Idle::Conflict;
+           : no_room_       ? Slot::Blocked
+                            : Slot::Conflict;
 }
 
 // See IssueBank::next_date(). All ends of pixels that are due are in their ring.

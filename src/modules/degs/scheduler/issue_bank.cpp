@@ -38,14 +38,14 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
       fills_(config.fill.cycles != 0), streams_(config.streams), stream_count_(streams_.size()),
       spans_per_cycle_(config.spans_per_cycle == 0 ? config_.segments_per_cycle
                                                    : config.spans_per_cycle),
-      self_(time), segmenter_(job.tile_size, config.segment_length, index, config.count),
+      self_(time), segmenter_(job.tile_size, config.segment_length, index, config.banks),
       queue_(config.queue_depth, kFirstTiles,
-             Segmenter::domains_per_tile(job.tile_size, config.segment_length, config.count),
+             Segmenter::domains_per_tile(job.tile_size, config.segment_length, config.banks),
              config.scan, config.streams),
       features_(config.feature_entries, config.open_splats, config.streams, config.fill),
       next_stream_(&streams_.front()), issued_stream_(&streams_.front()),
       tiles_(job, config.granted ? config.streams : 0),
-      width_cause_(config_.issue_width < config.issue_width ? Idle::Ports : Idle::Starved) {
+      width_cause_(config_.issue_width < config.issue_width ? Slot::Ports : Slot::Starved) {
     for (BankStream& stream : streams_) {
         stream.index = &stream - streams_.data();
         stream.next = &streams_[(stream.index + 1) % streams_.size()];
@@ -114,8 +114,8 @@ void IssueBank::run_cycles() {
         }
         self_.advance_to(next);
     }
-    packing_.send_due(self_, Idle::Starved);
-    packing_.close_cycles(self_, self_.local() + 1, Idle::Starved);
+    packing_.send_due(self_, Slot::Starved);
+    packing_.close_cycles(self_, self_.local() + 1, Slot::Starved);
     if (config_.granted) {
         packing_.end_tile(self_, kNoTile, 0);
     }

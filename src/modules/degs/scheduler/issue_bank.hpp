@@ -33,25 +33,30 @@ namespace degs {
 class IssueBank : public sc_core::sc_module {
 public:
     struct Config {
-        int count = 8;              ///< banks
-        int queue_depth = 32;       ///< segments waiting in a bank
+        static constexpr int kMostSegmentsPerPe = 256;
+        int banks = 8;
+        int queue_segments_per_pe = 4; ///< 0: as many as fit the Packing Buffer beside the lead
+        int segment_bytes = 12;
         int segment_length = 16;    ///< px, stride of the Segmenter
         int segments_per_cycle = 2; ///< cut and accepted per cycle
         int issue_width = 2;        ///< segments issued per cycle
         int reuse_cycles = 4;       ///< between two updates of a pixel
-        int feature_entries = 64;   ///< splats whose parameters the bank may need at once
-        int open_splats = 1;        ///< splats of a stream whose rows may arrive in turn
-        int streams = 1;            ///< tile streams
-        bool granted = false;       ///< tiles come one by one, see TileEnd
-        int first_context = 0;      ///< of the Pixel Buffer
-        int spans_per_cycle = 0;    ///< taken from the crossbar; 0: as many as can be cut
+        bool scoreboard = true;     ///< reuse_cycles are kept
+        TerminationGrain termination = TerminationGrain::Segment;
+        DomainScan scan = DomainScan::RoundRobin;
+        // What follows from the blocks around the bank; their own sections have the keys.
+        int queue_depth = 32;     ///< segments waiting in a bank
+        int spans_per_cycle = 0;  ///< taken from the crossbar; 0: as many as can be cut
+        int feature_entries = 64; ///< splats whose parameters the bank may need at once
+        int open_splats = 1;      ///< splats of a stream whose rows may arrive in turn
+        int streams = 1;          ///< tile streams
+        bool granted = false;     ///< tiles come one by one, see TileEnd
+        int first_context = 0;    ///< of the Pixel Buffer
         /// Of the waiting segments in a bank's part of the Packing Buffer. Packets lie in a memory
         /// of their own, of which one is written and one is read per cycle at most [assumed].
         SramPorts segment_ports;
         FeatureBuffer::Fill fill;
-        bool scoreboard = true;
-        TerminationGrain termination = TerminationGrain::Segment;
-        DomainScan scan = DomainScan::RoundRobin;
+        void describe(ConfigVisitor& visitor);
     };
     struct Stats {
         std::uint64_t spans = 0, tasks_in = 0;
@@ -144,7 +149,7 @@ private:
     bool over() const { return tiles_.over() && closing_ == 0; }
 
     // Dates.
-    Idle idle_cause() const;
+    Slot idle_cause() const;
     Cycle next_ready(Cycle now) const;
     Cycle next_date(Cycle now);
     bool watch_inputs(Cycle now);
@@ -180,7 +185,7 @@ private:
     std::uint64_t sequence_ = 0; // segments so far
     bool no_room_ = false;       // a ready segment waits for room in the Packing Buffer
     bool width_limited_ = false;
-    Idle width_cause_;               // what limits the width
+    Slot width_cause_;               // what limits the width
     bool features_full_ = false;     // a span waits for a Feature Buffer entry
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
     Stats stats_;

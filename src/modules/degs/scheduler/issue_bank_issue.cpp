@@ -165,16 +165,16 @@ void IssueBank::finish_tiles(BankStream& stream) {
     }
 }
 
-Idle IssueBank::idle_cause() const {
+Slot IssueBank::idle_cause() const {
     if (queue_.empty()) {
-        return Idle::Starved;
+        return Slot::Starved;
     }
     for (const SegmentQueue::Tile* const tile : started_) {
         if (tile->waiting() != 0) {
-            return width_limited_ ? width_cause_ : no_room_ ? Idle::Blocked : Idle::Conflict;
+            return width_limited_ ? width_cause_ : no_room_ ? Slot::Blocked : Slot::Conflict;
         }
     }
-    return Idle::Blocked;
+    return Slot::Blocked;
 }
 
 // The next date at which waiting segments may go, if none went at `now`; kNever if none waits.

@@ -32,9 +32,9 @@ Cycle PackingUnit::add_by_ports(Process& bank, const TaskRun& run, std::uint32_t
         left ^= part;
         tasks_ += __builtin_popcount(part);
         if (tasks_ == config_.width) {
-            send(bank, Idle::Starved);
+            send(bank, Slot::Starved);
         } else if (left != 0) {
-            send(bank, Idle::Ports);
+            send(bank, Slot::Ports);
         }
     }
     if (draws()) {
@@ -69,9 +69,9 @@ Cycle PackingUnit::add_recorded(Process& bank, const TaskRun& run, std::uint32_t
         left ^= part;
         tasks_ += __builtin_popcount(part);
         if (tasks_ == config_.width) {
-            send(bank, Idle::Starved);
+            send(bank, Slot::Starved);
         } else if (left != 0) {
-            send(bank, Idle::Ports);
+            send(bank, Slot::Ports);
         }
     }
     slice_->execute(run, mask, first, execution);
@@ -95,9 +95,9 @@ void PackingUnit::record_tasks(const TaskRun& run, std::uint32_t part) {
 }
 
 // The open packet, of drawn tasks; it has left its slot already.
-void PackingUnit::record_packet(Idle cause) {
+void PackingUnit::record_packet(Slot cause) {
     if (tasks_ != config_.width) {
-        part_->add(slot_of(cause), latest_tile_, next_slot_ - 1, config_.width - tasks_);
+        part_->add(cause, latest_tile_, next_slot_ - 1, config_.width - tasks_);
     }
 }
 
@@ -138,7 +138,7 @@ void PackingUnit::end_tile(Process& bank, TileNumber tile, std::int16_t context)
     // An open packet may hold the tile's last tasks and stays open for the next tile's; it can
     // carry one end. Without one, the end travels alone and costs the array nothing.
     if (open() && ends_tile_) {
-        send(bank, Idle::Starved);
+        send(bank, Slot::Starved);
     }
     ended_tile_ = tile;
     ended_context_ = context;
@@ -163,40 +163,40 @@ void PackingUnit::tell_end(Cycle slot, bool packet) {
     slice_->pass_end(ended_tile_, ended_context_, slot, packet);
 }
 
-void PackingUnit::send_due(Process& bank, Idle cause) {
+void PackingUnit::send_due(Process& bank, Slot cause) {
     if (due(bank.local())) {
         send(bank, cause);
     }
 }
 
-void PackingUnit::close_cycles(Process& bank, Cycle until, Idle cause) {
+void PackingUnit::close_cycles(Process& bank, Cycle until, Slot cause) {
     if (leaves_slots(until)) {
         const Cycle first_idle = next_execution(bank.local());
         if (part_ != nullptr) {
             record_cycles(bank, first_idle, until + latency_, cause);
         }
-        since_last_.idle(cause, (until + latency_ - first_idle) * width_);
+        since_last_[cause] += (until + latency_ - first_idle) * width_;
     }
 }
 
-void PackingUnit::record_packet(const TaskPacket& packet, Idle cause) {
+void PackingUnit::record_packet(const TaskPacket& packet, Slot cause) {
     part_->settle(packet.runs.front().tile);
     if (packet.tasks != config_.width) {
-        part_->add(slot_of(cause), packet.runs[packet.run_count - 1].tile, packet.slot,
+        part_->add(cause, packet.runs[packet.run_count - 1].tile, packet.slot,
                    config_.width - packet.tasks);
     }
 }
 
 // Slots [from, to) of the array. For the bank they are the cycles in which it could have filled them.
-void PackingUnit::record_cycles(Process& bank, Cycle from, Cycle to, Idle cause) {
-    part_->idle(slot_of(cause), from, to, (to - from) * width_);
+void PackingUnit::record_cycles(Process& bank, Cycle from, Cycle to, Slot cause) {
+    part_->idle(cause, from, to, (to - from) * width_);
     if (bank.track() == nullptr) {
         return;
     }
     TimeSeries*& state = bank_states_[static_cast<std::size_t>(cause)];
     if (state == nullptr) {
         state = &bank.track()->state(std::string("no task: ") +
-                                     kSlotClasses[static_cast<std::size_t>(slot_of(cause))].name);
+                                     kSlotClasses[static_cast<std::size_t>(cause)].name);
     }
     state->add(from - latency_, to - latency_, to - from);
 }

@@ -30,15 +30,21 @@ namespace degs {
 class PackingUnit : public sc_core::sc_module {
 public:
     struct Config {
-        int width = 8;          ///< tasks per packet = PEs per array slice
+        int bytes = 32 * 1024; ///< of the Packing Buffer of all banks
+        int task_bytes = 16;
+        int lead_packets = 5;   ///< packets that may wait for the array slice
         int latency_cycles = 2; ///< issue to execution, unloaded: pack, read the buffer
-        int depth = 32;         ///< packets that wait in the Packing Buffer
         /// A packet may have tasks of different spans; false: of one span only, so that a segment of
         /// another span closes an open packet.
         bool reorganisation = true;
+        SramPorts segment_ports; ///< of the waiting segments, which the Issue Bank keeps
+        // What follows from the blocks around the unit; their own sections have the keys.
+        int width = 8;  ///< tasks per packet = PEs per array slice
+        int depth = 32; ///< packets that wait in the Packing Buffer
         /// A packet has no two tasks that want the same port of the Pixel or Feature Buffer in one
         /// cycle: a task that finds its port taken begins the next packet [assumed].
         PacketPorts::Config ports{};
+        void describe(ConfigVisitor& visitor);
     };
     struct Stats {
         std::uint64_t packets = 0, tasks = 0;
@@ -86,10 +92,10 @@ public:
     bool due(Cycle now) const { return open_until_ <= now; }
     /// Hands over an open packet whose time has come, its empty slots accounted for by `cause`. Call
     /// it before the bank asks for its next date, because others rely on its doing nothing until then.
-    void send_due(Process& bank, Idle cause);
+    void send_due(Process& bank, Slot cause);
     /// The cycles [bank.local(), until) are over for the bank; `until` may not lie beyond the date
     /// given by open_until(). Accounts for those in which the array gets nothing, by `cause`.
-    void close_cycles(Process& bank, Cycle until, Idle cause);
+    void close_cycles(Process& bank, Cycle until, Slot cause);
     /// Latest date up to which the bank may sleep: an open packet has to go then. kNever if none.
     Cycle open_until() const { return open_until_; }
     /// True if close_cycles(bank, until, ...) would account for empty slots; otherwise
@@ -125,13 +131,13 @@ private:
     [[gnu::noinline]] Cycle add_recorded(Process& bank, const TaskRun& run, std::uint32_t mask,
                                          int entry);
     void record_tasks(const TaskRun& run, std::uint32_t part);
-    [[gnu::noinline]] void record_packet(Idle cause);
+    [[gnu::noinline]] void record_packet(Slot cause);
     [[gnu::noinline]] void tell_end(Cycle slot, bool packet);
     void join(const TaskRun& run);
     inline void open_packet(Process& bank);
-    inline void send(Process& bank, Idle cause);
-    [[gnu::noinline]] void record_packet(const TaskPacket& packet, Idle cause);
-    [[gnu::noinline]] void record_cycles(Process& bank, Cycle from, Cycle to, Idle cause);
+    inline void send(Process& bank, Slot cause);
+    [[gnu::noinline]] void record_packet(const TaskPacket& packet, Slot cause);
+    [[gnu::noinline]] void record_cycles(Process& bank, Cycle from, Cycle to, Slot cause);
 
     Config config_;
     Cycle latency_;
@@ -159,7 +165,7 @@ private:
     SlotAccount idle_;
     SlotAccount since_last_; // idle after the last packet; counts once another one comes
     SlotPart* part_ = nullptr;
-    std::array<TimeSeries*, 4> bank_states_{}; // of the bank's track, by Idle
+    std::array<TimeSeries*, kSlotClasses.size()> bank_states_{}; // of the bank's track
     Stats stats_;
 };
 
@@ -182,12 +188,12 @@ inline __attribute__((always_inline)) void PackingUnit::open_packet(Process& ban
     ends_tile_ = false;
 }
 
-inline __attribute__((always_inline)) void PackingUnit::send(Process& bank, Idle cause) {
+inline __attribute__((always_inline)) void PackingUnit::send(Process& bank, Slot cause) {
     const Cycle slot = next_slot_++;
     const bool ends = ends_tile_;
     stats_.packets++;
     stats_.tasks += tasks_;
-    idle_.idle(cause, config_.width - tasks_);
+    idle_[cause] += config_.width - tasks_;
     open_until_ = kNever;
     ends_tile_ = false;
     if (draws() && part_ != nullptr) {
@@ -240,7 +246,7 @@ inline __attribute__((always_inline)) Cycle PackingUnit::add(Process& bank, cons
     int count = __builtin_popcount(left);
     Cycle execution = 0;
     if (!config_.reorganisation && !joins(run)) {
-        send(bank, Idle::Blocked);
+        send(bank, Slot::Blocked);
     }
     if (draws() && part_ != nullptr) {
         return add_recorded(bank, run, mask, entry);
@@ -264,7 +270,7 @@ inline __attribute__((always_inline)) Cycle PackingUnit::add(Process& bank, cons
         count -= taken;
         tasks_ += taken;
         if (tasks_ == config_.width) {
-            send(bank, Idle::Starved);
+            send(bank, Slot::Starved);
         }
     }
     return execution;
@@ -296,7 +302,7 @@ PackingUnit::add_drawn(Process& bank, const TaskRun& run, std::uint32_t mask, in
         count -= taken;
         tasks_ += taken;
         if (tasks_ == config_.width) {
-            send(bank, Idle::Starved);
+            send(bank, Slot::Starved);
         }
     }
     slice_->execute(run, mask, first, execution);

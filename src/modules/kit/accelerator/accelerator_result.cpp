@@ -68,9 +68,9 @@ void describe_slots(const AcceleratorResult& run, StatsVisitor& v) {
     v.count("total", run.slots.total(), "PE-cycles",
             "PEs x timing.blending_cycles, and the sum of the classes that follow.");
     run.slots.describe(v);
-    v.real("utilization", share(run.slots.useful, run.slots.total()), "share",
+    v.real("utilization", share(run.slots[Slot::Useful], run.slots.total()), "share",
            "useful / total; null if nothing was blended.");
-    v.real("frame_utilization", share(run.slots.useful, run.pes * run.cycles), "share",
+    v.real("frame_utilization", share(run.slots[Slot::Useful], run.pes * run.cycles), "share",
            "useful / (PEs x timing.cycles).");
     v.count("window_first", date(run.window.first), "cycles",
             "Date of the first executed task; null if there is none.");

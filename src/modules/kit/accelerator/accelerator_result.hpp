@@ -80,7 +80,7 @@ struct TileRecord {
 /// Counters are sums over all frames of the run.
 struct AcceleratorResult {
     /// Pixels of splats that were blended.
-    std::uint64_t fragments() const { return slots.useful / slots_per_fragment; }
+    std::uint64_t fragments() const { return slots[Slot::Useful] / slots_per_fragment; }
     std::string name;
     int pes = 0;
     double clock_ghz = 1;

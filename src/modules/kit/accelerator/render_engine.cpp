@@ -20,7 +20,10 @@ void AcceleratorConfig::describe_common(ConfigVisitor& visitor) {
 }
 
 void AcceleratorConfig::describe_cost(ConfigVisitor& visitor) {
-    visitor.section("cost", cost, "area, power and energy: the keys of configs/cost/*.yaml");
+    visitor.begin_section("cost", "area, power and energy: the keys of configs/cost/*.yaml");
+    cost.describe(visitor);
+    describe_rows(visitor);
+    visitor.end_section();
 }
 
 std::string AcceleratorConfig::problem() const {

@@ -11,7 +11,7 @@ void MainMemoryConfig::describe(ConfigVisitor& visitor) {
     Memory::Config::describe(visitor);
     visitor.choice(
         "layout", layout, {"index", "morton"},
-        "order of the splat records in memory, which GCC lacks: that of the Gaussians, or "
+        "order of the splat records in memory, if there are any: that of the Gaussians, or "
         "that of the Morton code of their positions; only addresses depend on it");
     visitor.choice(
         "priority", priority, {"age", "blending"},

@@ -7,7 +7,7 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
     visitor.choice("numbers", numbers, arithmetic_names(),
                    "arithmetic of spans, alpha and blending: the machine's fp32 or fp64 (ideal is "
                    "fp64), or the formats of a number set; fp32 is the yardstick of scheduling, "
-                   "the shipped DeGS designs say paper or tuned");
+                   "configs/degs-*.yaml say paper or tuned");
     visitor.choice(
         "stop_rule", stop_rule, {"refuse", "after"},
         "refuse: the splat that would push T under 1e-4 is not blended (reference code); "

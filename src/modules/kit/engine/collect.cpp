@@ -100,10 +100,10 @@ void add_slots(AcceleratorResult& result, const SlotAccount& slots, const Active
 
 void close_slots(AcceleratorResult& result, const ActiveWindow& window, std::uint64_t width) {
     if (window.empty()) {
-        result.slots.drain += result.window.cycles() * width;
+        result.slots[Slot::Drain] += result.window.cycles() * width;
     } else {
-        result.slots.starved += (window.first - result.window.first) * width;
-        result.slots.drain += (result.window.last - window.last) * width;
+        result.slots[Slot::Starved] += (window.first - result.window.first) * width;
+        result.slots[Slot::Drain] += (result.window.last - window.last) * width;
     }
 }
 

@@ -20,10 +20,12 @@ std::uint64_t levels(std::uint64_t keys, std::uint64_t limit) {
 } // namespace
 
 void HierarchicalSorter::Config::describe(ConfigVisitor& visitor) {
-    visitor.integer("count", count, 1, 64,
-                    "units; GSCore's 8 quick-sort and 4 bitonic units as 4 sorting cores");
+    visitor.integer(
+        "count", count, 1, 64,
+        "units; 8 quick-sort and 4 bitonic units (Lee et al., ASPLOS 2024) count as 4 sorting "
+        "cores");
     visitor.integer("chunk", chunk, 2, 65536,
-                    "keys of a chunk that is sorted exactly; about 256 in GSCore");
+                    "keys of a chunk that is sorted exactly; about 256 (Lee et al.)");
     visitor.integer("keys_per_cycle", keys_per_cycle, 1, 1024,
                     "keys per cycle, unit and coarse level; two quick-sort units per sorting core "
                     "move a key each [assumed]");

@@ -9,8 +9,8 @@
 
 namespace degs {
 
-/// Sorts the list of a tile in two steps, as GSCore does: a coarse partition by pivots into chunks
-/// that are in depth order among themselves, then each chunk exactly, just before it is rendered.
+/// Sorts the list of a tile in two steps (Lee et al., ASPLOS 2024): a coarse partition by pivots into
+/// chunks that are in depth order among themselves, then each chunk exactly, just before it is rendered.
 /// Chunks of a tile that has been cancelled are never sorted. Tiles go round the units; loading,
 /// the coarse step and the fine step overlap.
 ///

@@ -17,7 +17,7 @@ void SlotPart::add(Slot slot, TileNumber tile, Cycle from, Cycle to, std::uint64
         return;
     }
     const auto index = static_cast<std::size_t>(slot);
-    recorder_->of(tile).slots.*kSlotClasses[index].slots += count;
+    recorder_->of(tile).slots[slot] += count;
     if (recorder_->series_[index] != nullptr) {
         recorder_->series_[index]->add(from, to, count);
     }

@@ -15,15 +15,6 @@
 
 namespace degs {
 
-/// Places in kSlotClasses.
-enum class Slot { Useful, Boundary, Terminated, Conflict, Ports, Padding, Starved, Blocked, Drain };
-inline Slot slot_of(Idle cause) {
-    return cause == Idle::Conflict  ? Slot::Conflict
-           : cause == Idle::Ports   ? Slot::Ports
-           : cause == Idle::Starved ? Slot::Starved
-                                    : Slot::Blocked;
-}
-
 /// What the array did for one tile. Idle slots belong to the tile of the next task of the same part
 /// of the array, those of a packet that is not full to the tile of its last task, and slots after
 /// the last task of a part to that task's tile.
@@ -107,7 +98,7 @@ private:
 
 inline void SlotPart::add(Slot slot, TileNumber tile, Cycle date, std::uint64_t count) {
     const auto index = static_cast<std::size_t>(slot);
-    recorder_->of(tile).slots.*kSlotClasses[index].slots += count;
+    recorder_->of(tile).slots[slot] += count;
     if (recorder_->series_[index] != nullptr) {
         recorder_->series_[index]->add(date, count);
     }

@@ -186,7 +186,7 @@ TEST(SmallRunWithoutScoreboard, OneOfFourUpdatesReachesThePixel) {
     EXPECT_TRUE(test::same_bytes(early.image(), strict.image()));
     EXPECT_EQ(early.window().cycles(), 40U);
     EXPECT_EQ(early.hazards(), 39U);
-    EXPECT_EQ(early.slots().useful, 40U);
+    EXPECT_EQ(early.slots()[Slot::Useful], 40U);
     const std::size_t pixel = early.image().at(3, 2);
     EXPECT_NEAR(early.image().transmittance[pixel], std::pow(0.98, 10), 1e-6);
     EXPECT_NEAR(early.image().rgb[3 * pixel], 1 - std::pow(0.98, 10), 1e-6);

@@ -35,8 +35,17 @@ struct PackingBench {
     std::unique_ptr<Script> driver, listener;
 
     explicit PackingBench(bool reorganisation = true, const PacketPorts::Config& ports = {})
-        : unit("unit", {4, static_cast<int>(kLatency), 8, reorganisation, ports}) {
+        : unit("unit", config_of(reorganisation, ports)) {
         unit.out.bind(ring);
+    }
+    static PackingUnit::Config config_of(bool reorganisation, const PacketPorts::Config& ports) {
+        PackingUnit::Config config;
+        config.width = 4;
+        config.latency_cycles = static_cast<int>(kLatency);
+        config.depth = 8;
+        config.reorganisation = reorganisation;
+        config.ports = ports;
+        return config;
     }
     void drive(const std::function<void()>& body) {
         ring.connect_writer(bank);
@@ -56,8 +65,8 @@ struct PackingBench {
     Cycle add(const TaskRun& run) { return unit.add(bank, run, run.task.mask); }
     /// What the bank does at the end of a cycle.
     void next_cycle(Cycle until) {
-        unit.send_due(bank, Idle::Conflict);
-        unit.close_cycles(bank, until, Idle::Conflict);
+        unit.send_due(bank, Slot::Conflict);
+        unit.close_cycles(bank, until, Slot::Conflict);
         bank.advance_to(until);
     }
     /// The same for every cycle until then.
@@ -150,7 +159,7 @@ TEST(PackingUnit, AnOpenPacketGoesWhenItsSlotComes) {
     EXPECT_EQ(bench.got[3].packet.run_count, 2);
     EXPECT_EQ(bench.got[4].date, 11U);
     // Two empty places in slot 5, nothing in slots 6 to 10.
-    EXPECT_EQ(bench.unit.idle().conflict, 2U + 5 * 4);
+    EXPECT_EQ(bench.unit.idle()[Slot::Conflict], 2U + 5 * 4);
     EXPECT_EQ(bench.unit.idle().total(), 2U + 5 * 4);
 }
 
@@ -232,8 +241,8 @@ TEST(PackingUnit, WithoutReorganisationAPacketHasTasksOfOneSpan) {
         }
     }
     // Tasks of other spans waited behind the first six packets; the last one left at its date.
-    EXPECT_EQ(bench.unit.idle().blocked, 3U + 3 + 2 + 3 + 0 + 2);
-    EXPECT_EQ(bench.unit.idle().conflict, 3U);
+    EXPECT_EQ(bench.unit.idle()[Slot::Blocked], 3U + 3 + 2 + 3 + 0 + 2);
+    EXPECT_EQ(bench.unit.idle()[Slot::Conflict], 3U);
 }
 
 // A packet that another span closes counts as a full one.
@@ -379,8 +388,8 @@ TEST(PackingPorts, EmptySlotsHaveACauseOfTheirOwn) {
         bench.add(run_of(0x1, 2));
         bench.next_cycles(40);
     });
-    EXPECT_EQ(bench.unit.idle().ports, 3U);
-    EXPECT_EQ(bench.unit.idle().conflict, 3U + 18 * 4 + 3);
+    EXPECT_EQ(bench.unit.idle()[Slot::Ports], 3U);
+    EXPECT_EQ(bench.unit.idle()[Slot::Conflict], 3U + 18 * 4 + 3);
 }
 
 // Room for eight packets; each of these tasks needs one of its own.

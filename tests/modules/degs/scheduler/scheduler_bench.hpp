@@ -65,7 +65,7 @@ struct SchedulerBench {
           terminated("terminated", time, 4096, static_cast<Cycle>(s.writeback)),
           done("done", time, 8, static_cast<Cycle>(s.writeback)),
           state("state", time, 8, static_cast<Cycle>(s.writeback)),
-          packing("packing", PackingUnit::Config{s.width, s.packing_latency, s.packets}),
+          packing("packing", packing_config(s)),
           bank("bank", bank_config(s), time, job, packing, 0, 1, 1),
           slice("slice", slice_config(s), time, job, 0, 1, 16) {
         bank.in[0].bind(crossbar);
@@ -82,7 +82,7 @@ struct SchedulerBench {
     }
     static IssueBank::Config bank_config(const Sizes& s) {
         IssueBank::Config c;
-        c.count = 1;
+        c.banks = 1;
         c.queue_depth = s.queue;
         c.segments_per_cycle = 4;
         c.spans_per_cycle = s.spans_per_cycle;
@@ -95,9 +95,16 @@ struct SchedulerBench {
         c.termination = s.grain;
         return c;
     }
+    static PackingUnit::Config packing_config(const Sizes& s) {
+        PackingUnit::Config c;
+        c.width = s.width;
+        c.latency_cycles = s.packing_latency;
+        c.depth = s.packets;
+        return c;
+    }
     static ArraySlice::Config slice_config(const Sizes& s) {
         ArraySlice::Config c;
-        c.width = s.width;
+        c.pes_per_bank = s.width;
         c.writeback_cycles = s.writeback;
         c.termination = s.grain;
         c.scoreboard = s.scoreboard;
@@ -168,7 +175,7 @@ struct SchedulerBench {
     /// The slots between first and last execution: executed tasks and idle ones.
     std::uint64_t accounted() const {
         const SlotAccount& s = stats().slots;
-        return s.useful + s.boundary + s.terminated + packing.idle().total();
+        return s[Slot::Useful] + s[Slot::Boundary] + s[Slot::Terminated] + packing.idle().total();
     }
     std::uint64_t window_slots() const {
         return stats().window.cycles() * static_cast<std::uint64_t>(sizes.width);

@@ -21,7 +21,7 @@ TEST_P(FirstExecution, IsThePackingLatencyAfterTheSpan) {
     EXPECT_EQ(bench.stats().window.first, 37U + static_cast<Cycle>(GetParam()));
     EXPECT_EQ(bench.stats().window.last, bench.stats().window.first);
     EXPECT_EQ(bench.stats().packets, 1U);
-    EXPECT_EQ(bench.stats().slots.useful, 16U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 16U);
     EXPECT_EQ(bench.accounted(), bench.window_slots());
 }
 
@@ -51,7 +51,7 @@ TEST_P(FullTile, PacketsAreTasksOverWidth) {
     EXPECT_EQ(bench.stats().packets, packets);
     EXPECT_EQ(bench.stats().window.first, 22U);
     EXPECT_EQ(bench.stats().window.cycles(), packets);
-    EXPECT_EQ(bench.stats().slots.useful, 256U);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], 256U);
     EXPECT_EQ(bench.accounted(), bench.window_slots());
     EXPECT_EQ(bench.stats().hazards, 0U);
 }
@@ -77,8 +77,8 @@ TEST_P(Reuse, OnePixelSplatsExecuteTheReuseDistanceApart) {
     EXPECT_EQ(bench.stats().packets, kSplats);
     EXPECT_EQ(bench.stats().window.first, 12U);
     EXPECT_EQ(bench.stats().window.last, 12 + (kSplats - 1) * reuse);
-    EXPECT_EQ(bench.stats().slots.useful, kSplats);
-    EXPECT_EQ(bench.packing.idle().conflict, bench.window_slots() - kSplats - 15);
+    EXPECT_EQ(bench.stats().slots[Slot::Useful], kSplats);
+    EXPECT_EQ(bench.packing.idle()[Slot::Conflict], bench.window_slots() - kSplats - 15);
     EXPECT_EQ(bench.packing.idle().total(), bench.window_slots() - kSplats);
     EXPECT_EQ(bench.stats().hazards, 0U);
 }
@@ -144,7 +144,7 @@ TEST(IssueBank, TheNextTileStartsWhenItsContextIsFree) {
     bench.run(feeds);
     EXPECT_EQ(bench.stats().window.first, 12U);
     EXPECT_EQ(bench.stats().window.last, 100U + 2 + 3);
-    EXPECT_EQ(bench.packing.idle().blocked, (102U - 16) * 16);
+    EXPECT_EQ(bench.packing.idle()[Slot::Blocked], (102U - 16) * 16);
     EXPECT_EQ(bench.accounted(), bench.window_slots());
 }
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "splat/reference/reference_renderer.hpp"
 #include "tests/splat/frame/brute_force.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What moves the losses of DeGS.
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 
 namespace degs {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "baselines/orange/config.hpp"
-#include "modules/kit/engine/tile_engine_array.hpp"
+#include "modules/kit/engine/tiled_accelerator.hpp"
 
 namespace degs::orange {
 
@@ -13,10 +13,10 @@ namespace degs::orange {
 ///
 ///   Tile Front End -> List Collectors -> Tile Dispatcher -> per core: Splat Fetcher -> vector unit
 ///   <-> systolic array -> Pixel Buffer -> memory
-class Orange : public TileEngineArray {
+class Engine : public TiledAccelerator {
 public:
     /// `job` supplies the work and receives the images. `config.problem()` must be empty.
-    Orange(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+    Engine(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
            RenderJob& job, const BuildOptions& options = {});
 
     const Config& config() const { return config_; }

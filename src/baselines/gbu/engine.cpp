@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "baselines/gbu/gbu.hpp"
+#include "baselines/gbu/engine.hpp"
 
-namespace degs {
+namespace degs::gbu {
 namespace {
 
-TileEngineArray::Parts parts_of(const GbuConfig& config) {
-    TileEngineArray::Parts parts(config);
+TiledAccelerator::Parts parts_of(const Config& config) {
+    TiledAccelerator::Parts parts(config);
     parts.pixel_buffer = config.pixel_buffer.part_of(config.engines.count);
     parts.granted = true;
     parts.engines = config.engines.count;
@@ -18,9 +18,9 @@ TileEngineArray::Parts parts_of(const GbuConfig& config) {
 
 } // namespace
 
-Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Timebase& time,
-         RenderJob& job, const BuildOptions& options)
-    : TileEngineArray(name, parts_of(config), time, job, options), config_(config) {
+Engine::Engine(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+               RenderJob& job, const BuildOptions& options)
+    : TiledAccelerator(name, parts_of(config), time, job, options), config_(config) {
     for (int e = 0; e < config_.engines.count; ++e) {
         engines_.push_back(std::make_unique<TileEngine>(numbered("engine", e).c_str(),
                                                         config_.engines, time, job,
@@ -29,9 +29,9 @@ Gbu::Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Tim
     }
 }
 
-std::unique_ptr<RenderEngine> GbuConfig::build(const char* module, const Timebase& time,
-                                               RenderJob& job, const BuildOptions& options) const {
-    return std::make_unique<Gbu>(module, *this, time, job, options);
+std::unique_ptr<RenderEngine> Config::build(const char* module, const Timebase& time,
+                                            RenderJob& job, const BuildOptions& options) const {
+    return std::make_unique<Engine>(module, *this, time, job, options);
 }
 
-} // namespace degs
+} // namespace degs::gbu

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "baselines/orange/orange.hpp"
+#include "baselines/orange/engine.hpp"
 
 namespace degs::orange {
 namespace {
 
-TileEngineArray::Parts parts_of(const Config& config) {
-    TileEngineArray::Parts parts(config);
+TiledAccelerator::Parts parts_of(const Config& config) {
+    TiledAccelerator::Parts parts(config);
     parts.pixel_buffer = config.pixel_buffer.part_of(config.cores.count);
     parts.granted = true;
     parts.engines = config.cores.count;
@@ -17,9 +17,9 @@ TileEngineArray::Parts parts_of(const Config& config) {
 
 } // namespace
 
-Orange::Orange(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+Engine::Engine(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                RenderJob& job, const BuildOptions& options)
-    : TileEngineArray(name, parts_of(config), time, job, options), config_(config) {
+    : TiledAccelerator(name, parts_of(config), time, job, options), config_(config) {
     for (int core = 0; core < config_.cores.count; ++core) {
         build_core(core);
     }
@@ -27,10 +27,10 @@ Orange::Orange(const sc_core::sc_module_name& name, const Config& config, const 
 
 std::unique_ptr<RenderEngine> Config::build(const char* module, const Timebase& time,
                                             RenderJob& job, const BuildOptions& options) const {
-    return std::make_unique<Orange>(module, *this, time, job, options);
+    return std::make_unique<Engine>(module, *this, time, job, options);
 }
 
-void Orange::build_core(int index) {
+void Engine::build_core(int index) {
     const std::size_t core = index;
     const Config::Cores& cores = config_.cores;
     vector_units_.push_back(std::make_unique<VectorUnit>(

@@ -7,9 +7,9 @@
 #include <systemc>
 
 #include "baselines/gscore/config.hpp"
-#include "modules/kit/engine/tile_array_engine.hpp"
+#include "modules/kit/engine/array_accelerator.hpp"
 
-namespace degs {
+namespace degs::gscore {
 
 /// GSCore with its memory (Lee et al., ASPLOS 2024; the paper's Sec. II-B and Table I):
 ///
@@ -19,24 +19,25 @@ namespace degs {
 /// There is one way back: a tile whose pixels have all ended is cancelled, neither
 /// fetched nor sorted any further. With several clusters each of them is a Splat Fetcher, a buffer,
 /// a Lockstep Array, a Tile Monitor and a Pixel Buffer, on tiles that the Tile Dispatcher grants.
-class Gscore : public TileArrayEngine {
+class Engine : public ArrayAccelerator {
 public:
     /// `job` supplies the work and receives the images. `config.problem()` must be empty.
-    Gscore(const sc_core::sc_module_name& name, const GscoreConfig& config, const Timebase& time,
+    Engine(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
            RenderJob& job, const BuildOptions& options = {});
 
-    const GscoreConfig& config() const { return config_; }
+    const Config& config() const { return config_; }
     /// One for each cluster.
     const std::vector<std::unique_ptr<LockstepArray>>& arrays() const { return arrays_; }
 
 private:
     void collect_array(AcceleratorResult& result) const override;
     void collect_slots(AcceleratorResult& result) const;
+    void collect_activity(AcceleratorResult& result) const;
     void collect_laws(AcceleratorResult& result) const;
 
-    GscoreConfig config_;
+    Config config_;
     OrientedBoxes boxes_;
     std::vector<std::unique_ptr<LockstepArray>> arrays_;
 };
 
-} // namespace degs
+} // namespace degs::gscore

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 
 #include <algorithm>
 
@@ -18,7 +18,7 @@ int divisor_below(int most, int number) {
 
 } // namespace
 
-void DegsConfig::Pipeline::describe(ConfigVisitor& visitor) {
+void SpanPipelineConfig::describe(ConfigVisitor& visitor) {
     PipelineConfig::describe(visitor);
     visitor.choice(
         "span_ends", span_ends, {"exact", "outward", "slope"},
@@ -33,104 +33,7 @@ void DegsConfig::Pipeline::describe(ConfigVisitor& visitor) {
     }
 }
 
-void DegsConfig::GaussianBuffer::describe(ConfigVisitor& visitor) {
-    visitor.integer("bytes", bytes, 256, 1 << 30, "bytes (paper Table I: 72 KB)");
-    visitor.real(
-        "sort_share", sort_share, 0.05, 0.95,
-        "share of the buffer for lists being sorted; the rest holds sorted splats [assumed]");
-    ports.describe(visitor,
-                   "splats written by a fetcher, and read by the Slicing Units that share a part, "
-                   "per cycle and SRAM bank; 0: unlimited [assumed]",
-                   "SRAM banks of such a part; splats are dealt to them in turn [assumed]");
-    visitor.choice("temporary", temporary, {"sliced", "spans"},
-                   "how long a chunk of splats keeps its place: until a Slicing Unit has taken the "
-                   "last one [assumed: rows carry what Span Units need], or until the spans of all "
-                   "of them have been made (paper, Sec. IV-A)");
-}
-
-void DegsConfig::SpanBuffer::describe(ConfigVisitor& visitor) {
-    visitor.integer("bytes", bytes, 8, 1 << 30,
-                    "bytes (paper Table I: 2 KB), split among Span Units");
-    visitor.integer("row_bytes", row_bytes, 1, 256,
-                    "bytes per row work item: G_ID 4, row 2, tags 2 [assumed]");
-    ports.describe(visitor, "rows written and rows read per cycle and lane, which is an SRAM bank; "
-                            "0: unlimited [assumed]");
-}
-
-void DegsConfig::Scheduler::describe(ConfigVisitor& visitor) {
-    visitor.integer("banks", banks, 1, 64,
-                    "Issue Banks, Packing Units and array slices (paper Table II)");
-    visitor.integer(
-        "queue_segments_per_pe", queue_segments_per_pe, 0, kMostSegmentsPerPe,
-        "segments waiting per bank and PE of its slice; a fixed 32 starves wide banks; 0: what "
-        "packing.bytes leaves beside packing.lead_packets [assumed]");
-    visitor.integer(
-        "segment_bytes", segment_bytes, 1, 256,
-        "bytes per waiting segment, part of packing.bytes: g0 4, d0 4, G_ID 2, mask and "
-        "link 2 [assumed]");
-    visitor.integer("segment_length", segment_length, 1, 32,
-                    "px, stride of the Segmenter (paper: 1 x 16)");
-    visitor.integer("segments_per_cycle", segments_per_cycle, 1, 64,
-                    "segments cut and queued per bank and cycle [assumed]");
-    visitor.integer(
-        "issue_width", issue_width, 1, 64,
-        "segments issued per bank and cycle; one per four PEs keeps the prefix sum short "
-        "[assumed]");
-    visitor.integer(
-        "reuse_cycles", reuse_cycles, 1, 64,
-        "cycles between two updates of a segment (paper: 4); not below array.writeback_cycles");
-    visitor.boolean("scoreboard", scoreboard,
-                    "enforce reuse_cycles; false shows what it is for: a pixel that comes again "
-                    "before its write-back reads the older state, and the image is wrong");
-    visitor.choice(
-        "termination", termination, {"segment", "task", "pixel"},
-        "what is skipped: all segments of a region of segment_length pixels that has ended "
-        "(paper), segments whose own pixels have all ended, or single ended pixels");
-    visitor.choice("scan", scan, {"round_robin", "oldest", "deepest"},
-                   "which ready conflict domain issues first [assumed]");
-}
-
-void DegsConfig::Packing::describe(ConfigVisitor& visitor) {
-    visitor.integer(
-        "bytes", bytes, 16, 1 << 30,
-        "bytes (paper Table I: 32 KB), split among banks: waiting segments, then packets");
-    visitor.integer("task_bytes", task_bytes, 1, 256,
-                    "bytes per task: G_ID, x, y, n, g0, d0, tags [assumed]");
-    visitor.integer("lead_packets", lead_packets, 1, 65536,
-                    "packets of a bank that may wait for its array slice; what is packed earlier "
-                    "cannot be dropped any more when its pixels end, so a longer lead only adds "
-                    "terminated tasks [assumed]");
-    visitor.integer("latency_cycles", latency_cycles, 1, 64,
-                    "cycles from issue to execution: prefix sum and shift, buffer read [assumed]");
-    visitor.boolean("reorganisation", reorganisation,
-                    "compact tasks of different spans into one packet (paper, Sec. IV-B); false, "
-                    "for ablations: a packet has tasks of one span only");
-    ports.describe(visitor, "segments written and segments read per cycle and bank; packets lie in "
-                            "a memory of their own; 0: unlimited [assumed]");
-}
-
-void DegsConfig::Array::describe(ConfigVisitor& visitor) {
-    visitor.integer("pes_per_bank", pes_per_bank, 1, TaskPacket::kMaxRuns,
-                    "PEs per array slice (paper Table II)");
-    visitor.integer("writeback_cycles", writeback_cycles, 1, 64,
-                    "cycles from execution to written-back pixel state and feedback (paper: 4)");
-}
-
-void DegsConfig::FeatureBuffers::describe(ConfigVisitor& visitor) {
-    visitor.integer("bytes", bytes, 16, 1 << 30, "bytes (paper Table I: 8 KB), split among banks");
-    visitor.integer("entry_bytes", entry_bytes, 1, 256,
-                    "bytes per splat: A, three colours, tag [assumed]");
-    visitor.integer("fill_cycles", fill.cycles, 0, 1024,
-                    "cycles that writing an entry takes, with which its first span waits unless "
-                    "the Packing Unit's pipeline hides it; 0: it is there at once [assumed]");
-    fill.ports.describe(visitor,
-                        "splats written, and splats read by the tasks of a packet, per cycle and "
-                        "SRAM bank; 0: unlimited [assumed]",
-                        "SRAM banks of an Issue Bank's part; entries are dealt to them in turn "
-                        "[assumed]");
-}
-
-void DegsConfig::PixelBuffers::describe(ConfigVisitor& visitor) {
+void PortedPixelBufferConfig::describe(ConfigVisitor& visitor) {
     PixelBuffer::Config::describe(visitor);
     ports.describe(visitor,
                    "pixels read and pixels written by the tasks of a packet, per cycle and SRAM "
@@ -305,6 +208,41 @@ SplatFetcher::Config DegsConfig::chunk_writers() const {
     writers.splat_ports = gaussian_buffer.ports;
     writers.chunks = parameters_wait() ? gaussian_chunks() : 0;
     return writers;
+}
+
+IssueBank::Config DegsConfig::issue_bank(int first_context) const {
+    IssueBank::Config bank = scheduler;
+    bank.queue_depth = queue_depth();
+    bank.spans_per_cycle = span.crossbar_width;
+    bank.feature_entries = feature_entries();
+    bank.open_splats = slicing.units_per_module();
+    bank.streams = streams();
+    bank.granted = granted();
+    bank.first_context = first_context;
+    bank.segment_ports = packing.segment_ports;
+    bank.fill = feature_buffer.fill;
+    return bank;
+}
+
+PackingUnit::Config DegsConfig::packing_unit() const {
+    PackingUnit::Config unit = packing;
+    unit.width = array.pes_per_bank;
+    unit.depth = packing_lead();
+    unit.ports = {pixel_buffer.ports, feature_buffer.fill.ports, tile_size, scheduler.banks};
+    return unit;
+}
+
+ArraySlice::Config DegsConfig::array_slice(int first_context) const {
+    ArraySlice::Config slice = array;
+    slice.termination = scheduler.termination;
+    slice.region_listeners = slicing.skip_dead_rows ? slicing.modules() : 0;
+    slice.streams = streams();
+    slice.granted = granted();
+    slice.first_context = first_context;
+    slice.contexts = contexts_per_stream();
+    slice.scoreboard = scheduler.scoreboard;
+    slice.tests = !span.parsing;
+    return slice;
 }
 
 void DegsConfig::require_counts(ConfigVisitor& visitor) const {

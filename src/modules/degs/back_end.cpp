@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From the Splat Fetchers to the crossbar.
-#include "modules/degs/degs_back_end.hpp"
+#include "modules/degs/back_end.hpp"
 
 #include "modules/degs/span_engine/span_pool.hpp"
 #include "modules/degs/span_engine/span_unit.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rule by which DeGS designs of other sizes are made. docs/families.md explains it.
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "modules/kit/job/family_size.hpp"
 #include "tlm/ceil_div.hpp"
 

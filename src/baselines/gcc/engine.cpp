@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "baselines/gcc/gcc.hpp"
+#include "baselines/gcc/engine.hpp"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/grouped_number.hpp"
-#include "modules/degs/degs.hpp"
+#include "modules/degs/engine.hpp"
 
 namespace degs {
 
@@ -22,10 +22,10 @@ void Degs::collect_slots(AcceleratorResult& result) const {
         result.slots += blocks_.packing[b]->idle();
         const ActiveWindow& own = blocks_.slices[b]->stats().window;
         if (own.empty()) {
-            result.slots.drain += result.window.cycles() * width;
+            result.slots[Slot::Drain] += result.window.cycles() * width;
         } else {
-            result.slots.starved += (own.first - result.window.first) * width;
-            result.slots.drain += (result.window.last - own.last) * width;
+            result.slots[Slot::Starved] += (own.first - result.window.first) * width;
+            result.slots[Slot::Drain] += (result.window.last - own.last) * width;
         }
     }
 }
@@ -116,10 +116,10 @@ void Degs::collect_laws(AcceleratorResult& result) const {
     const std::uint64_t packed = sum_of(blocks_.packing, &PackingUnit::Stats::tasks);
     const SlotAccount& s = result.slots;
     result.waited_s = drawing_ ? drawing_->waited_s() : 0;
-    if (drawing_ && drawing_->fragments() != s.useful) {
+    if (drawing_ && drawing_->fragments() != s[Slot::Useful]) {
         throw std::logic_error("the model is broken, pixels drawn = useful tasks executed: " +
                                std::to_string(drawing_->fragments()) + " is not " +
-                               std::to_string(s.useful));
+                               std::to_string(s[Slot::Useful]));
     }
     result.conservation.insert(
         result.conservation.end(),
@@ -128,7 +128,8 @@ void Degs::collect_laws(AcceleratorResult& result) const {
              in},
             {"tasks into the banks = issued + dropped", in, issued + dropped},
             {"tasks issued = packed", issued, packed},
-            {"tasks packed = executed", packed, s.useful + s.boundary + s.terminated},
+            {"tasks packed = executed", packed,
+             s[Slot::Useful] + s[Slot::Boundary] + s[Slot::Terminated]},
             {"packets packed = executed", sum_of(blocks_.packing, &PackingUnit::Stats::packets),
              sum_of(blocks_.slices, &ArraySlice::Stats::packets)},
         });
@@ -175,7 +176,7 @@ void Degs::explain_ports(AcceleratorResult& result) const {
     for (const auto& bank : blocks_.banks) {
         fills += bank->features().stats().fill_waits;
     }
-    result.left_out.push_back("Taken SRAM ports left " + grouped(result.slots.ports) +
+    result.left_out.push_back("Taken SRAM ports left " + grouped(result.slots[Slot::Ports]) +
                               " PE-cycles without a task. Slicing Units waited " +
                               grouped(sum_of(blocks_.slicing, &G::splat_port_waits)) +
                               " cycles for the Gaussian Buffer and " +

@@ -34,7 +34,7 @@ namespace degs {
 ///
 /// A tile whose pixels have all ended is not fetched any further; if tiles are not granted, neither is it sorted. A
 /// derived class builds its engines in its constructor and calls connect() with each.
-class TileEngineArray : public RenderEngine {
+class TiledAccelerator : public RenderEngine {
 public:
     struct Parts {
         TileFrontEnd::Config front;
@@ -85,8 +85,8 @@ protected:
     template <class T>
     using Rings = std::vector<std::unique_ptr<DatedFifo<T>>>;
 
-    TileEngineArray(const sc_core::sc_module_name& name, const Parts& parts, const Timebase& time,
-                    RenderJob& job, const BuildOptions& options);
+    TiledAccelerator(const sc_core::sc_module_name& name, const Parts& parts, const Timebase& time,
+                     RenderJob& job, const BuildOptions& options);
 
     /// What the engine of this index works on.
     ArrayShare share_of(int engine) const {

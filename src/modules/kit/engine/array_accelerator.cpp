@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/kit/engine/tile_array_engine.hpp"
+#include "modules/kit/engine/array_accelerator.hpp"
 
 namespace degs {
 
-void TileArrayEngine::collect_engines(AcceleratorResult& result) const {
+void ArrayAccelerator::collect_engines(AcceleratorResult& result) const {
     const std::int64_t arrays = parts_.engines;
     const TrafficConfig& traffic = parts_.front.traffic;
     add_buffer(result, {"gaussian_buffer", "Chunks of splats on their way to the array."},

@@ -2,7 +2,7 @@
 // From the crossbar to the Pixel Buffer.
 #include <algorithm>
 
-#include "modules/degs/degs_back_end.hpp"
+#include "modules/degs/back_end.hpp"
 #include "modules/degs/span_engine/span_unit.hpp"
 #include "modules/kit/engine/frame_ends.hpp"
 #include "modules/kit/job/row_map.hpp"
@@ -10,37 +10,16 @@
 namespace degs {
 
 void DegsBackEnd::build_scheduler() {
-    const DegsConfig::Scheduler& s = config_.scheduler;
-    IssueBank::Config bank;
-    bank.count = s.banks;
-    bank.queue_depth = config_.queue_depth();
-    bank.segment_length = s.segment_length;
-    bank.segments_per_cycle = s.segments_per_cycle;
-    bank.spans_per_cycle = config_.span.crossbar_width;
-    bank.issue_width = s.issue_width;
-    bank.reuse_cycles = s.reuse_cycles;
-    bank.feature_entries = config_.feature_entries();
-    bank.open_splats = config_.slicing.units_per_module();
-    bank.streams = config_.streams();
-    bank.granted = config_.granted();
-    bank.first_context = first_context();
-    bank.scoreboard = s.scoreboard;
-    bank.termination = s.termination;
-    bank.scan = s.scan;
-    bank.segment_ports = config_.packing.ports;
-    bank.fill = config_.feature_buffer.fill;
-    const PacketPorts::Config ports{config_.pixel_buffer.ports, config_.feature_buffer.fill.ports,
-                                    config_.tile_size, s.banks};
-    const PackingUnit::Config packing{config_.array.pes_per_bank, config_.packing.latency_cycles,
-                                      config_.packing_lead(), config_.packing.reorganisation,
-                                      ports};
+    const int banks = config_.scheduler.banks;
+    const IssueBank::Config bank = config_.issue_bank(first_context());
+    const PackingUnit::Config packing = config_.packing_unit();
     next_span_port_.assign(spans_.size(), 0);
-    for (int b = 0; b < s.banks; ++b) {
+    for (int b = 0; b < banks; ++b) {
         packing_.add(
             std::make_unique<PackingUnit>(numbered("packing", packing_.size()).c_str(), packing));
         banks_.add(std::make_unique<IssueBank>(
             numbered("bank", banks_.size()).c_str(), bank, time_, job_, packing_.back(), b,
-            reachable(b, s.banks, config_.span.modules()), config_.contexts_per_stream()));
+            reachable(b, banks, config_.span.modules()), config_.contexts_per_stream()));
         connect_crossbar(b);
     }
 }
@@ -72,18 +51,7 @@ void DegsBackEnd::connect_crossbar(int bank) {
 }
 
 void DegsBackEnd::build_array() {
-    const int writeback = config_.array.writeback_cycles;
-    ArraySlice::Config slice;
-    slice.width = config_.array.pes_per_bank;
-    slice.writeback_cycles = writeback;
-    slice.termination = config_.scheduler.termination;
-    slice.region_listeners = config_.slicing.skip_dead_rows ? config_.slicing.modules() : 0;
-    slice.streams = config_.streams();
-    slice.granted = config_.granted();
-    slice.first_context = first_context();
-    slice.contexts = config_.contexts_per_stream();
-    slice.scoreboard = config_.scheduler.scoreboard;
-    slice.tests = !config_.span.parsing;
+    const ArraySlice::Config slice = config_.array_slice(first_context());
     next_region_port_.assign(slicing_.size(), 0);
     for (int b = 0; b < config_.scheduler.banks; ++b) {
         slices_.add(std::make_unique<ArraySlice>(numbered("slice", slices_.size()).c_str(), slice,

@@ -5,134 +5,69 @@
 #include <string>
 
 #include "modules/degs/array/blending_array.hpp"
+#include "modules/degs/cost.hpp"
 #include "modules/degs/scheduler/issue_bank.hpp"
 #include "modules/degs/span_engine/gaussian_slicing_unit.hpp"
+#include "modules/degs/span_engine/span_buffer.hpp"
 #include "modules/degs/span_engine/span_stage.hpp"
+#include "modules/degs/supply/gaussian_buffer.hpp"
 #include "modules/degs/supply/splat_supply.hpp"
-#include "modules/kit/accelerator/render_engine.hpp"
-#include "modules/kit/config/main_memory_config.hpp"
-#include "modules/kit/front_end/projection_unit.hpp"
+#include "modules/kit/engine/tiled_config.hpp"
 #include "modules/kit/front_end/sorting_unit.hpp"
-#include "modules/kit/front_end/splat_fetcher.hpp"
-#include "modules/kit/front_end/tile_binner.hpp"
-#include "modules/kit/front_end/tile_monitor.hpp"
 #include "modules/kit/job/buffer_share.hpp"
-#include "modules/kit/job/traffic.hpp"
-#include "modules/kit/pixels/pixel_buffer.hpp"
 
 namespace degs {
 
-/// When a chunk of splats leaves its place in the Gaussian Buffer: once its last splat has been
-/// taken by a Slicing Unit, or once the spans of all its splats have been made.
-enum class ParameterLife { Sliced, Spans };
+/// The arithmetic of Span Units beside that of every data path.
+struct SpanPipelineConfig : PipelineConfig {
+    SpanEnds span_ends = SpanEnds::Outward;
+    int span_delta = 0;
+    DataPathOptions data_path() const { return options(span_ends, span_delta); }
+    void describe(ConfigVisitor& visitor);
+};
+
+/// A Pixel Buffer whose ports the tasks of a packet share.
+struct PortedPixelBufferConfig : PixelBuffer::Config {
+    BankedSramPorts ports{{0}, 32}; ///< in each Issue Bank's part of a context
+    void describe(ConfigVisitor& visitor);
+};
 
 /// A complete DeGS accelerator; defaults are the structure of the paper's 64-PE design (Tables I and
 /// II), computing in fp32. configs/degs-64.yaml is that design with the paper's formats, too.
 /// Capacities are in bytes; the depths of rings follow from record sizes.
-struct DegsConfig : AcceleratorConfig {
-    struct Pipeline : PipelineConfig {
-        SpanEnds span_ends = SpanEnds::Outward;
-        int span_delta = 0;
-        DataPathOptions data_path() const { return options(span_ends, span_delta); }
-        void describe(ConfigVisitor& visitor);
-    };
-    struct GaussianBuffer {
-        int bytes = 72 * 1024;
-        double sort_share = 0.5; ///< of the buffer, for lists being sorted
-        BankedSramPorts ports{{0}, 4};
-        ParameterLife temporary = ParameterLife::Sliced;
-        void describe(ConfigVisitor& visitor);
-    };
-    struct SpanBuffer {
-        int bytes = 2 * 1024;
-        int row_bytes = 8;
-        SramPorts ports;
-        void describe(ConfigVisitor& visitor);
-    };
-    static constexpr int kMostSegmentsPerPe = 256;
-    struct Scheduler {
-        int banks = 8;
-        int queue_segments_per_pe = 4; ///< 0: as many as fit the Packing Buffer beside the lead
-        int segment_bytes = 12;
-        int segment_length = 16;
-        int segments_per_cycle = 2;
-        int issue_width = 2;
-        int reuse_cycles = 4;
-        bool scoreboard = true;
-        TerminationGrain termination = TerminationGrain::Segment;
-        DomainScan scan = DomainScan::RoundRobin;
-        void describe(ConfigVisitor& visitor);
-    };
-    struct Packing {
-        int bytes = 32 * 1024;
-        int task_bytes = 16;
-        int lead_packets = 5;
-        int latency_cycles = 2;
-        bool reorganisation = true;
-        SramPorts ports;
-        void describe(ConfigVisitor& visitor);
-    };
-    struct Array {
-        int pes_per_bank = 8;
-        int writeback_cycles = 4;
-        void describe(ConfigVisitor& visitor);
-    };
-    struct PixelBuffers : PixelBuffer::Config {
-        BankedSramPorts ports{{0}, 32}; ///< in each Issue Bank's part of a context
-        void describe(ConfigVisitor& visitor);
-    };
-    struct FeatureBuffers {
-        int bytes = 8 * 1024;
-        int entry_bytes = 16;
-        FeatureBuffer::Fill fill{0, {{0}, 8}};
-        void describe(ConfigVisitor& visitor);
-    };
-
+struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBufferConfig> {
     int tile_size = 32;
-    int clusters =
-        1; ///< back ends, each with all that the sections from `fetching` to `monitor` describe
-    Pipeline pipeline;
-    TrafficConfig traffic;
-    ProjectionUnit::Config projection;
-    TileBinner::Config binning;
+    /// Back ends, each with all that the sections from `fetching` to `monitor` describe.
+    int clusters = 1;
     SortingUnit::Config sorting;
     SplatSupply::Config front; ///< of all clusters but for the FIFOs
-    SplatFetcher::Config fetching;
-    GaussianBuffer gaussian_buffer;
+    GaussianBufferConfig gaussian_buffer;
     GaussianSlicingUnit::Config slicing;
-    SpanBuffer span_buffer;
+    SpanBufferConfig span_buffer;
     SpanStage::Config span;
-    Scheduler scheduler;
-    Packing packing;
-    FeatureBuffers feature_buffer;
-    Array array;
-    PixelBuffers pixel_buffer;
-    TileMonitor::Config monitor;
-    MainMemoryConfig memory;
+    IssueBank::Config scheduler;
+    PackingUnit::Config packing;
+    FeatureBuffer::Config feature_buffer;
+    ArraySlice::Config array;
+    DegsCostRows cost_rows;
 
     DegsConfig() { name = "degs-64"; }
-    std::unique_ptr<AcceleratorConfig> clone() const override {
-        return std::make_unique<DegsConfig>(*this);
-    }
     void describe(ConfigVisitor& visitor) override;
     void scale_to(int pes) override;
     int tile_size_px() const override { return tile_size; }
-    TileMode tile_mode() const override { return pipeline.tiles; }
-    DataPathOptions data_path() const override { return pipeline.data_path(); }
     int tile_contexts() const override { return clusters * contexts(); }
     TileCoupling tile_coupling(bool array_only) const override;
+    PixelSearch pixel_search() const override {
+        return {span.parsing ? PixelSearch::How::Solve : PixelSearch::How::Box,
+                slicing.rows == SlicedRows::Tile};
+    }
+    bool keeps_pixel_order() const override { return scheduler.scoreboard; }
     std::vector<LossKey> loss_keys() const override;
     /// Of the keys of the window of waiting segments, those that did not limit a run in which a bank
     /// had up to `high_water` segments and `feature_waits` of the entries of the Feature Buffer, 0 to
     /// 1, had to wait for a free one.
     std::vector<std::string> idle_window_keys(std::uint64_t high_water, double feature_waits) const;
-    TrafficConfig records() const override { return traffic; }
     cost::BillOfMaterials bill() const override;
-    RecordOrder record_order() const override { return memory.layout; }
-    void read_floats() override {
-        traffic.geometry_bytes = kFloatGeometryBytes;
-        traffic.sh_value_bytes = kFloatBytes;
-    }
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
     std::unique_ptr<AnalyticModel> analytic() const override;
@@ -141,8 +76,6 @@ struct DegsConfig : AcceleratorConfig {
     int pes() const override { return clusters * cluster_pes(); }
     int cluster_pes() const { return scheduler.banks * array.pes_per_bank; }
     int contexts() const { return pixel_buffer.contexts(tile_pixels()); }
-    /// Bytes of the state of a pixel, which need not be whole ones.
-    double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
     /// Tile streams, and the tiles of each that the Pixel Buffer holds.
     int streams() const { return slicing.interleave; }
     int contexts_per_stream() const { return contexts() / streams(); }
@@ -182,7 +115,7 @@ struct DegsConfig : AcceleratorConfig {
         const std::int64_t lead = std::int64_t{packing.lead_packets} * packet_bytes();
         const std::int64_t segments = (packing_share() - lead) / scheduler.segment_bytes;
         return static_cast<int>(std::clamp<std::int64_t>(
-            segments, 1, std::int64_t{kMostSegmentsPerPe} * array.pes_per_bank));
+            segments, 1, std::int64_t{IssueBank::Config::kMostSegmentsPerPe} * array.pes_per_bank));
     }
     /// Packets per bank. The Packing Buffer also holds the waiting segments of the banks.
     int packing_depth() const {
@@ -200,12 +133,17 @@ struct DegsConfig : AcceleratorConfig {
     int gaussian_chunks() const {
         return splat_share().bytes_of(gaussian_buffer.bytes) / chunk_bytes();
     }
+    // Sections with what follows for their blocks from the other sections.
     /// What writes chunks of splats to the Gaussian Buffer, as if it read them itself.
     SplatFetcher::Config chunk_writers() const;
+    /// Of the cluster whose tile contexts begin at `first_context` of the Pixel Buffer.
+    IssueBank::Config issue_bank(int first_context) const;
+    PackingUnit::Config packing_unit() const;
+    ArraySlice::Config array_slice(int first_context) const;
     /// Some SRAM has a limited number of ports.
     bool ports_limited() const {
         return gaussian_buffer.ports.limited() || span_buffer.ports.limited() ||
-               packing.ports.limited() || feature_buffer.fill.ports.limited() ||
+               packing.segment_ports.limited() || feature_buffer.fill.ports.limited() ||
                pixel_buffer.ports.limited();
     }
     /// Temporary Gaussian Parameters live until the spans are made.
@@ -216,9 +154,9 @@ struct DegsConfig : AcceleratorConfig {
     }
 
 private:
+    void describe_rows(ConfigVisitor& visitor) override;
     /// The key that limits how many segments wait in a bank.
     const char* queue_key() const;
-    PixelBuffer::TilePixels tile_pixels() const { return {tile_size, pipeline.pixel_bits()}; }
     /// Packets in which a segment may lie at most.
     int packets_per_segment() const;
     int chunk_bytes() const { return traffic.splat_bytes * fetching.chunk; }

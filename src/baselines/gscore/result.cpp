@@ -1,49 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "baselines/gscore/gscore.hpp"
-
+// The counters of GSCore in the terms that all accelerators share.
 #include "base/grouped_number.hpp"
+#include "baselines/gscore/engine.hpp"
 
-namespace degs {
-namespace {
+namespace degs::gscore {
 
-TileArrayEngine::Parts parts_of(const GscoreConfig& config) {
-    TileArrayEngine::Parts parts(config);
-    parts.granted = config.clusters > 1;
-    parts.engines = config.clusters;
-    parts.contexts = config.contexts();
-    parts.splat_chunks = config.splat_chunks();
-    parts.buffer_bytes = config.buffer.bytes - config.pixel_buffer.bytes;
-    parts.pixel_bytes = config.pixel_bytes();
-    parts.writeback_cycles = config.array.pipeline_cycles;
-    return parts;
-}
-
-} // namespace
-
-Gscore::Gscore(const sc_core::sc_module_name& name, const GscoreConfig& config,
-               const Timebase& time, RenderJob& job, const BuildOptions& options)
-    : TileArrayEngine(name, parts_of(config), time, job, options), config_(config), boxes_(job) {
-    for (int c = 0; c < config_.clusters; ++c) {
-        arrays_.push_back(std::make_unique<LockstepArray>(
-            name_of("array", c).c_str(), config_.array, time, job, boxes_, share_of(c)));
-        connect(*arrays_.back());
-    }
-}
-
-std::unique_ptr<RenderEngine> GscoreConfig::build(const char* module, const Timebase& time,
-                                                  RenderJob& job,
-                                                  const BuildOptions& options) const {
-    return std::make_unique<Gscore>(module, *this, time, job, options);
-}
-
-void Gscore::collect_array(AcceleratorResult& result) const {
+void Engine::collect_array(AcceleratorResult& result) const {
     using A = LockstepArray::Stats;
     collect_slots(result);
     const std::uint64_t groups = config_.array.clusters;
     add_stage(result, {"blending", "Clusters of the Lockstep Array.", true},
               arrays_.size() * groups, sum_of(arrays_, &A::passes) * groups,
               Counters().add(arrays_));
-    add_activity(result, "blending", result.slots.executed());
+    collect_activity(result);
     collect_laws(result);
     result.left_out.push_back(
         grouped(sum_of(arrays_, &A::splats_skipped)) +
@@ -52,7 +21,7 @@ void Gscore::collect_array(AcceleratorResult& result) const {
                               " splats had been fetched when their tile stopped.");
 }
 
-void Gscore::collect_slots(AcceleratorResult& result) const {
+void Engine::collect_slots(AcceleratorResult& result) const {
     for (const auto& array : arrays_) {
         add_slots(result, array->stats().slots, array->stats().window);
     }
@@ -61,7 +30,7 @@ void Gscore::collect_slots(AcceleratorResult& result) const {
     }
 }
 
-void Gscore::collect_laws(AcceleratorResult& result) const {
+void Engine::collect_laws(AcceleratorResult& result) const {
     using A = LockstepArray::Stats;
     const SlotAccount& s = result.slots;
     auto& laws = result.conservation;
@@ -69,7 +38,7 @@ void Gscore::collect_laws(AcceleratorResult& result) const {
                     sum_of(arrays_, &A::splats) + sum_of(arrays_, &A::splats_discarded)});
     laws.push_back({"lanes x passes = lanes evaluated",
                     sum_of(arrays_, &A::passes) * config_.array.lanes,
-                    s.useful + s.boundary + s.terminated});
+                    s[Slot::Useful] + s[Slot::Boundary] + s[Slot::Terminated]});
     if (granted()) {
         laws.push_back(
             {"tiles granted = worked on", dispatcher().stats().tiles, sum_of(arrays_, &A::tiles)});
@@ -82,4 +51,4 @@ void Gscore::collect_laws(AcceleratorResult& result) const {
     }
 }
 
-} // namespace degs
+} // namespace degs::gscore

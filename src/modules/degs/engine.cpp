@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/degs/degs.hpp"
+#include "modules/degs/engine.hpp"
 
 #include <algorithm>
 #include <string>

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "modules/kit/analytic/front_end_load.hpp"
 
 namespace degs {

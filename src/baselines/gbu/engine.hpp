@@ -7,21 +7,21 @@
 #include <systemc>
 
 #include "baselines/gbu/config.hpp"
-#include "modules/kit/engine/tile_engine_array.hpp"
+#include "modules/kit/engine/tiled_accelerator.hpp"
 
-namespace degs {
+namespace degs::gbu {
 
 /// The standalone GBU with its memory:
 ///
 ///   Tile Front End -> List Collectors -> Tile Dispatcher -> per engine: Splat Fetcher with reuse
 ///   cache -> tile engine -> Pixel Buffer -> memory
-class Gbu : public TileEngineArray {
+class Engine : public TiledAccelerator {
 public:
     /// `job` supplies the work and receives the images. `config.problem()` must be empty.
-    Gbu(const sc_core::sc_module_name& name, const GbuConfig& config, const Timebase& time,
-        RenderJob& job, const BuildOptions& options = {});
+    Engine(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
+           RenderJob& job, const BuildOptions& options = {});
 
-    const GbuConfig& config() const { return config_; }
+    const Config& config() const { return config_; }
     const std::vector<std::unique_ptr<TileEngine>>& engines() const { return engines_; }
 
 private:
@@ -32,8 +32,8 @@ private:
     void collect_activity(AcceleratorResult& result) const;
     void collect_laws(AcceleratorResult& result) const;
 
-    GbuConfig config_;
+    Config config_;
     std::vector<std::unique_ptr<TileEngine>> engines_;
 };
 
-} // namespace degs
+} // namespace degs::gbu

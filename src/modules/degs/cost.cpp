@@ -1,11 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bill of materials of DeGS, and the activity of each block of it; docs/cost.md explains both.
-#include "modules/degs/degs.hpp"
+#include "modules/degs/engine.hpp"
 
 namespace degs {
 
+void DegsCostRows::describe(cost::RowSection& section) {
+    section.row("projection", projection, "Projection Units");
+    section.row("sorting", sorting, "Sorting Units");
+    section.row("span_engine", span_engine,
+                "Gaussian Slicing Units and Span Units, 2 + 8, which weigh the same [assumed]");
+    section.row("packing_scheduler", packing_scheduler, "Issue Banks with Packing Units");
+    section.share("scheduler_width_share", scheduler_width_share,
+                  "share of an Issue Bank that follows array.pes_per_bank, which is 8 in its row; "
+                  "0: Table II widens the packets and Table I counts banks [assumed]");
+    section.row("blending", blending, "Blending Array");
+    section.row("gaussian_buffer", gaussian_buffer, "Gaussian Buffer");
+    section.row("feature_buffer", feature_buffer, "Feature Buffer");
+    section.row("span_buffer", span_buffer, "Span Buffer");
+    section.row("packing_buffer", packing_buffer, "Packing Buffer");
+    section.row("pixel_buffer", pixel_buffer, "Pixel Buffer");
+}
+
+void DegsConfig::describe_rows(ConfigVisitor& visitor) {
+    cost::RowSection section("degs", "rows of DeGS (paper Table I)", cost, visitor);
+    cost_rows.describe(section);
+    section.end();
+}
+
 cost::BillOfMaterials DegsConfig::bill() const {
-    const cost::Technology::Degs& rows = cost.degs;
+    const DegsCostRows& rows = cost_rows;
     const double width = array.pes_per_bank * rows.packing_scheduler.units;
     const double share = rows.scheduler_width_share;
     const auto shape = [](const BankedSramPorts& ports) {
@@ -50,7 +73,7 @@ cost::BillOfMaterials DegsConfig::bill() const {
                   many * packing.bytes,
                   kReadAndWritten * clusters * scheduler.banks *
                       (packet_bytes() + scheduler.segment_bytes),
-                  {packing.ports.ports});
+                  {packing.segment_ports.ports});
     bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."},
                   rows.pixel_buffer, many * pixel_buffer.bytes,
                   kReadAndWritten * pes() * pixel_bytes(), shape(pixel_buffer.ports));

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/kit/engine/tile_engine_array.hpp"
+#include "modules/kit/engine/tiled_accelerator.hpp"
 
 #include "modules/kit/memory/stream_kinds.hpp"
 
 namespace degs {
 
-TileEngineArray::TileEngineArray(const sc_core::sc_module_name& name, const Parts& parts,
-                                 const Timebase& time, RenderJob& job, const BuildOptions& options)
+TiledAccelerator::TiledAccelerator(const sc_core::sc_module_name& name, const Parts& parts,
+                                   const Timebase& time, RenderJob& job,
+                                   const BuildOptions& options)
     : RenderEngine(name), parts_(parts), time_(time), job_(job), options_(options),
       next_uses_(job) {
     parts_.front.instant = options_.array_only;
@@ -21,7 +22,7 @@ TileEngineArray::TileEngineArray(const sc_core::sc_module_name& name, const Part
 }
 
 // One engine for all tiles: one that is cancelled is neither fetched nor sorted any further.
-void TileEngineArray::build_streams() {
+void TiledAccelerator::build_streams() {
     front_end_ = std::make_unique<TileFrontEnd>("front_end", parts_.front, time_, job_);
     const std::size_t fetchers = front_end_->sorted.size();
     build_monitor(0, fetchers + front_end_->cancel.size());
@@ -42,7 +43,7 @@ void TileEngineArray::build_streams() {
 
 // Granted lists have been sorted to their end, so that the sorters wait for cancellations that never
 // come.
-void TileEngineArray::build_engines() {
+void TiledAccelerator::build_engines() {
     nobody_ = std::make_unique<Process>(time_);
     nobody_->finish();
     front_end_ = std::make_unique<TileFrontEnd>("front_end", parts_.front, time_, job_);
@@ -65,7 +66,7 @@ void TileEngineArray::build_engines() {
 }
 
 // Without memory time nothing depends on what is cached.
-void TileEngineArray::build_caches() {
+void TiledAccelerator::build_caches() {
     if (parts_.cache_records == 0 || options_.array_only) {
         return;
     }
@@ -74,26 +75,26 @@ void TileEngineArray::build_caches() {
     }
 }
 
-void TileEngineArray::build_fetcher(ReuseCache* cache) {
+void TiledAccelerator::build_fetcher(ReuseCache* cache) {
     fetchers_.push_back(std::make_unique<SplatFetcher>(
         numbered("fetcher", fetchers_.size()).c_str(), parts_.fetching, parts_.front.traffic, time_,
         job_, 1, options_.array_only, parts_.granted, cache));
 }
 
-void TileEngineArray::build_monitor(int engine, std::size_t listeners) {
+void TiledAccelerator::build_monitor(int engine, std::size_t listeners) {
     monitors_.push_back(std::make_unique<TileMonitor>(name_of("monitor", engine).c_str(),
                                                       parts_.monitor, time_, job_, 1, listeners,
                                                       parts_.granted));
     monitors_.back()->in[0].bind(add_wire(state_rings_, "tile_state", time_, 1));
 }
 
-void TileEngineArray::bind_cancel(int engine, std::size_t listener, FifoPort<TileNumber>& port) {
+void TiledAccelerator::bind_cancel(int engine, std::size_t listener, FifoPort<TileNumber>& port) {
     auto& cancel = add_wire(cancel_rings_, "cancel", time_, parts_.monitor.latency_cycles);
     monitors_[engine]->out[listener].bind(cancel);
     port.bind(cancel);
 }
 
-void TileEngineArray::build_pixel_buffer(int engine) {
+void TiledAccelerator::build_pixel_buffer(int engine) {
     PixelBuffer::Share share;
     share.first_context = first_context(engine);
     share.granted = parts_.granted;
@@ -106,7 +107,7 @@ void TileEngineArray::build_pixel_buffer(int engine) {
     pixels.context_free[0].bind(add_wire(context_rings_, "context_free", time_, 1));
 }
 
-void TileEngineArray::build_memory() {
+void TiledAccelerator::build_memory() {
     front_end_->connect_memory(streams_, fetchers_);
     for (auto& unit : pixel_buffers_) {
         streams_.connect(unit->frame_buffer, stream_kinds::kFrameBuffer);
@@ -115,11 +116,11 @@ void TileEngineArray::build_memory() {
     streams_.build("memory", parts_.memory, time_, options_);
 }
 
-std::size_t TileEngineArray::finished_tiles() const {
+std::size_t TiledAccelerator::finished_tiles() const {
     return sum_of(pixel_buffers_, &PixelBuffer::Stats::tiles);
 }
 
-std::uint64_t TileEngineArray::list_entries() const {
+std::uint64_t TiledAccelerator::list_entries() const {
     std::uint64_t entries = 0;
     for (const JobTile& tile : job_.tiles) {
         entries += tile.count;
@@ -127,7 +128,7 @@ std::uint64_t TileEngineArray::list_entries() const {
     return entries;
 }
 
-void TileEngineArray::collect(AcceleratorResult& result) const {
+void TiledAccelerator::collect(AcceleratorResult& result) const {
     collect_frames(result, pixel_buffers_, frame_ends_.background());
     result.tiles = finished_tiles();
     result.tiles_cancelled = sum_of(monitors_, &TileMonitor::Stats::tiles_cancelled);

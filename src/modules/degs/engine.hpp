@@ -6,7 +6,7 @@
 
 #include <systemc>
 
-#include "modules/degs/degs_back_end.hpp"
+#include "modules/degs/back_end.hpp"
 #include "modules/kit/engine/frame_ends.hpp"
 #include "modules/kit/engine/tile_grants.hpp"
 #include "modules/kit/memory/memory_streams.hpp"

@@ -8,7 +8,7 @@
 
 #include <systemc>
 
-#include "modules/degs/degs_config.hpp"
+#include "modules/degs/config.hpp"
 #include "modules/degs/drawing/tile_drawing.hpp"
 #include "modules/degs/span_engine/parameter_release.hpp"
 #include "modules/kit/engine/collect.hpp"

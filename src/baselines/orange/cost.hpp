@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cost/technology.hpp"
+
+namespace degs::orange {
+
+/// What the blocks of ORANGE take. docs/cost.md argues every value.
+struct CostRows {
+    cost::UnitRow preprocessing{0, 0.58, 4}, array{4.8, 3.1, 4096}, vector_unit{4.1, 3.0, 2048};
+    double sorting_share = 0.02; ///< of preprocessing
+    cost::SramRow sram{4.84, 0.15, 1032 * 1024, 8256};
+    void describe(cost::RowSection& section);
+};
+
+} // namespace degs::orange

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cost/technology.hpp"
+
+namespace degs {
+
+/// What the blocks of DeGS take. docs/cost.md argues every value.
+struct DegsCostRows {
+    cost::UnitRow projection{0.92, 0.60, 4}, sorting{0.02, 0.01, 4}, span_engine{0.17, 0.09, 10};
+    cost::UnitRow packing_scheduler{0.07, 0.04, 8}, blending{0.88, 0.23, 64};
+    double scheduler_width_share = 0; ///< of an Issue Bank, that follows the PEs it feeds
+    cost::PortedSramRow gaussian_buffer{{0.31, 0.01, 72 * 1024, 192}, 1, 4};
+    cost::PortedSramRow feature_buffer{{0.03, 0.001, 8 * 1024, 256}, 1, 8};
+    cost::PortedSramRow span_buffer{{0.04, 0.001, 2 * 1024, 128}, 1, 1};
+    cost::PortedSramRow packing_buffer{{0.16, 0.02, 32 * 1024, 2240}, 2, 1};
+    cost::PortedSramRow pixel_buffer{{0.12, 0.01, 16 * 1024, 1024}, 1, 32};
+    void describe(cost::RowSection& section);
+};
+
+} // namespace degs

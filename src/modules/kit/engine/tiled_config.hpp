@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "modules/kit/accelerator/render_engine.hpp"
+#include "modules/kit/config/main_memory_config.hpp"
+#include "modules/kit/config/pipeline_config.hpp"
+#include "modules/kit/front_end/projection_unit.hpp"
+#include "modules/kit/front_end/splat_fetcher.hpp"
+#include "modules/kit/front_end/tile_binner.hpp"
+#include "modules/kit/front_end/tile_monitor.hpp"
+#include "modules/kit/job/traffic.hpp"
+#include "modules/kit/pixels/pixel_buffer.hpp"
+
+namespace degs {
+
+/// The configuration of an accelerator that sorts a list of splats for each tile and fetches their records from
+/// memory. It has the sections of the blocks that all of these need; `Self`, which derives from it, describes them in
+/// an order of its own, and adds its sorter and its array. `Pipeline` and `Pixels` may be sections with more keys.
+template <class Self, class Pipeline = PipelineConfig, class Pixels = PixelBuffer::Config>
+struct TiledConfig : AcceleratorConfig {
+    Pipeline pipeline;
+    TrafficConfig traffic;
+    ProjectionUnit::Config projection;
+    TileBinner::Config binning;
+    SplatFetcher::Config fetching;
+    Pixels pixel_buffer;
+    TileMonitor::Config monitor;
+    MainMemoryConfig memory;
+
+    std::unique_ptr<AcceleratorConfig> clone() const override {
+        return std::make_unique<Self>(static_cast<const Self&>(*this));
+    }
+    TileMode tile_mode() const override { return pipeline.tiles; }
+    DataPathOptions data_path() const override { return pipeline.data_path(); }
+    TrafficConfig records() const override { return traffic; }
+    RecordOrder record_order() const override { return memory.layout; }
+    void read_floats() override {
+        traffic.geometry_bytes = kFloatGeometryBytes;
+        traffic.sh_value_bytes = kFloatBytes;
+    }
+    /// Bytes of the state of a pixel, which need not be whole ones.
+    double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
+
+protected:
+    PixelBuffer::TilePixels tile_pixels() const { return {tile_size_px(), pipeline.pixel_bits()}; }
+};
+
+} // namespace degs
