@@ -89,6 +89,10 @@ public:
         (void)section, (void)keys, (void)reason;
     }
 
+    /// True if this visitor also goes through sections that only another choice would use: those who
+    /// read and document do, so that every key is known; who writes a configuration down does not.
+    virtual bool visits_unused() const { return true; }
+
     void integer(const char* key, int& value, int low, int high, const char* doc) {
         std::int64_t wide = value;
         integer(key, wide, low, high, doc);

@@ -59,6 +59,7 @@ public:
                 const char* doc) override {
         change(key, value, config_scalar::Choice{names}, doc);
     }
+    bool visits_unused() const override { return outer_.visits_unused(); }
     /// Where the key is a text that stays as it is, the rule says what that is.
     void require(bool holds, const ConfigRule& rule) override {
         ConfigRule told = rule;

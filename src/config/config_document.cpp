@@ -52,6 +52,7 @@ protected:
 
 class JsonLister : public Lister {
 public:
+    bool visits_unused() const override { return false; }
     void begin_section(const char* key, const char*) override {
         open_.push_back(&(*open_.back())[key]);
         *open_.back() = ordered_json::object();
@@ -68,6 +69,7 @@ private:
 
 class YamlLister : public Lister {
 public:
+    bool visits_unused() const override { return false; }
     void begin_section(const char* key, const char* doc) override {
         line(std::string(key) + ":", doc);
         ++depth_;

@@ -74,7 +74,7 @@ Channel::Channel(const Timing& timing, const RuleTable& rules, const ControllerC
     : timing_(&timing), posted_writes_(config.posted_writes),
       auto_precharge_(page_policies()[config.page_policy].auto_precharge),
       state_{0, Banks(rules), Queues(config), Refresher(timing, config, phase)},
-      chooser_(schedulers()[config.scheduler]) {}
+      chooser_(config.policies[config.scheduler]) {}
 
 void Channel::run(Ck until, Outcome& outcome) {
     for (;;) {
@@ -127,12 +127,10 @@ void Channel::admit(Ck date, Outcome& outcome) {
     turn();
 }
 
-void Channel::turn() {
-    if (state_.queues.turn()) {
-        stats_.drains += state_.queues.writing() ? 1 : 0;
-        chooser_.update_all(state_);
-        chooser_.drop();
-    }
+void Channel::begin_direction() {
+    stats_.drains += state_.queues.writing() ? 1 : 0;
+    chooser_.update_all(state_);
+    chooser_.drop();
 }
 
 void Channel::perform(Outcome& outcome) {
@@ -167,10 +165,12 @@ void Channel::row_command(const Chooser::Choice& choice) {
 
 void Channel::change_row(const Chooser::Choice& choice) {
     const unsigned bank = choice.bank;
+    Policy& policy = chooser_.policy();
     auto* entry = choice.slot == Queue::kNone ? nullptr : &state_.queues.current()[choice.slot];
     switch (choice.command) {
     case Command::Act1:
         state_.banks.activate(bank, entry->access.row, state_.clock);
+        policy.opened(bank, entry->access.row);
         if (entry->outcome == RowState::Hit) {
             entry->outcome = RowState::Closed;
         }
@@ -180,12 +180,16 @@ void Channel::change_row(const Chooser::Choice& choice) {
         break;
     case Command::Pre:
         state_.banks.close(bank, state_.clock);
+        policy.closed(bank);
         if (entry != nullptr) {
             entry->outcome = RowState::Conflict;
         }
         break;
     case Command::PreAb:
         state_.banks.close_all(state_.clock);
+        for (unsigned each = 0; each < kBanks; ++each) {
+            policy.closed(each);
+        }
         break;
     default:
         state_.refresher.finish();
@@ -203,11 +207,13 @@ void Channel::column(const Chooser::Choice& choice, Outcome& outcome) {
     if (last) {
         ++of_kind(stats_.accesses, entry.outcome);
         answer(entry.access, outcome);
+        chooser_.policy().served(entry);
         state_.queues.remove(choice.slot);
         if (auto_precharge_ &&
             state_.queues.current().oldest_of_row(bank, state_.banks.row(bank)) == Queue::kNone) {
             command = state_.queues.writing() ? Command::WrA : Command::RdA;
             state_.banks.close(bank, state_.clock);
+            chooser_.policy().closed(bank);
         }
     }
     issue(command, bank);

@@ -41,16 +41,15 @@ struct Outcome {
 /// in which it is legal and chosen. To see what would happen, run a copy.
 ///
 /// Modelled:
-/// * read and write queue, FR-FCFS and simpler schedulers, open and closed page
+/// * read and write queue, FR-FCFS and other policies, open and closed page
 /// * urgent reads, which enter the read queue before others
 /// * writes in batches between two watermarks, and at once when no read waits
 /// * forwarding of reads from queued writes, and merging of writes
 /// * all-bank and per-bank refresh
 /// * one command per CK, ACT in two
 ///
-/// Not modelled: postponed refreshes, a limit on how often a row hit overtakes, WCK start,
-/// power-down. A read that a queued write covers only in part does not wait for it; contents are
-/// kept in the order of arrival all the same.
+/// Not modelled: postponed refreshes, WCK start, power-down. A read that a queued write covers only
+/// in part does not wait for it; contents are kept in the order of arrival all the same.
 class Channel {
 public:
     struct Stats {
@@ -108,7 +107,12 @@ private:
     const Chooser::Choice& choice() { return chooser_.choose(state_); }
     Ck next_admission() const { return std::max(state_.queues.next_admission(), state_.clock); }
     void admit(Ck date, Outcome& outcome);
-    void turn();
+    void turn() {
+        if (state_.queues.turn()) {
+            begin_direction();
+        }
+    }
+    [[gnu::noinline]] void begin_direction();
     void perform(Outcome& outcome);
     void row_command(const Chooser::Choice& choice);
     void change_row(const Chooser::Choice& choice);

@@ -6,22 +6,12 @@
 namespace degs::dram {
 namespace {
 
-// Column commands win, then ACT-2, so that it keeps its deadline tAAD: a burst leaves every other
-// CK to it. Then the oldest access.
-constexpr std::uint32_t rank_of(Command command) {
-    return is_column(command) ? 1 : command == Command::Act2 ? 2 : 3;
-}
-constexpr unsigned kAgeBits = 60;
 constexpr std::uint64_t kNoOrder = ~std::uint64_t{0};
 
 // A key of 32 bits is wait, rank, age, bank from high to low. No gap is longer than kMostWait, see
 // Timing. Ages are relative to the latest arrival; anything older than kMostAge counts as oldest.
-constexpr unsigned kRankShift = 18, kWaitShift = 20, kKeyAgeShift = 4;
+constexpr unsigned kWaitShift = 20, kKeyAgeShift = 4;
 constexpr std::int32_t kMostWait = 4095, kMostAge = 16383;
-
-Command column_of(const Queues& queues) {
-    return queues.writing() ? Command::Wr : Command::Rd;
-}
 
 } // namespace
 
@@ -29,40 +19,6 @@ void Chooser::update_all(const ChannelState& state) {
     for (unsigned bank = 0; bank < kBanks; ++bank) {
         update(bank, state);
     }
-}
-
-void Chooser::update(unsigned bank, const ChannelState& state) {
-    const Banks& banks = state.banks;
-    constexpr std::uint8_t kNone = Queue::kNone;
-    const Queue& waiting = state.queues.current();
-    Candidate& candidate = candidates_[bank];
-    candidate.slot = waiting.oldest(bank);
-    if (banks.state(bank) == BankState::Activating) {
-        candidate.command = Command::Act2;
-    } else if (candidate.slot == kNone) {
-        pending_ &= ~(1U << bank);
-        keys_.rest[bank] = ~0U;
-        return;
-    } else if (banks.state(bank) == BankState::Closed) {
-        candidate.command = Command::Act1;
-    } else if (const std::uint8_t hit = scheduler_.hit(waiting, bank, banks.row(bank));
-               hit != kNone) {
-        candidate.command = column_of(state.queues);
-        candidate.slot = hit;
-    } else {
-        candidate.command = Command::Pre;
-    }
-    const std::uint64_t age = candidate.slot == kNone ? 0 : waiting[candidate.slot].age;
-    const std::uint32_t rank = rank_of(candidate.command);
-    candidate.order = (std::uint64_t{rank} << kAgeBits) + age;
-    keys_.date[bank] = static_cast<std::uint32_t>(
-        std::max(banks.dates().of_bank(candidate.command, bank), state.clock));
-    keys_.age[bank] = static_cast<std::uint32_t>(age);
-    keys_.column[bank] = is_column(candidate.command) ? ~0U : 0U;
-    keys_.act1[bank] = candidate.command == Command::Act1 ? ~0U : 0U;
-    keys_.pre[bank] = candidate.command == Command::Pre ? ~0U : 0U;
-    keys_.rest[bank] = rank << kRankShift | bank;
-    pending_ |= 1U << bank;
 }
 
 void Chooser::add(unsigned bank, const ChannelState& state) {
@@ -74,38 +30,9 @@ void Chooser::add(unsigned bank, const ChannelState& state) {
     }
 }
 
-void Chooser::find(const ChannelState& state) {
-    const Refresher& refresher = state.refresher;
-    choice_ = Choice{};
-    best_order_ = kNoOrder;
-    if (refresher.active()) {
-        const Refresher::Step step = refresher.next(state.banks);
-        offer({0, step.command, Queue::kNone}, step.bank, state);
-    }
-    find_ordinary(state);
-    if (!refresher.active() && choice_.date >= refresher.due()) {
-        choice_ = Choice{};
-        choice_.date = std::max(refresher.due(), state.clock);
-        choice_.start_refresh = true;
-        best_order_ = 0;
-    }
-    chosen_ = true;
-}
-
-void Chooser::find_ordinary(const ChannelState& state) {
-    std::uint32_t allowed = pending_ & ~state.refresher.held_banks();
-    if (selective_ && state.queues.current().size() != 0) {
-        allowed &= scheduler_.eligible(state.queues.current()) | state.banks.activating();
-    }
-    if (allowed == 0) {
-        return;
-    }
-    const unsigned bank = allowed == pending_ ? first_of_all(state) : first_of(allowed, state);
-    offer(candidates_[bank], bank, state);
-}
-
 // The hot loop of a simulation: no branches, so that the compiler takes four banks at once.
-unsigned Chooser::first_of_all(const ChannelState& state) const {
+inline __attribute__((always_inline)) unsigned
+Chooser::first_of_all(const ChannelState& state) const {
     const Dates& dates = state.banks.dates();
     const Ck now = state.clock;
     const auto wait_of = [&](Command command, unsigned group) {
@@ -137,7 +64,46 @@ unsigned Chooser::first_of_all(const ChannelState& state) const {
     return best % kBanks;
 }
 
-/// The same for some of the banks, at least one.
+void Chooser::find(const ChannelState& state) {
+    const Refresher& refresher = state.refresher;
+    choice_ = Choice{};
+    best_order_ = kNoOrder;
+    if (refresher.active()) {
+        const Refresher::Step step = refresher.next(state.banks);
+        offer({0, step.command, Queue::kNone}, step.bank, state);
+    }
+    find_ordinary(state);
+    if (!refresher.active() && choice_.date >= refresher.due()) {
+        choice_ = Choice{};
+        choice_.date = std::max(refresher.due(), state.clock);
+        choice_.start_refresh = true;
+        best_order_ = 0;
+    }
+    chosen_ = true;
+}
+
+void Chooser::find_ordinary(const ChannelState& state) {
+    const std::uint32_t allowed = pending_ & ~state.refresher.held_banks();
+    if (special_) {
+        find_by_policy(allowed, state);
+    } else if (allowed != 0) {
+        const unsigned bank = allowed == pending_ ? first_of_all(state) : first_of(allowed, state);
+        offer(candidates_[bank], bank, state);
+    }
+}
+
+void Chooser::find_by_policy(std::uint32_t allowed, const ChannelState& state) {
+    if (selective_ && state.queues.current().size() != 0) {
+        allowed &= policy_->eligible(state.queues.current()) | state.banks.activating();
+    }
+    if (allowed != 0) {
+        const bool all = allowed == pending_ && !has_order_;
+        const unsigned bank = all ? first_of_all(state) : first_of(allowed, state);
+        offer(candidates_[bank], bank, state);
+    }
+}
+
+/// The first of some banks, at least one, in any order of the policy.
 unsigned Chooser::first_of(std::uint32_t banks, const ChannelState& state) const {
     const Dates& dates = state.banks.dates();
     Ck first = kNoDate;

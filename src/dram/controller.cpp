@@ -6,23 +6,28 @@
 namespace degs::dram {
 namespace {
 
-template <class Policy>
-std::vector<const char*> names_of(const std::vector<Policy>& policies) {
+/// Visits the choice of a policy, and the keys of the policies.
+void describe_policies(std::vector<PolicyHolder>& policies, int& chosen, ConfigVisitor& visitor) {
     std::vector<const char*> names;
-    names.reserve(policies.size());
-    for (const Policy& policy : policies) {
-        names.push_back(policy.name);
+    std::string doc;
+    for (const PolicyHolder& policy : policies) {
+        names.push_back(policy->name());
+        doc += (doc.empty() ? "" : "; ") + std::string(policy->name()) + ": " + policy->doc();
     }
-    return names;
+    visitor.choice("scheduler", chosen, names, doc.c_str());
+    for (std::size_t p = 0; p < policies.size(); ++p) {
+        Policy& policy = *policies[p];
+        const bool used = p == static_cast<std::size_t>(chosen);
+        if (policy.has_keys() && (used || visitor.visits_unused())) {
+            visitor.section(policy.name(), policy, policy.doc());
+            if (!used) {
+                visitor.unused(policy.name(), "scheduler", "scheduler is another policy");
+            }
+        }
+    }
 }
 
 } // namespace
-
-const std::vector<Scheduler>& schedulers() {
-    static const std::vector<Scheduler> schedulers{
-        {Frfcfs::kName, Frfcfs{}}, {BankFcfs::kName, BankFcfs{}}, {Fcfs::kName, Fcfs{}}};
-    return schedulers;
-}
 
 const std::vector<PagePolicy>& page_policies() {
     static const std::vector<PagePolicy> policies{{"open", false}, {"closed", true}};
@@ -41,11 +46,13 @@ void ControllerConfig::describe(ConfigVisitor& visitor) {
                                               "must not be above write_high",
                                               config_words::number(write_high),
                                               {"write_high"}});
-    visitor.choice("scheduler", scheduler, names_of(schedulers()),
-                   "frfcfs: row hits first, then the oldest; bank_fcfs: in order within a bank; "
-                   "fcfs: in order");
+    describe_policies(policies, scheduler, visitor);
+    std::vector<const char*> pages;
+    for (const PagePolicy& page : page_policies()) {
+        pages.push_back(page.name);
+    }
     visitor.choice(
-        "page_policy", page_policy, names_of(page_policies()),
+        "page_policy", page_policy, pages,
         "open: rows stay open until another is wanted; closed: the last queued access to "
         "a row precharges it");
     visitor.choice("refresh", refresh, {"none", "all_bank", "per_bank"},

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "config/config.hpp"
-#include "dram/scheduler.hpp"
+#include "dram/policies.hpp"
 
 namespace degs::dram {
 
@@ -17,7 +17,6 @@ struct PagePolicy {
 };
 
 /// In the order of the names in ControllerConfig.
-const std::vector<Scheduler>& schedulers();
 const std::vector<PagePolicy>& page_policies();
 
 enum class Refresh : std::uint8_t { None, AllBank, PerBank };
@@ -25,8 +24,9 @@ enum class Refresh : std::uint8_t { None, AllBank, PerBank };
 struct ControllerConfig {
     int read_queue = 32, write_queue = 32;
     double write_high = 0.8, write_low = 0.2;
-    int scheduler = 0;   ///< of schedulers()
-    int page_policy = 0; ///< of page_policies()
+    std::vector<PolicyHolder> policies = all_policies(); ///< to choose from
+    int scheduler = 0;                                   ///< of policies
+    int page_policy = 0;                                 ///< of page_policies()
     Refresh refresh = Refresh::AllBank;
     bool refresh_stagger = false;
     bool posted_writes = true;

@@ -129,6 +129,8 @@ INSTANTIATE_TEST_SUITE_P(
         std::vector<std::string>{}, std::vector<std::string>{"controller.posted_writes=false"},
         std::vector<std::string>{"controller.refresh=per_bank", "controller.write_queue=4"},
         std::vector<std::string>{"controller.scheduler=fcfs", "controller.page_policy=closed"},
+        std::vector<std::string>{"controller.scheduler=frfcfs_cap",
+                                 "controller.frfcfs_cap.row_hits=2"},
         std::vector<std::string>{"controller.write_low=0", "controller.write_high=1",
                                  "controller.read_queue=2"}));
 

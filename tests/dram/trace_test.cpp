@@ -71,7 +71,8 @@ TEST_P(Lpddr5Trace, DoesNotDependOnHowOftenItIsRun) {
 
 INSTANTIATE_TEST_SUITE_P(All, Lpddr5Trace,
                          ::testing::Combine(::testing::Values("lpddr5-6400x256", "lpddr5-3200x128"),
-                                            ::testing::Values("frfcfs", "bank_fcfs", "fcfs"),
+                                            ::testing::Values("frfcfs", "bank_fcfs", "fcfs",
+                                                              "frfcfs_cap"),
                                             ::testing::Values("open", "closed"),
                                             ::testing::Values("none", "all_bank", "per_bank")));
 
