@@ -15,6 +15,8 @@ constexpr double kBusy = 0.6;
 // A part of the time before the first task is its cause if it is that long, and another one that is
 // shorter by less than this is so, too: to shorten only one of the two leaves the other.
 constexpr double kLong = 0.3, kAlike = 0.1;
+// The latency of memory is a cause if units waited for answers for this part of the time that is lost.
+constexpr double kLate = 0.5;
 
 /// The cause of a loss in words and by its name in LossKeys.
 struct Cause {
@@ -89,7 +91,25 @@ private:
     std::string after_cause(double cycles) const {
         const double latency = keys_.number("memory.latency_ns").value_or(0) * run_.clock_ghz;
         const bool is_latency = latency > cycles / 2 && !keys_.of("latency").empty();
-        return memory_bound() ? "memory" : is_latency ? "latency" : "readout";
+        return memory_bound()                      ? "memory"
+               : is_latency                        ? "latency"
+               : is_written_slower_than_read_out() ? "memory"
+                                                   : "readout";
+    }
+
+    /// Whether the memory takes longer for the pixels of a tile than the buffer that reads them out.
+    bool is_written_slower_than_read_out() const {
+        std::optional<double> rate = keys_.number("pixel_buffer.readout_pixels");
+        rate = rate ? rate : keys_.number("image_buffer.readout_pixels");
+        const double pixels = ratio_of(result_.camera.width, 1) * result_.camera.height * frames();
+        const auto written =
+            std::find_if(run_.streams.begin(), run_.streams.end(),
+                         [](const StreamUse& s) { return s.name == "frame_buffer"; });
+        if (!limited_memory() || !rate || pixels == 0 || written == run_.streams.end()) {
+            return false;
+        }
+        const double bytes = ratio_of(written->bytes_written, 1) / pixels;
+        return *rate * bytes > run_.memory_gb_per_s / run_.clock_ghz;
     }
 
     /// Tiles wait for their contexts while finished ones wait for the memory.
@@ -100,32 +120,36 @@ private:
         if (slot.slot != Slot::Blocked) {
             return {slot.name, slot.name};
         }
-        return memory_bound()       ? Cause{"blocked, for memory", "memory"}
-               : packing_was_full() ? Cause{slot.name, "full"}
-                                    : Cause{slot.name, slot.name};
+        return memory_bound() ? Cause{"blocked, for memory", "memory"}
+               : is_late(run_.waits.pixels, run_.slots.blocked)
+                   ? Cause{"blocked, for the latency of memory", "acknowledgements"}
+                   : Cause{slot.name, slot.name};
     }
 
-    bool packing_was_full() const {
-        return std::any_of(run_.buffers.begin(), run_.buffers.end(), [](const BufferUse& buffer) {
-            return buffer.name == "packing_buffer" && buffer.full_cycles > 0;
-        });
+    bool is_late(double waits, std::uint64_t slots) const {
+        return waits >= kLate * ratio_of(slots, run_.pes);
     }
 
     /// What kept the first tasks of the run from coming earlier. Memory and stages prepare a frame
-    /// at the same time, so it is the one that took longest; of two that took equally long, both.
+    /// at the same time, so it is the one that took longest; of two that took equally long, both, in
+    /// the order of preparation().
     Cause before(Cycle first) const {
         const std::string words = "before the first task";
         if (run_.array_only || first == 0) {
             return {words, "none"};
         }
         const std::vector<Part> parts = preparation(ratio_of(first, 1));
-        if (parts.empty() || parts.front().share < kLong) {
+        double longest = 0;
+        for (const Part& part : parts) {
+            longest = std::max(longest, part.share);
+        }
+        if (longest < kLong) {
             return {words, "latency"};
         }
-        std::string name = parts.front().name;
-        for (std::size_t i = 1; i < parts.size(); ++i) {
-            if (parts[i].share > parts.front().share - kAlike) {
-                name += " and " + parts[i].name;
+        std::string name;
+        for (const Part& part : parts) {
+            if (part.share > longest - kAlike) {
+                name += (name.empty() ? "" : " and ") + part.name;
             }
         }
         return {words + ", for " + name, name};
@@ -136,7 +160,7 @@ private:
         double share; ///< of the time before the first task
     };
 
-    /// Longest first; of equal ones, in this order.
+    /// Memory, then the stages from the first to the last.
     std::vector<Part> preparation(double cycles) const {
         std::vector<Part> parts;
         double bytes = 0;
@@ -154,8 +178,6 @@ private:
         if (const auto rate = keys_.number("binning.pairs_per_cycle")) {
             parts.push_back({"binning", ratio_of(result_.workload.tile_pairs, 1) / *rate / cycles});
         }
-        std::stable_sort(parts.begin(), parts.end(),
-                         [](const Part& a, const Part& b) { return a.share > b.share; });
         return parts;
     }
 
@@ -175,7 +197,12 @@ private:
         if (most >= kBusy) {
             return {"starved, for " + busiest, busiest};
         }
-        return {"starved", "gaps"};
+        const std::string words = "starved, for the latency of memory";
+        // ORANGE, whose vector units wait for contexts, does not tell blocked from starved then.
+        return is_late(run_.waits.splats, run_.slots.starved) ? Cause{words, "answers"}
+               : run_.slots.blocked == 0 && is_late(run_.waits.pixels, run_.slots.starved)
+                   ? Cause{words, "acknowledgements"}
+                   : Cause{"starved", "gaps"};
     }
 
     const RunResult& result_;

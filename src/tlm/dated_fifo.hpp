@@ -36,6 +36,7 @@ public:
         std::uint64_t items = 0;
         Cycle full_cycles = 0;      ///< writer ready, no free cell: sum of write(i) - a_w
         Cycle empty_cycles = 0;     ///< reader ready, no item: sum of read(i) - a_r
+        Cycle late_cycles = 0;      ///< likewise, no answer to put_at() for any item but the first
         Cycle occupied_cycles = 0;  ///< sum of read(i) - write(i); mean fill = this / elapsed
         std::size_t high_water = 0; ///< most items inside at one date; <= depth
     };
@@ -98,6 +99,7 @@ public:
     /// way). Items stay in order: one whose answer is late holds back those behind it.
     void put_at(Process& writer, const T& value, const Completion& ready) {
         reserve(writer);
+        from_memory_ = true;
         tail_->value = value;
         if (late_.empty() && ready.known()) {
             commit(writer, ready.date());
@@ -119,11 +121,21 @@ public:
     /// follows.
     const T& arrive(Process& reader) {
         wait_for_item(reader);
+        if (from_memory_) {
+            count_late(reader.local());
+        }
         reader.advance_to(front_->date, stats_.empty_cycles);
         return front_->value;
     }
     /// The oldest item without removing it. Only if not empty().
     const T& front() const { return front_->value; }
+    /// For arrive(), and for a reader that has waited since `ready` for the oldest item in another way.
+    void count_late(Cycle ready) {
+        const Cycle from = std::max(ready, front_->written + forward_latency_);
+        if (stats_.items != 0 && front_->date > from) {
+            stats_.late_cycles += front_->date - from;
+        }
+    }
     /// Removes the oldest item, which must be readable at the reader's date.
     T take(Process& reader) {
         T value = front_->value;
@@ -381,6 +393,7 @@ private:
     std::size_t capacity_; // cells; no more than depth_
     std::vector<std::vector<Cell>> left_; // cells that were too few
     std::deque<Completion> late_;         // of items behind the readable ones, see hold()
+    bool from_memory_ = false;            // put_at() has been called
     Stats stats_;
     std::unique_ptr<Process> foreign_writer_;
     std::unique_ptr<Process> foreign_reader_;

@@ -9,11 +9,13 @@ std::vector<LossKey> Config::loss_keys() const {
     return with(
         {
             {"row_generation", "engines.count", Way::Raise, kNoLimit},
-            {"dispatch", "engines.count", Way::Raise, kNoLimit},
             {"gaps", "engines.queue_depth", Way::Raise, "4096"},
+            {"answers", "fetching.chunks_in_flight", Way::Raise, kNoLimit, "list_buffer.chunks"},
             {"boundary", "engines.end_probe", Way::Set, "false"},
             {"blocked", "pixel_buffer.bytes", Way::Raise, kNoLimit},
             {"blocked", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
+            {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise, "1024"},
+            {"acknowledgements", "pixel_buffer.bytes", Way::Raise, kNoLimit},
             {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
         },
         common_loss_keys(memory));

@@ -56,6 +56,8 @@ public:
                 const Timebase& time, const RenderJob& job, int groups_ahead, bool granted = false);
 
     const Stats& stats() const { return stats_; }
+    /// Cycles in which SH, but the first, were awaited.
+    Cycle memory_wait() const { return fetched_.stats().late_cycles; }
 
 private:
     /// Gaussians of a group that are left, as runs of neighbours in the view's list.

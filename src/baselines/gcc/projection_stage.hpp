@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <systemc>
@@ -60,6 +61,10 @@ public:
                     bool granted = false);
 
     const Stats& stats() const { return stats_; }
+    /// Cycles in which the step that waited longer did so for lists or shapes, but the first ones.
+    Cycle memory_wait() const {
+        return std::max(loaded_.stats().late_cycles, fetched_.stats().late_cycles);
+    }
 
 private:
     void end_of_elaboration() override;

@@ -28,6 +28,10 @@ void Engine::collect(AcceleratorResult& result) const {
     collect_activity(result);
     streams_.collect(result);
     collect_preparation(result);
+    for (std::size_t i = 0; i < projection_.size(); ++i) {
+        const Cycle wait = std::max(projection_[i]->memory_wait(), colour_[i]->memory_wait());
+        result.waits.splats += ratio_of(wait, projection_.size());
+    }
     collect_idle_keys(result);
     collect_laws(result);
     explain(result);

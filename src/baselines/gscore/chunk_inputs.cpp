@@ -12,7 +12,9 @@ TileNumber ChunkInputs::next_tile() {
 
 TileNumber ChunkInputs::next_granted() {
     DatedFifo<SplatChunk>& ring = ports_[0].ring();
+    const Cycle ready = self_.local();
     wait_for(ring, kNever);
+    ring.count_late(ready);
     const TileNumber tile = ring.front().tile;
     if (tile == kNoTile) {
         ring.drop(self_);

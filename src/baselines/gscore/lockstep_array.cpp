@@ -138,7 +138,7 @@ PixelBox LockstepArray::pixels_of(int subtile) const {
 }
 
 /// False if the tile stops before its next chunk is there.
-bool LockstepArray::await_chunk(FifoBase& source) {
+bool LockstepArray::await_chunk(DatedFifo<SplatChunk>& source) {
     Cycle stop = kNever;
     if (live_subtiles_ == 0) {
         stop = 0;
@@ -146,7 +146,12 @@ bool LockstepArray::await_chunk(FifoBase& source) {
             stop = std::max(stop, subtile.done_from == kNever ? 0 : subtile.done_from);
         }
     }
-    return stop > self_.local() && chunks_.wait_for(source, stop);
+    const Cycle ready = self_.local();
+    if (stop <= ready || !chunks_.wait_for(source, stop)) {
+        return false;
+    }
+    source.count_late(ready);
+    return true;
 }
 
 void LockstepArray::await_context() {

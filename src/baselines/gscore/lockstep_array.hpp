@@ -90,7 +90,7 @@ private:
     void run();
     void render_tile(TileNumber number);
     void start_tile(TileNumber number);
-    bool await_chunk(FifoBase& source);
+    bool await_chunk(DatedFifo<SplatChunk>& source);
     void await_context();
     void work(const SplatChunk& chunk, Cycle begin);
     SubtileMask bitmap(std::uint32_t splat) const;

@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // What moves the losses of ORANGE.
+#include <algorithm>
+
 #include "baselines/orange/config.hpp"
 
 namespace degs::orange {
 
 std::vector<LossKey> Config::loss_keys() const {
     using Way = LossKey::Way;
-    return with(
-        {
-            {"vector_units", "cores.vector.lanes", Way::Raise, "65536"},
-            {"gaps", "cores.vector.lanes", Way::Raise, "65536"},
-            {"padding", "cores.array.fill", Way::Set, "none"},
-            {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
-        },
-        common_loss_keys(memory));
+    std::vector<LossKey> keys{
+        {"vector_units", "cores.vector.lanes", Way::Raise, "65536"},
+        {"gaps", "cores.vector.lanes", Way::Raise, "65536"},
+        {"padding", "cores.array.fill", Way::Set, "none"},
+        {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise, "1024"},
+        {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
+    };
+    // The lists of most tiles are a batch: those that a Sorting Unit waits for, and those that a core does.
+    const int lists = sorting.count;
+    const int batches = cores.count * std::min(fetching.chunks_in_flight, scratchpad.splat_batches);
+    if (batches > lists) {
+        keys.push_back({"answers", "sorting.count", Way::Raise, "64"});
+    } else if (batches < lists) {
+        keys.push_back({"answers", "fetching.chunks_in_flight", Way::Raise, kNoLimit,
+                        "scratchpad.splat_batches"});
+    }
+    return with(keys, common_loss_keys(memory));
 }
 
 } // namespace degs::orange

@@ -78,8 +78,13 @@ bool VectorUnit::blends_next() {
         return true;
     }
     FifoBase* const inputs[] = {&products.ring(), &in.ring()};
-    self_.advance_to(self_.next_arrival(inputs, 2, self_.local(), kNever));
-    return self_.arrived(products.ring());
+    const Cycle ready = self_.local();
+    self_.advance_to(self_.next_arrival(inputs, 2, ready, kNever));
+    if (self_.arrived(products.ring())) {
+        return true;
+    }
+    in.ring().count_late(ready);
+    return false;
 }
 
 /// False if nothing follows and nothing is on its way.

@@ -70,6 +70,7 @@ private:
     void collect_laws(AcceleratorResult& result) const;
     void collect_supply_laws(AcceleratorResult& result) const;
     void collect_idle_keys(AcceleratorResult& result) const;
+    void collect_idle_streams(AcceleratorResult& result) const;
     void explain(AcceleratorResult& result) const;
     void explain_ports(AcceleratorResult& result) const;
 

@@ -8,11 +8,13 @@ namespace {
 constexpr const char* kFeatures = "feature_buffer.bytes";
 // A splat waits for its entry of the Feature Buffer so rarely that more entries would not help.
 constexpr double kRare = 0.02;
+constexpr const char* kTakes = "scheduler.segments_per_cycle";
+constexpr const char* kIssues = "scheduler.issue_width";
 
 } // namespace
 
-// The Packing Buffer holds the waiting segments, as many as it has room for if queue_segments_per_pe is 0, and the
-// packets, up to lead_packets.
+// The Packing Buffer holds the waiting segments, as many as it has room for if queue_segments_per_pe is 0. It holds the
+// packets, too, but no number of them keeps the array waiting: it executes one in every cycle in which one waits.
 std::vector<LossKey> DegsConfig::loss_keys() const {
     using Way = LossKey::Way;
     std::vector<LossKey> keys{
@@ -24,6 +26,8 @@ std::vector<LossKey> DegsConfig::loss_keys() const {
         {"ports", "packing.ports", Way::Set, "0"},
         {"blocked", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
         {"blocked", "pixel_buffer.bytes", Way::Raise, kNoLimit},
+        {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise, "1024"},
+        {"acknowledgements", "pixel_buffer.bytes", Way::Raise, kNoLimit},
         {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
     };
     keys.push_back(span.parsing ? LossKey{"boundary", "pipeline.span_ends", Way::Set, "exact"}
@@ -31,11 +35,16 @@ std::vector<LossKey> DegsConfig::loss_keys() const {
     if (spans_are_pooled()) {
         keys.push_back({"span", "span.rows_per_cycle", Way::Raise, "64"});
     }
+    // A cluster among others is granted tiles one by one, and waits for the first chunk of each.
+    if (clusters == 1) {
+        keys.push_back({"answers", "fetching.chunks_in_flight", Way::Raise, kNoLimit,
+                        "gaussian_buffer.bytes"});
+    }
     // A bank issues no more than it takes in.
-    const bool takes_less = scheduler.segments_per_cycle < scheduler.issue_width;
-    keys.push_back({"packing",
-                    takes_less ? "scheduler.segments_per_cycle" : "scheduler.issue_width",
-                    Way::Raise, kNoLimit});
+    const int ahead = scheduler.segments_per_cycle - scheduler.issue_width;
+    keys.push_back(ahead == 0
+                       ? LossKey{"packing", kIssues, Way::Raise, kNoLimit, kTakes}
+                       : LossKey{"packing", ahead < 0 ? kTakes : kIssues, Way::Raise, kNoLimit});
     const char* const queue = queue_key();
     const char* const most = scheduler.queue_segments_per_pe == 0 ? kNoLimit : "256";
     for (const char* cause : {"gaps", "conflict"}) {
@@ -45,11 +54,6 @@ std::vector<LossKey> DegsConfig::loss_keys() const {
     }
     keys.push_back(
         {"conflict", "scheduler.reuse_cycles", Way::Lower, "1", "array.writeback_cycles"});
-    if (packing_depth() < packing.lead_packets) {
-        keys.push_back({"full", "packing.bytes", Way::Raise, kNoLimit});
-    } else {
-        keys.push_back({"full", "packing.lead_packets", Way::Raise, "65536"});
-    }
     return with(keys, common_loss_keys(memory));
 }
 

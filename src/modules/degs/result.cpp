@@ -8,6 +8,30 @@
 #include "modules/degs/engine.hpp"
 
 namespace degs {
+namespace {
+
+/// Whether a rate of the Issue Banks limits them if they use this part of it.
+bool is_full(double part) {
+    return part > 0.75;
+}
+
+/// Of the keys of the rates at which Issue Banks take and issue segments, those that limited nothing.
+std::vector<std::string> idle_packing_keys(double intake, double issue) {
+    const std::string takes = "scheduler.segments_per_cycle", issues = "scheduler.issue_width";
+    std::vector<std::string> idle;
+    if (!is_full(intake)) {
+        idle.push_back(takes);
+    }
+    if (!is_full(issue)) {
+        idle.push_back(issues);
+    }
+    if (idle.size() == 2) {
+        idle.push_back(issues + " and " + takes);
+    }
+    return idle;
+}
+
+} // namespace
 
 /// PE-cycles of the whole array: executed tasks, idle slots between packets, and what a slice
 /// missed of the window before its first and after its last packet.
@@ -196,6 +220,7 @@ void Degs::collect(AcceleratorResult& result) const {
     collect_buffers(result);
     collect_activity(result);
     streams_.collect(result);
+    result.waits.splats = ratio_of(gaussian_buffer().late_cycles, blocks_.slicing.size());
     collect_laws(result);
     collect_supply_laws(result);
     collect_idle_keys(result);
@@ -213,8 +238,33 @@ void Degs::collect_idle_keys(AcceleratorResult& result) const {
     for (std::string& key : config_.idle_window_keys(high_water, share)) {
         result.idle_keys.push_back(std::move(key));
     }
+    collect_idle_streams(result);
+}
+
+/// Of the keys of the Issue Banks' rates and of the number of tile streams.
+void Degs::collect_idle_streams(AcceleratorResult& result) const {
+    using B = IssueBank::Stats;
+    const double issued = ratio_of(sum_of(blocks_.banks, &B::segments_issued), 1);
+    const double taken = issued + ratio_of(sum_of(blocks_.banks, &B::segments_dropped), 1);
+    const double cycles = ratio_of(result.window.cycles(), 1) * ratio_of(blocks_.banks.size(), 1);
+    const double issuing = ratio_of(sum_of(blocks_.banks, &B::busy), 1);
+    const auto use_of_rate = [](double segments, double time, int rate) {
+        return time > 0 ? segments / time / rate : 0;
+    };
+    const double intake = use_of_rate(taken, cycles, config_.scheduler.segments_per_cycle);
+    const double issue = use_of_rate(issued, issuing, config_.scheduler.issue_width);
+    for (std::string& key : idle_packing_keys(intake, issue)) {
+        result.idle_keys.push_back(std::move(key));
+    }
+    constexpr double kBusy = 0.6; // another stream would wait for its tiles
+    const bool few_tiles_come =
+        std::any_of(result.stages.begin(), result.stages.end(), [&](const StageUse& stage) {
+            return (stage.name == "sorting" || stage.name == "fetching") &&
+                   stage.busy_cycles > kBusy * stage.units * ratio_of(result.window.cycles(), 1);
+        });
     constexpr std::uint64_t kFewTiles = 24; // of a cluster: streams would wait for the longest
-    if (job_.tiles.size() < kFewTiles * config_.clusters * result.frames.size()) {
+    const bool few_tiles = job_.tiles.size() < kFewTiles * config_.clusters * result.frames.size();
+    if (few_tiles || few_tiles_come || is_full(intake)) {
         result.idle_keys.emplace_back("slicing.interleave");
     }
 }

@@ -154,6 +154,40 @@ TEST(Losses, TheFirstTaskOfGccWaitsForStageOne) {
     }
 }
 
+// Buffers and lanes would not shorten what waits for a late answer. The bus itself is hardly busy.
+TEST(Losses, OfASlowMemoryNameItsLatency) {
+    for (const char* design : {"degs-64-tuned", "gscore-64", "gbu-64", "gcc-64", "orange-o1"}) {
+        SCOPED_TRACE(design);
+        const std::string line = losses_of_run(design, kObject, {"memory.latency_ns=4000"}, kSmall);
+        const std::size_t at = line.find("starved");
+        ASSERT_NE(at, std::string::npos) << line;
+        const std::string part = line.substr(at, line.find(" · ", at) - at);
+        EXPECT_EQ(part.rfind("starved, for the latency of memory ", 0), 0U) << line;
+        EXPECT_NE(part.find("lower memory.latency_ns"), std::string::npos) << line;
+        const std::string none = losses_of_run(design, kObject, {"memory.latency_ns=0"}, kSmall);
+        EXPECT_EQ(none.find("latency of memory"), std::string::npos) << none;
+    }
+}
+
+// A buffer that reads out faster than the memory takes pixels is no cause.
+TEST(Losses, AfterTheLastTaskTheSlowerOfMemoryAndReadoutCounts) {
+    for (const char* const bandwidth : {"50", "2000"}) {
+        const std::string memory = std::string("memory.bandwidth_gb_per_s=") + bandwidth;
+        const Folder folder;
+        const Outcome outcome =
+            degs({"run", config("gcc-256"), "--scene", kObject, "--width", "240", "--no-reference",
+                  "--set", memory, "--set", "memory.latency_ns=0", "--out", folder / "out"});
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        for (const auto& loss : report_in(folder / "out")["losses"]) {
+            if (loss["reason"] == "after the last task") {
+                EXPECT_NE(loss["keys"].dump().find(*bandwidth == '5' ? "bandwidth" : "readout"),
+                          std::string::npos)
+                    << loss;
+            }
+        }
+    }
+}
+
 // A loss that depends on the shape of the array and on the picture alone.
 TEST(Losses, WithoutAKeySayThatNoneMovesThem) {
     for (const char* design : {"gcc-64", "gscore-64", "gbu-64"}) {

@@ -57,6 +57,13 @@ struct StreamUse {
     void describe(StatsVisitor& visitor) const;
 };
 
+/// Cycles in which the units of a kind had nothing to do before the memory answered, as a mean of the
+/// units. What a run waits for before it starts is left out. Not numbers of results.
+struct AnswerWaits {
+    double splats = 0; ///< of the first units behind the fetchers
+    double pixels = 0; ///< of buffers that write them
+};
+
 /// An invariant: two counters of a run that must agree.
 struct Conservation {
     std::string law;
@@ -96,6 +103,7 @@ struct AcceleratorResult {
     std::vector<StreamUse> streams;
     std::vector<cost::Activity> activity; ///< of the blocks in the bill of materials
     cost::RunEnergy energy;
+    AnswerWaits waits;
     double memory_utilization = 0; ///< share of memory_window in which the data bus was busy
     double memory_gb_per_s = 0;    ///< peak; 0: unlimited
     /// Cycles over which memory is counted: the run, or up to its last answer if that is later.

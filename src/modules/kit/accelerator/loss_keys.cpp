@@ -10,31 +10,37 @@ std::vector<LossKey> with(std::vector<LossKey> keys, const std::vector<LossKey>&
     return keys;
 }
 
-std::vector<LossKey> common_loss_keys(const MainMemoryConfig& memory) {
-    const std::vector<LossKey> front_end{
-        {"projection", "projection.count", Way::Raise, "64"},
-        {"binning", "binning.pairs_per_cycle", Way::Raise, kNoLimit},
-        {"projection and binning", "projection.count", Way::Raise, "64", "binning.pairs_per_cycle"},
-        {"binning and projection", "projection.count", Way::Raise, "64", "binning.pairs_per_cycle"},
-        {"sorting", "sorting.count", Way::Raise, "64"},
-        {"sorting", "sorting.keys_per_cycle", Way::Raise, kNoLimit},
-        {"fetching", "fetching.chunks_in_flight", Way::Raise, kNoLimit},
-        {"fetching", "sorting.count", Way::Raise, "64"},
-    };
-    const bool channels = memory.model == MemoryModel::Lpddr5;
-    const char* const rate = channels ? "memory.lpddr5.channels" : "memory.bandwidth_gb_per_s";
-    const char* const most = channels ? "64" : "100000";
-    const std::vector<LossKey> bandwidth{
-        {"memory", rate, Way::Raise, most},
-        {"memory and projection", rate, Way::Raise, most, "projection.count"},
-        {"projection and memory", rate, Way::Raise, most, "projection.count"},
-        {"memory and binning", rate, Way::Raise, most, "binning.pairs_per_cycle"},
-        {"binning and memory", rate, Way::Raise, most, "binning.pairs_per_cycle"},
-    };
-    if (channels) {
-        return with(bandwidth, front_end);
+const char* bandwidth_key(const MainMemoryConfig& memory) {
+    return memory.model == MemoryModel::Lpddr5 ? "memory.lpddr5.channels"
+                                               : "memory.bandwidth_gb_per_s";
+}
+
+std::vector<LossKey> memory_loss_keys(const MainMemoryConfig& memory) {
+    if (memory.model == MemoryModel::Lpddr5) {
+        return {{"memory", bandwidth_key(memory), Way::Raise, "64"}};
     }
-    return with(with(bandwidth, {{"latency", "memory.latency_ns", Way::Lower, "0"}}), front_end);
+    std::vector<LossKey> keys{{"memory", bandwidth_key(memory), Way::Raise, "100000"}};
+    for (const char* const cause : {"latency", "answers", "acknowledgements"}) {
+        keys.push_back({cause, "memory.latency_ns", Way::Lower, "0"});
+    }
+    return keys;
+}
+
+std::vector<LossKey> common_loss_keys(const MainMemoryConfig& memory) {
+    const char* const rate = bandwidth_key(memory);
+    const char* const most = memory_loss_keys(memory).front().limit;
+    return with(memory_loss_keys(memory),
+                {
+                    {"memory and projection", rate, Way::Raise, most, "projection.count"},
+                    {"memory and binning", rate, Way::Raise, most, "binning.pairs_per_cycle"},
+                    {"projection", "projection.count", Way::Raise, "64"},
+                    {"binning", "binning.pairs_per_cycle", Way::Raise, kNoLimit},
+                    {"projection and binning", "projection.count", Way::Raise, "64",
+                     "binning.pairs_per_cycle"},
+                    {"sorting", "sorting.count", Way::Raise, "64"},
+                    {"sorting", "sorting.keys_per_cycle", Way::Raise, kNoLimit},
+                    {"fetching", "fetching.chunk", Way::Raise, "1024"},
+                });
 }
 
 } // namespace degs

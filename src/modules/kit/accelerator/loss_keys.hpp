@@ -15,9 +15,12 @@ struct LossKey {
 
     /// What PE-cycles are lost for: a class of slots, a stage that is busy, or one of
     /// * `memory`, its bandwidth, and `latency`, of memory or of the stages before the first task
-    /// * two of them, "memory and projection", that work at the same time and take equally long
+    /// * two of them, "memory and projection", that work at the same time and take equally long; in
+    ///   the order memory, stages, binning
     /// * `gaps`, an array that starves while nothing in front of it is busy
-    /// * `full`, blocked by a full Packing Buffer, and `readout`, the pixels of the last tiles
+    /// * `answers`, an array that starves, and `acknowledgements`, one that is blocked, because the
+    ///   latency of memory is long
+    /// * `readout`, of the pixels of the last tiles
     const char* cause;
     const char* key;
     Way way;
@@ -30,7 +33,11 @@ struct LossKey {
 
 inline constexpr const char* kNoLimit = "1e9"; ///< but the range of the key
 
-/// Keys of memory and front end, which all accelerators have. Only those of the model in use.
+/// Keys of the memory model in use.
+std::vector<LossKey> memory_loss_keys(const MainMemoryConfig& memory);
+/// The key of its bandwidth.
+const char* bandwidth_key(const MainMemoryConfig& memory);
+/// The same and keys of the front end that all accelerators but GCC have.
 std::vector<LossKey> common_loss_keys(const MainMemoryConfig& memory);
 /// Both lists as one.
 std::vector<LossKey> with(std::vector<LossKey> keys, const std::vector<LossKey>& more);

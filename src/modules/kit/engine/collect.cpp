@@ -91,6 +91,8 @@ void add_pixel_buffer(AcceleratorResult& result, std::int64_t bytes, int context
         add_buffer(result, {"pixel_buffer", "State of the pixels of the tiles in flight."}, bytes);
     use.counters.count("contexts", contexts, "tiles", "Tiles that it holds at once.");
     use.counters.add(buffers);
+    result.waits.pixels =
+        ratio_of(sum_of(buffers, &PixelBuffer::Stats::write_wait), buffers.size());
 }
 
 void add_slots(AcceleratorResult& result, const SlotAccount& slots, const ActiveWindow& window) {

@@ -42,6 +42,7 @@ struct RingUse {
     std::size_t depth = 0, high_water = 0;
     std::uint64_t items = 0;
     Cycle full_cycles = 0, empty_cycles = 0, occupied_cycles = 0;
+    Cycle late_cycles = 0; ///< of the reader of each, see DatedFifo
 };
 
 template <class T>
@@ -53,6 +54,7 @@ RingUse use_of(const std::vector<std::unique_ptr<DatedFifo<T>>>& rings) {
         use.items += ring->stats().items;
         use.full_cycles += ring->stats().full_cycles;
         use.empty_cycles += ring->stats().empty_cycles;
+        use.late_cycles += ring->stats().late_cycles;
         use.occupied_cycles += ring->stats().occupied_cycles;
     }
     return use;

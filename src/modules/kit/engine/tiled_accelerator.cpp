@@ -140,6 +140,7 @@ void TiledAccelerator::collect(AcceleratorResult& result) const {
     }
     add_stage(result, kFetching, fetchers_.size(), sum_of(fetchers_, &SplatFetcher::Stats::busy),
               Counters().add(fetchers_));
+    result.waits.splats = ratio_of(splat_buffer().late_cycles, parts_.engines);
     streams_.collect(result);
     explain_tiles(result, records_cancelled());
     collect_engines(result);
