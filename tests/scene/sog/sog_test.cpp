@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/sog/sog.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -376,6 +377,33 @@ TEST(HostileSog, DamagedArchivesLoadOrComplain) {
         attempt(bytes);
     }
     EXPECT_GT(refused, 100);
+}
+
+// Version 1 has the bounds of positions and scales in its meta.json; positions are logarithms, too.
+TEST(Sog, ActivatedScalesAreAWarning) {
+    const auto says = [](const std::string& means, const std::string& scales) {
+        SogBuilder made;
+        made.make_version_1();
+        const auto put = [&](const std::string& before, const std::string& after) {
+            const std::size_t at = made.meta.find(before);
+            ASSERT_NE(at, std::string::npos);
+            made.meta.replace(at, before.size(), after);
+        };
+        put("\"mins\":[-1,-2,0.5],\"maxs\":[1,2,3.5]", means);
+        put("\"mins\":[-9,-8,-7],\"maxs\":[-1,-2,-3]", scales);
+        const std::vector<std::string> notes = content_of(made.file()).notes;
+        return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+            return note.find("hold its scales as they are") != std::string::npos;
+        });
+    };
+    const std::string small = "\"mins\":[-1,-1,-1],\"maxs\":[1,1,1]";    // e - 1 units to each side
+    const std::string large = "\"mins\":[-5,-5,-5],\"maxs\":[5,5,5]";    // 147 units
+    const std::string sizes = "\"mins\":[0.2,0.2,0.2],\"maxs\":[2,2,2]"; // or logarithms
+    const std::string tiny = "\"mins\":[0.001,0.001,0.001],\"maxs\":[0.05,0.05,0.05]";
+    EXPECT_TRUE(says(small, sizes));
+    EXPECT_FALSE(says(large, sizes));
+    EXPECT_TRUE(says(large, tiny));
+    EXPECT_FALSE(says(small, "\"mins\":[-9,-8,-7],\"maxs\":[2,2,2]"));
 }
 
 } // namespace
