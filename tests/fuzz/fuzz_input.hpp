@@ -112,7 +112,8 @@ inline void expect_note_of_scales(const SceneContent& content) {
                            std::none_of(scales.begin(), scales.end(), small) &&
                            !sizes_fit_scene(content.cloud.means, scales);
     const auto says = [](const std::string& note) {
-        return note.find("seems to hold") != std::string::npos;
+        return note.find("hold its scales as they are") != std::string::npos ||
+               note.find("hold both as they are") != std::string::npos;
     };
     if (activated != std::any_of(content.notes.begin(), content.notes.end(), says)) {
         fail("a note of activated scales is missing, or one too many");

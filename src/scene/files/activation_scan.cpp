@@ -86,9 +86,15 @@ std::string activated_note(ActivationScan scan, const GaussianCloud& cloud) {
            ", as its format says.";
 }
 
-std::string activated_note(const GaussianCloud& cloud) {
+std::string activated_note(const GaussianCloud& cloud, bool logits) {
     ActivationScan scan;
-    scan.add_opacity(-1);
+    if (!logits) {
+        scan.add_opacity(-1);
+    }
+    for (std::size_t i = 0; i < cloud.size() && scan.opacities_look_activated(); ++i) {
+        constexpr float kOfZero = 0.5F, kOfOne = 0.731059F; // the logistic function of 0 and 1
+        scan.add_opacity(cloud.opacities[i] < kOfZero || cloud.opacities[i] > kOfOne ? -1 : 0);
+    }
     for (std::size_t i = 0; i < cloud.size() && scan.scales_look_activated(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
             scan.add_scale(cloud.scales[i][axis] < 1 ? -1 : 0); // of the logarithm

@@ -43,8 +43,9 @@ bool sizes_fit_scene(const std::vector<glm::dvec3>& means, const std::vector<glm
 /// What a reader says of a file whose format has logarithms and logits, and some of whose values do not
 /// look like them. Empty if there is nothing to say. `cloud`: as they were read.
 std::string activated_note(ActivationScan scan, const GaussianCloud& cloud);
-/// The same of scales alone, of a format that keeps opacities as shares.
-std::string activated_note(const GaussianCloud& cloud);
+/// The same from the cloud alone. `logits`: the format has logits of opacities; most formats keep them as
+/// shares, so that nothing can be wrong with them.
+std::string activated_note(const GaussianCloud& cloud, bool logits = false);
 /// The same of a file whose format leaves it open, and of which they were taken as they look.
 std::string taken_as_they_are_note(bool scales, bool opacities);
 
