@@ -117,14 +117,14 @@ SceneContent content_of(const SceneSpec& spec) {
         scan.add_opacity(g.opacity);
         scan.add_scale(std::min({g.log_scale.x, g.log_scale.y, g.log_scale.z}));
     }
-    if (std::string note = activated_note(scan, scene.size()); !note.empty()) {
-        content.notes.push_back(std::move(note));
-    }
     if (const std::uint64_t dropped = sanitize(scene); dropped > 0) {
         content.notes.push_back(std::to_string(dropped) +
                                 " Gaussians hold NaN or infinity and are left out at all times.");
     }
     content.cloud = at_time(scene, spec.time.value_or(0));
+    if (std::string note = activated_note(scan, content.cloud); !note.empty()) {
+        content.notes.insert(content.notes.begin(), std::move(note));
+    }
     return content;
 }
 

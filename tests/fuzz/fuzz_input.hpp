@@ -108,10 +108,12 @@ inline void turn_and_turn_back(const SceneContent& content) {
 inline void expect_note_of_scales(const SceneContent& content) {
     const auto small = [](const glm::vec3& s) { return s.x < 1 || s.y < 1 || s.z < 1; };
     const std::vector<glm::vec3>& scales = content.cloud.scales;
-    const bool activated =
-        scales.size() >= kFewestToJudge && std::none_of(scales.begin(), scales.end(), small);
+    const bool activated = scales.size() >= kFewestToJudge &&
+                           std::none_of(scales.begin(), scales.end(), small) &&
+                           !sizes_fit_scene(content.cloud.means, scales);
     const auto says = [](const std::string& note) {
-        return note.find("seems to hold") != std::string::npos;
+        return note.find("hold its scales as they are") != std::string::npos ||
+               note.find("hold both as they are") != std::string::npos;
     };
     if (activated != std::any_of(content.notes.begin(), content.notes.end(), says)) {
         fail("a note of activated scales is missing, or one too many");

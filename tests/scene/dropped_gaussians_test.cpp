@@ -122,5 +122,55 @@ TEST(DroppedGaussians, ActivatedDiscsAreAWarning) {
     EXPECT_THAT(scene_of("a.ply", ply.file()).notes, Contains(HasSubstr("as they are")));
 }
 
+/// 60 Gaussians in a cube of that side, whose values of scale, one after the other, fill a range.
+std::string cube_ply(double side, double low, double high, const std::string& format) {
+    PlyBuilder ply = PlyBuilder::splat();
+    ply.format = format;
+    for (int row = 0; row < 60; ++row) {
+        ply.add_row([&](const std::string& name) {
+            const double at = row * 7 % 60 / 59.0;
+            return name.rfind("scale_", 0) == 0 ? low + (high - low) * at
+                   : name == "opacity"          ? 3
+                   : name == "x"                ? side * (row / 59.0 - 0.5)
+                                                : 0.25;
+        });
+    }
+    return ply.file();
+}
+
+bool says_activated(const Scene& scene) {
+    return std::any_of(scene.notes.begin(), scene.notes.end(), [](const std::string& note) {
+        return note.find("hold its scales as they are") != std::string::npos;
+    });
+}
+
+// In large units of length all logarithms are positive; sizes that fit the scene are no reason for a warning.
+TEST(ActivatedScales, AreToldFromLargeUnitsByTheExtentOfTheScene) {
+    for (const char* const format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+        const auto says = [&](double side, double low, double high) {
+            return says_activated(scene_of("a.ply", cube_ply(side, low, high, format)));
+        };
+        EXPECT_FALSE(says(78, 0.7, 2)); // 2 to 7 units
+        EXPECT_FALSE(says(300, 0.1, 4));
+        EXPECT_FALSE(says(1e5, 2, 8));
+        EXPECT_TRUE(says(2, 0.2, 0.5)); // as logarithms, most are larger than half the scene
+        EXPECT_TRUE(says(10, 0.01, 3));
+        EXPECT_TRUE(says(300, 0.001, 0.1)); // as logarithms, all are as large as a unit
+        EXPECT_TRUE(says(1e5, 0.001, 0.05));
+        EXPECT_FALSE(says(2, -5, 0.5));
+    }
+}
+
+// A few positions far away make no scene large.
+TEST(ActivatedScales, AreNotExcusedByAFarPosition) {
+    PlyBuilder ply = PlyBuilder::splat();
+    for (int row = 0; row < 60; ++row) {
+        ply.add_row([&](const std::string& name) {
+            return name == "x" ? (row == 0 ? 1e6 : row / 30.0) : name == "opacity" ? 3 : 0.3;
+        });
+    }
+    EXPECT_TRUE(says_activated(scene_of("a.ply", ply.file())));
+}
+
 } // namespace
 } // namespace degs

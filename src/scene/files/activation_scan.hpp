@@ -7,6 +7,8 @@
 
 #include <glm/glm.hpp>
 
+#include "splat/model/gaussian.hpp"
+
 namespace degs {
 
 /// Tells whether scales and opacities are logarithms and logits, or have been through exp and the
@@ -32,11 +34,18 @@ constexpr std::size_t kFewestToJudge = 4;
 /// the range as well, but not a hundred.
 constexpr std::size_t kFewestToTake = 100;
 
+/// Whether Gaussians can have these sizes in a scene of this extent. In large units of length the logarithms
+/// of all sizes are positive, so that their sign says nothing. If scales that are sizes already are read as
+/// logarithms, however, no Gaussian is smaller than a unit: most are nearly as large as that, or they are
+/// large in a small scene. Positions and scales of the same Gaussians.
+bool sizes_fit_scene(const std::vector<glm::dvec3>& means, const std::vector<glm::vec3>& scales);
+
 /// What a reader says of a file whose format has logarithms and logits, and some of whose values do not
-/// look like them. `count` Gaussians; empty if there is nothing to say.
-std::string activated_note(const ActivationScan& scan, std::size_t count);
-/// The same of scales that have been through exp, of a format that keeps opacities as shares.
-std::string activated_note(const std::vector<glm::vec3>& scales);
+/// look like them. Empty if there is nothing to say. `cloud`: as they were read.
+std::string activated_note(ActivationScan scan, const GaussianCloud& cloud);
+/// The same from the cloud alone. `logits`: the format has logits of opacities; most formats keep them as
+/// shares, so that nothing can be wrong with them.
+std::string activated_note(const GaussianCloud& cloud, bool logits = false);
 /// The same of a file whose format leaves it open, and of which they were taken as they look.
 std::string taken_as_they_are_note(bool scales, bool opacities);
 

@@ -113,10 +113,7 @@ private:
         std::string note = taken_as_they_are_note(as_scales, as_opacities);
         if (as_scales != as_opacities && count_ < kFewestToTake) {
             as_scales = as_opacities = false;
-            note = activated_note(scan, count_);
-        }
-        if (!note.empty()) {
-            content_.notes.push_back(std::move(note));
+            note.clear();
         }
         for (std::uint64_t i = 0; i < count_; ++i) {
             const glm::dvec3 s(scales.at(3 * i), scales.at(3 * i + 1), scales.at(3 * i + 2));
@@ -124,6 +121,12 @@ private:
             cloud().scales.emplace_back(as_scales ? s : glm::exp(s));
             cloud().opacities.push_back(
                 static_cast<float>(as_opacities ? o : 1 / (1 + std::exp(-o))));
+        }
+        if (!as_scales && !as_opacities) {
+            note = activated_note(scan, cloud());
+        }
+        if (!note.empty()) {
+            content_.notes.push_back(std::move(note));
         }
     }
 

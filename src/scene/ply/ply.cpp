@@ -58,12 +58,12 @@ public:
         rows_.finish();
         return std::move(cloud_);
     }
-    /// After read(); empty if the values look as the format has them.
-    std::string note() const {
+    /// Of what read() returned; empty if the values look as the format has them.
+    std::string note_of(const GaussianCloud& cloud) const {
         ActivationScan scan;
         scan.add_scale(scales_activated_ ? 0 : -1);
         scan.add_opacity(opacities_activated_ ? 0 : -1);
-        return activated_note(scan, count_);
+        return activated_note(scan, cloud);
     }
 
 private:
@@ -210,7 +210,7 @@ SceneContent read_ply(const std::string& path) {
     file.seek(header.data_begin);
     if (is_compressed_ply(header)) {
         content.cloud = read_compressed_ply(file, header);
-        if (std::string note = activated_note(content.cloud.scales); !note.empty()) {
+        if (std::string note = activated_note(content.cloud); !note.empty()) {
             content.notes.push_back(std::move(note));
         }
         return content;
@@ -218,7 +218,7 @@ SceneContent read_ply(const std::string& path) {
     const PlySplatLayout layout = find_splat_layout(path, header, content.notes);
     CloudReader reader(file, header, layout);
     content.cloud = reader.read();
-    if (std::string note = reader.note(); !note.empty()) {
+    if (std::string note = reader.note_of(content.cloud); !note.empty()) {
         content.notes.push_back(std::move(note));
     }
     content.traits.antialiased = content.traits.antialiased || layout.has_filter_3d;

@@ -62,7 +62,7 @@ public:
         if (meta_.degree > 0) {
             read_rest(palette, labels);
         }
-        if (std::string note = activated_note(content_.cloud.scales); !note.empty()) {
+        if (std::string note = activated_note(content_.cloud, meta_.logits); !note.empty()) {
             content_.notes.push_back(std::move(note));
         }
         content_.traits.antialiased = meta_.antialiased;

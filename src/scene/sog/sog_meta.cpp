@@ -158,7 +158,8 @@ private:
             meta_.colour[i] = between(number(sh0, "mins", i), number(sh0, "maxs", i));
         }
         meta_.opacity = between(number(sh0, "mins", 3), number(sh0, "maxs", 3));
-        for (float& opacity : meta_.opacity) { // logits
+        meta_.logits = true;
+        for (float& opacity : meta_.opacity) {
             opacity = static_cast<float>(1 / (1 + std::exp(-static_cast<double>(opacity))));
         }
     }

@@ -19,6 +19,7 @@ struct SogMeta {
     std::array<ByteTable, 3> scale{};  ///< log scale by axis and byte
     std::array<ByteTable, 3> colour{}; ///< coefficient of degree 0 by channel and byte
     ByteTable opacity{};               ///< linear, 0..1
+    bool logits = false;               ///< the file has logits of opacities, as version 1
     ByteTable rest{};                  ///< higher coefficients
     int degree = 0;                    ///< 0..3; of version 1 it follows from the images: -1
     std::uint64_t palette = 0;         ///< entries; of version 1 as many as the image has

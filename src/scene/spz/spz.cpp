@@ -93,7 +93,7 @@ public:
         content_.traits.antialiased = (header_.flags & kSpzAntialiased) != 0;
         content_.notes.insert(content_.notes.end(), records.notes.begin(), records.notes.end());
         note_flags_and_degree();
-        if (std::string note = activated_note(content_.cloud.scales); !note.empty()) {
+        if (std::string note = activated_note(content_.cloud); !note.empty()) {
             content_.notes.push_back(std::move(note));
         }
         return std::move(content_);

@@ -171,5 +171,32 @@ TEST(HostileSpacetime, EveryMistakeHasItsSentence) {
     EXPECT_THAT(load_scene(good).notes.at(0), IsSentenceWith("1 Gaussians hold NaN or infinity"));
 }
 
+// Scales and opacities have notes of their own.
+TEST(Spacetime, ActivatedValuesAreAWarning) {
+    const auto notes = [](float side, float scale, float opacity) {
+        SpacetimeCloud scene(40, busy());
+        for (std::size_t i = 0; i < scene.size(); ++i) {
+            scene[i].mean = {side * static_cast<float>(i) / 40, 0, 0};
+            scene[i].log_scale = glm::vec3(scale);
+            scene[i].opacity = opacity;
+        }
+        const test::Folder folder;
+        write_spacetime_ply(scene, folder.path("s.ply"));
+        std::string all;
+        for (const std::string& note : load_scene(folder.path("s.ply")).notes) {
+            all += note;
+        }
+        return all;
+    };
+    using testing::HasSubstr;
+    using testing::Not;
+    EXPECT_THAT(notes(2, 0.3F, 3), HasSubstr("hold its scales as they are"));
+    EXPECT_THAT(notes(300, 0.02F, 3), HasSubstr("hold its scales as they are"));
+    EXPECT_THAT(notes(300, 1.5F, 3), Not(HasSubstr("as they are")));
+    EXPECT_THAT(notes(300, 1.5F, 0.5F), HasSubstr("hold its opacities as they are"));
+    EXPECT_THAT(notes(2, 0.3F, 0.5F), HasSubstr("hold both as they are"));
+    EXPECT_THAT(notes(2, -3, -2), Not(HasSubstr("as they are")));
+}
+
 } // namespace
 } // namespace degs

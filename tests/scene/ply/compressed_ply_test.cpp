@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The compressed PLY of PlayCanvas, against an encoder that shares nothing with the reader.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -194,6 +195,30 @@ TEST(HostileCompressedPly, LiesAreOneSentence) {
         EXPECT_THAT(complaint_about_compressed(replaced(text, word, number)),
                     IsSentenceWith("from 0 to 4294967295"));
     }
+}
+
+TEST(CompressedPly, ActivatedScalesAreAWarning) {
+    const auto says = [](double side, double low, double high) {
+        CompressedFile made;
+        made.fill();
+        for (std::vector<double>& bounds : made.chunk_rows) {
+            for (int axis = 0; axis < 3; ++axis) {
+                bounds[axis] = -side / 2;
+                bounds[3 + axis] = side / 2;
+                bounds[6 + axis] = low;
+                bounds[9 + axis] = high;
+            }
+        }
+        const test::Folder folder;
+        const std::vector<std::string> notes = read_ply(folder.write("a.ply", made.file())).notes;
+        return std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+            return note.find("hold its scales as they are") != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(says(2, 0.1, 0.5));
+    EXPECT_TRUE(says(300, 0.001, 0.05));
+    EXPECT_FALSE(says(300, 0.1, 2));
+    EXPECT_FALSE(says(2, -6, 0.5));
 }
 
 } // namespace
