@@ -121,7 +121,7 @@ private:
             return {slot.name, slot.name};
         }
         return memory_bound() ? Cause{"blocked, for memory", "memory"}
-               : is_late(run_.waits.pixels, run_.slots.blocked)
+               : is_late(run_.waits.pixels, run_.slots[Slot::Blocked])
                    ? Cause{"blocked, for the latency of memory", "acknowledgements"}
                    : Cause{slot.name, slot.name};
     }
@@ -199,8 +199,9 @@ private:
         }
         const std::string words = "starved, for the latency of memory";
         // ORANGE, whose vector units wait for contexts, does not tell blocked from starved then.
-        return is_late(run_.waits.splats, run_.slots.starved) ? Cause{words, "answers"}
-               : run_.slots.blocked == 0 && is_late(run_.waits.pixels, run_.slots.starved)
+        return is_late(run_.waits.splats, run_.slots[Slot::Starved]) ? Cause{words, "answers"}
+               : run_.slots[Slot::Blocked] == 0 &&
+                       is_late(run_.waits.pixels, run_.slots[Slot::Starved])
                    ? Cause{words, "acknowledgements"}
                    : Cause{"starved", "gaps"};
     }
