@@ -1,22 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-# Headers under include/degs, static libraries, configurations, a CMake package and a pkg-config file.
+# The public headers in include/degs, static libraries, configurations, a CMake package and a pkg-config file.
 # One component, so that a build without the program can be installed, too:
 #     cmake --install BUILD --prefix PREFIX --component degs
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/degs)
 
 set_target_properties(degs_glm PROPERTIES EXPORT_NAME glm_headers)
 set_target_properties(degs_systemc PROPERTIES EXPORT_NAME systemc)
 set_target_properties(degs_driver PROPERTIES EXPORT_NAME driver)
-set(rooms base config stats cost splat scene tlm dram modules baselines platform)
+set(rooms base config stats cost splat scene tlm dram modules baselines platform) # one stands behind those that it needs
 foreach(room IN LISTS rooms)
     set_target_properties(degs_${room} PROPERTIES EXPORT_NAME ${room})
     install(TARGETS degs_${room} EXPORT degsTargets COMPONENT degs)
-    if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/src/${room})
-        install(DIRECTORY src/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/degs COMPONENT degs
-                FILES_MATCHING PATTERN "*.hpp")
-    endif()
 endforeach()
 # Machine code only: another compiler could not read the rest, and this one would optimise the whole model once more for
 # every program that links it, which takes most of a minute.
@@ -32,7 +27,8 @@ if(DEGS_HAS_IPO AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 install(TARGETS degs degs_glm degs_systemc degs_driver EXPORT degsTargets COMPONENT degs)
 install(EXPORT degsTargets NAMESPACE degs:: DESTINATION ${package_dir} COMPONENT degs)
-install(DIRECTORY driver DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/degs COMPONENT degs FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY include/degs DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT degs FILES_MATCHING PATTERN "*.hpp")
+install(FILES driver/degs_driver.h driver/degs_registers.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/degs COMPONENT degs)
 install(DIRECTORY driver DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT degs
         FILES_MATCHING PATTERN "*.c" PATTERN "*.svd" PATTERN "*.xml")
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT degs)

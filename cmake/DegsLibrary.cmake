@@ -30,6 +30,12 @@ endif()
 include(CheckIPOSupported)
 check_ipo_supported(RESULT DEGS_HAS_IPO LANGUAGES CXX)
 
+# What src has inside, for those who build on it: this project's program and tests, and accelerators from outside.
+# Targets that link a room see the public headers of include/degs alone.
+add_library(degs_sources INTERFACE)
+add_library(degs::sources ALIAS degs_sources)
+target_include_directories(degs_sources INTERFACE ${PROJECT_SOURCE_DIR}/src)
+
 # degs_library(<room> DEPENDS <targets…>): the library of src/<room>, also known as degs::<room>.
 # A room that has headers only, or nothing yet, is an INTERFACE library of the same name.
 function(degs_library room)
@@ -53,6 +59,6 @@ function(degs_library room)
     add_library(degs::${room} ALIAS degs_${room})
     target_link_libraries(degs_${room} ${scope} ${ARG_DEPENDS})
     target_compile_features(degs_${room} ${scope} cxx_std_17)
-    target_include_directories(degs_${room} ${scope}
-        $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/degs>)
+    target_include_directories(degs_${room} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+                               $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()

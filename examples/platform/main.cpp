@@ -13,11 +13,10 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <zlib.h>
 
-#include <base/error.hpp>
-#include <baselines/design.hpp>
-#include <driver/degs_driver.h>
-#include <platform/accelerator.hpp>
-#include <scene/scene.hpp>
+#include <degs/accelerator.hpp>
+#include <degs/degs_driver.h>
+#include <degs/error.hpp>
+#include <degs/scene.hpp>
 
 using Payload = tlm::tlm_generic_payload;
 constexpr std::uint64_t kRegisters = 0x10000000, kMemory = 0x80000000, kPage = 4096;
@@ -106,11 +105,16 @@ struct Processor : sc_core::sc_module {
 
 int render(const char* design_file, const char* scene_file, int position) {
     const degs::Design design = degs::load_design(design_file);
-    const degs::Scene scene = degs::load_scene(scene_file);
-    const degs::Camera camera = degs::select_camera(scene, position);
-    degs::Accelerator::Options options;
-    options.antialiased = scene.traits.antialiased;
-    degs::Accelerator accelerator("accelerator", design.accelerator(), options);
+    const degs::MemoryScene scene = degs::load_memory_scene(scene_file);
+    if (position < 0 || std::size_t(position) >= scene.views.size()) {
+        std::printf("%s has cameras 0 to %zu.\n", scene_file, scene.views.size() - 1);
+        return 1;
+    }
+    const degs::MemoryScene::View& view = scene.views[std::size_t(position)];
+    const std::size_t pixels = std::size_t(view.width) * std::size_t(view.height);
+    degs::AcceleratorOptions options;
+    options.antialiased = scene.antialiased;
+    degs::Accelerator accelerator("accelerator", design, options);
     Processor cpu("cpu");
     Bus bus("bus");
     sc_core::sc_signal<bool> irq("irq");
@@ -120,20 +124,17 @@ int render(const char* design_file, const char* scene_file, int position) {
     accelerator.irq.bind(irq);
     cpu.irq.bind(irq);
 
-    std::vector<unsigned char> geometry, sh;
-    degs::encode_scene(scene.cloud, geometry, sh);
-    cpu.scene = {bus.add(geometry), bus.add(sh), static_cast<std::uint32_t>(scene.cloud.size()),
-                 static_cast<std::uint32_t>(scene.cloud.sh_degree)};
-    cpu.frame_buffer = bus.add(std::vector<unsigned char>(camera.pixels() * 4));
+    cpu.scene = {bus.add(scene.geometry), bus.add(scene.sh), scene.gaussians, scene.sh_degree};
+    cpu.frame_buffer = bus.add(std::vector<unsigned char>(pixels * 4));
     cpu.workspace_bytes = std::uint64_t{64} << 20U;
     cpu.workspace = bus.add(std::vector<unsigned char>(cpu.workspace_bytes));
-    cpu.camera.width = static_cast<std::uint32_t>(camera.width);
-    cpu.camera.height = static_cast<std::uint32_t>(camera.height);
-    cpu.camera.focal_x = camera.fx;
-    cpu.camera.focal_y = camera.fy;
+    cpu.camera.width = static_cast<std::uint32_t>(view.width);
+    cpu.camera.height = static_cast<std::uint32_t>(view.height);
+    cpu.camera.focal_x = view.focal_x;
+    cpu.camera.focal_y = view.focal_y;
     for (int i = 0; i < 9; ++i) {
-        cpu.camera.axes[i] = camera.camera_to_world[i / 3][i % 3];
-        cpu.camera.position[i % 3] = camera.position[i % 3];
+        cpu.camera.axes[i] = view.axes[i];
+        cpu.camera.position[i % 3] = view.position[i % 3];
     }
     sc_core::sc_start();
     if (cpu.error != DEGS_ERROR_CODE_NONE) {
@@ -141,12 +142,11 @@ int render(const char* design_file, const char* scene_file, int position) {
         return 1;
     }
     uLong checksum = crc32(0, nullptr, 0); // of red, green and blue
-    for (std::size_t i = 0; i < camera.pixels(); ++i) {
+    for (std::size_t i = 0; i < pixels; ++i) {
         checksum = crc32(checksum, &bus.memory[cpu.frame_buffer - kMemory + 4 * i], 3);
     }
-    std::printf("%s: %dx%d, %llu cycles, image %08lx\n", design.accelerator().name.c_str(),
-                camera.width, camera.height, static_cast<unsigned long long>(cpu.counters.cycles),
-                checksum);
+    std::printf("%s: %dx%d, %llu cycles, image %08lx\n", design.name().c_str(), view.width,
+                view.height, static_cast<unsigned long long>(cpu.counters.cycles), checksum);
     return 0;
 }
 

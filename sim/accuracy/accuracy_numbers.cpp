@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "splat/numbers/number_set.hpp"
 
 namespace degs::sim {

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "accuracy/single_gaussian.hpp"
-#include "base/error.hpp"
 #include "base/ratio.hpp"
+#include "degs/error.hpp"
 #include "sim/accuracy/accuracy.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/text/progress.hpp"

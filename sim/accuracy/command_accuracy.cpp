@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "base/visible_text.hpp"
+#include "degs/error.hpp"
 #include "scene/files/input_file.hpp"
 #include "scene/scene_spec.hpp"
 #include "sim/accuracy/accuracy.hpp"

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "config/config_document.hpp"
+#include "degs/error.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/report/report.hpp"
 #include "sim/simulation/warnings.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "sim/cache/binary.hpp"
 #include "sim/cache/digest.hpp"
 #include "sim/cache/entry_checks.hpp"

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "sim/compare/comparison_output.hpp"
 #include "sim/process/interruption.hpp"
 #include "sim/process/stopping_signals.hpp"

@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "base/error.hpp"
 #include "config/config_document.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "sim/config/config_difference.hpp"
 #include "sim/config/cost_output.hpp"
 #include "sim/config/statistics_list.hpp"

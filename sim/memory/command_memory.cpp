@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "config/config_source.hpp"
+#include "degs/error.hpp"
 #include "sim/memory/memory_report.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/shell/commands.hpp"

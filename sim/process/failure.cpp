@@ -5,7 +5,7 @@
 
 #include <systemc>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 
 namespace degs::sim {
 

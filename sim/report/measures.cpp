@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/error.hpp"
 #include "base/ratio.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "sim/report/report.hpp"
 #include "stats/statistics_document.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/analytic/analytic_run.hpp"
 #include "sim/cache/cached_view.hpp"

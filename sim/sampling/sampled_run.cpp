@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/ratio.hpp"
+#include "degs/error.hpp"
 #include "modules/kit/analytic/expected_work.hpp"
 #include "sim/accelerator/accelerator_run.hpp"
 #include "sim/process/stopwatch.hpp"

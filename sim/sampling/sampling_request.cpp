@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 
 namespace degs::sim {
 namespace {

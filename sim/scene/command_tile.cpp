@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/tiling/scene_tiling.hpp"
 #include "sim/scene/scene_out_option.hpp"
 #include "sim/scene/scene_output.hpp"

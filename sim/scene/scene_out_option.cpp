@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/scene/scene_out_option.hpp"
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 
 namespace degs::sim {
 

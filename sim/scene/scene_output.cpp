@@ -8,9 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "base/visible_text.hpp"
 #include "config/input_files.hpp"
+#include "degs/error.hpp"
 #include "scene/cameras/camera_file.hpp"
 #include "scene/files/image_io.hpp"
 #include "scene/scene_formats.hpp"

@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "base/error.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "scene/synthetic/synthetic.hpp"
 #include "sim/command_line/bash_completion.hpp"
 #include "sim/command_line/help_text.hpp"

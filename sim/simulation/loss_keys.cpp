@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "config/config_document.hpp"
 #include "config/config_source.hpp"
+#include "degs/error.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {

@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "baselines/design.hpp"
 #include "config/config_source.hpp"
+#include "degs/design.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
 
 namespace degs::sim {
 

@@ -6,7 +6,7 @@
 
 #include <sys/resource.h>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "sim/process/reserve.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/simulation/loss_keys.hpp"

@@ -7,9 +7,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/ratio.hpp"
 #include "config/input_files.hpp"
+#include "degs/error.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/text/progress.hpp"

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "config/config_source.hpp"
+#include "degs/error.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/output_folder.hpp"
 #include "sim/shell/view_options.hpp"

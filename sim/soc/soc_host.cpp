@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "platform/scene_copy.hpp"
 #include "tlm/has_process.hpp"
 #include "tlm/set_access.hpp"

@@ -10,7 +10,7 @@
 #include <tlm>
 #include <tlm_utils/simple_initiator_socket.h>
 
-#include "driver/degs_driver.h"
+#include "degs/degs_driver.h"
 #include "splat/model/camera.hpp"
 #include "splat/model/gaussian.hpp"
 

@@ -6,8 +6,9 @@
 
 #include <systemc>
 
+#include "degs/accelerator.hpp"
 #include "dram/lpddr5.hpp"
-#include "platform/accelerator.hpp"
+#include "platform/accelerator_core.hpp"
 #include "sim/soc/address_bus.hpp"
 #include "sim/soc/soc_study.hpp"
 
@@ -30,7 +31,7 @@ public:
     SocHost& host() { return *host_; }
     /// The display, which shows nothing until show() is called.
     Display& display() { return *display_; }
-    void complete_timeline() { accelerator_.complete_timeline(); }
+    void complete_timeline() { accelerator_.core().complete_timeline(); }
     void set_load(double gb_per_s);
     std::uint64_t cpu_bytes() const;
 

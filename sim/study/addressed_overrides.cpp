@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 
 namespace degs::sim {
 namespace {

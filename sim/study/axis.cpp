@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <set>
 
-#include "base/error.hpp"
 #include "config/config_scalar.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "scene/synthetic/synthetic_random.hpp"
 #include "sim/study/axis_values.hpp"
 #include "sim/text/words.hpp"

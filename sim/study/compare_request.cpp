@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/error.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "scene/scene.hpp"
 #include "sim/study/addressed_overrides.hpp"
 

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <map>
 
-#include "base/error.hpp"
 #include "config/config_scalar.hpp"
 #include "config/config_source.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "scene/files/image_io.hpp"
 
 namespace degs::sim {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/error.hpp"
 #include "base/visible_text.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "scene/cameras/orbit_camera.hpp"
 #include "scene/scene_cameras.hpp"
 #include "sim/process/stopwatch.hpp"

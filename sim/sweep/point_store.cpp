@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "sim/cache/digest.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/message_fields.hpp"

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/error.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "sim/sweep/sweep_session.hpp"
 
 namespace degs::sim {

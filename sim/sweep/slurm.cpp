@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdio>
 
-#include "base/error.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "sim/process/failure.hpp"
 
 namespace degs::sim {

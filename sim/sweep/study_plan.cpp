@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "config/config_document.hpp"
+#include "degs/error.hpp"
 #include "sim/cache/digest.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/run_summary.hpp"

@@ -9,9 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "config/config_document.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "sim/study/addressed_overrides.hpp"
 #include "sim/text/words.hpp"
 

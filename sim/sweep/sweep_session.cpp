@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "sim/process/interruption.hpp"
 #include "sim/process/stopping_signals.hpp"
 

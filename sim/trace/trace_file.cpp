@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/error.hpp"
 #include "base/ratio.hpp"
+#include "degs/error.hpp"
 #include "scene/files/output_file.hpp"
 
 namespace degs::sim {

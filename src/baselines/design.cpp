@@ -1,12 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "baselines/design.hpp"
+#include "degs/design.hpp"
 
 #include "baselines/accelerators.hpp"
 #include "config/config_source.hpp"
+#include "config/key_value.hpp"
+#include "config/key_walk.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
 
 namespace degs {
 
 Design::Design() : model_(accelerator_kinds().front().make()) {}
+
+Design::Design(const Design& other)
+    : warnings(other.warnings), kind_(other.kind_), model_(other.model_->clone()) {}
+
+Design& Design::operator=(const Design& other) {
+    warnings = other.warnings;
+    kind_ = other.kind_;
+    model_ = other.model_->clone();
+    return *this;
+}
+
+Design::Design(Design&& other) noexcept = default;
+Design& Design::operator=(Design&& other) noexcept = default;
+Design::~Design() = default;
+
+const std::string& Design::name() const {
+    return model_->name;
+}
+
+int Design::pes() const {
+    return model_->pes();
+}
+
+const AcceleratorConfig& Design::accelerator() const {
+    return *model_;
+}
+
+std::string Design::problem() const {
+    return model_->problem();
+}
+
+void Design::scale_to(int pes) {
+    model_->scale_to(pes);
+}
+
+std::vector<std::string> Design::set(const std::vector<std::string>& assignments) {
+    return ConfigSource::from_overrides(assignments).load(*this);
+}
+
+std::string Design::get(const std::string& key) const {
+    KeyValue wanted(key);
+    Design(*this).visit(wanted);
+    return wanted.value();
+}
+
+void Design::visit(KeyVisitor& visitor) {
+    KeyWalk walk(visitor);
+    describe(walk);
+}
 
 std::string Design::kind() const {
     return accelerator_kinds()[kind_].name;

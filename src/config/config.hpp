@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 

@@ -4,8 +4,8 @@
 #include <cctype>
 #include <charconv>
 
-#include "base/error.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 
 namespace degs::config_scalar {
 namespace {

@@ -7,11 +7,11 @@
 #include <fstream>
 #include <utility>
 
-#include "base/error.hpp"
 #include "config/config_words.hpp"
 #include "config/config_yaml.hpp"
 #include "config/input_files.hpp"
 #include "config/nearby_file.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 namespace {

@@ -8,9 +8,9 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
-#include "base/error.hpp"
 #include "base/visible_text.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "base/error.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 namespace {

@@ -1,206 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "platform/accelerator.hpp"
+#include "degs/accelerator.hpp"
 
-#include <algorithm>
-#include <new>
-
-#include "base/error.hpp"
+#include "platform/accelerator_core.hpp"
 #include "tlm/has_process.hpp"
 
 namespace degs {
-namespace {
 
-constexpr std::size_t kFinishedDepth = 64;
-
-// The answer of a bus as a positive number: 1 address, 2 command, 3 burst, 4 byte enable error,
-// 5 generic error, 6 no answer.
-std::uint32_t detail_of(tlm::tlm_response_status status) {
-    switch (status) {
-    case tlm::TLM_ADDRESS_ERROR_RESPONSE:
-        return 1;
-    case tlm::TLM_COMMAND_ERROR_RESPONSE:
-        return 2;
-    case tlm::TLM_BURST_ERROR_RESPONSE:
-        return 3;
-    case tlm::TLM_BYTE_ENABLE_ERROR_RESPONSE:
-        return 4;
-    case tlm::TLM_INCOMPLETE_RESPONSE:
-        return 6;
-    default:
-        return 5;
-    }
-}
-
-} // namespace
-
-Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config)
-    : Accelerator(name, config, Options()) {}
+Accelerator::Accelerator(const sc_core::sc_module_name& name, const Design& design,
+                         const Options& options)
+    : Accelerator(name, design.accelerator(), options) {}
 
 Accelerator::Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
                          const Options& options)
     : sc_core::sc_module(name), registers("registers"), mem("mem"), irq("irq"), reset_n("reset_n"),
-      clk("clk"), config_(checked(config)), options_(checked(options)),
-      mapping_(checked_period()), time_{ClockDomain(mapping_), options.fidelity, options.timeline},
-      self_(time_),
-      finished_("finished", time_, kFinishedDepth, config_->frame_end.gate_latency_cycles),
-      gateway_("gateway", options.memory, time_.clock) {
+      clk("clk"), core_(std::make_unique<AcceleratorCore>(*this, config, options)) {
     registers.register_b_transport(this, &Accelerator::transport);
     registers.register_transport_dbg(this, &Accelerator::debug);
-    gateway_.out.bind(mem);
-    gateway_.observe_scene(
-        [this](std::uint64_t address, const unsigned char* data, std::uint64_t bytes) {
-            scene_changed_ = scene_changed_ || !scene_.matches(address, data, bytes);
-        });
-    job_.tile_size = config_->tile_size_px();
-    job_.record_order = config_->record_order();
-    job_.tile_order = config_->tile_order;
-    job_.path = make_data_path(config_->data_path(), job_.tile_size, config_->tile_contexts());
-    job_.joined = std::make_unique<sc_core::sc_event>();
-    job_.frames_join = true;
-    if (options.timeline != nullptr) {
-        job_.recorder = std::make_unique<SlotRecorder>(options.timeline);
-    }
-    BuildOptions build;
-    build.finished = &finished_;
-    build.memory = &gateway_;
-    engine_ = config_->build("engine", time_, job_, build);
     DEGS_HAS_PROCESS(Accelerator);
     SC_THREAD(run);
     SC_METHOD(drive_irq);
-    sensitive << irq_changed_;
+    sensitive << core_->irq_changed();
     SC_METHOD(begin_stop);
-    sensitive << stop_requested_ << reset_n;
+    sensitive << core_->stop_requested() << reset_n;
 }
 
-void Accelerator::complete_timeline() {
-    if (job_.recorder != nullptr) {
-        job_.recorder->close();
-    }
+Accelerator::~Accelerator() = default;
+
+double Accelerator::clock_ghz() const {
+    return core_->config().clock_ghz;
 }
 
-void Accelerator::drive_irq() {
-    lines_.irq = (registers_.get(Register::IrqEnable) & registers_.get(Register::IrqStatus)) != 0;
-    if (irq.size() != 0) {
-        irq->write(lines_.irq);
-    }
+void Accelerator::trace(sc_core::sc_trace_file* file) const {
+    core_->trace(file);
 }
 
-void Accelerator::set_status(std::uint32_t set, std::uint32_t clear) {
-    const std::uint32_t status = (registers_.get(Register::Status) & ~clear) | set;
-    registers_.set(Register::Status, status);
-    lines_.busy = (status & kStatusBusy) != 0;
-    lines_.in_reset = (status & kStatusInReset) != 0;
+void Accelerator::end_of_elaboration() {
+    core_->end_of_elaboration();
+}
+
+void Accelerator::start_of_simulation() {
+    core_->start_of_simulation();
+}
+
+void Accelerator::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
+    core_->transport(payload, delay);
+}
+
+unsigned int Accelerator::debug(tlm::tlm_generic_payload& payload) {
+    return core_->debug(payload);
 }
 
 void Accelerator::run() {
-    for (;;) {
-        while (!started_ && stop_ == Stop::None) {
-            sc_core::wait(work_);
-        }
-        const AcceleratorFault fault = stop_ == Stop::None ? serve() : AcceleratorFault{};
-        started_ = false;
-        if (stop_ == Stop::None) {
-            end_frame(fault);
-        } else {
-            end_stop();
-        }
-    }
+    core_->run();
 }
 
-// A stop while the scene is loaded leaves a copy that is of no use.
-AcceleratorFault Accelerator::serve() {
-    const AcceleratorFault fault = prepare();
-    return fault || stop_ != Stop::None ? fault : render();
+void Accelerator::drive_irq() {
+    core_->drive_irq();
 }
 
-void Accelerator::end_frame(const AcceleratorFault& fault) {
-    registers_.set(Register::ErrorCode, static_cast<std::uint32_t>(fault.error));
-    registers_.set(Register::ErrorDetail, fault.detail);
-    set_status(fault ? kStatusError : kStatusDone, kStatusBusy);
-    registers_.set(Register::IrqStatus,
-                   registers_.get(Register::IrqStatus) | (fault ? kIrqError : kIrqDone));
-    irq_changed_.notify(sc_core::SC_ZERO_TIME);
-}
-
-AcceleratorFault Accelerator::prepare() {
-    for (const Register counter : {Register::Cycles, Register::LoadCycles, Register::BytesRead,
-                                   Register::BytesWritten, Register::Fragments}) {
-        registers_.set_pair(counter, 0);
-    }
-    if (request_fault_) {
-        return request_fault_;
-    }
-    try {
-        const sc_core::sc_time start = sc_core::sc_time_stamp();
-        const auto answer = scene_.load(gateway_, request_.scene);
-        registers_.set_pair(Register::LoadCycles,
-                            time_.clock.cycles_of(sc_core::sc_time_stamp() - start));
-        if (stop_ != Stop::None) {
-            return {};
-        }
-        if (answer != tlm::TLM_OK_RESPONSE) {
-            return {AcceleratorError::LoadError, detail_of(answer)};
-        }
-        return make_workload();
-    } catch (const InputError&) { // a mistake that the checks of the registers let pass
-        return {AcceleratorError::BadCamera, 0};
-    } catch (const std::bad_alloc&) {
-        return {AcceleratorError::OutOfMemory, 0};
-    }
-}
-
-// The frame joins the job only if all of it fits.
-AcceleratorFault Accelerator::make_workload() {
-    std::uint32_t dropped = 0;
-    const GaussianCloud cloud = scene_.cloud(dropped);
-    const ProjectionOptions options = projection_of(config_->data_path(), options_.antialiased);
-    FrameWorkload work =
-        make_frame_workload(cloud, request_.camera, job_.tile_size, config_->tile_mode(), options);
-    registers_.set(Register::Dropped, dropped);
-    const std::uint64_t needed = MemoryMap::workspace_bytes(config_->records(), work);
-    registers_.set_pair(Register::WorkspaceNeeded, needed);
-    if (request_.workspace_bytes < needed) {
-        return {AcceleratorError::SmallWorkspace,
-                AcceleratorRegisters::offset_of(Register::WorkspaceBytes)};
-    }
-    workloads_.push_back(std::move(work));
-    return {};
-}
-
-AcceleratorFault Accelerator::render() {
-    const MemoryTraffic before = gateway_.total();
-    gateway_.clear_errors();
-    scene_changed_ = false;
-    self_.advance_to(time_.clock.ceil(sc_core::sc_time_stamp()));
-    const Cycle started = self_.local();
-    job_.add(workloads_.back(), request_.bases);
-    job_.joined->notify(sc_core::SC_ZERO_TIME);
-    finished_.get(self_);
-    self_.sync();
-    if (stop_ != Stop::None) {
-        job_.images.back() = Image(0, 0);
-        return {};
-    }
-    count_frame(started, before);
-    if (gateway_.errors() != 0) {
-        return {AcceleratorError::BusError, detail_of(gateway_.first_error())};
-    }
-    return scene_changed_ ? AcceleratorFault{AcceleratorError::SceneChanged, 0}
-                          : AcceleratorFault{};
-}
-
-void Accelerator::count_frame(Cycle started, const MemoryTraffic& before) {
-    const MemoryTraffic after = gateway_.total();
-    std::uint64_t fragments = 0;
-    for (const std::uint32_t updates : job_.images.back().fragments) {
-        fragments += updates;
-    }
-    job_.images.back() = Image(0, 0); // the pixels are in memory
-    registers_.set_pair(Register::Cycles, self_.local() - started);
-    registers_.set_pair(Register::BytesRead, after.bytes_read - before.bytes_read);
-    registers_.set_pair(Register::BytesWritten, after.bytes_written - before.bytes_written);
-    registers_.set_pair(Register::Fragments, fragments);
-    registers_.set(Register::Frames, registers_.get(Register::Frames) + 1);
+void Accelerator::begin_stop() {
+    core_->begin_stop();
 }
 
 } // namespace degs

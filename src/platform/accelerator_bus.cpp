@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The register socket of degs::Accelerator; the other half of accelerator.cpp.
-#include "platform/accelerator.hpp"
+#include "platform/accelerator_core.hpp"
 
 namespace degs {
 namespace {
@@ -22,7 +22,7 @@ void word_to(std::uint32_t value, unsigned char* data) {
 } // namespace
 
 // One word, whole and aligned.
-tlm::tlm_response_status Accelerator::check_access(const Payload& payload) {
+tlm::tlm_response_status AcceleratorCore::check_access(const tlm::tlm_generic_payload& payload) {
     if (!payload.is_read() && !payload.is_write()) {
         return tlm::TLM_COMMAND_ERROR_RESPONSE;
     }
@@ -38,7 +38,7 @@ tlm::tlm_response_status Accelerator::check_access(const Payload& payload) {
     return tlm::TLM_OK_RESPONSE;
 }
 
-void Accelerator::transport(Payload& payload, sc_core::sc_time& delay) {
+void AcceleratorCore::transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
     tlm::tlm_response_status status = check_access(payload);
     if (status == tlm::TLM_OK_RESPONSE) {
         const auto offset = static_cast<std::uint32_t>(payload.get_address());
@@ -53,8 +53,8 @@ void Accelerator::transport(Payload& payload, sc_core::sc_time& delay) {
 }
 
 // What a write does is seen from its date on; the values themselves are there at once.
-tlm::tlm_response_status Accelerator::write(std::uint32_t offset, std::uint32_t value,
-                                            const sc_core::sc_time& delay) {
+tlm::tlm_response_status AcceleratorCore::write(std::uint32_t offset, std::uint32_t value,
+                                                const sc_core::sc_time& delay) {
     const RegisterInfo* const info = AcceleratorRegisters::find(offset);
     if (info == nullptr || info->access == Access::Read) {
         return tlm::TLM_COMMAND_ERROR_RESPONSE;
@@ -75,7 +75,7 @@ tlm::tlm_response_status Accelerator::write(std::uint32_t offset, std::uint32_t 
 
 // A start samples the registers here and not at its date: a decoupled processor may write those of the
 // next frame in the same quantum.
-void Accelerator::command(std::uint32_t bits, const sc_core::sc_time& delay) {
+void AcceleratorCore::command(std::uint32_t bits, const sc_core::sc_time& delay) {
     if ((bits & kControlReset) != 0) {
         request_stop(Stop::Reset);
         stop_requested_.notify(delay);
@@ -111,7 +111,7 @@ void Accelerator::command(std::uint32_t bits, const sc_core::sc_time& delay) {
 }
 
 // Moves whole words. Reads every register, and writes those that start nothing.
-unsigned int Accelerator::debug(Payload& payload) {
+unsigned int AcceleratorCore::debug(tlm::tlm_generic_payload& payload) {
     const std::uint64_t first = payload.get_address();
     const unsigned int bytes = payload.get_data_length();
     if (first % 4 != 0 || bytes % 4 != 0 || (payload.is_write() && held_in_reset())) {

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "platform/accelerator.hpp"
-#include "platform/accelerator_reports.hpp"
+#include "degs/messages.hpp"
+#include "platform/accelerator_core.hpp"
+#include "platform/refuse.hpp"
 
 namespace degs {
 namespace {
@@ -24,62 +25,62 @@ void refuse(const char* type, const std::string& who, const std::string& why) {
     throw std::invalid_argument(std::string(type) + ": " + text);
 }
 
-std::unique_ptr<AcceleratorConfig> Accelerator::checked(const AcceleratorConfig& config) const {
+std::unique_ptr<AcceleratorConfig> AcceleratorCore::checked(const AcceleratorConfig& config) const {
     std::unique_ptr<AcceleratorConfig> copy = config.clone();
     copy->read_floats();
     if (const std::string problem = copy->problem(); !problem.empty()) {
-        refuse(reports::kConfig, name(), "configuration '" + config.name + "': " + problem);
+        refuse(reports::kConfig, shell_.name(), "configuration '" + config.name + "': " + problem);
     }
     return copy;
 }
 
-const Accelerator::Options& Accelerator::checked(const Options& options) const {
+const AcceleratorOptions& AcceleratorCore::checked(const AcceleratorOptions& options) const {
     if (options.limits.gaussians == 0 || options.limits.pixels == 0) {
-        refuse(reports::kOptions, name(),
+        refuse(reports::kOptions, shell_.name(),
                "limits of 0 Gaussians or pixels leave nothing to render");
     }
-    if (options.limits.gaussians > kMostGaussians) {
-        refuse(reports::kOptions, name(),
+    if (options.limits.gaussians > AcceleratorOptions::kMostGaussians) {
+        refuse(reports::kOptions, shell_.name(),
                "a limit of more than 2^30 Gaussians is more than a scene may have");
     }
     if (const std::string wrong = MemoryGateway::problem(options.memory); !wrong.empty()) {
-        refuse(reports::kOptions, name(), wrong);
+        refuse(reports::kOptions, shell_.name(), wrong);
     }
     return options;
 }
 
 // Two halves of a cycle are the least that processes need.
-sc_core::sc_time Accelerator::checked_period() const {
+sc_core::sc_time AcceleratorCore::checked_period() const {
     const sc_core::sc_time period = ClockDomain(config_->clock_ghz).period();
     if (period.value() < 2) {
-        refuse(reports::kClock, name(),
+        refuse(reports::kClock, shell_.name(),
                "the time resolution " + sc_core::sc_get_time_resolution().to_string() +
                    " is too coarse for a clock of " + std::to_string(config_->clock_ghz) + " GHz");
     }
     const double wanted = 1e-9 / config_->clock_ghz;
     if (std::abs(period.to_seconds() - wanted) > kRounding * wanted) {
-        warn(reports::kClock, name(),
+        warn(reports::kClock, shell_.name(),
              "the time resolution turns the period of " + std::to_string(config_->clock_ghz) +
                  " GHz into " + period.to_string());
     }
     return period;
 }
 
-void Accelerator::end_of_elaboration() {
+void AcceleratorCore::end_of_elaboration() {
     finished_.connect_reader(self_);
-    if (clk.size() != 0) {
+    if (shell_.clk.size() != 0) {
         follow_clock();
     }
 }
 
-void Accelerator::follow_clock() {
-    const auto* const clock = dynamic_cast<const sc_core::sc_clock*>(clk[0]);
+void AcceleratorCore::follow_clock() {
+    const auto* const clock = dynamic_cast<const sc_core::sc_clock*>(shell_.clk[0]);
     if (clock == nullptr) {
-        refuse(reports::kClock, name(),
+        refuse(reports::kClock, shell_.name(),
                "clk is bound to a channel that is not an sc_clock; leave it unbound for clock_ghz");
     }
     if (clock->period().value() < 2) {
-        refuse(reports::kClock, name(),
+        refuse(reports::kClock, shell_.name(),
                "the time resolution is too coarse for a clock of " + clock->period().to_string());
     }
     const sc_core::sc_time first = clock->posedge_first()
@@ -89,18 +90,17 @@ void Accelerator::follow_clock() {
     config_->clock_ghz = 1e-9 / clock->period().to_seconds();
 }
 
-void Accelerator::start_of_simulation() {
-    if (options_.memory.transport == MemoryGateway::Transport::Lt &&
-        options_.memory.pacing == Pacing::Quantum &&
+void AcceleratorCore::start_of_simulation() {
+    if (options_.memory.transport == Transport::Lt && options_.memory.pacing == Pacing::Quantum &&
         tlm::tlm_global_quantum::instance().get() == sc_core::SC_ZERO_TIME) {
-        warn(reports::kOptions, name(),
+        warn(reports::kOptions, shell_.name(),
              "memory.pacing is Quantum, but there is no global quantum: accesses are exact");
     }
 }
 
 // Booleans for reading, words for comparing with a driver's view.
-void Accelerator::trace(sc_core::sc_trace_file* file) const {
-    const std::string path = name();
+void AcceleratorCore::trace(sc_core::sc_trace_file* file) const {
+    const std::string path = shell_.name();
     sc_core::sc_trace(file, lines_.busy, path + ".busy");
     sc_core::sc_trace(file, lines_.in_reset, path + ".in_reset");
     sc_core::sc_trace(file, lines_.irq, path + ".irq");

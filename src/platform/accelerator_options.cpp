@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "platform/accelerator_options.hpp"
+
 #include <limits>
 
-#include "platform/accelerator.hpp"
+#include "config/config_source.hpp"
+#include "config/key_walk.hpp"
 
 namespace degs {
 namespace {
@@ -29,26 +32,43 @@ void visit_count(ConfigVisitor& visitor, const char* key, Unsigned& value, std::
 
 } // namespace
 
-void Accelerator::Options::describe(ConfigVisitor& visitor) {
-    visitor.choice("fidelity", fidelity, {"strict", "exact"}, "how processes are kept in order");
-    visitor.boolean("antialiased", antialiased, "what the files of its scenes say");
+void describe(AcceleratorOptions& options, ConfigVisitor& visitor) {
+    visitor.choice("fidelity", options.fidelity, {"strict", "exact"},
+                   "how processes are kept in order");
+    visitor.boolean("antialiased", options.antialiased, "what the files of its scenes say");
     visitor.begin_section("limits", "of a request");
-    visit_count(visitor, "gaussians", limits.gaussians, 1, kMostGaussians, "of a scene");
-    visit_count(visitor, "pixels", limits.pixels, 1, "of a frame");
+    visit_count(visitor, "gaussians", options.limits.gaussians, 1,
+                AcceleratorOptions::kMostGaussians, "of a scene");
+    visit_count(visitor, "pixels", options.limits.pixels, 1, "of a frame");
     visitor.end_section();
     visitor.begin_section("memory", "how accesses leave the socket mem");
-    visitor.choice("transport", memory.transport, {"lt", "at"}, "b_transport() or four phases");
-    visit_count(visitor, "outstanding", memory.outstanding, 1, "at: transactions in flight");
-    visit_count(visitor, "outstanding_per_stream", memory.outstanding_per_stream, 1,
+    visitor.choice("transport", options.memory.transport, {"lt", "at"},
+                   "b_transport() or four phases");
+    visit_count(visitor, "outstanding", options.memory.outstanding, 1,
+                "at: transactions in flight");
+    visit_count(visitor, "outstanding_per_stream", options.memory.outstanding_per_stream, 1,
                 "at: the same of one stream");
-    visit_count(visitor, "burst_bytes", memory.burst_bytes, 0,
+    visit_count(visitor, "burst_bytes", options.memory.burst_bytes, 0,
                 "bytes; a power of two from 4 on, 0 cuts no access");
-    visitor.choice("burst_ends", memory.burst_ends, {"pieces", "full_bursts"},
+    visitor.choice("burst_ends", options.memory.burst_ends, {"pieces", "full_bursts"},
                    "where an access begins or ends inside of a burst: smaller transactions, or the "
                    "whole burst, with byte enables if it is written");
-    visitor.choice("pacing", memory.pacing, {"exact", "quantum", "annotated"},
+    visitor.choice("pacing", options.memory.pacing, {"exact", "quantum", "annotated"},
                    "when accesses are issued");
     visitor.end_section();
+}
+
+void AcceleratorOptions::visit(KeyVisitor& visitor) {
+    KeyWalk walk(visitor);
+    describe(*this, walk);
+}
+
+void AcceleratorOptions::set(const std::string& key, const std::string& value) {
+    AcceleratorOptions changed = *this;
+    ConfigSource::from_overrides({key + "=" + value}).read([&](ConfigVisitor& visitor) {
+        describe(changed, visitor);
+    });
+    *this = changed;
 }
 
 } // namespace degs

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The register map of degs::Accelerator. `degs registers` prints it in the formats of its readers:
-// docs/accelerator.md has the table, src/driver the header for programs in C and the XML of tools.
+// docs/accelerator.md has the table, degs_registers.h is the header for programs in C, and driver/ has the
+// XML of tools.
 #pragma once
 
 #include <array>
@@ -8,44 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace degs {
+#include "degs/registers.hpp"
 
-/// Byte offsets. Values of 64 bits are pairs, the low word first.
-enum class Register : std::uint32_t {
-    Id = 0x000,
-    Version = 0x004,
-    Control = 0x008,
-    Status = 0x00C,
-    IrqEnable = 0x010,
-    IrqStatus = 0x014,
-    ErrorCode = 0x018,
-    ErrorDetail = 0x01C,
-    Geometry = 0x020,
-    Sh = 0x028,
-    Count = 0x030,
-    ShDegree = 0x034,
-    Workspace = 0x038,
-    WorkspaceBytes = 0x040,
-    FrameBuffer = 0x048,
-    Format = 0x050,
-    Width = 0x054,
-    Height = 0x058,
-    FocalX = 0x060,
-    FocalY = 0x068,
-    Axes = 0x070,
-    Position = 0x0B8,
-    Cycles = 0x100,
-    LoadCycles = 0x108,
-    BytesRead = 0x110,
-    BytesWritten = 0x118,
-    Fragments = 0x120,
-    WorkspaceNeeded = 0x128,
-    Frames = 0x130,
-    Dropped = 0x134,
-};
-constexpr std::uint32_t kRegisterBytes = 0x138;
-constexpr std::uint32_t kAcceleratorId = 0x53476544; ///< "DeGS" as bytes
-constexpr std::uint32_t kAcceleratorVersion = 0x00010001;
+namespace degs {
 
 enum class Access { Read, ReadWrite, WriteOneToClear, Command };
 
@@ -80,41 +46,6 @@ struct RegisterInfo {
 };
 /// Ascending. Offsets in between are reserved: they read as 0, and writing them is an error.
 const std::vector<RegisterInfo>& register_map();
-
-// Bits of Control, Status, and of IrqEnable and IrqStatus.
-constexpr std::uint32_t kControlStart = 1U << 0U;
-constexpr std::uint32_t kControlClearError = 1U << 1U;
-constexpr std::uint32_t kControlReset = 1U << 2U;
-constexpr std::uint32_t kControlAbort = 1U << 3U;
-constexpr std::uint32_t kStatusBusy = 1U << 0U;
-constexpr std::uint32_t kStatusDone = 1U << 1U;
-constexpr std::uint32_t kStatusError = 1U << 2U;
-constexpr std::uint32_t kStatusStartIgnored = 1U << 3U;
-constexpr std::uint32_t kStatusInReset = 1U << 4U;
-constexpr std::uint32_t kStatusAborted = 1U << 5U;
-constexpr std::uint32_t kIrqDone = 1U << 0U;
-constexpr std::uint32_t kIrqError = 1U << 1U;
-constexpr std::uint32_t kIrqAborted = 1U << 2U;
-
-enum class FrameFormat : std::uint32_t { Rgba8 = 0, Rgba16F = 1 };
-
-/// Why a frame was not rendered, or cannot be trusted.
-enum class AcceleratorError : std::uint32_t {
-    None = 0,
-    BadSize = 1,        ///< width or height 0 or over 65536, or too many pixels
-    BadCount = 2,       ///< no Gaussians, or too many
-    BadDegree = 3,      ///< SH degree over 3
-    BadFormat = 4,      ///< no FrameFormat
-    Misaligned = 5,     ///< a base is not a multiple of kBaseAlignment
-    Overlap = 6,        ///< two regions overlap, or one passes the end of the address space
-    BadCamera = 7,      ///< not finite, focal length not positive, or axes not orthonormal
-    SmallWorkspace = 8, ///< WorkspaceNeeded holds the bytes that it takes
-    LoadError = 9,      ///< memory refused a read while the scene was loaded
-    BusError = 10,      ///< memory refused an access while the frame was rendered
-    SceneChanged = 11,  ///< the scene was written while the frame was rendered
-    OutOfMemory = 12,   ///< of the host that simulates
-};
-constexpr std::uint64_t kBaseAlignment = 64; ///< B
 
 /// The words behind the map, without time and bus.
 class AcceleratorRegisters {

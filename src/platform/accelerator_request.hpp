@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "degs/options.hpp"
 #include "modules/kit/job/traffic.hpp"
 #include "platform/accelerator_registers.hpp"
 #include "platform/scene_copy.hpp"
@@ -18,15 +19,9 @@ struct AcceleratorFault {
     explicit operator bool() const { return error != AcceleratorError::None; }
 };
 
-/// The largest limit on the Gaussians of a scene, whose geometry then takes 44 GiB. Indices have 32 bits.
-constexpr std::uint32_t kMostGaussians = 1U << 30U;
-
 /// The request of a frame: the values of the registers when it was started.
 struct AcceleratorRequest {
-    struct Limits {
-        std::uint32_t gaussians = kMostGaussians; ///< of a scene
-        std::uint64_t pixels = 1U << 26U;         ///< of a frame
-    };
+    using Limits = AcceleratorOptions::Limits;
 
     SceneCopy::Place scene;
     MemoryBases bases;

@@ -3,7 +3,7 @@
 //
 // The blocks are threads with state of their own. None of them knows how to give up a frame, so they
 // finish it, at no cost to the platform: the gateway stops touching the bus, and the clock hurries.
-#include "platform/accelerator.hpp"
+#include "platform/accelerator_core.hpp"
 
 namespace degs {
 namespace {
@@ -14,7 +14,7 @@ constexpr std::uint64_t kRestInterval = 128;
 } // namespace
 
 // Registers show it at once; the rest follows at its date, see begin_stop().
-void Accelerator::request_stop(Stop why) {
+void AcceleratorCore::request_stop(Stop why) {
     if (why == Stop::Reset) {
         registers_ = AcceleratorRegisters();
         set_status(kStatusInReset, 0);
@@ -22,7 +22,7 @@ void Accelerator::request_stop(Stop why) {
     stop_ = stop_ == Stop::Reset ? stop_ : why;
 }
 
-void Accelerator::begin_stop() {
+void AcceleratorCore::begin_stop() {
     if (held_in_reset()) {
         request_stop(Stop::Reset);
         irq_changed_.notify(sc_core::SC_ZERO_TIME);
@@ -36,7 +36,7 @@ void Accelerator::begin_stop() {
 }
 
 // The last word that the platform may see of the frame is the answer to the last transaction.
-void Accelerator::await_rest() {
+void AcceleratorCore::await_rest() {
     while (!gateway_.idle()) {
         sc_core::wait(gateway_.became_idle());
     }
@@ -47,11 +47,11 @@ void Accelerator::await_rest() {
         sc_core::wait(gateway_.last_answer() - now);
     }
     while (held_in_reset()) {
-        sc_core::wait(reset_n->value_changed_event());
+        sc_core::wait(shell_.reset_n->value_changed_event());
     }
 }
 
-void Accelerator::end_stop() {
+void AcceleratorCore::end_stop() {
     do {
         begin_stop(); // the frame may have ended before the date of the stop
         await_rest();

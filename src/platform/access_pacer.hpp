@@ -7,21 +7,10 @@
 
 #include <systemc>
 
+#include "degs/options.hpp"
 #include "tlm/clock_domain.hpp"
 
 namespace degs {
-
-/// When an accelerator issues the accesses of its streams. Its blocks run ahead of the kernel on dates of
-/// their own, which a memory that serves transactions in the order of the calls must not see.
-///
-/// `Exact`: at their dates, half a cycle late, when no stream can make another one of the same date; in the
-/// order of the streams where dates are equal. The half cycle is taken off the answer again. What a
-/// memory sees then depends on dates alone, not on the order in which the host runs processes.
-/// `Quantum`: annotated up to the next multiple of the tlm::tlm_global_quantum, as a quantum keeper does;
-/// an access beyond it waits for its date. `Exact` if there is no quantum.
-/// `Annotated`: at once, however far ahead. For targets that sort by date, such as the memories of this
-/// project: a context switch less per access.
-enum class Pacing { Exact, Quantum, Annotated };
 
 /// The one place that decides when an access goes out. Must be called from threads.
 class AccessPacer {

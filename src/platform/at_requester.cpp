@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "platform/accelerator_reports.hpp"
+#include "degs/messages.hpp"
 #include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
 

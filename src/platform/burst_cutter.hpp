@@ -6,6 +6,8 @@
 
 #include <tlm>
 
+#include "degs/options.hpp"
+
 namespace degs {
 
 /// A part of an access that is a transaction of its own.
@@ -17,10 +19,6 @@ struct AccessPiece {
     /// Bytes of the transaction, which begins at `address - lead`.
     unsigned int length() const { return lead + bytes + tail; }
 };
-
-/// Where a run begins or ends inside of a burst. `Pieces`: it is cut into smaller naturally aligned
-/// transactions. `FullBursts`: the whole burst, with byte enables if it is written.
-enum class BurstEnds { Pieces, FullBursts };
 
 /// The pieces of an access: one per run of bytes that it moves, see Scattered. With `burst_bytes` > 0, a power of
 /// two, every run is cut into naturally aligned pieces of a power of two: whole bursts, and smaller ones

@@ -11,6 +11,7 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 
+#include "degs/options.hpp"
 #include "modules/kit/memory/main_memory.hpp"
 #include "platform/access_pacer.hpp"
 #include "platform/at_requester.hpp"
@@ -25,21 +26,7 @@ namespace degs {
 /// and reports the error in a register, and the simulation goes on.
 class MemoryGateway : public sc_core::sc_module, public MainMemory {
 public:
-    /// `Lt`: b_transport(), whose annotated delay lets a stream have several accesses in flight.
-    /// `At`: four phases, for memories without b_transport(); as many accesses are in flight.
-    enum class Transport { Lt, At };
-    struct Options {
-        Transport transport = Transport::Lt;
-        /// AT: transactions of all streams in flight at a time; at least 1.
-        unsigned outstanding = 64;
-        /// AT: likewise, of one stream.
-        unsigned outstanding_per_stream = ~0U;
-        /// Accesses are cut into naturally aligned transactions of a power of two up to this, see
-        /// cut_into_bursts(); a power of two from 4 on, or 0, which cuts nothing.
-        std::uint64_t burst_bytes = 0;
-        BurstEnds burst_ends = BurstEnds::Pieces; ///< FullBursts: only with `burst_bytes`
-        Pacing pacing = Pacing::Exact;            ///< AT is exact
-    };
+    using Options = AcceleratorOptions::Memory;
 
     tlm_utils::simple_initiator_socket<MemoryGateway> out;
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/grouped_number.hpp"
+#include "degs/error.hpp"
 #include "scene/cameras/camera_file.hpp"
 #include "scene/cameras/orbit_camera.hpp"
 #include "scene/cameras/trained_frame.hpp"

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/files/input_file.hpp"
 #include "scene/gltf/gltf.hpp"
 #include "scene/gltf/gltf_source.hpp"

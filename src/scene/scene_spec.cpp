@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/synthetic/synthetic.hpp"
 
 namespace degs {

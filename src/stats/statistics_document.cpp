@@ -7,8 +7,8 @@
 #include <set>
 #include <sstream>
 
-#include "base/error.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 namespace {

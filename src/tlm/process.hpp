@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "degs/options.hpp"
 #include "tlm/clock_domain.hpp"
 #include "tlm/completion.hpp"
 #include "tlm/timeline.hpp"
@@ -13,11 +14,6 @@
 namespace degs {
 
 class FifoBase;
-
-/// How processes are kept in order. Both give the same dates and decisions. `Strict`: every process
-/// sleeps to each of its dates and looks at inputs half a cycle later. `Exact`: processes run ahead
-/// on their own dates and ask for proof only where order matters.
-enum class Fidelity { Strict, Exact };
 
 /// The body of a process that needs no thread, because its actions follow from its input ring alone
 /// and it stops where an output ring is full. In exact mode it runs inside the process that feeds

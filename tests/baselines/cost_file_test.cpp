@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "baselines/accelerators.hpp"
-#include "baselines/design.hpp"
 #include "config/config_document.hpp"
 #include "config/config_source.hpp"
+#include "degs/design.hpp"
 
 namespace degs {
 namespace {

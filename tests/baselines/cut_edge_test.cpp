@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "accuracy/data_path_renderer.hpp"
-#include "baselines/design.hpp"
+#include "degs/design.hpp"
 #include "splat/frame/subtile_cover.hpp"
 #include "tests/baselines/engine_run.hpp"
 #include "tests/splat/frame/brute_force.hpp"

@@ -6,9 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
-#include "baselines/design.hpp"
 #include "config/config_document.hpp"
+#include "degs/design.hpp"
+#include "degs/error.hpp"
 #include "modules/degs/config.hpp"
 
 namespace degs::test {
@@ -68,6 +68,111 @@ TEST(Designs, TheDefaultsAreTheDesignOfThePaperInSinglePrecision) {
     EXPECT_THAT(different, ::testing::ElementsAre("pipeline.numbers", "pipeline.span_ends",
                                                   "pixel_buffer.state_bytes"));
     EXPECT_EQ(DegsConfig().pipeline.numbers, Arithmetic::Fp32);
+}
+
+/// Remembers the keys, and multiplies every integer that `raise` names by two.
+class Keys : public KeyVisitor {
+public:
+    explicit Keys(std::string raise = "") : raise_(std::move(raise)) {}
+    void integer(const std::string& path, std::int64_t& value, std::int64_t low, std::int64_t high,
+                 const std::string& doc) override {
+        see(path, doc);
+        EXPECT_LE(low, value) << path;
+        EXPECT_GE(high, value) << path;
+        value *= path == raise_ ? 2 : 1;
+    }
+    void real(const std::string& path, double& value, double low, double high,
+              const std::string& doc) override {
+        see(path, doc);
+        EXPECT_LE(low, value) << path;
+        EXPECT_GE(high, value) << path;
+    }
+    void boolean(const std::string& path, bool& /*value*/, const std::string& doc) override {
+        see(path, doc);
+    }
+    void text(const std::string& path, std::string& /*value*/, const std::string& doc) override {
+        see(path, doc);
+    }
+    void choice(const std::string& path, int& value, const std::vector<std::string>& names,
+                const std::string& doc) override {
+        see(path, doc);
+        EXPECT_LT(std::size_t(value), names.size()) << path;
+    }
+    std::vector<std::string> paths;
+
+private:
+    void see(const std::string& path, const std::string& doc) {
+        EXPECT_FALSE(doc.empty()) << path;
+        paths.push_back(path);
+    }
+    std::string raise_;
+};
+
+TEST(DesignKeys, AreThoseOfTheManualForEveryAccelerator) {
+    for (const char* name : {"degs-64", "gscore-64", "gbu-64", "gcc-64", "orange-o4"}) {
+        Design design = load_design(shipped(name));
+        Keys keys;
+        design.visit(keys);
+        std::vector<std::string> documented;
+        for (const KeyDoc& key : document(design)) {
+            if (key.type != "section") {
+                documented.push_back(key.path);
+            }
+        }
+        EXPECT_EQ(keys.paths, documented) << name;
+        for (const std::string& path : keys.paths) {
+            EXPECT_NO_THROW(design.get(path)) << path;
+        }
+    }
+}
+
+TEST(DesignKeys, AreSetTogetherAndReadByName) {
+    Design design;
+    EXPECT_TRUE(design
+                    .set({"scheduler.banks=16", "packing.bytes=64KiB", "clock_ghz=0.5",
+                          "scheduler.scoreboard=false", "scheduler.scan=oldest", "name=mine"})
+                    .empty());
+    EXPECT_EQ(design.get("scheduler.banks"), "16");
+    EXPECT_EQ(design.get("packing.bytes"), "65536");
+    EXPECT_EQ(design.get("clock_ghz"), "0.5");
+    EXPECT_EQ(design.get("scheduler.scoreboard"), "false");
+    EXPECT_EQ(design.get("scheduler.scan"), "oldest");
+    EXPECT_EQ(design.get("accelerator"), "degs");
+    EXPECT_EQ(design.name(), "mine");
+    EXPECT_EQ(design.pes(), 128);
+    EXPECT_EQ(design.set("accelerator", "gbu").size(), 0U);
+    EXPECT_EQ(design.kind(), "gbu");
+    EXPECT_EQ(design.get("engines.count"), "2");
+}
+
+TEST(DesignKeys, AVisitorChangesValuesAndRulesAreCheckedAfterwards) {
+    Design design;
+    Keys doubled("array.pes_per_bank");
+    design.visit(doubled);
+    EXPECT_EQ(design.get("array.pes_per_bank"), "16");
+    EXPECT_EQ(design.problem(), "");
+    Keys too_many("tile_size");
+    design.visit(too_many);
+    EXPECT_THAT(design.problem(), HasSubstr("pixel_buffer.bytes"));
+}
+
+TEST(HostileDesignKeys, ARefusedValueLeavesTheDesignAsItWas) {
+    Design design;
+    for (const char* assignment : {"scheduler.banks=0", "scheduler.banks=x", "scheduler.bank=4",
+                                   "scheduler=4", "packing.bytes=1", "scheduler.scan=newest",
+                                   "no assignment", "=", "packing.bytes=16KB/s"}) {
+        EXPECT_THROW(design.set({"clock_ghz=2", assignment}), InputError) << assignment;
+        EXPECT_EQ(design.get("clock_ghz"), "1") << assignment;
+        EXPECT_EQ(design.problem(), "") << assignment;
+    }
+    try {
+        design.get("scheduler.bank");
+        ADD_FAILURE();
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(),
+                     "key 'scheduler.bank' is unknown, did you mean 'scheduler.banks'?");
+    }
+    EXPECT_THROW(design.get(""), InputError);
 }
 
 TEST(HostileDesigns, MistakesAreOneSentenceThatNamesThePlace) {

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/files/activation_scan.hpp"
 #include "scene/files/axes.hpp"
 #include "scene/files/scene_content.hpp"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""folders.py [ROOT] [--print]: which folder below src and sim may include which. tests/house/folders.txt of ROOT lists
+"""folders.py [ROOT] [--print]: which folder below include, src and sim may include which. tests/house/folders.txt of ROOT lists
 the allowed arrows, `FOLDER: FOLDER ...` with further lines indented, and every arrow leads to a folder above, so that
 no folders include each other in a circle. Prints each violation as "file:line: reason"; exit code 1 if there are any.
 --print: prints the list as the sources have it, in an order from below, instead."""
@@ -14,9 +14,9 @@ LIST = "tests/house/folders.txt"
 
 
 def sources(root):
-    """Paths of all sources below src and sim, relative to `root`."""
+    """Paths of all sources below include, src and sim, relative to `root`."""
     kinds = (".hpp", ".cpp", ".inc", ".in")
-    return [path.relative_to(root) for room in ("src", "sim") for path in sorted((root / room).rglob("*"))
+    return [path.relative_to(root) for room in ("include", "src", "sim") for path in sorted((root / room).rglob("*"))
             if path.suffix in kinds and path.is_file()]
 
 
@@ -29,7 +29,7 @@ def arrows(root):
             found = INCLUDE.match(line)
             if not found:
                 continue
-            target = known.get("src/" + found[1]) or known.get(found[1])
+            target = known.get("include/" + found[1]) or known.get("src/" + found[1]) or known.get(found[1])
             if target and target != str(path.parent):
                 yield str(path), number, str(path.parent), target
 

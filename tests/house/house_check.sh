@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # house_check.sh RULE [ROOT]: checks one rule about folders and sources, or `all`, and prints every violation as
-# "file:line: reason". Rules: arrows systemc printing namespaces length width casts folders licence.
+# "file:line: reason". Rules: arrows public systemc printing namespaces length width casts folders licence.
 set -euo pipefail
 
 rule=${1:?usage: house_check.sh RULE [ROOT]}
@@ -56,7 +56,14 @@ check_arrows() {
     may_include dram tlm stats config base
     may_include modules cost splat dram tlm stats config base
     may_include baselines modules cost splat dram tlm stats config base
-    may_include platform modules cost splat dram tlm stats config base
+    may_include platform modules cost scene splat dram tlm stats config base
+}
+
+# What the package installs shows SystemC, TLM and the standard library, and none of our rooms.
+check_public() {
+    mapfile -t files < <(sources include)
+    forbid "public headers include SystemC, TLM, the standard library and each other" \
+        '#[[:space:]]*include[[:space:]]*("([^d]|d[^e]|degs/[^"]*/)|<([^>t]|t[^l])[^>]*/)' "${files[@]}"
 }
 
 check_systemc() {
@@ -73,7 +80,7 @@ check_printing() {
 }
 
 check_namespaces() {
-    mapfile -t files < <(sources src sim tests | grep '\.hpp$' || true)
+    mapfile -t files < <(sources include src sim tests | grep '\.hpp$' || true)
     forbid "no using namespace in a header" '^[[:space:]]*using[[:space:]]+namespace\b' "${files[@]}"
 }
 
@@ -129,7 +136,7 @@ check_licence() {
     done < <(sources src sim tests)
 }
 
-rules=(arrows systemc printing namespaces length width casts folders licence)
+rules=(arrows public systemc printing namespaces length width casts folders licence)
 case " ${rules[*]} all " in
     *" $rule "*) ;;
     *) echo "unknown rule '$rule'; there are: ${rules[*]} all" >&2; exit 2 ;;

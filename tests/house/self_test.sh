@@ -12,7 +12,7 @@ failures=0
 
 clean_tree() {
     rm -rf "${tree:?}"/*
-    mkdir -p "$tree"/src/{base,config,splat,scene,tlm,dram,modules,baselines/gscore,platform} "$tree/src/splat/wing" "$tree/sim" "$tree/tests/house"
+    mkdir -p "$tree"/include/degs "$tree"/src/{base,config,splat,scene,tlm,dram,modules,baselines/gscore,platform} "$tree/src/splat/wing" "$tree/sim" "$tree/tests/house"
     printf '%s\n' "$licence" '#include <vector>' '#include "base/error.hpp"' >"$tree/src/splat/a.hpp"
     printf '%s\n' "$licence" '#include "splat/a.hpp"' 'int s = snprintf(b, 2, "x");' >"$tree/src/scene/a.cpp"
     printf '%s\n' "$licence" '#include <systemc>' '#include <tlm>' '#include "tlm/b.hpp"' >"$tree/src/tlm/a.hpp"
@@ -21,6 +21,7 @@ clean_tree() {
     printf '%s\n' "$licence" 'int main() { std::cout << 1; }' 'using namespace x;' >"$tree/sim/main.cpp"
     printf '%s\n' "$licence" | tee "$tree/src/base/error.hpp" >"$tree/src/tlm/b.hpp"
     printf '%s\n' "$licence" '#include "splat/a.hpp"' >"$tree/src/splat/wing/b.hpp"
+    printf '%s\n' "$licence" '#include <tlm_utils/simple_target_socket.h>' '#include "degs/b.hpp"' >"$tree/include/degs/a.hpp"
     "$(dirname "$check")/folders.py" "$tree" --print >"$tree/tests/house/folders.txt"
 }
 
@@ -53,6 +54,10 @@ finds arrows src/modules/a.cpp 4 '#include "platform/accelerator.hpp"'
 finds arrows src/baselines/gscore/a.cpp 3 '#include "platform/accelerator.hpp"'
 finds arrows src/baselines/gscore/a.cpp 3 '#include "sim/report/report.hpp"'
 finds arrows src/platform/a.hpp 2 '#include "baselines/gscore/engine.hpp"'
+finds public include/degs/a.hpp 4 '#include "config/config.hpp"'
+finds public include/degs/a.hpp 4 '#include <dram/timing.hpp>'
+finds public include/degs/a.hpp 4 '#include "degs/config/config.hpp"'
+finds folders include/degs/a.hpp 4 '#include "splat/a.hpp"'
 finds systemc src/config/a.hpp 2 '#include <systemc>'
 finds systemc src/splat/a.hpp 4 '#include <systemc>'
 finds systemc src/scene/a.cpp 4 '#include <tlm.h>'

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # run.sh BUILD COMPILER [PROGRAM]: the ways in which another project uses DeGS.
-# 1. find_package: installs a build into a folder of its own, moves it elsewhere, and builds and runs outside/, which
-#    knows nothing but the prefix, with COMPILER and with clang++. The libraries must have been built. The installed
+# 1. find_package: installs a build into a folder of its own, moves it elsewhere, and builds and runs outside/ and shadow/,
+#    which know nothing but the prefix, with COMPILER and with clang++. shadow/ has headers of its own with the names of
+#    ours. The libraries must have been built. The installed
 #    example must give the image of PROGRAM, and the snippet of docs/accelerator.md must compile.
 # 2. pkg-config: compiles and links embedded/main.cpp with what degs.pc says.
 # 3. add_subdirectory: builds and runs embedded/ with a SystemC of its own: headers and library under a prefix, which
@@ -47,7 +48,7 @@ if [[ $program ]]; then
 fi
 for each in "${compilers[@]}"; do
     name=$(basename "$each")
-    for project in "$here/outside" "$work/prefix/share/degs/examples/platform"; do
+    for project in "$here/outside" "$here/shadow" "$work/prefix/share/degs/examples/platform"; do
         target=$(basename "$project")
         quietly configure cmake -S "$project" -B "$work/$name-$target" -DCMAKE_PREFIX_PATH="$work/prefix" \
             -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$each"
@@ -57,6 +58,7 @@ for each in "${compilers[@]}"; do
         echo "$name links $target in $taken s of a processor"
     done
     "$work/$name-outside/outside" 2>/dev/null
+    "$work/$name-shadow/shadow" 2>/dev/null
     [[ $program ]] || continue
     SYSTEMC_DISABLE_COPYRIGHT_MESSAGE=1 "$work/$name-platform/platform" "$design" "$work/scene.ply" | tee "$work/said"
     grep -q "image $image\$" "$work/said" || { echo "degs run renders the image $image"; exit 1; }
@@ -88,7 +90,22 @@ snippet_flags=$(PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name degs.pc)"
 # shellcheck disable=SC2086 # words of the command line
 "$compiler" -fsyntax-only -Wall -Wextra $snippet_flags "$work/snippet.cpp"
 
-for file in share/degs/configs/degs-64.yaml include/degs/platform/accelerator.hpp include/degs/driver/degs_driver.h \
+# The public headers are few, each stands alone, and none shows more than SystemC, TLM and the standard library.
+headers=("$work"/prefix/include/degs/*)
+[[ ${#headers[@]} -le 12 ]] || { echo "${#headers[@]} public headers: ${headers[*]}"; exit 1; }
+[[ $(find "$work/prefix/include" -type f | wc -l) == "${#headers[@]}" ]] || { echo "headers outside of include/degs"; exit 1; }
+if grep -nE '^#include' "${headers[@]}" | grep -vE '<(degs/|systemc>|tlm>|tlm_utils/|cci_configuration>|[a-z_]+>|stdint.h>)|"degs(/|_)'; then
+    echo "public headers show more than SystemC, TLM and the standard library"
+    exit 1
+fi
+for header in "${headers[@]}"; do
+    [[ $header != */cci.hpp ]] || continue
+    echo "#include <degs/$(basename "$header")>" >"$work/alone.cpp"
+    # shellcheck disable=SC2086 # words of the command line
+    "$compiler" -fsyntax-only -Wall -Wextra -Werror $snippet_flags "$work/alone.cpp"
+done
+
+for file in share/degs/configs/degs-64.yaml include/degs/accelerator.hpp include/degs/degs_driver.h \
     share/degs/driver/degs_driver.c share/degs/driver/degs.svd share/degs/driver/degs-ip-xact.xml; do
     [[ -f $work/prefix/$file ]] || { echo "$file was not installed"; exit 1; }
 done

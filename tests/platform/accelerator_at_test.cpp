@@ -10,7 +10,7 @@ namespace {
 
 Accelerator::Options four_phases(unsigned outstanding = 64, std::uint64_t burst_bytes = 0) {
     Accelerator::Options options;
-    options.memory.transport = MemoryGateway::Transport::At;
+    options.memory.transport = Transport::At;
     options.memory.outstanding = outstanding;
     options.memory.burst_bytes = burst_bytes;
     return options;

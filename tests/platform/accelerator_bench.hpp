@@ -15,7 +15,9 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 
-#include "platform/accelerator.hpp"
+#include "degs/accelerator.hpp"
+#include "degs/registers.hpp"
+#include "platform/accelerator_core.hpp"
 #include "tests/platform/protocol/base_protocol_monitor.hpp"
 #include "tlm/has_process.hpp"
 

@@ -64,7 +64,7 @@ TEST_F(SmallRunClock, TakesItsPeriodAndItsEdges) {
     const auto& second = draw(falling);
     sc_core::sc_start(sc_time(1, sc_core::SC_MS)); // a clock never ends
     ASSERT_TRUE(free_running.host.finished && rising.host.finished && falling.host.finished);
-    EXPECT_DOUBLE_EQ(rising.accelerator.config().clock_ghz, 0.5);
+    EXPECT_DOUBLE_EQ(rising.accelerator.clock_ghz(), 0.5);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(plain[i].cycles, plain[0].cycles);
         EXPECT_EQ(first[i].cycles, plain[0].cycles);

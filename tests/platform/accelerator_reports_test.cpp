@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What degs::Accelerator reports before the simulation starts: one test per message type and cause.
-#include "platform/accelerator_reports.hpp"
+#include "degs/messages.hpp"
 
 #include <gmock/gmock.h>
 
@@ -69,7 +69,7 @@ TEST_F(SmallRunReports, OptionsThatLeaveNothingToDo) {
 
 TEST_F(SmallRunReports, NoTransactionInFlight) {
     Accelerator::Options options;
-    options.memory.transport = MemoryGateway::Transport::At;
+    options.memory.transport = Transport::At;
     options.memory.outstanding = 0;
     const Reported report = refusal(DegsConfig(), options);
     EXPECT_EQ(report.type, "/DeGS/accelerator/options");
@@ -158,20 +158,21 @@ TEST_F(SmallRunReports, NothingOfAnAcceleratorWithUnboundPorts) {
 
 TEST(SmallRunAcceleratorOptions, AreKeys) {
     Accelerator::Options options;
-    ConfigSource::from_overrides({"fidelity=strict", "limits.pixels=640", "memory.transport=at",
-                                  "memory.outstanding=3", "memory.pacing=quantum"})
-        .load(options);
+    options.set("fidelity", "strict");
+    options.set("limits.pixels", "640");
+    options.set("memory.transport", "at");
+    options.set("memory.outstanding", "3");
+    options.set("memory.pacing", "quantum");
     EXPECT_EQ(options.fidelity, Fidelity::Strict);
     EXPECT_EQ(options.limits.pixels, 640U);
-    EXPECT_EQ(options.memory.transport, MemoryGateway::Transport::At);
+    EXPECT_EQ(options.memory.transport, Transport::At);
     EXPECT_EQ(options.memory.outstanding, 3U);
     EXPECT_EQ(options.memory.pacing, Pacing::Quantum);
-    EXPECT_THROW(ConfigSource::from_overrides({"limits.gaussians=0"}).load(options), InputError);
-    EXPECT_THROW(ConfigSource::from_overrides({"limits.gaussians=1073741825"}).load(options),
-                 InputError);
-    ConfigSource::from_overrides({"limits.gaussians=1073741824"}).load(options);
+    EXPECT_THROW(options.set("limits.gaussians", "0"), InputError);
+    EXPECT_THROW(options.set("limits.gaussians", "1073741825"), InputError);
+    options.set("limits.gaussians", "1073741824");
     EXPECT_EQ(options.limits.gaussians, 1U << 30U);
-    EXPECT_THROW(ConfigSource::from_overrides({"memory.transport=axi"}).load(options), InputError);
+    EXPECT_THROW(options.set("memory.transport", "axi"), InputError);
 }
 
 /// Ends a response that it has not begun.
@@ -193,7 +194,7 @@ private:
 
 TEST_F(SmallRunReports, APhaseThatTheBaseProtocolForbids) {
     Accelerator::Options options;
-    options.memory.transport = MemoryGateway::Transport::At;
+    options.memory.transport = Transport::At;
     const GaussianCloud cloud = test_cloud();
     Platform p("p", DegsConfig(), cloud, nullptr, options);
     EndingTarget target("target");

@@ -17,7 +17,7 @@ Accelerator::Options options_of(Bus bus, Fidelity fidelity) {
     Accelerator::Options options;
     options.fidelity = fidelity;
     if (bus == Bus::FourPhases) {
-        options.memory.transport = MemoryGateway::Transport::At;
+        options.memory.transport = Transport::At;
         options.memory.burst_bytes = 64;
     } else if (bus == Bus::Quantum) {
         options.memory.pacing = Pacing::Quantum;

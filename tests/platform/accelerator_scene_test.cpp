@@ -48,7 +48,7 @@ TEST(AcceleratorOnATrainedScene, RendersTheImageOfAClosedJobThroughLtAndAt) {
     const auto engine = config.build("closed", time, job, {});
 
     Accelerator::Options four_phases;
-    four_phases.memory.transport = MemoryGateway::Transport::At;
+    four_phases.memory.transport = Transport::At;
     PlainMemory lt_memory("lt_memory", kSceneMemory, Timing::Annotated);
     AtMemory at_memory("at_memory", kSceneMemory);
     at_memory.ending = Ending::Mixed;
@@ -86,7 +86,7 @@ TEST(AcceleratorOnATrainedScene, AtTakesNearlyTheTimeOfAnnotatedLt) {
     camera.fy /= 2;
     const DegsConfig config;
     Accelerator::Options four_phases;
-    four_phases.memory.transport = MemoryGateway::Transport::At;
+    four_phases.memory.transport = Transport::At;
     four_phases.memory.outstanding = 1000;
     four_phases.memory.outstanding_per_stream = 8;
     four_phases.memory.burst_bytes = 256;

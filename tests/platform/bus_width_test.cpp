@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Accelerators on memories whose sockets have another width.
-#include "platform/bus_width.hpp"
+#include "degs/bus_width.hpp"
 
 #include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
@@ -43,7 +43,7 @@ struct WidePlatform {
     static Accelerator::Options options(bool at) {
         Accelerator::Options options;
         if (at) {
-            options.memory.transport = MemoryGateway::Transport::At;
+            options.memory.transport = Transport::At;
         }
         return options;
     }

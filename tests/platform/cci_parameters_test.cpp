@@ -6,8 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include "degs/cci.hpp"
 #include "modules/degs/config.hpp"
-#include "platform/cci_parameters.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
 namespace degs::test {
@@ -28,7 +28,7 @@ protected:
     }
     static std::string refusal() {
         try {
-            const CciParameters parameters(broker(), "top.gpu", DegsConfig());
+            const CciParameters parameters(broker(), "top.gpu", Design());
         } catch (const sc_core::sc_report& report) {
             EXPECT_STREQ(report.get_msg_type(), reports::kConfig);
             return report.get_msg();
@@ -48,8 +48,8 @@ TEST_F(SmallRunCciParameters, PresetsReachTheConfigurationAndTheOptions) {
     preset("top.gpu.options.fidelity", cci::cci_value("strict"));
     preset("top.gpu.options.memory.outstanding", cci::cci_value(7));
     preset("other.gpu.scheduler.banks", cci::cci_value(2));
-    const CciParameters parameters(broker(), "top.gpu", DegsConfig());
-    const auto& config = dynamic_cast<const DegsConfig&>(parameters.config());
+    const CciParameters parameters(broker(), "top.gpu", Design());
+    const auto& config = dynamic_cast<const DegsConfig&>(parameters.design().accelerator());
     EXPECT_EQ(config.scheduler.banks, 4);
     EXPECT_EQ(config.clock_ghz, 0.5);
     EXPECT_FALSE(config.scheduler.scoreboard);
@@ -61,7 +61,7 @@ TEST_F(SmallRunCciParameters, PresetsReachTheConfigurationAndTheOptions) {
 }
 
 TEST_F(SmallRunCciParameters, ToolsFindThemByNameWithTheirDescription) {
-    const CciParameters parameters(broker(), "top.gpu", DegsConfig());
+    const CciParameters parameters(broker(), "top.gpu", Design());
     cci::cci_broker_handle all = broker();
     EXPECT_EQ(all.get_param_handles().size(), parameters.size());
     EXPECT_GT(parameters.size(), 100U);
@@ -84,15 +84,15 @@ TEST_F(SmallRunCciParameters, ChoicesThatDoNotExistAreRefusedByTheirNames) {
 
 TEST_F(SmallRunCciParameters, APresetThatIsNoParameterIsAWarning) {
     preset("top.gpu.scheduler.bank", cci::cci_value(4));
-    const CciParameters parameters(broker(), "top.gpu", DegsConfig());
+    const CciParameters parameters(broker(), "top.gpu", Design());
     EXPECT_EQ(sc_core::sc_report_handler::get_count(reports::kConfig, sc_core::SC_WARNING), 1);
 }
 
 TEST_F(SmallRunCciParameters, AnAcceleratorIsBuiltFromThemAndTheirRulesHold) {
     preset("p.frame_end.gate_latency_cycles", cci::cci_value(301));
     const GaussianCloud cloud = test_cloud();
-    const CciParameters parameters(broker(), "p", DegsConfig());
-    Platform p("p", parameters.config(), cloud,
+    const CciParameters parameters(broker(), "p", Design());
+    Platform p("p", parameters.design().accelerator(), cloud,
                std::make_unique<PlainMemory>("memory", kMemoryBytes, Timing::Annotated),
                parameters.options());
     Platform plain("plain", DegsConfig(), cloud);

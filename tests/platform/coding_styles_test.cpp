@@ -110,7 +110,7 @@ TEST(CodingStyles, CostSpeedAndError) {
     lt.emplace_back("annotated", scene, camera, Pacing::Annotated, 0);
 
     MemoryGateway::Options four_phases;
-    four_phases.transport = MemoryGateway::Transport::At;
+    four_phases.transport = Transport::At;
     four_phases.outstanding = 1000;
     four_phases.burst_bytes = 64;
     AtMemory at_memory("at_memory", kStyleMemory);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The driver in C: its header against the model, and a frame through its two functions.
-#include "driver/degs_driver.h"
+#include "degs/degs_driver.h"
 #include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 

@@ -97,8 +97,7 @@ TEST(SmallRunFullBursts, LeaveTheMemoryOfSmallerTransactions) {
         Accelerator::Options options;
         options.memory.burst_bytes = kBurst;
         options.memory.burst_ends = i == 0 ? BurstEnds::Pieces : BurstEnds::FullBursts;
-        options.memory.transport =
-            i == 2 ? MemoryGateway::Transport::At : MemoryGateway::Transport::Lt;
+        options.memory.transport = i == 2 ? Transport::At : Transport::Lt;
         platforms.push_back(std::make_unique<Platform>(
             name.c_str(), config, cloud,
             std::make_unique<PlainMemory>((name + "_memory").c_str(), kMemoryBytes,

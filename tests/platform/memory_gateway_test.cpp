@@ -81,7 +81,7 @@ TEST(SmallRunMemoryGatewayScattered, SendsOneOrdinaryTransactionPerRun) {
         at_memory.bytes[i] = i / 16 & 0xFFU;
     }
     MemoryGateway::Options four_phases;
-    four_phases.transport = MemoryGateway::Transport::At;
+    four_phases.transport = Transport::At;
     four_phases.burst_bytes = 32;
     MemoryGateway lt("lt", MemoryGateway::Options());
     MemoryGateway at("at", four_phases);

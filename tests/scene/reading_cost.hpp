@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 
 namespace degs::test {
 

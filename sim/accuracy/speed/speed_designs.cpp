@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "base/error.hpp"
 #include "config/config_document.hpp"
+#include "degs/error.hpp"
 #include "sim/accuracy/speed/speed.hpp"
 #include "splat/pixels/data_path.hpp"
 

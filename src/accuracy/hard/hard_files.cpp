@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "accuracy/hard/hard_builder.hpp"
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/ply/ply.hpp"
 
 namespace degs {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/hard/hard_builder.hpp"
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/gltf/gltf.hpp"
 #include "splat/model/spherical_harmonics.hpp"
 #include "splat/transform/cloud_transform.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "splat/model/angles.hpp"
 
 namespace degs {

@@ -17,7 +17,7 @@
 #include <png.h>
 #include <zlib.h>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/files/input_file.hpp"
 #include "scene/files/output_file.hpp"
 

@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-#include "base/error.hpp"
 #include "base/visible_text.hpp"
 #include "config/input_files.hpp"
 #include "config/nearby_file.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 namespace {

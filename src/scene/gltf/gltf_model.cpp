@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/error.hpp"
 #include "base/visible_text.hpp"
+#include "degs/error.hpp"
 #include "scene/files/input_file.hpp"
 
 namespace degs {

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <set>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/synthetic/synthetic_build.hpp"
 
 namespace degs {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/cameras/orbit_camera.hpp"
 #include "scene/scene_statistics.hpp"
 #include "splat/model/angles.hpp"

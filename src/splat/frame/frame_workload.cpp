@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "base/error.hpp"
 #include "base/grouped_number.hpp"
 #include "base/parallel.hpp"
+#include "degs/error.hpp"
 #include "splat/frame/tile_cover.hpp"
 
 namespace degs {

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <string>
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/ratio.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.hpp"
 #include "base/ratio.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 namespace {

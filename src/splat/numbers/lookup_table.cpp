@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Number sets by name.
-#include "base/error.hpp"
 #include "config/config_source.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "splat/numbers/number_set.hpp"
 
 namespace degs {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "base/error.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 namespace {

@@ -2,8 +2,8 @@
 // Numbers of a data path by name.
 #include <algorithm>
 
-#include "base/error.hpp"
 #include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "splat/numbers/number_set.hpp"
 #include "splat/pixels/data_path.hpp"
 

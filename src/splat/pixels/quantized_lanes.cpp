@@ -6,7 +6,7 @@
 #include <cstring>
 #include <limits>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "splat/numbers/instruction_set.hpp"
 
 #ifdef DEGS_HAS_WIDE_LANES

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "splat/model/angles.hpp"
 
 namespace degs {

@@ -10,8 +10,8 @@
 #include <tlm_utils/simple_initiator_socket.h>
 #include <tlm_utils/simple_target_socket.h>
 
-#include <modules/degs/config.hpp>
-#include <platform/accelerator.hpp>
+#include <degs/accelerator.hpp>
+#include <degs/registers.hpp>
 
 namespace {
 
@@ -86,7 +86,7 @@ struct Driver : sc_core::sc_module {
 } // namespace
 
 int sc_main(int, char**) {
-    degs::Accelerator accelerator("accelerator", degs::DegsConfig());
+    degs::Accelerator accelerator("accelerator", degs::Design());
     Memory memory("memory");
     Driver driver("driver");
     sc_core::sc_signal<bool> irq;

@@ -126,7 +126,7 @@ TEST_P(MonitoredAccelerators, KeepsToTheProtocolWithFourPhases) {
                                 Ending::AnswerAtOnce, Ending::Completed, Ending::Mixed}) {
         for (const bool out_of_order : {false, true}) {
             MemoryGateway::Options way = ways[platforms.size() % std::size(ways)];
-            way.transport = MemoryGateway::Transport::At;
+            way.transport = Transport::At;
             way.outstanding = out_of_order ? 64 : 3;
             const std::string name = "at_" + std::to_string(platforms.size());
             At at;

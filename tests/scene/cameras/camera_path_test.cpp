@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/cameras/orbit_camera.hpp"
 
 namespace degs {

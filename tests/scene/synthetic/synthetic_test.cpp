@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/dynamic/synthetic_dynamic.hpp"
 #include "scene/synthetic/synthetic_random.hpp"
 #include "splat/frame/frame_workload.hpp"

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <map>
 
-#include "base/error.hpp"
 #include "config/config_document.hpp"
 #include "config/config_source.hpp"
+#include "degs/error.hpp"
 #include "sim/config/config_difference.hpp"
 #include "sim/simulation/run_config.hpp"
 #include "tests/sim/process/child.hpp"

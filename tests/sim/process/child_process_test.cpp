@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "sim/process/stopping_signals.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "tests/sim/process/child.hpp"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "sim/simulation/run_config.hpp"
 #include "tests/sim/process/child.hpp"
 #include "tests/sim/report/advised_keys.hpp"

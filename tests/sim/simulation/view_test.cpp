@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "sim/simulation/view.hpp"
 
 namespace degs::sim {

@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
 #include "config/config.hpp"
+#include "degs/error.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim {

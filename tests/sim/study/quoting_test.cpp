@@ -5,8 +5,8 @@
 
 #include <gmock/gmock.h>
 
-#include "base/error.hpp"
 #include "base/visible_text.hpp"
+#include "degs/error.hpp"
 #include "sim/plot/svg.hpp"
 #include "sim/results/result_words.hpp"
 #include "sim/results/run_summary.hpp"

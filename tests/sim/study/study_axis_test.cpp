@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "scene/scene.hpp"
 #include "sim/cache/digest.hpp"
 #include "sim/sweep/study_plan.hpp"

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "tests/splat/frame/brute_force.hpp"
 
 namespace degs {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "splat/model/camera.hpp"
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "tests/splat/frame/brute_force.hpp"
 
 namespace degs {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 namespace {

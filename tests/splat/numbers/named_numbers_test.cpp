@@ -2,8 +2,8 @@
 // Numbers by name, and splats that no format holds.
 #include <cmath>
 
-#include "base/error.hpp"
 #include "config/config_document.hpp"
+#include "degs/error.hpp"
 #include "tests/splat/pixels/quantized_fixture.hpp"
 
 namespace degs {

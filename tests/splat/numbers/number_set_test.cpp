@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
 #include "config/config_document.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "tests/splat/pixels/data_path_fixture.hpp"
 
 namespace degs {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 

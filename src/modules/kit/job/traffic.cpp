@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/kit/job/traffic.hpp"
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 
 namespace degs {
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <random>
 
-#include "base/error.hpp"
+#include "degs/error.hpp"
 #include "tests/modules/degs/run_fixture.hpp"
 
 namespace degs {

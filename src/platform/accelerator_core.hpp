@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <memory>
+
+#include "degs/accelerator.hpp"
+#include "modules/kit/accelerator/render_engine.hpp"
+#include "platform/accelerator_request.hpp"
+#include "platform/memory_gateway.hpp"
+#include "platform/scene_copy.hpp"
+
+namespace degs {
+
+/// What is behind the sockets of degs::Accelerator, whose header names nothing of this project's inside.
+class AcceleratorCore {
+public:
+    /// `shell` must outlive it, and is under construction: blocks become its children.
+    AcceleratorCore(Accelerator& shell, const AcceleratorConfig& config,
+                    const AcceleratorOptions& options);
+
+    /// With the frequency of the bound clock, if any, from the end of elaboration on.
+    const AcceleratorConfig& config() const { return *config_; }
+    /// When nothing is left to happen, before the timeline is read.
+    void complete_timeline();
+
+    // What the shell is called for.
+    void end_of_elaboration();
+    void start_of_simulation();
+    void trace(sc_core::sc_trace_file* file) const;
+    void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay);
+    unsigned int debug(tlm::tlm_generic_payload& payload);
+    void run();
+    void drive_irq();
+    void begin_stop();
+    const sc_core::sc_event& irq_changed() const { return irq_changed_; }
+    const sc_core::sc_event& stop_requested() const { return stop_requested_; }
+
+private:
+    std::unique_ptr<AcceleratorConfig> checked(const AcceleratorConfig& config) const;
+    const AcceleratorOptions& checked(const AcceleratorOptions& options) const;
+    sc_core::sc_time checked_period() const;
+    void follow_clock();
+    static tlm::tlm_response_status check_access(const tlm::tlm_generic_payload& payload);
+    tlm::tlm_response_status write(std::uint32_t offset, std::uint32_t value,
+                                   const sc_core::sc_time& delay);
+    void command(std::uint32_t bits, const sc_core::sc_time& delay);
+
+    /// Why the present frame, if there is one, is given up.
+    enum class Stop { None, Abort, Reset };
+    void request_stop(Stop why);
+    void end_stop();
+    void await_rest();
+    bool held_in_reset() const { return shell_.reset_n.size() != 0 && !shell_.reset_n->read(); }
+
+    AcceleratorFault serve();
+    AcceleratorFault prepare();
+    AcceleratorFault make_workload();
+    AcceleratorFault render();
+    void count_frame(Cycle started, const MemoryTraffic& before);
+    void end_frame(const AcceleratorFault& fault);
+    void set_status(std::uint32_t set, std::uint32_t clear);
+
+    Accelerator& shell_;
+    std::unique_ptr<AcceleratorConfig> config_;
+    AcceleratorOptions options_;
+    ClockMapping mapping_;
+    Timebase time_;
+    AcceleratorRegisters registers_;
+    struct { // for trace()
+        bool busy = false, in_reset = false, irq = false;
+    } lines_;
+    AcceleratorRequest request_;     // of the present frame
+    AcceleratorFault request_fault_; // likewise: why it cannot be served, if so
+    SceneCopy scene_;
+    bool scene_changed_ = false;
+    std::deque<FrameWorkload> workloads_;
+    RenderJob job_;
+    Process self_;
+    DatedFifo<std::uint32_t> finished_;
+    MemoryGateway gateway_;
+    std::unique_ptr<RenderEngine> engine_;
+    bool started_ = false; // a start waits for its date, or is being served
+    Stop stop_ = Stop::None;
+    sc_core::sc_event work_; // of run(), at the date of a start or a stop
+    sc_core::sc_event stop_requested_, irq_changed_;
+};
+
+} // namespace degs
