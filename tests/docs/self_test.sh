@@ -15,11 +15,12 @@ clean_tree() {
     cp "$here/../../scripts/site_hook.py" "$tree/scripts/"
     cp "$here/documents.py" "$tree/tests/docs/"
     echo 'int a;' >"$tree/src/a.cpp"
-    printf '# Front\n\n[page](docs/page.md#part) and [source](src/a.cpp)\n' >"$tree/README.md"
+    printf '%s\n' '# Front' '' '[page](docs/page.md#part) and [source](src/a.cpp)' '' '## Where to read on' '' \
+        '* **Start**: [page](docs/page.md), [changes](CHANGELOG.md).' >"$tree/README.md"
     echo '# Changes' >"$tree/CHANGELOG.md"
     printf '# Page\n\n## Part\n\n[source](../src/a.cpp) [folder](../src) [front](../README.md)\n' >"$tree/docs/page.md"
     printf '%s\n' 'site_name: test' 'use_directory_urls: false' 'hooks: [scripts/site_hook.py]' \
-        'theme: {name: material, font: false}' 'nav: [index.md, page.md, changelog.md]' >"$tree/mkdocs.yml"
+        'theme: {name: material, font: false}' >"$tree/mkdocs.yml"
 }
 
 # finds FILE TEXT REASON: after TEXT is appended to FILE, the check must fail and say REASON.
@@ -70,7 +71,15 @@ finds docs/page.md '[gone](../src/gone.cpp)' gone.cpp
 finds README.md '[gone](docs/page.md#gone)' 'names an anchor that does not exist'
 finds docs/page.md '![far](https://example.org/a.png)' 'from another host'
 finds docs/alone.md '# Alone' 'the navigation does not reach it'
-finds docs/alone.md '# Alone' 'README.md does not link it'
+
+# A page that only a sentence links is not in the list from which the navigation is made.
+clean_tree
+echo '# Alone' >"$tree/docs/alone.md"
+sed -i '3s|$|, [alone](docs/alone.md)|' "$tree/README.md"
+if output=$("$here/site_check.sh" "$tree" 2>&1) || ! grep -qF 'the navigation does not reach it' <<<"$output"; then
+    echo "site_check.sh missed a page that README.md links outside of its list; it said: $output"
+    failures=$((failures + 1))
+fi
 
 finds_command '' '```console' '$ degs run' one 'host 5 s' '```' 'and `degs run --set a=b`'
 finds_command '' '<!-- slow -->' '```sh' 'degs gone' '```'
