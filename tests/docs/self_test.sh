@@ -80,6 +80,12 @@ if output=$("$here/site_check.sh" "$tree" 2>&1) || ! grep -qF 'the navigation do
     echo "site_check.sh missed a page that README.md links outside of its list; it said: $output"
     failures=$((failures + 1))
 fi
+clean_tree
+sed -i '/Start/d' "$tree/README.md"
+if output=$("$here/site_check.sh" "$tree" 2>&1) || ! grep -qF 'README.md needs groups of pages' <<<"$output"; then
+    echo "site_check.sh missed a README.md without a list of pages; it said: $output"
+    failures=$((failures + 1))
+fi
 
 finds_command '' '```console' '$ degs run' one 'host 5 s' '```' 'and `degs run --set a=b`'
 finds_command '' '<!-- slow -->' '```sh' 'degs gone' '```'
