@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# reproduction.sh [FOLDER]: tables of docs/scaling.md (arrays alone) and docs/reproduction.md (whole accelerators, and
+# reproduction.sh [FOLDER]: tables of docs/results.md (arrays alone) and docs/reproduction.md (whole accelerators, and
 # checks against other publications), measured with build/release/sim/degs on the trained scenes in DEGS_SCENES (default
 # ../shared/scenes). Every comparison stays in FOLDER with its reports. scripts/figures.py has the paper's figures.
 set -euo pipefail

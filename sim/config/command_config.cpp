@@ -9,6 +9,7 @@
 #include "degs/error.hpp"
 #include "sim/config/config_difference.hpp"
 #include "sim/config/cost_output.hpp"
+#include "sim/config/shared_keys.hpp"
 #include "sim/config/statistics_list.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/simulation/run_config.hpp"
@@ -27,8 +28,9 @@ struct ConfigOptions {
     std::vector<std::string> different; ///< two configurations to be compared
     bool cost = false;
     bool stats = false;
-    std::string of = "run"; ///< the command whose statistics are listed
-    std::string section;    ///< of the statistics
+    std::string keys = "all"; ///< the part of the keys that is listed
+    std::string of = "run";   ///< the command whose statistics are listed
+    std::string section;      ///< of the statistics
 };
 
 /// path = value
@@ -140,12 +142,43 @@ void run(const ConfigOptions& options) {
     } else if (options.stats) {
         print(statistics(config, options));
     } else if (options.format == "markdown") {
-        print(markdown_table(document(config)));
-    } else if (options.format == "yaml") {
-        print(file_text(config, options));
+        print(markdown_table(keys_of_part(document(config), options.keys)));
+    } else if (options.format == "text") {
+        print(text(keys_of_part(document(config), options.keys)));
+    } else if (options.keys != "all") {
+        throw InputError("--keys has the formats text and markdown; 'yaml' writes a file with all "
+                         "keys.");
     } else {
-        print(text(document(config)));
+        print(file_text(config, options));
     }
+}
+
+/// Adds --stats and the options that go with it; returns --stats.
+CLI::Option* add_statistics_options(CLI::App* command, ConfigOptions& options) {
+    CLI::Option* stats =
+        command->add_flag("--stats", options.stats,
+                          "the statistics that a run on this accelerator reports, with units and "
+                          "meanings");
+    command->add_option("--of", options.of, "the command whose statistics are listed")
+        ->check(CLI::IsMember({"run", "compare", "memory"}))
+        ->capture_default_str()
+        ->needs(stats);
+    command
+        ->add_option("--section", options.section,
+                     "a part of the statistics: stages, stages.span or timing.cycles")
+        ->type_name("PATH")
+        ->needs(stats);
+    return stats;
+}
+
+/// Adds the option that lists only a part of the keys.
+CLI::Option* add_keys_option(CLI::App* command, ConfigOptions& options) {
+    return command
+        ->add_option("--keys", options.keys,
+                     "which keys are listed; shared: those that all accelerators have with the "
+                     "same default, range and meaning; own: all others of the accelerator")
+        ->check(CLI::IsMember(key_parts()))
+        ->capture_default_str();
 }
 
 } // namespace
@@ -191,20 +224,10 @@ void add_config_command(CLI::App& program) {
             ->capture_default_str();
     CLI::Option* cost = command->add_flag(
         "--cost", options->cost, "area and power of every block of the design, without a run");
-    CLI::Option* stats =
-        command->add_flag("--stats", options->stats,
-                          "the statistics that a run on this accelerator reports, with units and "
-                          "meanings");
+    CLI::Option* stats = add_statistics_options(command, *options);
     stats->excludes(cost);
-    command->add_option("--of", options->of, "the command whose statistics are listed")
-        ->check(CLI::IsMember({"run", "compare", "memory"}))
-        ->capture_default_str()
-        ->needs(stats);
-    command
-        ->add_option("--section", options->section,
-                     "a part of the statistics: stages, stages.span or timing.cycles")
-        ->type_name("PATH")
-        ->needs(stats);
+    CLI::Option* keys = add_keys_option(command, *options);
+    keys->excludes(stats)->excludes(cost)->excludes(diff)->excludes(pes);
     diff->excludes(stats)->excludes(cost);
     pes->excludes(stats);
     command->callback([options, file, pes, format] {

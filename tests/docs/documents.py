@@ -207,6 +207,13 @@ def mistakes_in_text(page, known):
                     yield f"{place}: 'degs {command}' has no option {option}"
 
 
+def missing_commands(page, known):
+    """Commands of the program that the page, which lists them, does not name."""
+    for command in sorted(set(known) - {"help"}):
+        if f"`{command}`" not in page.read_text():
+            yield f"{page.relative_to(ROOT)}:1: the list of commands has no `{command}`"
+
+
 def mistakes_of_form(page):
     """Commands in indented blocks, which nobody would try, and prose that is not wrapped."""
     fence = False
@@ -231,7 +238,8 @@ def main():
     if options.slow and not os.environ.get("DEGS_SCENES"):
         sys.exit("slow commands need the trained scenes: set DEGS_SCENES to their folder")
     pages = [page.resolve() for page in options.pages] or [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-    known, reasons, tried = helps(program), [], 0
+    known, tried = helps(program), 0
+    reasons = [*missing_commands(ROOT / "README.md", known)] if ROOT / "README.md" in pages else []
     for page in pages:
         reasons += [*mistakes_in_text(page, known), *mistakes_of_form(page)]
         found, count = try_page(page, program, options)
