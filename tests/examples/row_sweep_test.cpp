@@ -1,24 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 // The worked example of docs/adding-an-accelerator.md keeps every promise that an accelerator of
 // this project has to keep.
-#include "tests/baselines/row_sweep.hpp"
+#include "config.hpp"
+
+#include <cmath>
 
 #include "config/config_source.hpp"
+#include "modules/kit/analytic/analytic_frame.hpp"
 #include "splat/images/image_metrics.hpp"
 #include "tests/baselines/engine_run.hpp"
 
 namespace degs {
 namespace {
 
-using example::RowSweepConfig;
+using row_sweep::Config;
 using test::EngineRun;
 
-class RowSweep : public ::testing::TestWithParam<int> {};
+Config design(const std::vector<std::string>& settings) {
+    Config config;
+    ConfigSource::from_overrides(settings).load(config);
+    return config;
+}
+
+/// Side of a tile, arrays, and whether rows that have ended take no slot.
+using Size = std::tuple<int, int, bool>;
+
+class RowSweep : public ::testing::TestWithParam<Size> {};
 
 TEST_P(RowSweep, PaintsTheReferenceAndStrictAgrees) {
-    const FrameWorkload frame = test::random_frame(7, 70, 50, GetParam(), 200);
-    RowSweepConfig config;
-    config.tile_size = GetParam();
+    const auto [side, arrays, skips] = GetParam();
+    const FrameWorkload frame = test::random_frame(7, 70, 50, side, 200);
+    const Config config =
+        design({"tile_size=" + std::to_string(side), "arrays.count=" + std::to_string(arrays),
+                "pixel_buffer.bytes=32768", skips ? "arrays.skip_ended=true" : "name=x"});
     const EngineRun exact("exact", config, {&frame});
     const EngineRun strict("strict", config, {&frame}, Fidelity::Strict);
     const EngineRun alone("alone", config, {&frame}, Fidelity::Exact, {true});
@@ -31,14 +45,16 @@ TEST_P(RowSweep, PaintsTheReferenceAndStrictAgrees) {
     const Image reference = render_reference(frame, counts);
     EXPECT_GT(compare_images(reference, exact.image()).psnr_db, 100);
 }
-INSTANTIATE_TEST_SUITE_P(Tiles, RowSweep, ::testing::Values(8, 16, 32));
+INSTANTIATE_TEST_SUITE_P(Sizes, RowSweep,
+                         ::testing::Values(Size{8, 1, false}, Size{16, 4, false}, Size{16, 3, true},
+                                           Size{32, 2, true}));
 
 // A splat over the whole tile takes a slot for each of its 16 rows, one of a single pixel takes
-// one; all 16 lanes are busy in each.
+// one; all 16 PEs are busy in each.
 TEST(RowSweepSlots, TakesARowPerCycle) {
     const FrameWorkload frame =
         test::make_frame({test::blanket(8, 8, 16), test::one_pixel(3, 3)}, 16, 16, 16);
-    const EngineRun run("run", RowSweepConfig{}, {&frame}, Fidelity::Exact, {true});
+    const EngineRun run("run", design({"arrays.count=1"}), {&frame}, Fidelity::Exact, {true});
     sc_core::sc_start();
     const AcceleratorResult result = run.result();
     EXPECT_EQ(result.window.cycles(), 16U + 1U);
@@ -47,10 +63,10 @@ TEST(RowSweepSlots, TakesARowPerCycle) {
 }
 
 TEST(RowSweepConfiguration, IsConfiguredLikeAnyOther) {
-    RowSweepConfig config;
-    ConfigSource::from_overrides({"tile_size=32", "memory.latency_ns=7"}).load(config);
-    EXPECT_EQ(config.pes(), 32);
-    EXPECT_THROW(ConfigSource::from_overrides({"tile_sise=32"}).load(config), InputError);
+    const Config config = design({"tile_size=32", "pixel_buffer.bytes=16384"});
+    EXPECT_EQ(config.pes(), 4 * 32);
+    EXPECT_THROW(design({"tile_sise=32"}), InputError);
+    EXPECT_THROW(design({"tile_size=32"}), InputError) << "no tile fits";
 }
 
 } // namespace
