@@ -3,10 +3,7 @@
 // this project has to keep.
 #include "config.hpp"
 
-#include <cmath>
-
 #include "config/config_source.hpp"
-#include "modules/kit/analytic/analytic_frame.hpp"
 #include "splat/images/image_metrics.hpp"
 #include "tests/baselines/engine_run.hpp"
 
@@ -48,6 +45,28 @@ TEST_P(RowSweep, PaintsTheReferenceAndStrictAgrees) {
 INSTANTIATE_TEST_SUITE_P(Sizes, RowSweep,
                          ::testing::Values(Size{8, 1, false}, Size{16, 4, false}, Size{16, 3, true},
                                            Size{32, 2, true}));
+
+// What maps and timelines show of the tiles adds up to the slots of the run.
+TEST(RowSweepSlots, AreThoseOfTheTiles) {
+    const FrameWorkload frame = test::random_frame(7, 70, 50, 16, 200);
+    const Config config = design({"arrays.count=3", "pixel_buffer.readout_pixels=1"});
+    const Timebase time{ClockDomain(config.clock_ghz)};
+    RenderJob job = make_render_job({&frame}, config);
+    job.recorder = std::make_unique<SlotRecorder>(nullptr);
+    const auto engine = config.build("run", time, job, {});
+    sc_core::sc_start();
+    job.recorder->close();
+    AcceleratorResult result;
+    engine->collect(result);
+    SlotAccount sum;
+    for (const TileActivity& tile : job.recorder->tiles()) {
+        sum += tile.slots;
+    }
+    for (const SlotClass& each : kSlotClasses) {
+        EXPECT_EQ(sum[each.slot], result.slots[each.slot]) << each.name;
+    }
+    EXPECT_GT(sum[Slot::Blocked], 0U);
+}
 
 // A splat over the whole tile takes a slot for each of its 16 rows, one of a single pixel takes
 // one; all 16 PEs are busy in each.
