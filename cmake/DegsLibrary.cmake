@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # One place for the flags that every target of the project shares.
 add_library(degs_flags INTERFACE)
+add_library(degs::flags ALIAS degs_flags)
 target_compile_features(degs_flags INTERFACE cxx_std_17)
 # No contraction: results must not depend on whether the machine has fused multiply-add. For the same
 # reason the baseline architecture is a fixed one, never -march=native; x86-64-v2 (2009: popcnt, SSE4)

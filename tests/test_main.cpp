@@ -15,7 +15,7 @@ const int kNoCache = ::setenv("DEGS_CACHE", "", 1);
 } // namespace
 
 #ifdef __SANITIZE_ADDRESS__
-/// As in sim/main.cpp: the leak sanitizer cannot read the stacks of SystemC's threads.
+/// As in sim/main_function.cpp: the leak sanitizer cannot read the stacks of SystemC's threads.
 extern "C" int __lsan_is_turned_off() { // NOLINT(bugprone-reserved-identifier)
     return sc_core::sc_start_of_simulation_invoked() ? 1 : 0;
 }

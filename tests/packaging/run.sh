@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # run.sh BUILD COMPILER [PROGRAM]: the ways in which another project uses DeGS.
-# 1. find_package: installs a build into a folder of its own, moves it elsewhere, and builds and runs outside/ and shadow/,
-#    which know nothing but the prefix, with COMPILER and with clang++. shadow/ has headers of its own with the names of
-#    ours. The libraries must have been built. The installed
+# 1. find_package: installs a build into a folder of its own, moves it elsewhere, and builds and runs outside/ and
+#    shadow/, which know nothing but the prefix, with COMPILER and with clang++. shadow/ has headers of its own with the
+#    names of ours. The libraries must have been built. The installed
 #    example must give the image of PROGRAM, and the snippet of docs/accelerator.md must compile.
 # 2. pkg-config: compiles and links embedded/main.cpp with what degs.pc says.
 # 3. add_subdirectory: builds and runs embedded/ with a SystemC of its own: headers and library under a prefix, which

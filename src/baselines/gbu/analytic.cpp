@@ -94,22 +94,15 @@ void Clock::splat(const CoarseTile& tile) {
 }
 
 TileCycles Clock::end(const CoarseTile& tile) {
-    const FrontEndLoad& front = model_.front();
-    const double entries = tile.entries(), walked = tile.walked();
     double last = generated_;
     for (const RowPe& pe : pes_) {
         last = std::max(last, pe.free);
     }
-    TileCycles cycles;
+    TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
     cycles.slots = slots_ * tile.rows_per_drawn();
-    cycles.fragments = tile.fragments();
-    cycles.bytes = front.tile_bytes(entries, walked, tile.pixels());
-    cycles.walked = walked;
-    cycles.busy[kSortingUnits] = model_.sort_cycles(entries, walked).all / model_.sorters();
-    cycles.busy[Analytic::kGeneration] = walked / model_.engines();
+    cycles.busy[Analytic::kGeneration] = tile.walked() / model_.engines();
     cycles.busy[Analytic::kBlending] = cycles.slots / model_.pes();
-    cycles.busy[Analytic::kMemory] = front.memory.cycles(cycles.bytes);
-    cycles.time = std::max(last, front.fetch_cycles(walked));
+    cycles.time = std::max(last, cycles.time);
     return cycles;
 }
 

@@ -8,12 +8,7 @@
 namespace degs::gbu {
 
 void Engine::collect_slots(AcceleratorResult& result) const {
-    for (const auto& engine : engines_) {
-        add_slots(result, engine->stats().slots, engine->stats().window);
-    }
-    for (const auto& engine : engines_) {
-        close_slots(result, engine->stats().window, config_.engines.row_pes);
-    }
+    add_array_slots(result, engines_, config_.engines.row_pes);
 }
 
 void Engine::collect_stages(AcceleratorResult& result) const {

@@ -93,12 +93,7 @@ void Engine::collect_idle_keys(AcceleratorResult& result) const {
 }
 
 void Engine::collect_slots(AcceleratorResult& result) const {
-    for (const auto& array : arrays_) {
-        add_slots(result, array->stats().slots, array->stats().window);
-    }
-    for (const auto& array : arrays_) {
-        close_slots(result, array->stats().window, config_.array.pes());
-    }
+    add_array_slots(result, arrays_, config_.array.pes());
 }
 
 void Engine::collect_stages(AcceleratorResult& result) const {

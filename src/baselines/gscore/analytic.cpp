@@ -105,17 +105,10 @@ void Clock::splat(const CoarseTile& tile) {
 }
 
 TileCycles Clock::end(const CoarseTile& tile) {
-    const FrontEndLoad& front = model_.front();
-    const double entries = tile.entries(), walked = tile.walked();
-    TileCycles cycles;
+    TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
     cycles.slots = passes_ * model_.config().array.lanes;
-    cycles.fragments = tile.fragments();
-    cycles.bytes = front.tile_bytes(entries, walked, tile.pixels());
-    cycles.walked = walked;
-    cycles.busy[kSortingUnits] = model_.sort_cycles(entries, walked).all / model_.sorters();
     cycles.busy[Analytic::kBlending] = passes_ / model_.engines();
-    cycles.busy[Analytic::kMemory] = front.memory.cycles(cycles.bytes);
-    cycles.time = std::max(passes_, front.fetch_cycles(walked));
+    cycles.time = std::max(passes_, cycles.time);
     return cycles;
 }
 

@@ -22,12 +22,7 @@ void Engine::collect_array(AcceleratorResult& result) const {
 }
 
 void Engine::collect_slots(AcceleratorResult& result) const {
-    for (const auto& array : arrays_) {
-        add_slots(result, array->stats().slots, array->stats().window);
-    }
-    for (const auto& array : arrays_) {
-        close_slots(result, array->stats().window, config_.array.lanes);
-    }
+    add_array_slots(result, arrays_, config_.array.lanes);
 }
 
 void Engine::collect_laws(AcceleratorResult& result) const {

@@ -61,7 +61,6 @@ std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload&) const {
 
 TileCycles Clock::end(const CoarseTile& tile) {
     const Config& config = model_.config();
-    const FrontEndLoad& front = model_.front();
     const VectorUnit::Config& vector = config.cores.vector;
     const double entries = tile.entries();
     const double batch = config.fetching.chunk;
@@ -78,17 +77,12 @@ TileCycles Clock::end(const CoarseTile& tile) {
         return vector.coefficient_cycles(splats) +
                vector.blend_cycles(std::uint64_t{1} * splats * config.tile_area());
     });
-    const double fetched = whole * batch + rest;
-    TileCycles cycles;
+    TileCycles cycles = model_.front_end_cycles(tile, whole * batch + rest);
     cycles.slots = array * config.cores.array.macs();
-    cycles.fragments = tile.fragments() * kGemmDepth;
-    cycles.bytes = front.tile_bytes(entries, fetched, tile.pixels());
-    cycles.walked = fetched;
-    cycles.busy[kSortingUnits] = model_.sort_cycles(entries, fetched).all / model_.sorters();
+    cycles.fragments *= kGemmDepth;
     cycles.busy[Analytic::kArray] = array / model_.engines();
     cycles.busy[Analytic::kVector] = blending / model_.engines();
-    cycles.busy[Analytic::kMemory] = front.memory.cycles(cycles.bytes);
-    cycles.time = std::max({array, blending, front.fetch_cycles(fetched)});
+    cycles.time = std::max({array, blending, cycles.time});
     return cycles;
 }
 

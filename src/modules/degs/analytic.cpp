@@ -248,7 +248,6 @@ double DegsClock::with_other_streams(double alone, double shared) const {
 }
 
 TileCycles DegsClock::end(const CoarseTile& tile) {
-    const FrontEndLoad& front = model_.front();
     const double left = tile.entries() - tile.walked();
     double done = 0;
     for (const Bank& bank : banks_) {
@@ -261,13 +260,8 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
         done + config_.array.writeback_cycles + tile.pixels() / config_.pixel_buffer.readout_pixels;
     ++tiles_;
     const double drawn = tile.rows_per_drawn();
-    TileCycles cycles;
-    cycles.bytes = front.tile_bytes(tile.entries(), tile.walked(), tile.pixels());
+    TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
     cycles.slots = drawn * tasks_;
-    cycles.fragments = tile.fragments();
-    cycles.walked = tile.walked();
-    cycles.busy[kSortingUnits] =
-        model_.sort_cycles(tile.entries(), tile.walked()).all / config_.sorting.count;
     cycles.busy[DegsAnalytic::kSlicing] = slices_ / (config_.clusters * config_.slicing.count);
     cycles.busy[DegsAnalytic::kSpan] = rows_ * config_.span.cycles_per_row /
                                        config_.span.rows_per_cycle /
@@ -275,9 +269,8 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
     cycles.busy[DegsAnalytic::kPacking] = drawn * segments_ / config_.scheduler.issue_width /
                                           (config_.clusters * config_.scheduler.banks);
     cycles.busy[DegsAnalytic::kBlending] = cycles.slots / config_.pes();
-    cycles.busy[DegsAnalytic::kMemory] = front.memory.cycles(cycles.bytes);
     cycles.time = with_other_streams(
-        std::max(sliced_ - last_end_, front.fetch_cycles(tile.walked())),
+        std::max(sliced_ - last_end_, cycles.time),
         config_.clusters * *std::max_element(cycles.busy.begin() + DegsAnalytic::kSpan,
                                              cycles.busy.begin() + DegsAnalytic::kMemory));
     last_end_ += cycles.time;

@@ -74,8 +74,8 @@ struct PixelSearch {
         false; ///< rows are those that the ellipse has inside the tile, not all of the box
 };
 
-/// The configuration of any accelerator. A new accelerator derives one of these and joins
-/// accelerator_kinds(); docs/adding-an-accelerator.md is a worked example.
+/// The configuration of any accelerator. A new accelerator derives one of these and is
+/// registered with add_accelerator(); docs/adding-an-accelerator.md is a worked example.
 struct AcceleratorConfig {
     std::string name;
     double clock_ghz = 1.0;

@@ -71,6 +71,18 @@ public:
         return front_.memory.writes(pixels * front_.traffic.pixel_bytes, memory_unit_);
     }
     const FrontEndLoad& front() const { return front_; }
+    /// What a tile takes of the front end and of memory if `walked` splats of its list are fetched; the array is left
+    /// to the model.
+    TileCycles front_end_cycles(const CoarseTile& tile, double walked) const {
+        TileCycles cycles;
+        cycles.walked = walked;
+        cycles.fragments = tile.fragments();
+        cycles.bytes = front_.tile_bytes(tile.entries(), walked, tile.pixels());
+        cycles.busy[kSortingUnits] = sort_cycles(tile.entries(), walked).all / sorters();
+        cycles.busy[memory_unit_] = front_.memory.cycles(cycles.bytes);
+        cycles.time = front_.fetch_cycles(walked);
+        return cycles;
+    }
 
 protected:
     /// `chunks` of splats are fetched ahead of the array.

@@ -91,6 +91,16 @@ void add_pixel_buffer(AcceleratorResult& result, std::int64_t bytes, int context
 /// its cycles between the window of all and its own counted.
 void add_slots(AcceleratorResult& result, const SlotAccount& slots, const ActiveWindow& window);
 void close_slots(AcceleratorResult& result, const ActiveWindow& window, std::uint64_t width);
+/// Both for `arrays` whose stats() have slots and a window.
+template <class Arrays>
+void add_array_slots(AcceleratorResult& result, const Arrays& arrays, std::uint64_t width) {
+    for (const auto& array : arrays) {
+        add_slots(result, array->stats().slots, array->stats().window);
+    }
+    for (const auto& array : arrays) {
+        close_slots(result, array->stats().window, width);
+    }
+}
 /// Adds the work that empty and finished tiles saved, for --explain.
 void explain_tiles(AcceleratorResult& result, std::uint64_t records_cancelled);
 
