@@ -8,38 +8,41 @@
 namespace degs {
 
 void DrawnBank::run() {
-    DatedFifo<Termination>& terminations = *bank_.terminations_;
-    for (bool over = bank_.over(); !over;) {
+    for (bool over = this->over(); !over;) {
         now_ = self_.local();
-        if (!terminations.empty() && terminations.head_date() <= now_) {
+        if (!terminations_.empty() && terminations_.head_date() <= now_) {
             end_pixels();
         }
-        if (bank_.contexts_owed_) {
+        if (contexts_owed_) {
             see_contexts();
         }
         accept();
         const int issued = issue();
-        if (bank_.closing_ != 0) {
+        if (closing_ != 0) {
             finish_tiles();
         }
-        over = bank_.over();
-        if (open() && next_slot_ - latency_ <= now_) {
+        over = this->over();
+        if (packet_.due(now_)) {
             send_part(idle_cause());
         }
         Cycle next = now_ + 1;
         if (over) {
-            next = open() ? std::max(next_slot_ - latency_, next) : next;
+            const Cycle open = packet_.open_until();
+            next = open == kNever ? next : std::max(open, next);
         } else if (issued == 0 && !(left_ > 0 && free_ != nullptr)) {
             next = next_date();
         } // else work is left, whatever arrives
-        close_cycles(next);
+        if (packet_.leaves_slots(next)) {
+            packing_.count_idle_later(idle_cause(), packet_.left_slots(now_, next));
+            idle_pending_ = true;
+        }
         self_.advance_to(next);
     }
     now_ = self_.local();
-    if (open()) {
+    if (packet_.open()) {
         send_part(Slot::Starved);
     }
-    if (bank_.config_.granted) {
+    if (config_.granted) {
         packing_.end_tile(self_, kNoTile, 0);
     }
     self_.finish();
@@ -77,14 +80,14 @@ inline __attribute__((always_inline)) bool DrawnBank::open_span() {
             enter_tile(number);
         }
         if (row) {
-            const int domain = bank_.segmenter_.domain_of(span.row, span.drawn.x0);
+            const int domain = segmenter_.domain_of(span.row, span.drawn.x0);
             cut_ = tile_at(stream_.entering).first + domain;
-            column_ = bank_.segmenter_.domains()[domain].column;
+            column_ = segmenter_.domains()[domain].column;
             low_ = std::uint64_t{1} << (span.drawn.x0 - column_);
             left_ = span.drawn.x0 + span.drawn.length - column_;
             drawn_ = span.drawn;
-            bank_.stats_.spans++;
-            bank_.stats_.tasks_in += span.drawn.length;
+            stats_.spans++;
+            stats_.tasks_in += span.drawn.length;
             --spans_left_;
         }
         spans_.drop(now_);
@@ -92,7 +95,7 @@ inline __attribute__((always_inline)) bool DrawnBank::open_span() {
             return true;
         }
         ++input_.turn;
-        bank_.take_end(stream_, number, now_);
+        take_end(number);
     }
     return false;
 }
@@ -103,7 +106,7 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
     const std::uint64_t high = std::uint64_t{1} << std::min(left_, segment_length_);
     const auto mask = static_cast<std::uint32_t>(high - low_);
     if ((mask & place.live) == 0) {
-        bank_.drop(mask);
+        stats_.drop(mask);
     } else {
         Waiting* const segment = free_;
         if (segment == nullptr) {
@@ -120,8 +123,8 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
         *place.end = segment;
         place.end = &segment->next;
         occupied_ |= std::uint64_t{1} << cut_;
-        if (++size_ > bank_.stats_.queue_high_water) {
-            bank_.stats_.queue_high_water = size_;
+        if (++size_ > stats_.queue_high_water) {
+            stats_.queue_high_water = size_;
         }
     }
     column_ += segment_length_;
@@ -140,7 +143,7 @@ inline __attribute__((always_inline)) int DrawnBank::issue() {
     int issued = 0;
     for (Tile* const tile : started_) {
         while ((occupied_ & tile->places) != 0) {
-            const Cycle slot = next_execution();
+            const Cycle slot = packet_.next_execution(now_);
             const std::uint64_t ready = occupied_ & tile->places & ~cooling_.at(slot);
             if (ready == 0) {
                 break;
@@ -153,14 +156,49 @@ inline __attribute__((always_inline)) int DrawnBank::issue() {
             }
             if (++issued == issue_width_) {
                 width_limited_ = true;
-                bank_.stats_.busy++;
+                stats_.busy++;
                 return issued;
             }
         }
     }
     width_limited_ = false;
-    bank_.stats_.busy += issued != 0 ? 1 : 0;
+    stats_.busy += issued != 0 ? 1 : 0;
     return issued;
+}
+
+/// Counts tasks. Which of them go into a packet matters only if a pixel ends with one: `ends`.
+template <bool ends>
+class DrawnBank::Sink {
+public:
+    Sink(DrawnBank& bank, int place, std::uint32_t ended)
+        : bank_(bank), place_(place), ended_(ended) {}
+    void end_idle() {
+        if (bank_.idle_pending_) {
+            bank_.idle_pending_ = false;
+            bank_.packing_.settle_idle();
+        }
+    }
+    void begin() {}
+    int take(std::uint32_t& left, int count, int room, Cycle slot) {
+        if constexpr (ends) {
+            const std::uint32_t ended = take_lowest(left, count, room) & ended_;
+            if (ended != 0) {
+                bank_.end_drawn(place_, ended, slot);
+            }
+        }
+        return std::min(count, room);
+    }
+    void send(Slot /*none: the packet is full*/) { bank_.send(); }
+
+private:
+    DrawnBank& bank_;
+    int place_;
+    std::uint32_t ended_;
+};
+
+Cycle DrawnBank::pack_ends(int number, std::uint32_t tasks, std::uint32_t ended) {
+    Sink<true> sink(*this, number, ended);
+    return packet_.pack(now_, tasks, __builtin_popcount(tasks), sink);
 }
 
 // False if the Packing Buffer has no room.
@@ -172,56 +210,30 @@ inline __attribute__((always_inline)) bool DrawnBank::issue_one(int number, Cycl
         tasks = tasks_of(segment, place.live);
     }
     const int count = __builtin_popcount(tasks);
-    if ((slot - (now_ + latency_)) * width_ + (tasks_ + count) > capacity_) {
+    if (!packet_.fits(now_, slot, count)) {
         no_room_ = true;
         return false;
     }
     Cycle last = now_;
     if (count != 0) {
-        last = pack(number, segment, tasks, count, slot);
+        slice_.count_drawn(tasks, segment.inside, segment.useful);
+        if (const std::uint32_t ended = tasks & segment.ended; ended != 0) {
+            last = pack_ends(number, tasks, ended);
+        } else {
+            Sink<false> sink(*this, number, 0);
+            last = packet_.pack(now_, tasks, count, sink);
+        }
         slice_.check_drawn(static_cast<std::int32_t>(slot) - place.executed, count);
         place.executed = static_cast<std::int32_t>(last);
         last += reuse_;
         cooling_.cool(number, last);
     }
-    bank_.stats_.segments_issued++;
-    bank_.stats_.tasks_issued += count;
-    bank_.stats_.tasks_dropped += __builtin_popcount(segment.mask ^ tasks);
+    stats_.segments_issued++;
+    stats_.tasks_issued += count;
+    stats_.tasks_dropped += __builtin_popcount(segment.mask ^ tasks);
     features_.release(segment.feature, last);
     pop(number);
     return true;
-}
-
-// Returns the execution date of the last task.
-inline __attribute__((always_inline)) Cycle
-DrawnBank::pack(int number, const Waiting& segment, std::uint32_t tasks, int count, Cycle slot) {
-    if (!open()) {
-        if (idle_pending_ && slot > next_slot_) {
-            settle_idle();
-        }
-        next_slot_ = slot;
-    }
-    slice_.count_drawn(tasks, segment.inside, segment.useful);
-    if ((tasks & segment.ended) != 0) {
-        return end_drawn(number, segment, tasks);
-    }
-    tasks_ += count;
-    Cycle last = next_slot_;
-    while (tasks_ >= width_) {
-        last = next_slot_;
-        tasks_ -= width_;
-        send(width_);
-    }
-    return tasks_ != 0 ? next_slot_ : last;
-}
-
-// Dates.
-
-inline __attribute__((always_inline)) void DrawnBank::close_cycles(Cycle until) {
-    if (!open() && next_slot_ != 0 && until + latency_ > next_slot_) {
-        packing_.since_last_[idle_cause()] += (until + latency_ - next_execution()) * width_;
-        idle_pending_ = true;
-    }
 }
 
 } // namespace degs

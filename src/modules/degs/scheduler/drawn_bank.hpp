@@ -7,6 +7,7 @@
 
 #include "modules/degs/scheduler/cooling_places.hpp"
 #include "modules/degs/scheduler/issue_bank.hpp"
+#include "modules/degs/scheduler/open_packet.hpp"
 
 namespace degs {
 
@@ -16,12 +17,30 @@ namespace degs {
 /// is that of IssueBank and PackingUnit, which do the same for all other designs and in strict mode.
 class DrawnBank {
 public:
+    /// What an Issue Bank has, for its DrawnBank.
+    struct Parts {
+        const sc_core::sc_object& bank;
+        const IssueBank::Config& config;
+        const RenderJob& job;
+        PackingUnit& packing;
+        DatedFifo<Termination>& terminations;
+        BankStream& stream; ///< the first one
+        const Segmenter& segmenter;
+        FeatureBuffer& features;
+        TileEnd& tiles;
+        Process& self;
+        IssueBank::Stats& stats;
+        int contexts, tiles_in_flight, spans_per_cycle;
+        Slot width_cause;
+    };
+
     /// True if the bank has one tile stream from one Span Unit, goes round robin, compacts, and has no limited
     /// ports and no filling of Feature Buffer entries, if the domains of all tiles in flight fit in a word, and if
     /// nobody records its tasks. The unit must hand its rows over, too; see DrawnSpans.
-    static bool can_run(const IssueBank& bank);
+    static bool can_run(const Parts& parts);
 
-    explicit DrawnBank(IssueBank& bank);
+    /// Before the simulation starts; `spans` and all parts must exist until the bank has finished.
+    DrawnBank(const Parts& parts, DrawnSpans& spans);
     DrawnBank(const DrawnBank&) = delete; // entries point at each other
     DrawnBank& operator=(const DrawnBank&) = delete;
     /// Runs the bank until the job is over.
@@ -54,6 +73,7 @@ private:
     // Intake.
     inline void accept();
     inline bool open_span();
+    void take_end(TileNumber number);
     inline bool cut_segment();
     [[gnu::noinline]] void enter_tile(TileNumber number);
     [[gnu::noinline]] void end_pixels();
@@ -70,38 +90,46 @@ private:
     inline int issue();
     inline bool issue_one(int number, Cycle slot);
     [[gnu::noinline]] std::uint32_t tasks_of(const Waiting& segment, std::uint32_t live);
-    inline Cycle pack(int number, const Waiting& segment, std::uint32_t tasks, int count,
-                      Cycle slot);
-    [[gnu::noinline]] Cycle end_drawn(int number, const Waiting& segment, std::uint32_t tasks);
-    inline void pop(int number);
-    inline void send(int tasks);
+    template <bool ends>
+    class Sink;
+    [[gnu::noinline]] Cycle pack_ends(int number, std::uint32_t tasks, std::uint32_t ended);
+    inline void send();
     [[gnu::noinline]] void send_part(Slot cause);
-    [[gnu::noinline]] void settle_idle();
-    [[gnu::noinline]] bool finish_tiles();
+    [[gnu::noinline]] void end_drawn(int number, std::uint32_t tasks, Cycle date);
+    void end_tile(const Tile& tile);
+    inline void pop(int number);
+    [[gnu::noinline]] void finish_tiles();
 
     // Dates.
-    Cycle next_execution() const { return std::max(now_ + latency_, next_slot_); }
-    bool open() const { return tasks_ != 0; }
+    bool over() const { return tile_end_.over() && closing_ == 0; }
+    bool enterable() const { return stream_.entering < stream_.oldest + tiles_in_flight_; }
+    bool owed_contexts() const { return stream_.startable < stream_.oldest + contexts_; }
     Slot idle_cause() const;
     std::uint64_t issuable() const { return occupied_ & startable_; }
     [[gnu::noinline]] Cycle next_date();
-    inline void close_cycles(Cycle until);
 
     Tile& tile_at(std::size_t turn) { return tiles_[turn & tile_mask_]; }
     Tile& tile_of(int place) { return tiles_[place / domains_]; }
 
-    IssueBank& bank_;
+    const sc_core::sc_object& bank_;
+    const IssueBank::Config& config_;
+    const RenderJob& job_;
     PackingUnit& packing_;
     ArraySlice& slice_;
     BankStream& stream_;
     BankStream::Input& input_;
     DrawnSpans& spans_;
+    DatedFifo<Termination>& terminations_;
+    const Segmenter& segmenter_;
     FeatureBuffer& features_;
+    TileEnd& tile_end_;
     Process& self_;
+    IssueBank::Stats& stats_;
     int domains_, segment_length_, segments_per_cycle_, spans_per_cycle_, issue_width_;
-    Cycle reuse_, latency_;
-    int width_;
-    Cycle capacity_;
+    Cycle reuse_;
+    int contexts_, tiles_in_flight_;
+    bool by_task_, sees_pixels_; // see TerminationGrain
+    Slot width_cause_;           // what limits the issue width
 
     std::vector<Waiting> pool_;
     Waiting* free_ = nullptr;
@@ -122,11 +150,11 @@ private:
     DrawnRow drawn_;
     int spans_left_ = 0;
     bool features_full_ = false, no_room_ = false, width_limited_ = false;
-    // The open packet, see PackingUnit.
-    int tasks_ = 0;
-    Cycle next_slot_ = 0;
-    bool ends_tile_ = false;
-    bool idle_pending_ = false; // cycles without a packet, which count once another one comes
+    OpenPacket packet_;
+    bool ends_tile_ = false;     // it carries the end of a tile
+    bool idle_pending_ = false;  // slots without a packet, which count once another one comes
+    std::size_t closing_ = 0;    // tiles of which nothing more will be taken
+    bool contexts_owed_ = false; // the stream has fewer contexts than it may have
 };
 
 inline __attribute__((always_inline)) void DrawnBank::pop(int number) {
@@ -143,18 +171,11 @@ inline __attribute__((always_inline)) void DrawnBank::pop(int number) {
     }
 }
 
-// The open packet, which has `tasks` tasks.
-inline __attribute__((always_inline)) void DrawnBank::send(int tasks) {
-    const Cycle slot = next_slot_++;
-    packing_.stats_.packets++;
-    packing_.stats_.tasks += tasks;
-    packing_.passed_.pass_packet(now_, slot);
-    if (ends_tile_) {
-        ends_tile_ = false;
-        packing_.tell_end(slot, true);
-    } else {
-        slice_.pass_packet(slot);
-    }
+inline __attribute__((always_inline)) void DrawnBank::send() {
+    const int tasks = packet_.tasks();
+    const bool ends = ends_tile_;
+    ends_tile_ = false;
+    packing_.pass_packet(now_, packet_.sent(), tasks, ends);
 }
 
 } // namespace degs

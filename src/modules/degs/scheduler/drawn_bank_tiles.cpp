@@ -21,35 +21,36 @@ int places_of(int tiles) {
 
 } // namespace
 
-bool DrawnBank::can_run(const IssueBank& bank) {
-    const PackingUnit& packing = bank.packing_;
-    const int domains = Segmenter::domains_per_tile(
-        bank.job_.tile_size, bank.config_.segment_length, bank.config_.banks);
-    const Cycle cooled = ceil_div(bank.config_.segment_length, packing.config_.width) + 1 +
-                         static_cast<Cycle>(bank.config_.reuse_cycles);
-    return packing.draws() && !packing.packets_ && packing.part_ == nullptr &&
-           bank.stream_count_ == 1 && bank.streams_[0].inputs.size() == 1 &&
-           bank.config_.scan == DomainScan::RoundRobin && bank.config_.scoreboard && !bank.fills_ &&
-           packing.config_.reorganisation && !packing.ports_ &&
-           places_of(bank.tiles_in_flight_) * domains <= kPlaces && cooled < CoolingPlaces::kDates;
+bool DrawnBank::can_run(const Parts& parts) {
+    const IssueBank::Config& config = parts.config;
+    const int domains =
+        Segmenter::domains_per_tile(parts.job.tile_size, config.segment_length, config.banks);
+    const Cycle cooled = ceil_div(config.segment_length, parts.packing.config().width) + 1 +
+                         static_cast<Cycle>(config.reuse_cycles);
+    return parts.packing.counts() && config.streams == 1 && parts.stream.inputs.size() == 1 &&
+           config.scan == DomainScan::RoundRobin && config.scoreboard && config.fill.cycles == 0 &&
+           places_of(parts.tiles_in_flight) * domains <= kPlaces && cooled < CoolingPlaces::kDates;
 }
 
-DrawnBank::DrawnBank(IssueBank& bank)
-    : bank_(bank), packing_(bank.packing_), slice_(*bank.packing_.slice_),
-      stream_(bank.streams_[0]), input_(stream_.inputs[0]), spans_(*bank.drawn_spans_),
-      features_(bank.features_), self_(bank.self_),
-      domains_(Segmenter::domains_per_tile(bank.job_.tile_size, bank.config_.segment_length,
-                                           bank.config_.banks)),
-      segment_length_(bank.config_.segment_length),
-      segments_per_cycle_(bank.config_.segments_per_cycle), spans_per_cycle_(bank.spans_per_cycle_),
-      issue_width_(bank.config_.issue_width), reuse_(bank.config_.reuse_cycles),
-      latency_(packing_.latency_), width_(packing_.config_.width), capacity_(packing_.capacity_),
-      pool_(bank.config_.queue_depth) {
+DrawnBank::DrawnBank(const Parts& parts, DrawnSpans& spans)
+    : bank_(parts.bank), config_(parts.config), job_(parts.job), packing_(parts.packing),
+      slice_(*parts.packing.slice()), stream_(parts.stream), input_(stream_.inputs[0]),
+      spans_(spans), terminations_(parts.terminations), segmenter_(parts.segmenter),
+      features_(parts.features), tile_end_(parts.tiles), self_(parts.self), stats_(parts.stats),
+      domains_(Segmenter::domains_per_tile(job_.tile_size, config_.segment_length, config_.banks)),
+      segment_length_(config_.segment_length), segments_per_cycle_(config_.segments_per_cycle),
+      spans_per_cycle_(parts.spans_per_cycle), issue_width_(config_.issue_width),
+      reuse_(config_.reuse_cycles), contexts_(parts.contexts),
+      tiles_in_flight_(parts.tiles_in_flight),
+      by_task_(config_.termination == TerminationGrain::Task),
+      sees_pixels_(config_.termination != TerminationGrain::Segment),
+      width_cause_(parts.width_cause), pool_(config_.queue_depth),
+      packet_(packing_.config().width, packing_.config().latency_cycles, packing_.config().depth) {
     for (Waiting& place : pool_) {
         place.next = free_;
         free_ = &place;
     }
-    tiles_.resize(places_of(bank.tiles_in_flight_));
+    tiles_.resize(places_of(tiles_in_flight_));
     tile_mask_ = tiles_.size() - 1;
     for (Tile& tile : tiles_) {
         tile.first = static_cast<int>(&tile - tiles_.data()) * domains_;
@@ -65,12 +66,12 @@ DrawnBank::DrawnBank(IssueBank& bank)
 void DrawnBank::enter_tile(TileNumber number) {
     Tile& tile = tile_at(stream_.entering);
     tile.number = number;
-    tile.context = context_in_turn(stream_.entering, bank_.contexts_, bank_.config_.first_context);
+    tile.context = context_in_turn(stream_.entering, contexts_, config_.first_context);
     tile.later = 0;
     cooling_.forget(tile.places);
-    const int width = bank_.job_.tiles[number].width;
+    const int width = job_.tiles[number].width;
     Place* place = &places_[tile.first];
-    for (const Segmenter::Domain& domain : bank_.segmenter_.domains()) {
+    for (const Segmenter::Domain& domain : segmenter_.domains()) {
         place->executed = static_cast<std::int32_t>(now_ - slice_.writeback());
         place->ended = 0;
         place->live = kAllPixels;
@@ -83,24 +84,24 @@ void DrawnBank::enter_tile(TileNumber number) {
 
 void DrawnBank::end_pixels(Place& place, std::uint32_t mask) const {
     place.ended |= mask;
-    place.live = bank_.sees_pixels_ || place.ended == kAllPixels ? ~place.ended : kAllPixels;
+    place.live = sees_pixels_ || place.ended == kAllPixels ? ~place.ended : kAllPixels;
 }
 
 void DrawnBank::end_pixels() {
-    DatedFifo<Termination>& terminations = *bank_.terminations_;
-    while (!terminations.empty() && terminations.head_date() <= now_) {
-        const Termination message = terminations.take(self_);
-        const std::size_t turn = bank_.turn_of(stream_, message.context);
+    while (!terminations_.empty() && terminations_.head_date() <= now_) {
+        const Termination message = terminations_.take(self_);
+        const std::size_t turn =
+            stream_.turn_of(message.context - config_.first_context, contexts_);
         Tile& tile = tile_at(turn);
         if (turn >= stream_.first_unstarted() || tile.number != message.tile) {
             continue; // the tile is over for this bank
         }
-        const int number = tile.first + bank_.segmenter_.domain_of(message.row, message.column);
+        const int number = tile.first + segmenter_.domain_of(message.row, message.column);
         Place& place = places_[number];
         end_pixels(place, message.mask);
         while (place.ended == kAllPixels && place.head != nullptr) {
             features_.release(place.head->feature, now_);
-            bank_.drop(place.head->mask);
+            stats_.drop(place.head->mask);
             pop(number);
         }
     }
@@ -108,12 +109,11 @@ void DrawnBank::end_pixels() {
 
 void DrawnBank::see_contexts() {
     const std::size_t before = stream_.startable;
-    while (stream_.startable < stream_.oldest + bank_.contexts_ &&
-           self_.arrived(*stream_.contexts_freed)) {
+    while (owed_contexts() && self_.arrived(*stream_.contexts_freed)) {
         stream_.contexts_freed->drop(self_);
         ++stream_.startable;
     }
-    bank_.contexts_owed_ = stream_.startable < stream_.oldest + bank_.contexts_;
+    contexts_owed_ = owed_contexts();
     if (stream_.startable != before) {
         list_started();
     }
@@ -126,87 +126,76 @@ void DrawnBank::list_started() {
         started_.push_back(&tile_at(turn));
         startable_ |= tile_at(turn).places;
     }
-    stream_.enterable = stream_.entering < bank_.end_of_intake(stream_);
+    stream_.enterable = enterable();
 }
 
-// Those of a segment with ended pixels that are issued.
+// The tasks of a segment with ended pixels that are issued.
 std::uint32_t DrawnBank::tasks_of(const Waiting& segment, std::uint32_t live) {
     const std::uint32_t wanted = segment.mask & live;
-    return bank_.by_task_ && wanted != 0 ? segment.mask
-                                         : wanted; // one live task takes the others along
+    return by_task_ && wanted != 0 ? segment.mask : wanted; // one live task takes the others along
 }
 
-// The same where pixels end with some of the tasks, so that their packets matter.
-Cycle DrawnBank::end_drawn(int number, const Waiting& segment, std::uint32_t tasks) {
+// Pixels of a place end with these tasks of a packet.
+void DrawnBank::end_drawn(int number, std::uint32_t tasks, Cycle date) {
     const Tile& tile = tile_of(number);
     const int domain = number - tile.first;
-    const Segmenter::Domain& place = bank_.segmenter_.domains()[domain];
+    const Segmenter::Domain& place = segmenter_.domains()[domain];
     TaskRun run;
     run.tile = tile.number;
     run.domain = domain;
     run.task.row = inside_tile(place.row);
     run.task.column = inside_tile(place.column);
     run.task.context = tile.context;
-    Cycle last = next_slot_;
-    for (std::uint32_t left = tasks; left != 0;) {
-        const int count = __builtin_popcount(left);
-        const int taken = std::min(count, width_ - tasks_);
-        const std::uint32_t part = taken == count ? left : lowest_bits(left, taken);
-        last = next_slot_;
-        if ((part & segment.ended) != 0) {
-            slice_.end_drawn(run, part & segment.ended, last);
-        }
-        left ^= part;
-        tasks_ += taken;
-        if (tasks_ == width_) {
-            tasks_ = 0;
-            send(width_);
-        }
-    }
-    return last;
+    slice_.end_drawn(run, tasks, date);
 }
 
 void DrawnBank::send_part(Slot cause) {
-    const int tasks = tasks_;
-    packing_.idle_[cause] += width_ - tasks;
-    tasks_ = 0;
-    send(tasks);
+    packing_.count_idle(cause, packet_.room());
+    send();
 }
 
-void DrawnBank::settle_idle() {
-    idle_pending_ = false;
-    packing_.idle_ += packing_.since_last_;
-    packing_.since_last_ = SlotAccount{};
+// See PackingUnit::end_tile().
+void DrawnBank::end_tile(const Tile& tile) {
+    if (packet_.open() && ends_tile_) {
+        send_part(Slot::Starved);
+    }
+    packing_.name_end(tile.number, tile.context);
+    if (packet_.open()) {
+        ends_tile_ = true;
+    } else {
+        packing_.pass_end(now_);
+    }
 }
 
-// True if a tile has ended.
-bool DrawnBank::finish_tiles() {
+void DrawnBank::finish_tiles() {
     const std::size_t before = stream_.oldest;
     while (stream_.oldest < stream_.entering && stream_.oldest < stream_.startable) {
         const Tile& tile = tile_at(stream_.oldest);
         if ((occupied_ & tile.places) != 0 || (left_ > 0 && &tile_of(cut_) == &tile)) {
             break;
         }
-        if (open() && ends_tile_) {
-            send_part(Slot::Starved);
-        }
-        packing_.ended_tile_ = tile.number;
-        packing_.ended_context_ = tile.context;
-        if (open()) {
-            ends_tile_ = true;
-        } else {
-            packing_.tell_end(packing_.passed_.pass_end(now_, now_ + latency_), false);
-        }
+        end_tile(tile);
         ++stream_.oldest;
-        bank_.tiles_.count(tile.number);
-        --bank_.closing_;
-        bank_.contexts_owed_ = true;
+        tile_end_.count(tile.number);
+        --closing_;
+        contexts_owed_ = true;
     }
-    if (stream_.oldest == before) {
-        return false;
+    if (stream_.oldest != before) {
+        list_started();
     }
-    list_started();
-    return true;
+}
+
+// See IssueBank::take_end().
+void DrawnBank::take_end(TileNumber number) {
+    if (number == kNoTile) {
+        tile_end_.count(number);
+        return;
+    }
+    features_.close(now_);
+    ++stream_.entering;
+    ++closing_;
+    stream_.enterable = enterable();
+    stream_.entered = false;
 }
 
 Slot DrawnBank::idle_cause() const {
@@ -214,7 +203,7 @@ Slot DrawnBank::idle_cause() const {
         return Slot::Starved;
     }
     return issuable() == 0  ? Slot::Blocked
-           : width_limited_ ? bank_.width_cause_
+           : width_limited_ ? width_cause_
            : no_room_       ? Slot::Blocked
                             : Slot::Conflict;
 }
@@ -222,8 +211,8 @@ Slot DrawnBank::idle_cause() const {
 // See IssueBank::next_date(). All ends of pixels that are due are in their ring.
 Cycle DrawnBank::next_date() {
     const Cycle next = now_ + 1;
-    Cycle limit = open() ? next_slot_ - latency_ : kNever;
-    const Cycle latency = next_execution() - now_;
+    Cycle limit = packet_.open_until();
+    const Cycle latency = packet_.next_execution(now_) - now_;
     const Cycle ready = no_room_ ? next : cooling_.next_end(issuable());
     if (ready != kNever) {
         limit = std::min(limit, std::max(next, ready > latency ? ready - latency : 0));
@@ -231,29 +220,28 @@ Cycle DrawnBank::next_date() {
     if (limit == next) {
         return next;
     }
-    std::vector<FifoBase*>& watched = bank_.watched_;
-    watched.clear();
+    std::array<FifoBase*, 2> watched{};
+    std::size_t count = 0;
     const bool hungry = free_ != nullptr && left_ <= 0;
     if (hungry && (spans_.empty() || (takes() && spans_.head_date() > now_))) {
-        watched.push_back(&spans_);
+        watched[count++] = &spans_;
     } else if (hungry && takes()) {
         limit = std::min(limit, features_full_ ? std::max(next, features_.next_free()) : next);
         if (limit == next) {
             return next;
         }
     }
-    const DatedFifo<Termination>& terminations = *bank_.terminations_;
-    if (!terminations.empty()) {
-        limit = std::min(limit, std::max(next, terminations.head_date()));
+    if (!terminations_.empty()) {
+        limit = std::min(limit, std::max(next, terminations_.head_date()));
     }
-    if (bank_.contexts_owed_ && stream_.startable < stream_.oldest + bank_.contexts_) {
-        watched.push_back(stream_.contexts_freed);
+    if (contexts_owed_ && owed_contexts()) {
+        watched[count++] = stream_.contexts_freed;
     }
-    limit = self_.next_arrival(watched.data(), watched.size(), next, std::max(next, limit));
+    limit = self_.next_arrival(watched.data(), count, next, std::max(next, limit));
     if (limit >= kNever) {
-        throw std::logic_error(
-            std::string(bank_.name()) + ": nothing left to wait for, but after " +
-            std::to_string(bank_.tiles_.tiles()) + " tiles there is another one");
+        throw std::logic_error(std::string(bank_.name()) +
+                               ": nothing left to wait for, but after " +
+                               std::to_string(tile_end_.tiles()) + " tiles there is another one");
     }
     return limit;
 }

@@ -57,6 +57,8 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
     self_.show(*this, stats_.busy);
 }
 
+IssueBank::~IssueBank() = default;
+
 void IssueBank::end_of_elaboration() {
     std::size_t port = 0;
     for (BankStream& stream : streams_) {
@@ -74,14 +76,21 @@ void IssueBank::end_of_elaboration() {
 }
 
 void IssueBank::start_of_simulation() {
-    if (unit_ != nullptr && DrawnBank::can_run(*this)) {
+    const DrawnBank::Parts parts{
+        *this,       config_, job_,  packing_, *terminations_, streams_[0],      segmenter_,
+        features_,   tiles_,  self_, stats_,   contexts_,      tiles_in_flight_, spans_per_cycle_,
+        width_cause_};
+    if (unit_ != nullptr && DrawnBank::can_run(parts)) {
         drawn_spans_ = unit_->hand_over(self_);
+    }
+    if (drawn_spans_ != nullptr) {
+        drawn_bank_ = std::make_unique<DrawnBank>(parts, *drawn_spans_);
     }
 }
 
 void IssueBank::run() {
-    if (drawn_spans_ != nullptr) {
-        DrawnBank(*this).run();
+    if (drawn_bank_ != nullptr) {
+        drawn_bank_->run();
     } else if (stream_count_ == 1 && streams_.front().inputs.size() == 1) {
         run_cycles<true>();
     } else {
@@ -172,7 +181,8 @@ void IssueBank::list_started() {
 
 void IssueBank::end_pixels(const Termination& message) {
     const BankStream& stream = streams_[(message.context - config_.first_context) / contexts_];
-    const std::size_t turn = turn_of(stream, message.context);
+    const std::size_t turn =
+        stream.turn_of((message.context - config_.first_context) % contexts_, contexts_);
     if (turn >= stream.first_unstarted() || tile_at(stream, turn).number() != message.tile) {
         return; // the tile is over for this bank
     }
@@ -182,16 +192,10 @@ void IssueBank::end_pixels(const Termination& message) {
         while (tile.has_waiting(domain)) {
             const Segment& segment = tile.front(domain);
             features_.release(segment.feature, self_.local());
-            drop(segment.run.task.mask);
+            stats_.drop(segment.run.task.mask);
             queue_.pop(tile, domain);
         }
     }
-}
-
-// The turn that is the first one to have this context and is not over for the bank.
-std::size_t IssueBank::turn_of(const BankStream& stream, int context) const {
-    const std::size_t place = (context - config_.first_context) % contexts_;
-    return stream.oldest + (place + contexts_ - stream.oldest % contexts_) % contexts_;
 }
 
 // All pixels of the domain that have ended. The bank looks at single pixels or at whole segments.
@@ -217,11 +221,6 @@ void IssueBank::enter_tile(BankStream& stream, TileNumber number) {
     }
     stream.entered = true;
     list_started();
-}
-
-void IssueBank::drop(std::uint32_t mask) {
-    stats_.segments_dropped++;
-    stats_.tasks_dropped += __builtin_popcount(mask);
 }
 
 template <bool single>
@@ -344,7 +343,7 @@ bool IssueBank::cut_segment() {
     const int domain = segmenter_.domain();
     const std::uint32_t mask = segmenter_.mask();
     if ((mask & tile.live(domain)) == 0) {
-        drop(mask);
+        stats_.drop(mask);
     } else {
         if (queue_.full()) {
             return false;

@@ -21,6 +21,8 @@
 
 namespace degs {
 
+class DrawnBank;
+
 /// One Issue Bank of the Packing Scheduler (paper, Sec. IV-B): takes the row spans of its rows in
 /// depth order, cuts them at fixed strides (Segmenter), and issues segments to its Packing Unit,
 /// each as soon as its conflict domain (row x segment) may be updated again. Inside a domain order
@@ -64,6 +66,11 @@ public:
         std::uint64_t segments_dropped = 0, tasks_dropped = 0;
         Cycle busy = 0; ///< cycles with an issue
         std::uint64_t queue_high_water = 0;
+        /// A segment of these tasks is dropped.
+        void drop(std::uint32_t mask) {
+            segments_dropped++;
+            tasks_dropped += __builtin_popcount(mask);
+        }
         void describe(StatsVisitor& v) const {
             v.count("tasks_in", tasks_in, "tasks", "Tasks taken in from the Span Units.");
             v.count("tasks_issued", tasks_issued, "tasks", "Tasks issued to the Packing Units.");
@@ -88,6 +95,7 @@ public:
     IssueBank(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
               const RenderJob& job, PackingUnit& packing, int index, std::size_t inputs,
               int contexts);
+    ~IssueBank() override;
 
     /// The only Span Unit that reaches the bank; before the simulation starts.
     void read_from(SpanUnit& unit) { unit_ = &unit; }
@@ -97,7 +105,6 @@ public:
     const FeatureBuffer& features() const { return features_; }
 
 private:
-    friend class DrawnBank;
     static constexpr std::uint32_t kAllPixels = ~0U;
 
     void end_of_elaboration() override;
@@ -111,7 +118,6 @@ private:
     // What is rare stays out of the loop over cycles, which then keeps more in registers.
     [[gnu::noinline]] void list_started();
     [[gnu::noinline]] void end_pixels(const Termination& message);
-    std::size_t turn_of(const BankStream& stream, int context) const;
     std::uint32_t end_pixels(SegmentQueue::Tile& tile, int domain, std::uint32_t mask) const;
 
     // Intake.
@@ -127,7 +133,6 @@ private:
     [[gnu::noinline]] void enter_tile(BankStream& stream, TileNumber number);
     [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number, Cycle now);
     bool cut_segment();
-    void drop(std::uint32_t mask);
     static bool takes(const BankStream& stream, const BankStream::Input& input) {
         return input.turn == stream.entering && stream.enterable;
     }
@@ -190,7 +195,9 @@ private:
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
     Stats stats_;
     SpanUnit* unit_ = nullptr;
-    std::unique_ptr<DrawnSpans> drawn_spans_; // where a DrawnBank runs
+    // Where a DrawnBank runs, the bank and what passes its input.
+    std::unique_ptr<DrawnSpans> drawn_spans_;
+    std::unique_ptr<DrawnBank> drawn_bank_;
 };
 
 } // namespace degs

@@ -3,90 +3,96 @@
 
 namespace degs {
 PackingUnit::PackingUnit(const sc_core::sc_module_name& name, const Config& config)
-    : sc_core::sc_module(name), out("out"), config_(config), latency_(config.latency_cycles),
-      width_(config.width), capacity_(width_ * config.depth) {
+    : sc_core::sc_module(name), out("out"), config_(config),
+      packet_(config.width, config.latency_cycles, config.depth) {
     if (config.ports.limited()) {
         ports_.emplace(config.ports);
         trial_.emplace(config.ports);
     }
 }
 
-// Every part ends where the packet is full or a port is taken.
-Cycle PackingUnit::add_by_ports(Process& bank, const TaskRun& run, std::uint32_t mask, int entry) {
-    Cycle first = 0, execution = 0;
-    for (std::uint32_t left = mask; left != 0;) {
-        if (!open()) {
-            open_packet(bank);
-        }
-        execution = next_slot_;
-        const std::uint32_t part = ports_->take(run.task, left, entry, config_.width - tasks_);
-        if (part != 0) {
-            join(run);
-            first = first == 0 ? execution : first;
-            if (!draws()) {
-                put(run, mask, part);
-            } else if ((part & run.drawn.ended) != 0) {
-                slice_->end_drawn(run, part & run.drawn.ended, execution);
-            }
-        }
-        left ^= part;
-        tasks_ += __builtin_popcount(part);
-        if (tasks_ == config_.width) {
-            send(bank, Slot::Starved);
-        } else if (left != 0) {
-            send(bank, Slot::Ports);
-        }
+// Without reorganisation a packet has tasks of one span, which is `run`'s from now on.
+void PackingUnit::separate(Process& bank, const TaskRun& run) {
+    if (!joins(run)) {
+        send(bank, Slot::Blocked);
     }
-    if (draws()) {
-        slice_->execute(run, mask, first, execution);
-    }
-    return execution;
+    first_splat_ = run.task.splat;
+    first_row_ = run.task.row;
+    first_tile_ = run.tile;
 }
 
-// Drawn tasks, packet by packet.
-Cycle PackingUnit::add_recorded(Process& bank, const TaskRun& run, std::uint32_t mask, int entry) {
-    Cycle first = 0, execution = 0;
-    for (std::uint32_t left = mask; left != 0;) {
-        if (!open()) {
-            open_packet(bank);
-            part_->settle(run.tile);
+/// Tasks that have to be looked at: they want ports, or have been drawn and are recorded.
+class PackingUnit::PickySink : public Sink {
+public:
+    PickySink(PackingUnit& unit, Process& bank, const TaskRun& run, std::uint32_t mask, int entry)
+        : Sink(unit, bank, run), mask_(mask), entry_(entry) {}
+    void begin() {
+        Sink::begin();
+        if (unit_.ports_) {
+            unit_.ports_->clear();
         }
-        execution = next_slot_;
-        const int room = config_.width - tasks_;
-        const std::uint32_t part = ports_ ? ports_->take(run.task, left, entry, room)
-                                   : room < __builtin_popcount(left) ? lowest_bits(left, room)
-                                                                     : left;
-        if (part != 0) {
-            join(run);
-            first = first == 0 ? execution : first;
-            record_tasks(run, part);
-            if ((part & run.drawn.ended) != 0 && packets_) {
-                put(run, mask, part);
-            } else if ((part & run.drawn.ended) != 0) {
-                slice_->end_drawn(run, part & run.drawn.ended, execution);
-            }
-        }
-        left ^= part;
-        tasks_ += __builtin_popcount(part);
-        if (tasks_ == config_.width) {
-            send(bank, Slot::Starved);
-        } else if (left != 0) {
-            send(bank, Slot::Ports);
+        if (unit_.records_drawn()) {
+            unit_.part_->settle(run_.tile);
         }
     }
-    slice_->execute(run, mask, first, execution);
-    return execution;
+    int take(std::uint32_t& left, int count, int room, Cycle slot) {
+        std::uint32_t part = 0;
+        if (unit_.ports_) {
+            part = unit_.ports_->take(run_.task, left, entry_, room);
+            left ^= part;
+        } else {
+            part = take_lowest(left, count, room);
+        }
+        if (part != 0) {
+            first_ = first_ == 0 ? slot : first_;
+            put(part, slot);
+        }
+        return __builtin_popcount(part);
+    }
+    void send(Slot cause) { unit_.send(bank_, cause); }
+    /// Execution date of the first task.
+    Cycle first() const { return first_; }
+
+private:
+    void put(std::uint32_t part, Cycle slot) {
+        if (!unit_.draws()) {
+            unit_.put(run_, mask_, part);
+            return;
+        }
+        if (unit_.part_ != nullptr) {
+            unit_.record_tasks(run_, part);
+        }
+        const std::uint32_t ended = part & run_.drawn.ended;
+        if (ended != 0 && unit_.packets_ && unit_.part_ != nullptr) {
+            unit_.put(run_, mask_, part); // the slice ends the pixels when it reads the packet
+        } else if (ended != 0) {
+            unit_.slice_->end_drawn(run_, ended, slot);
+        }
+    }
+
+    std::uint32_t mask_;
+    int entry_;
+    Cycle first_ = 0;
+};
+
+Cycle PackingUnit::add_picky(Process& bank, const TaskRun& run, std::uint32_t mask, int entry) {
+    PickySink sink(*this, bank, run, mask, entry);
+    const Cycle last = packet_.pack(bank.local(), mask, __builtin_popcount(mask), sink);
+    if (draws()) {
+        slice_->execute(run, mask, sink.first(), last);
+    }
+    return last;
 }
 
 // In the open packet.
 void PackingUnit::record_tasks(const TaskRun& run, std::uint32_t part) {
     const auto add = [&](Slot slot, std::uint32_t tasks) {
         if (tasks != 0) {
-            part_->add(slot, run.tile, next_slot_, __builtin_popcount(tasks));
+            part_->add(slot, run.tile, packet_.slot(), __builtin_popcount(tasks));
         }
     };
-    if (tasks_ == 0 || run.tile != latest_tile_) { // else this cycle is known to be the tile's
-        part_->work(run.tile, next_slot_, next_slot_ + 1);
+    if (!packet_.open() || run.tile != latest_tile_) { // else this cycle is known to be the tile's
+        part_->work(run.tile, packet_.slot(), packet_.slot() + 1);
     }
     add(Slot::Useful, part & run.drawn.useful);
     add(Slot::Boundary, part & ~run.drawn.inside);
@@ -94,21 +100,22 @@ void PackingUnit::record_tasks(const TaskRun& run, std::uint32_t part) {
     latest_tile_ = run.tile;
 }
 
-// The open packet, of drawn tasks; it has left its slot already.
+// The open packet, of drawn tasks.
 void PackingUnit::record_packet(Slot cause) {
-    if (tasks_ != config_.width) {
-        part_->add(cause, latest_tile_, next_slot_ - 1, config_.width - tasks_);
+    if (packet_.room() != 0) {
+        part_->add(cause, latest_tile_, packet_.slot(), packet_.room());
     }
 }
 
 bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry) {
-    const Cycle queued = next_execution(now) - (now + latency_) + (open() ? 1 : 0);
-    if ((queued + ports_->most_packets(mask, config_.width)) * width_ <= capacity_) {
+    const Cycle queued = next_execution(now) - (now + packet_.latency()) + (packet_.open() ? 1 : 0);
+    const Cycle most = config_.depth;
+    if (queued + ports_->most_packets(mask, config_.width) <= most) {
         return true; // even if the open packet takes none of them
     }
-    const bool joined = open() && (config_.reorganisation || joins(run));
+    const bool joined = packet_.open() && (config_.reorganisation || joins(run));
     Cycle packets = joined ? 0 : 1; // beside the open one
-    int tasks = joined ? tasks_ : 0;
+    int tasks = joined ? packet_.tasks() : 0;
     if (joined) {
         trial_->imitate(*ports_, run.task.context);
     } else {
@@ -123,12 +130,12 @@ bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, 
             trial_->clear();
         }
     }
-    return (queued + packets) * width_ <= capacity_;
+    return queued + packets <= most;
 }
 
 // All runs of the packet are of one span.
 bool PackingUnit::joins(const TaskRun& run) const {
-    if (!open()) {
+    if (!packet_.open()) {
         return true;
     }
     return run.task.splat == first_splat_ && run.task.row == first_row_ && run.tile == first_tile_;
@@ -137,15 +144,14 @@ bool PackingUnit::joins(const TaskRun& run) const {
 void PackingUnit::end_tile(Process& bank, TileNumber tile, std::int16_t context) {
     // An open packet may hold the tile's last tasks and stays open for the next tile's; it can
     // carry one end. Without one, the end travels alone and costs the array nothing.
-    if (open() && ends_tile_) {
+    if (packet_.open() && ends_tile_) {
         send(bank, Slot::Starved);
     }
-    ended_tile_ = tile;
-    ended_context_ = context;
-    if (open()) {
+    name_end(tile, context);
+    if (packet_.open()) {
         ends_tile_ = true;
     } else if (!packets_) {
-        tell_end(passed_.pass_end(bank.local(), bank.local() + latency_), false);
+        pass_end(bank.local());
     } else {
         ring_->reserve(bank);
         TaskPacket& packet = ring_->staged();
@@ -163,6 +169,18 @@ void PackingUnit::tell_end(Cycle slot, bool packet) {
     slice_->pass_end(ended_tile_, ended_context_, slot, packet);
 }
 
+void PackingUnit::send(Process& bank, Slot cause) {
+    idle_[cause] += packet_.room();
+    if (records_drawn()) {
+        record_packet(cause);
+    }
+    if (packets_) {
+        send_packet(bank, cause);
+    } else {
+        send_counted(bank.local());
+    }
+}
+
 void PackingUnit::send_due(Process& bank, Slot cause) {
     if (due(bank.local())) {
         send(bank, cause);
@@ -170,13 +188,18 @@ void PackingUnit::send_due(Process& bank, Slot cause) {
 }
 
 void PackingUnit::close_cycles(Process& bank, Cycle until, Slot cause) {
-    if (leaves_slots(until)) {
-        const Cycle first_idle = next_execution(bank.local());
+    if (packet_.leaves_slots(until)) {
         if (part_ != nullptr) {
-            record_cycles(bank, first_idle, until + latency_, cause);
+            record_cycles(bank, next_execution(bank.local()), until + packet_.latency(), cause);
         }
-        since_last_[cause] += (until + latency_ - first_idle) * width_;
+        since_last_[cause] += packet_.left_slots(bank.local(), until);
+        idle_pending_ = true;
     }
+}
+
+void PackingUnit::settle_idle() {
+    idle_ += since_last_;
+    since_last_ = SlotAccount{};
 }
 
 void PackingUnit::record_packet(const TaskPacket& packet, Slot cause) {
@@ -189,7 +212,7 @@ void PackingUnit::record_packet(const TaskPacket& packet, Slot cause) {
 
 // Slots [from, to) of the array. For the bank they are the cycles in which it could have filled them.
 void PackingUnit::record_cycles(Process& bank, Cycle from, Cycle to, Slot cause) {
-    part_->idle(cause, from, to, (to - from) * width_);
+    part_->idle(cause, from, to, (to - from) * packet_.width());
     if (bank.track() == nullptr) {
         return;
     }
@@ -198,7 +221,7 @@ void PackingUnit::record_cycles(Process& bank, Cycle from, Cycle to, Slot cause)
         state = &bank.track()->state(std::string("no task: ") +
                                      kSlotClasses[static_cast<std::size_t>(cause)].name);
     }
-    state->add(from - latency_, to - latency_, to - from);
+    state->add(from - packet_.latency(), to - packet_.latency(), to - from);
 }
 
 } // namespace degs

@@ -8,11 +8,11 @@
 
 #include "config/config.hpp"
 #include "modules/degs/array/blending_array.hpp"
+#include "modules/degs/scheduler/open_packet.hpp"
 #include "modules/degs/scheduler/packet_ports.hpp"
 #include "modules/degs/scheduler/passed_packets.hpp"
 #include "modules/kit/job/messages.hpp"
 #include "modules/kit/job/slot_recorder.hpp"
-#include "splat/frame/pixel_mask.hpp"
 #include "stats/statistics.hpp"
 #include "tlm/dated_fifo.hpp"
 
@@ -63,6 +63,8 @@ public:
         packets_ = timeline;
     }
     bool draws() const { return slice_ != nullptr; }
+    ArraySlice* slice() const { return slice_; }
+    const Config& config() const { return config_; }
     /// The packets told without the ring.
     const PassedPackets& passed() const { return passed_; }
     /// Records empty slots in `part`, and the tasks if they have been drawn; it may be null; before the simulation
@@ -70,12 +72,13 @@ public:
     void record(SlotPart* part) { part_ = part; }
 
     /// Execution date of the next task if it is packed at `now`.
-    Cycle next_execution(Cycle now) const { return std::max(now + latency_, next_slot_); }
+    Cycle next_execution(Cycle now) const { return packet_.next_execution(now); }
     /// True if there is room for `tasks` tasks of `run` more at `now`. Packets on their way through
     /// the pipeline, which are those that execute before now + latency, lie in its registers.
     bool room(Cycle now, const TaskRun& run, int tasks) const {
-        return fits(now, tasks_ + tasks) &&
-               (config_.reorganisation || joins(run) || fits(now, config_.width + tasks));
+        const Cycle slot = next_execution(now);
+        return packet_.fits(now, slot, tasks) && (config_.reorganisation || joins(run) ||
+                                                  packet_.fits(now, slot, packet_.room() + tasks));
     }
     /// The same for the tasks `mask` with limited ports, where packets need not be full; `entry` of
     /// the Feature Buffer has the parameters of their splat.
@@ -89,7 +92,7 @@ public:
     /// more for it.
     void end_tile(Process& bank, TileNumber tile, std::int16_t context);
     /// True if an open packet must go at `now`.
-    bool due(Cycle now) const { return open_until_ <= now; }
+    bool due(Cycle now) const { return packet_.due(now); }
     /// Hands over an open packet whose time has come, its empty slots accounted for by `cause`. Call
     /// it before the bank asks for its next date, because others rely on its doing nothing until then.
     void send_due(Process& bank, Slot cause);
@@ -97,141 +100,135 @@ public:
     /// given by open_until(). Accounts for those in which the array gets nothing, by `cause`.
     void close_cycles(Process& bank, Cycle until, Slot cause);
     /// Latest date up to which the bank may sleep: an open packet has to go then. kNever if none.
-    Cycle open_until() const { return open_until_; }
+    Cycle open_until() const { return packet_.open_until(); }
     /// True if close_cycles(bank, until, ...) would account for empty slots; otherwise
     /// its cause does not matter.
-    bool leaves_slots(Cycle until) const {
-        return !open() && started() && until + latency_ > next_slot_;
+    bool leaves_slots(Cycle until) const { return packet_.leaves_slots(until); }
+
+    // For a bank that keeps the open packet itself and calls nothing above.
+    /// True if packets need only be counted: their tasks have been drawn, nobody records them, and nothing but the
+    /// width limits a packet.
+    bool counts() const { return draws() && !packets_ && !picky() && config_.reorganisation; }
+    /// A packet of `tasks` tasks leaves the bank at `now` and executes at `slot`; `ends_tile`: with the end that
+    /// name_end() has named.
+    inline void pass_packet(Cycle now, Cycle slot, int tasks, bool ends_tile);
+    /// The end of a tile that comes next.
+    void name_end(TileNumber tile, std::int16_t context) {
+        ended_tile_ = tile;
+        ended_context_ = context;
     }
+    /// It leaves the bank alone at `now`.
+    void pass_end(Cycle now) { tell_end(passed_.pass_end(now, now + packet_.latency()), false); }
+    /// Slots that stay empty; count_idle_later(): if another packet comes, which settle_idle() says.
+    void count_idle(Slot cause, std::uint64_t slots) { idle_[cause] += slots; }
+    void count_idle_later(Slot cause, std::uint64_t slots) { since_last_[cause] += slots; }
+    [[gnu::noinline]] void settle_idle();
 
     const Stats& stats() const { return stats_; }
     /// Slots between the first and the last packet that no task filled.
     const SlotAccount& idle() const { return idle_; }
 
 private:
-    friend class DrawnBank;
+    class Sink;
+    class RingSink;
+    class CountingSink;
+    class PickySink;
+
     void end_of_elaboration() override {
         ring_ = &out.ring();
         passed_.hold(ring_->depth());
     }
-    bool open() const { return tasks_ != 0; }
-    bool started() const { return next_slot_ != 0; } // a packet has been sent or opened
-    // ceil(tasks / width) packets fit, that which is open among them; without dividing.
-    bool fits(Cycle now, int tasks) const {
-        const Cycle queued = next_execution(now) - (now + latency_);
-        return queued * width_ + tasks <= capacity_;
-    }
+    bool records_drawn() const { return draws() && part_ != nullptr; }
+    // Tasks have to be looked at before they go into a packet.
+    bool picky() const { return ports_.has_value() || records_drawn(); }
     // Without reorganisation: `run` may go to the packet that is open, if any.
     bool joins(const TaskRun& run) const;
     [[gnu::noinline]] bool fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry);
-    [[gnu::noinline]] Cycle add_by_ports(Process& bank, const TaskRun& run, std::uint32_t mask,
-                                         int entry);
+    [[gnu::noinline]] Cycle add_picky(Process& bank, const TaskRun& run, std::uint32_t mask,
+                                      int entry);
     inline void put(const TaskRun& run, std::uint32_t mask, std::uint32_t part);
-    inline Cycle add_drawn(Process& bank, const TaskRun& run, std::uint32_t mask, int count);
-    [[gnu::noinline]] Cycle add_recorded(Process& bank, const TaskRun& run, std::uint32_t mask,
-                                         int entry);
     void record_tasks(const TaskRun& run, std::uint32_t part);
     [[gnu::noinline]] void record_packet(Slot cause);
     [[gnu::noinline]] void tell_end(Cycle slot, bool packet);
-    void join(const TaskRun& run);
-    inline void open_packet(Process& bank);
-    inline void send(Process& bank, Slot cause);
+    [[gnu::noinline]] void separate(Process& bank, const TaskRun& run);
+    inline void begin_packet(Process& bank);
+    inline void send_counted(Cycle now);
+    inline void send_packet(Process& bank, Slot cause);
+    [[gnu::noinline]] void send(Process& bank, Slot cause);
     [[gnu::noinline]] void record_packet(const TaskPacket& packet, Slot cause);
     [[gnu::noinline]] void record_cycles(Process& bank, Cycle from, Cycle to, Slot cause);
 
     Config config_;
-    Cycle latency_;
-    Cycle width_, capacity_; // tasks: of a packet, of the Packing Buffer
     DatedFifo<TaskPacket>* ring_ = nullptr;
     ArraySlice* slice_ =
         nullptr;          // executes drawn tasks without packets; nullptr: packets go to the ring
     bool packets_ = true; // go through the ring
     PassedPackets passed_;
-    // The open packet is filled in its cell of the ring.
-    int tasks_ = 0;          // in the open packet; 0: none is open
-    bool ends_tile_ = false; // the open packet carries the end of a tile
+    OpenPacket packet_;      // is filled in its cell of the ring
+    bool ends_tile_ = false; // it carries the end of a tile
     TileNumber ended_tile_ = 0;
     std::int16_t ended_context_ = 0;
     // The span of the open packet's first task.
     std::uint32_t first_splat_ = 0;
     std::int16_t first_row_ = 0;
     TileNumber first_tile_ = 0;
-    TileNumber latest_tile_ = 0; // of the latest task, if tasks are recorded here
-    // Execution date of the open packet; else the first that the next one may have. An open packet
-    // goes before now + latency passes its date, so next_execution() need not ask which.
-    Cycle next_slot_ = 0;
-    Cycle open_until_ = kNever;
+    TileNumber latest_tile_ = 0;               // of the latest task, if tasks are recorded here
     std::optional<PacketPorts> ports_, trial_; // of the open packet, and of one that is tried
     SlotAccount idle_;
-    SlotAccount since_last_; // idle after the last packet; counts once another one comes
+    SlotAccount since_last_;    // idle after the last packet; counts once another one comes
+    bool idle_pending_ = false; // since_last_ has some
     SlotPart* part_ = nullptr;
     std::array<TimeSeries*, kSlotClasses.size()> bank_states_{}; // of the bank's track
     Stats stats_;
 };
 
 // What follows is inlined in the hot loop of the bank.
-inline __attribute__((always_inline)) void PackingUnit::open_packet(Process& bank) {
+inline __attribute__((always_inline)) void PackingUnit::pass_packet(Cycle now, Cycle slot,
+                                                                    int tasks, bool ends_tile) {
+    stats_.packets++;
+    stats_.tasks += tasks;
+    passed_.pass_packet(now, slot);
+    if (ends_tile) {
+        tell_end(slot, true);
+    } else {
+        slice_->pass_packet(slot);
+    }
+}
+
+// In the ring, if packets go through it.
+inline __attribute__((always_inline)) void PackingUnit::begin_packet(Process& bank) {
     if (packets_) {
         ring_->reserve(bank); // free by its dates; the host may not have emptied it yet
         ring_->staged().run_count = 0;
     }
-    const Cycle slot = next_execution(bank.local());
-    if (slot > next_slot_) { // else nothing was idle
-        idle_ += since_last_;
-        since_last_ = SlotAccount{};
-    }
-    next_slot_ = slot;
-    if (ports_) {
-        ports_->clear();
-    }
-    open_until_ = slot - latency_;
-    ends_tile_ = false;
 }
 
-inline __attribute__((always_inline)) void PackingUnit::send(Process& bank, Slot cause) {
-    const Cycle slot = next_slot_++;
+// The open packet, to the slice that has drawn its tasks.
+inline __attribute__((always_inline)) void PackingUnit::send_counted(Cycle now) {
+    const int tasks = packet_.tasks();
     const bool ends = ends_tile_;
-    stats_.packets++;
-    stats_.tasks += tasks_;
-    idle_[cause] += config_.width - tasks_;
-    open_until_ = kNever;
     ends_tile_ = false;
-    if (draws() && part_ != nullptr) {
-        record_packet(cause);
-    }
-    if (!packets_) {
-        tasks_ = 0;
-        passed_.pass_packet(bank.local(), slot);
-        if (ends) {
-            tell_end(slot, true);
-        } else {
-            slice_->pass_packet(slot);
-        }
-        return;
-    }
+    pass_packet(now, packet_.sent(), tasks, ends);
+}
+
+// The open packet, through the ring.
+inline __attribute__((always_inline)) void PackingUnit::send_packet(Process& bank, Slot cause) {
     TaskPacket& packet = ring_->staged();
-    packet.slot = slot;
-    packet.tasks = tasks_;
-    packet.ends_tile = ends;
+    packet.tasks = packet_.tasks();
+    packet.slot = packet_.sent();
+    packet.ends_tile = ends_tile_;
     packet.ended_tile = ended_tile_;
     packet.ended_context = ended_context_;
+    ends_tile_ = false;
+    stats_.packets++;
+    stats_.tasks += packet.tasks;
     if (part_ != nullptr && !draws()) {
         record_packet(packet, cause);
     }
-    tasks_ = 0;
     ring_->put_staged(bank);
 }
 
-// Without reorganisation the open packet has to know whose tasks it has.
-inline void PackingUnit::join(const TaskRun& run) {
-    if (!config_.reorganisation && !open()) {
-        first_splat_ = run.task.splat;
-        first_row_ = run.task.row;
-        first_tile_ = run.tile;
-    }
-}
-
-// In the open packet; tasks_ counts them elsewhere.
+// In the open packet.
 inline void PackingUnit::put(const TaskRun& run, std::uint32_t mask, std::uint32_t part) {
     TaskPacket& packet = ring_->staged();
     TaskRun& packed = packet.runs[packet.run_count++];
@@ -240,73 +237,85 @@ inline void PackingUnit::put(const TaskRun& run, std::uint32_t mask, std::uint32
     packed.part = part;
 }
 
-inline __attribute__((always_inline)) Cycle PackingUnit::add(Process& bank, const TaskRun& run,
-                                                             std::uint32_t mask, int entry) {
-    std::uint32_t left = mask;
-    int count = __builtin_popcount(left);
-    Cycle execution = 0;
-    if (!config_.reorganisation && !joins(run)) {
-        send(bank, Slot::Blocked);
-    }
-    if (draws() && part_ != nullptr) {
-        return add_recorded(bank, run, mask, entry);
-    }
-    if (ports_) {
-        return add_by_ports(bank, run, mask, entry);
-    }
-    if (draws()) {
-        return add_drawn(bank, run, mask, count);
-    }
-    while (count != 0) {
-        if (!open()) {
-            open_packet(bank);
-        }
-        join(run);
-        execution = next_slot_;
-        const int taken = std::min(count, config_.width - tasks_);
-        const std::uint32_t part = taken == count ? left : lowest_bits(left, taken);
-        put(run, mask, part);
-        left ^= part;
-        count -= taken;
-        tasks_ += taken;
-        if (tasks_ == config_.width) {
-            send(bank, Slot::Starved);
+/// Where the tasks of a segment go, see OpenPacket.
+class PackingUnit::Sink {
+public:
+    Sink(PackingUnit& unit, Process& bank, const TaskRun& run)
+        : unit_(unit), bank_(bank), run_(run) {}
+    void end_idle() {
+        if (unit_.idle_pending_) {
+            unit_.idle_pending_ = false;
+            unit_.settle_idle();
         }
     }
-    return execution;
-}
+    __attribute__((always_inline)) void begin() { unit_.begin_packet(bank_); }
 
-// Where a part ends matters only if a pixel ends with one of its tasks.
-inline __attribute__((always_inline)) Cycle
-PackingUnit::add_drawn(Process& bank, const TaskRun& run, std::uint32_t mask, int count) {
-    std::uint32_t ended = mask & run.drawn.ended;
-    std::uint32_t left = mask;
-    Cycle first = 0;
-    Cycle execution = 0;
-    while (count != 0) {
-        if (!open()) {
-            open_packet(bank);
-        }
-        join(run);
-        execution = next_slot_;
-        first = first == 0 ? execution : first;
-        const int taken = std::min(count, config_.width - tasks_);
-        if (ended != 0) {
-            const std::uint32_t part = taken == count ? left : lowest_bits(left, taken);
-            left ^= part;
-            if ((ended & part) != 0) {
-                slice_->end_drawn(run, ended & part, execution);
-                ended &= ~part;
+protected:
+    PackingUnit& unit_;
+    Process& bank_;
+    const TaskRun& run_;
+};
+
+/// Tasks go through the ring, to be blended.
+class PackingUnit::RingSink : public Sink {
+public:
+    RingSink(PackingUnit& unit, Process& bank, const TaskRun& run, std::uint32_t mask)
+        : Sink(unit, bank, run), mask_(mask) {}
+    int take(std::uint32_t& left, int count, int room, Cycle /*slot*/) {
+        unit_.put(run_, mask_, take_lowest(left, count, room));
+        return std::min(count, room);
+    }
+    void send(Slot cause) { unit_.send_packet(bank_, cause); } // it is full
+
+private:
+    std::uint32_t mask_;
+};
+
+/// Tasks that have been drawn are counted. Which of them go into a packet matters only if a pixel ends with one.
+class PackingUnit::CountingSink : public Sink {
+public:
+    CountingSink(PackingUnit& unit, Process& bank, const TaskRun& run, std::uint32_t mask)
+        : Sink(unit, bank, run), ended_(mask & run.drawn.ended) {}
+    int take(std::uint32_t& left, int count, int room, Cycle slot) {
+        if (ended_ != 0) {
+            const std::uint32_t ended = take_lowest(left, count, room) & ended_;
+            if (ended != 0) {
+                unit_.slice_->end_drawn(run_, ended, slot);
             }
         }
-        count -= taken;
-        tasks_ += taken;
-        if (tasks_ == config_.width) {
-            send(bank, Slot::Starved);
+        return std::min(count, room);
+    }
+    void send(Slot cause) {
+        if (unit_.packets_) {
+            unit_.send(bank_, cause);
+        } else {
+            unit_.send_counted(bank_.local());
         }
     }
-    slice_->execute(run, mask, first, execution);
-    return execution;
+
+private:
+    std::uint32_t ended_;
+};
+
+inline __attribute__((always_inline)) Cycle PackingUnit::add(Process& bank, const TaskRun& run,
+                                                             std::uint32_t mask, int entry) {
+    if (!config_.reorganisation) {
+        separate(bank, run);
+    }
+    if (picky()) {
+        return add_picky(bank, run, mask, entry);
+    }
+    const Cycle now = bank.local();
+    const int count = __builtin_popcount(mask);
+    if (draws()) {
+        const Cycle first = next_execution(now);
+        CountingSink sink(*this, bank, run, mask);
+        const Cycle last = packet_.pack(now, mask, count, sink);
+        slice_->execute(run, mask, first, last);
+        return last;
+    }
+    RingSink sink(*this, bank, run, mask);
+    return packet_.pack(now, mask, count, sink);
 }
 
 } // namespace degs

@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    void pass(Cycle written, Cycle read) {
+    __attribute__((always_inline)) void pass(Cycle written, Cycle read) {
         const std::size_t mask = reads_.size() - 1;
         empty_cycles_ += read - ready_;
         occupied_cycles_ += read - written;

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "modules/kit/job/slot_account.hpp"
+#include "splat/frame/pixel_mask.hpp"
+#include "tlm/clock_domain.hpp"
+
+namespace degs {
+
+/// The packet that tasks go to next, and the date at which the array slice executes it: the arithmetic of the
+/// Packing Unit over plain data. What becomes of the tasks is up to a sink, a class with
+///     end_idle()                    the array has had nothing to do before the next packet
+///     begin()                       another packet begins
+///     take(left, count, room, slot) moves some of the tasks `left`, which are `count`, into the packet that
+///                                   executes at `slot` and has room for `room`; returns their number
+///     send(cause)                   sends the packet by calling sent(); `cause` is that of its empty slots
+class OpenPacket {
+public:
+    /// `depth`: packets that wait in the Packing Buffer. `latency`: cycles from issue to execution.
+    OpenPacket(int width, int latency, int depth)
+        : latency_(latency), width_(width), capacity_(Cycle{1} * width * depth) {}
+
+    bool open() const { return tasks_ != 0; }
+    int tasks() const { return tasks_; }
+    int room() const { return width_ - tasks_; }
+    int width() const { return width_; }
+    Cycle latency() const { return latency_; }
+    /// Execution date of the open packet; else the first that the next one may have. An open packet
+    /// goes before now + latency passes its date, so next_execution() need not ask which.
+    Cycle slot() const { return slot_; }
+    /// Execution date of the next task if it is packed at `now`.
+    Cycle next_execution(Cycle now) const { return std::max(now + latency_, slot_); }
+    /// True if the Packing Buffer has room for `tasks` tasks more at `now`, the first of which executes at `slot`:
+    /// for ceil(tasks / width) packets, that which is open among them. It does not divide.
+    bool fits(Cycle now, Cycle slot, int tasks) const {
+        return (slot - (now + latency_)) * width_ + (tasks_ + tasks) <= capacity_;
+    }
+    /// Latest date up to which the bank may sleep: an open packet has to go then. kNever if none.
+    Cycle open_until() const { return open() ? slot_ - latency_ : kNever; }
+    bool due(Cycle now) const { return open() && slot_ - latency_ <= now; }
+    /// True if the slice gets nothing in some of the cycles up to `until`.
+    bool leaves_slots(Cycle until) const {
+        return !open() && slot_ != 0 && until + latency_ > slot_; // a packet has been sent
+    }
+    /// Those slots, if it is `now`.
+    Cycle left_slots(Cycle now, Cycle until) const {
+        return (until + latency_ - next_execution(now)) * width_;
+    }
+
+    /// Fills packets with the tasks `mask`, which are `count`, at least one. Returns the execution date of the last
+    /// one.
+    template <class Sink>
+    inline Cycle pack(Cycle now, std::uint32_t mask, int count, Sink& sink);
+    /// The open packet is sent; returns its execution date.
+    Cycle sent() {
+        tasks_ = 0;
+        return slot_++;
+    }
+
+private:
+    Cycle slot_ = 0;
+    int tasks_ = 0; // 0: no packet is open
+    Cycle latency_;
+    int width_;
+    Cycle capacity_;
+};
+
+// Inlined in the hot loop of the bank.
+template <class Sink>
+inline __attribute__((always_inline)) Cycle OpenPacket::pack(Cycle now, std::uint32_t mask,
+                                                             int count, Sink& sink) {
+    std::uint32_t left = mask;
+    if (!open()) {
+        const Cycle slot = next_execution(now);
+        if (slot > slot_) {
+            sink.end_idle();
+        }
+        slot_ = slot;
+        sink.begin();
+    }
+    for (;;) {
+        const Cycle execution = slot_;
+        const int taken = sink.take(left, count, room(), execution);
+        tasks_ += taken;
+        count -= taken;
+        const bool full = tasks_ == width_;
+        if (!full && count == 0) {
+            return execution;
+        }
+        sink.send(full ? Slot::Starved : Slot::Ports);
+        if (count == 0) {
+            return execution;
+        }
+        sink.begin(); // the next packet follows in the next cycle
+    }
+}
+
+/// Moves `most` of the tasks `left`, which are `count`, the lowest first; returns them.
+inline std::uint32_t take_lowest(std::uint32_t& left, int count, int most) {
+    const std::uint32_t part = count <= most ? left : lowest_bits(left, most);
+    left ^= part;
+    return part;
+}
+
+} // namespace degs
