@@ -139,7 +139,10 @@ TEST(DesignKeys, AreSetTogetherAndReadByName) {
     EXPECT_EQ(design.get("scheduler.scan"), "oldest");
     EXPECT_EQ(design.get("accelerator"), "degs");
     EXPECT_EQ(design.name(), "mine");
-    EXPECT_EQ(design.pes(), 128);
+    EXPECT_EQ(design.pes(), 32);
+    const std::vector<std::string> advice = design.set("span.count", "1");
+    ASSERT_EQ(advice.size(), 1U);
+    EXPECT_THAT(advice[0], HasSubstr("span.count"));
     EXPECT_EQ(design.set("accelerator", "gbu").size(), 0U);
     EXPECT_EQ(design.kind(), "gbu");
     EXPECT_EQ(design.get("engines.count"), "2");

@@ -3,9 +3,9 @@
 # run.sh BUILD COMPILER [PROGRAM]: the ways in which another project uses DeGS.
 # 1. find_package: installs a build into a folder of its own, moves it elsewhere, and builds and runs outside/ and
 #    shadow/, which know nothing but the prefix, with COMPILER and with clang++. shadow/ has headers of its own with the
-#    names of ours. The libraries must have been built. The installed
-#    example must give the image of PROGRAM, and the snippet of docs/accelerator.md must compile.
-# 2. pkg-config: compiles and links embedded/main.cpp with what degs.pc says.
+#    names of ours. The libraries must have been built. The installed example must give the image of PROGRAM, and the
+#    snippet of docs/accelerator.md must compile.
+# 2. pkg-config: compiles and links outside/main.cpp with what degs.pc says.
 # 3. add_subdirectory: builds and runs embedded/ with a SystemC of its own: headers and library under a prefix, which
 #    must be taken in place of the SystemC of the system. Compiles a few rooms once more, with the flags of BUILD.
 # 4. The same with SystemC as a package for CMake, configured only; degs.pc and degsConfig.cmake must name it.
@@ -117,8 +117,8 @@ pc=$(dirname "$(find "$work/prefix" -name degs.pc)")
 PKG_CONFIG_PATH=$pc pkg-config --exists --print-errors degs
 flags=$(PKG_CONFIG_PATH=$pc pkg-config --cflags --libs degs)
 # shellcheck disable=SC2086 # words of the command line
-"$compiler" "$here/embedded/main.cpp" -O2 $flags -o "$work/by_pkg_config"
-"$work/by_pkg_config"
+"$compiler" "$here/outside/main.cpp" -O2 $flags -o "$work/by_pkg_config"
+"$work/by_pkg_config" 2>/dev/null
 
 # A second SystemC. Its library is another file, so that the program tells which one it uses.
 second=$work/systemc
