@@ -128,20 +128,20 @@ TEST(DesignKeys, AreThoseOfTheManualForEveryAccelerator) {
 
 TEST(DesignKeys, AreSetTogetherAndReadByName) {
     Design design;
-    EXPECT_THAT(design.set({"scheduler.banks=4", "packing.bytes=8KiB", "clock_ghz=0.5",
+    EXPECT_THAT(design.set({"scheduler.banks=4", "packing.bytes=4KiB", "clock_ghz=0.5",
                             "scheduler.scoreboard=false", "scheduler.scan=oldest", "name=mine"}),
                 ::testing::IsEmpty());
     EXPECT_EQ(design.get("scheduler.banks"), "4");
-    EXPECT_EQ(design.get("packing.bytes"), "8192");
+    EXPECT_EQ(design.get("packing.bytes"), "4096");
     EXPECT_EQ(design.get("clock_ghz"), "0.5");
     EXPECT_EQ(design.get("scheduler.scoreboard"), "false");
     EXPECT_EQ(design.get("scheduler.scan"), "oldest");
     EXPECT_EQ(design.get("accelerator"), "degs");
     EXPECT_EQ(design.name(), "mine");
     EXPECT_EQ(design.pes(), 32);
-    const std::vector<std::string> advice = design.set("span.count", "1");
+    const std::vector<std::string> advice = design.set("slicing.rows_per_cycle", "1");
     ASSERT_EQ(advice.size(), 1U);
-    EXPECT_THAT(advice[0], HasSubstr("span.count"));
+    EXPECT_THAT(advice[0], HasSubstr("slicing.rows_per_cycle"));
     EXPECT_EQ(design.set("accelerator", "gbu").size(), 0U);
     EXPECT_EQ(design.kind(), "gbu");
     EXPECT_EQ(design.get("engines.count"), "2");
