@@ -99,17 +99,15 @@ private:
 
     /// Whether the memory takes longer for the pixels of a tile than the buffer that reads them out.
     bool is_written_slower_than_read_out() const {
-        std::optional<double> rate = keys_.number("pixel_buffer.readout_pixels");
-        rate = rate ? rate : keys_.number("image_buffer.readout_pixels");
         const double pixels = ratio_of(result_.camera.width, 1) * result_.camera.height * frames();
         const auto written =
             std::find_if(run_.streams.begin(), run_.streams.end(),
                          [](const StreamUse& s) { return s.name == "frame_buffer"; });
-        if (!limited_memory() || !rate || pixels == 0 || written == run_.streams.end()) {
+        if (!limited_memory() || pixels == 0 || written == run_.streams.end()) {
             return false;
         }
         const double bytes = ratio_of(written->bytes_written, 1) / pixels;
-        return *rate * bytes > run_.memory_gb_per_s / run_.clock_ghz;
+        return run_.readout_pixels * bytes > run_.memory_gb_per_s / run_.clock_ghz;
     }
 
     /// Tiles wait for their contexts while finished ones wait for the memory.
@@ -198,7 +196,7 @@ private:
             return {"starved, for " + busiest, busiest};
         }
         const std::string words = "starved, for the latency of memory";
-        // ORANGE, whose vector units wait for contexts, does not tell blocked from starved then.
+        // An array whose units wait for contexts may not tell blocked from starved.
         return is_late(run_.waits.splats, run_.slots[Slot::Starved]) ? Cause{words, "answers"}
                : run_.slots[Slot::Blocked] == 0 &&
                        is_late(run_.waits.pixels, run_.slots[Slot::Starved])

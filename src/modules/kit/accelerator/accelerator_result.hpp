@@ -104,6 +104,7 @@ struct AcceleratorResult {
     std::vector<cost::Activity> activity; ///< of the blocks in the bill of materials
     cost::RunEnergy energy;
     AnswerWaits waits;
+    int readout_pixels = 0; ///< that all Pixel Buffers read out per cycle; no number of results
     double memory_utilization = 0; ///< share of memory_window in which the data bus was busy
     double memory_gb_per_s = 0;    ///< peak; 0: unlimited
     /// Cycles over which memory is counted: the run, or up to its last answer if that is later.

@@ -93,6 +93,9 @@ void add_pixel_buffer(AcceleratorResult& result, std::int64_t bytes, int context
     use.counters.add(buffers);
     result.waits.pixels =
         ratio_of(sum_of(buffers, &PixelBuffer::Stats::write_wait), buffers.size());
+    for (const auto& buffer : buffers) {
+        result.readout_pixels += buffer->pixels_per_cycle();
+    }
 }
 
 void add_slots(AcceleratorResult& result, const SlotAccount& slots, const ActiveWindow& window) {

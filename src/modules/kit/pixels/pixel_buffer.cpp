@@ -197,7 +197,7 @@ Completion PixelBuffer::write_rows(TileNumber number) {
     const MemoryMap map = job_.map(tile.frame, traffic_);
     const std::uint64_t pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
     const std::uint64_t frame_width = job_.frame_of(tile).camera.width;
-    const int per_cycle = std::max(1, config_.readout_pixels / share_.row_stride);
+    const int per_cycle = pixels_per_cycle();
     const Cycle start = self_.local();
     Completion done = start;
     int read = 0; // pixels

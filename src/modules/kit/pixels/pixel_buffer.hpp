@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include <systemc>
@@ -93,6 +94,8 @@ public:
                 bool instant = false);
 
     const Stats& stats() const { return stats_; }
+    /// Pixels of its share that it reads out per cycle at most.
+    int pixels_per_cycle() const { return std::max(1, config_.readout_pixels / share_.row_stride); }
     /// Reads the tiles where they are drawn; before the simulation starts.
     void read_from(DrawnPixels& drawn) { drawn_ = &drawn; }
     /// Dates at which each frame's last pixel of this share was in memory.
