@@ -37,7 +37,7 @@ inline constexpr const char* kNoLimit = "1e9"; ///< but the range of the key
 std::vector<LossKey> memory_loss_keys(const MainMemoryConfig& memory);
 /// The key of its bandwidth.
 const char* bandwidth_key(const MainMemoryConfig& memory);
-/// The same and keys of the front end that all accelerators but GCC have.
+/// Keys of the memory model and of the front end that all accelerators but GCC have.
 std::vector<LossKey> common_loss_keys(const MainMemoryConfig& memory);
 /// Both lists as one.
 std::vector<LossKey> with(std::vector<LossKey> keys, const std::vector<LossKey>& more);
