@@ -53,7 +53,7 @@ public:
     /// options or with the clock is reported as messages.hpp says, and refused.
     Accelerator(const sc_core::sc_module_name& name, const Design& design,
                 const Options& options = {});
-    /// The same for a configuration of a program that is built from the sources.
+    /// Takes a configuration in place of a design, for programs that are built from the sources.
     Accelerator(const sc_core::sc_module_name& name, const AcceleratorConfig& config,
                 const Options& options = {});
     ~Accelerator() override;

@@ -75,7 +75,7 @@ std::vector<AccuracyRow> measure_single_gaussians(const SingleGaussianRequest& r
 /// with exact tile lists and the reference's stop rule.
 struct SceneAccuracyRequest {
     std::vector<std::string> sets;        ///< as numbers_of() reads them
-    std::vector<ViewRequest> scenes;      ///< their resolution does not count
+    std::vector<ViewRequest> scenes;      ///< a view's own resolution does not count
     std::vector<std::string> resolutions; ///< of resolution_names(); empty: the cameras' own
     std::string span_ends;                ///< for every set; empty: each set's own
     int tile_size = 32;                   ///< px; outward ends and bases of spans depend on it

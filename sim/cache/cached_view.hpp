@@ -17,9 +17,9 @@ public:
     /// Throws InputError for mistakes in the view, its scene and its cameras.
     CachedView(const ViewRequest& request, const PathRequest& path, FrameCache cache);
 
-    /// Of the scene as it was loaded, also when its Gaussians are not there.
+    /// Facts of the scene as it was loaded, also when its Gaussians are not there.
     const SceneFacts& facts() const { return facts_; }
-    /// Of the path; the view's own first. A scene that changes is seen by a camera that stands still.
+    /// Cameras of the path, the view's own first. A scene that changes is seen by a camera that stands still.
     const std::vector<Camera>& cameras() const { return cameras_; }
     /// The frames with the tiles of the accelerator, projected in its numbers.
     std::vector<FrameWorkload> frames(const AcceleratorConfig& config);
@@ -38,13 +38,13 @@ public:
 private:
     /// Loads the scene if it is not there.
     const GaussianCloud& cloud();
-    /// Of the scene as frame `k` shows it.
+    /// The key in the cache of the scene as frame `k` shows it.
     std::string frame_key(std::size_t k) const;
 
     ViewRequest request_;
     FrameCache cache_;
     std::string key_;                       ///< of the scene
-    Scene scene_;                           ///< its cloud may be missing
+    Scene scene_;                           ///< may be without its cloud
     std::unique_ptr<DynamicScene> dynamic_; ///< if the scene changes and several frames are wanted
     SceneFacts facts_;
     std::vector<Camera> cameras_;

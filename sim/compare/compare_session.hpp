@@ -64,7 +64,7 @@ private:
     std::vector<FailedRun> failed_;
     std::vector<std::string> warnings_;
     std::optional<Failure> unwritten_; ///< results that could not be written
-    std::vector<Failure> failures_;    ///< the same with their codes
+    std::vector<Failure> failures_;    ///< of the failed runs, with their codes
     RunProgress progress_;
     bool interrupted_ = false;
     ViewRuns runs_; ///< the last, because it calls back

@@ -110,7 +110,7 @@ std::string limits_table(const Comparison& comparison, std::size_t view) {
     return table.text();
 }
 
-/// Of the rows of a view, or of the means.
+/// A table of the energies of frames, from the rows of a view or from the means.
 std::string energy_table(const Comparison& comparison, const std::vector<ComparisonRow>& rows,
                          std::size_t view) {
     TextTable table({"energy of a frame", "mJ", "nJ per pixel", "W", "energy ×", "per mm²"});

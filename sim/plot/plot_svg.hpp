@@ -42,7 +42,7 @@ struct UtilizationLine {
 
 struct UtilizationPanel {
     std::string heading;
-    std::vector<UtilizationLine> lines; ///< the same labels in every panel
+    std::vector<UtilizationLine> lines; ///< every panel has the same labels
 };
 
 /// Utilization over the number of PEs, which doubles from tick to tick; two panels side by side.

@@ -17,7 +17,7 @@ struct FontCorner {
     unsigned char colour[4];
 };
 
-constexpr std::size_t kCornersPerCharacter = 4 * 24; // its documentation: some 17 on average
+constexpr std::size_t kCornersPerCharacter = 4 * 24; // stb_easy_font says some 17 on average
 
 // The font has the characters from 32 to 126 and reads beyond its table for others.
 std::string printable(const std::string& words) {

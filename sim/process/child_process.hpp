@@ -24,7 +24,7 @@ struct ChildJob {
 /// The result of a job: its output, or the reason why it has none.
 struct ChildOutcome {
     std::string output;
-    std::optional<Failure> failure; ///< its sentence begins with the name of the job
+    std::optional<Failure> failure; ///< the sentence begins with the name of the job
 };
 
 struct ChildWatcher {

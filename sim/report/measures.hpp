@@ -32,10 +32,10 @@ enum class Measure {
     AveragePowerW,
     LatencyRatio,           ///< latency of the first / latency
     ThroughputRatio,        ///< throughput / throughput of the first
-    LatencyRatioPerArea,    ///< the same with latency x area
-    ThroughputRatioPerArea, ///< the same with throughput / area
+    LatencyRatioPerArea,    ///< LatencyRatio with latency x area
+    ThroughputRatioPerArea, ///< ThroughputRatio with throughput / area
     EnergyRatio,            ///< energy per frame of the first / energy per frame
-    EnergyRatioPerArea,     ///< the same with energy x area
+    EnergyRatioPerArea,     ///< EnergyRatio with energy x area
     PsnrDb,
     Ssim,
     MaxAbsError,

@@ -31,7 +31,7 @@ struct RunSummary {
     ComparedView view;
     Measures measures;
     std::optional<double> first_task_ms;                ///< from the start of the run
-    std::optional<double> last_task_ms;                 ///< its end, likewise
+    std::optional<double> last_task_ms;                 ///< end, from the start of the run
     std::optional<double> sampled_share;                ///< of the tiles; empty: all of them
     std::optional<double> cycles_low, cycles_high;      ///< 95 % interval, of a sample
     std::string limited_by;                             ///< the busiest stage, or memory

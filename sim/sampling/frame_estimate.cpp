@@ -209,7 +209,7 @@ double FrameEstimate::known_share() const {
     return ratio_of(regression_.blocks(), blocks_);
 }
 
-// Of a value without one group at a time.
+// Half of the interval over a value; `without` holds the value without one group at a time.
 double FrameEstimate::jackknife(const std::vector<double>& without) const {
     const auto groups = static_cast<double>(without.size());
     double mean = 0;

@@ -36,9 +36,9 @@ public:
 
     /// Half of the 95 % interval over the value, as far as the sample has come.
     double relative_half_width(const std::string& path) const;
-    /// Of a frame with so many tiles that list a splat.
+    /// The estimated result of a frame with so many tiles that list a splat.
     AcceleratorResult whole_frame(std::size_t tiles) const;
-    /// Of all numbers of the report from `timing` to `dram`, and of `energy`.
+    /// The intervals of all numbers of the report from `timing` to `dram`, and of `energy`.
     std::vector<ReportInterval> intervals() const;
 
 private:
@@ -48,7 +48,7 @@ private:
     Slots slots_without(std::size_t group) const;
     AcceleratorResult frame_of(const Slots& slots, const std::vector<double>& amounts) const;
     AcceleratorResult frame_without(std::size_t group) const;
-    /// Of the tiles between the ends of the frame, with what the order of the tiles may cost.
+    /// The total of the tiles between the ends of the frame, with what the order of the tiles may cost.
     Estimate own_total(std::size_t measure) const;
     /// The interval that the regression gives itself; width 0 if `path` is not of its kind.
     double own_half_width(const std::string& path) const;

@@ -36,7 +36,7 @@ public:
 
     /// The total of the population. Its interval is infinitely wide for fewer blocks than it takes.
     Estimate total(std::size_t measure) const;
-    /// The same total without the blocks of one group of the sample.
+    /// The total of the population, estimated without the blocks of one group of the sample.
     double total_without(std::size_t measure, std::size_t group) const;
 
 private:

@@ -33,7 +33,7 @@ SampleSizes sizes_for(int contexts, std::size_t tiles) {
 }
 
 bool can_sample(const SamplingRequest& request, int contexts, std::size_t tiles) {
-    /// Of the tiles, those that may be simulated before the first look.
+    /// The share of the tiles that may be simulated before the first look.
     constexpr double kFirstLook = 0.4;
     const SampleSizes sizes = sizes_for(contexts, tiles);
     if (tiles < 2 * sizes.edge + 2 * kLeastGroups * sizes.group) {

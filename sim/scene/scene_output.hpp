@@ -17,8 +17,8 @@ namespace degs::sim {
 /// has none or another scene of this folder is drawn with them.
 void write_scene(const Scene& scene, const std::string& file);
 
-/// The same with another way to write the file; `words` describe what it holds, and `cameras` are those
-/// of the scene itself (empty: it has none).
+/// Writes a scene and its cameras, but leaves the file of the scene to `write`; `words` describe what that
+/// file holds, and `cameras` are the cameras of the scene itself (empty: it has none).
 void write_scene(const std::string& file, const std::string& words,
                  const std::vector<Camera>& cameras, const std::function<void()>& write);
 

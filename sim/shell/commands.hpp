@@ -25,7 +25,7 @@ void add_help_command(CLI::App& program);
 
 /// `--set`, for commands that take one configuration file.
 void add_overrides_option(CLI::App& command, std::vector<std::string>& overrides);
-/// The same for commands that take several, whose designs have names.
+/// `--set`, for commands that take several configuration files, whose designs have names.
 CLI::Option* add_addressed_overrides_option(CLI::App& command, std::vector<std::string>& overrides);
 
 } // namespace degs::sim

@@ -24,7 +24,7 @@ public:
     std::string path(const std::string& file) const;
     /// Writes the file whole or not at all.
     void write_text(const std::string& file, const std::string& text) const;
-    /// Likewise, as json_text().
+    /// Writes the value as json_text() shows it, whole or not at all.
     void write_json(const std::string& file, const nlohmann::ordered_json& value) const;
     /// Calls `write`, then puts the files that it has written in the place of all `files` and of `others`
     /// (paths): the folder holds the results before or after, or no document. Does nothing else if

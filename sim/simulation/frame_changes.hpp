@@ -20,7 +20,7 @@ struct FrameChanges {
     double footprint_gini = 0;            ///< 0..1
 };
 
-/// Of one frame after the other; at least one. A single frame has no overlap and no churn.
+/// The changes from frame to frame; at least one frame. A single frame has no overlap and no churn.
 FrameChanges frame_changes(const std::vector<const FrameWorkload*>& frames);
 
 /// "active overlap 0.987 · tile churn 4.6 % · P99 of tile candidates 1.2 k · footprint Gini 0.85"; what is

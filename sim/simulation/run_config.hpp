@@ -20,7 +20,7 @@ void put_memory(ConfigNode& tree, const std::string& file);
 /// named. Throws InputError.
 RunConfig load_run_config(const std::string& file, const std::vector<std::string>& overrides,
                           const std::string& memory_file = "");
-/// The same for a file that has been read.
+/// Loads and checks the configuration of a file that has been read. Throws InputError.
 RunConfig load_run_config(const ConfigSource& source);
 
 /// The kinds of accelerators that a file may name.

@@ -90,14 +90,14 @@ std::uint64_t peak_rss_bytes();
 std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds);
-/// The same of a scene that changes: frame k of it, seen by camera k. InputError for more cameras than
-/// the scene has frames.
+/// The frames of a scene that changes, made like those of a cloud: frame k, seen by camera k. InputError for
+/// more cameras than the scene has frames.
 std::vector<FrameWorkload> make_workloads(const DynamicScene& scene, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds);
 Reference make_reference(const FrameWorkload& workload);
-/// The same for a frame in any format: what was not projected in double is projected again, and the
-/// host seconds of that are added to `seconds`.
+/// The reference of a frame in any format: what was not projected in double is projected again, and
+/// the host seconds of that are added to `seconds`.
 Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame, double& seconds);
 /// Compares the first frame with its reference and fills in the result.
 void judge(RunResult& result, const Reference& reference);

@@ -120,7 +120,7 @@ void check_view(const ViewRequest& request) {
     if (request.scene.empty()) {
         throw InputError("The scene has an empty name; a file or synthetic:NAME is needed.");
     }
-    remember_input(request.scene); // those that another process reads, too
+    remember_input(request.scene); // files that another process reads, too
     remember_input(request.camera_file);
 }
 

@@ -22,7 +22,7 @@ struct ViewRequest {
 
 /// The position in a list of cameras that `text` says, or nothing if it says none.
 std::optional<int> camera_position(const std::string& text);
-/// The same for the option of a command that renders one view. Throws InputError.
+/// The camera position in the option of a command that renders one view. Throws InputError.
 int one_camera(const std::string& text);
 
 struct View {

@@ -16,7 +16,7 @@ std::vector<std::string> saturation_warnings(const DataPathOptions& options,
 std::vector<std::string> near_plane_warnings(const CullCounts& culled,
                                              const ProjectionOptions& options,
                                              std::uint64_t gaussians);
-/// The same for the frame of a path that loses the most.
+/// The sentence on the near plane for the frame of a path that loses the most Gaussians.
 std::vector<std::string> near_plane_warnings(const std::vector<const FrameWorkload*>& frames);
 /// A sentence if pixels were updated again before their write-back.
 std::vector<std::string> hazard_warnings(const AcceleratorResult& run);

@@ -41,7 +41,7 @@ public:
     std::function<void(SocHost&)> program;
     bool finished() const { return finished_; }
 
-    // These are for the program only.
+    // The functions below are for the program only.
     void load_scene(const GaussianCloud& cloud);
     void set_camera(const Camera& camera);
     /// Asks the accelerator how much it needs, and reserves that and two frame buffers. Throws

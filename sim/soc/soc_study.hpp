@@ -45,7 +45,7 @@ struct SocResult {
     Display::Stats display;
     double wall_s = 0;
     TimelineRecord timeline;       ///< if asked for
-    std::vector<TraceSpan> frames; ///< cycles of the accelerator, likewise
+    std::vector<TraceSpan> frames; ///< cycles of the accelerator, if asked for
 };
 
 /// Host, accelerator, display controller and cores on an AddressBus with an Lpddr5 memory: renders

@@ -55,8 +55,8 @@ LoadedConfigs load_compared(const std::vector<std::string>& words,
                             const std::vector<std::string>& overrides, bool quick = false,
                             const std::string& memory = "");
 
-/// The same for commands that have views of their own: InputError for a study that says something of
-/// views.
+/// Loads configurations for commands that have views of their own: InputError for a study that says
+/// something of views.
 std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
                                       const std::vector<std::string>& overrides,
                                       const std::string& memory = "");

@@ -91,7 +91,7 @@ std::optional<Rung> run_rung(const StudyPlan& plan, const std::vector<std::size_
     return rung;
 }
 
-/// Those that go on, and the baseline, with which results are compared.
+/// The variants that go on, and the baseline, with which results are compared.
 std::vector<std::size_t> survivors(const Rung& rung, const StudyPlan& plan,
                                    const SearchOptions& options) {
     std::vector<Goals> goals;

@@ -30,7 +30,7 @@ struct SweepResults {
     std::vector<std::size_t> points; ///< by row of the comparison
     std::vector<FailedPoint> failed;
     std::size_t missing = 0;           ///< points that are neither finished nor failed
-    std::size_t damaged = 0;           ///< of these, those whose file is damaged
+    std::size_t damaged = 0;           ///< of `missing`, points whose file is damaged
     std::vector<std::string> warnings; ///< sentences, each once
 };
 

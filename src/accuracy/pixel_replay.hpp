@@ -48,7 +48,7 @@ struct PixelBlame {
 PixelBlame blame_pixel(const FrameWorkload& workload, int x, int y, const NumberSet& set,
                        StopRule stop);
 
-/// The same for a set whose frame was projected in a format of its own: `reference` in double,
+/// Blames a pixel of a set whose frame was projected in a format of its own: `reference` in double,
 /// `projected` in the set's. The operation is "projection" if that explains more than any other:
 /// the error of `projected` drawn in double, or the part of the error that vanishes without it. The
 /// Gaussian is then the one whose part of the pixel changes most, and the flip may be that splats

@@ -67,7 +67,7 @@ std::uint32_t most_changed(const Listed& a, const Listed& b) {
     return worst;
 }
 
-/// Those of `order` that both have blended.
+/// The Gaussians that both lists have blended, in the order of the first.
 std::vector<std::uint32_t> shared(const Listed& of, const Listed& other) {
     std::vector<std::uint32_t> ids;
     std::copy_if(

@@ -12,7 +12,7 @@ namespace degs {
 /// "\\x1b", one "\\x.." per byte.
 std::string visible(const std::string& text);
 
-/// The same for text of several lines: newlines stay.
+/// `text` of several lines, escaped as visible() does, but newlines stay.
 std::string visible_lines(const std::string& text);
 
 } // namespace degs

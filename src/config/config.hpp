@@ -69,8 +69,8 @@ public:
     virtual void advise(bool in_proportion, const ConfigRule& rule) {
         (void)in_proportion, (void)rule;
     }
-    /// The same for a value of which a part is of no use. A reader warns only if an override gives
-    /// the key, because then somebody expects that it has an effect.
+    /// A design that can be built, but in which a part of a value is of no use. A reader warns only if an
+    /// override gives the key, because then somebody expects that it has an effect.
     virtual void advise_if_set(bool of_use, const ConfigRule& rule) { (void)of_use, (void)rule; }
 
     /// Says that `key`, a value or a section, has no effect while `decider` has its present value;

@@ -50,7 +50,7 @@ public:
         return warnings;
     }
 
-    /// The same for any function that describes: values are read into what it visits.
+    /// Reads values into everything that the function visits, and returns sentences like load().
     std::vector<std::string> read(const std::function<void(ConfigVisitor&)>& describe) const;
 
     /// Returns "file:line" or "--set path=value" of the text that decides a key, "default" if nothing names it.

@@ -30,8 +30,8 @@ struct ConfigNode {
 /// whose keys become part of that section; the section's own keys override them. Paths are relative
 /// to the including file. Throws InputError.
 ConfigNode read_config_file(const std::filesystem::path& path);
-/// The same for text in memory; `name` stands for the file in messages, includes are relative to
-/// it.
+/// Reads text in memory like a file; `name` stands for the file in messages, includes are relative
+/// to it.
 ConfigNode read_config_text(const std::string& name, const std::string& yaml);
 
 // Limits far above any real configuration. They keep a hostile file from taking all time, memory or stack.

@@ -26,7 +26,7 @@ struct Block {
     Kind kind = Kind::Units;
     double size = 0;      ///< units, or bytes
     double area_mm2 = 0;  ///< of all of them
-    double leakage_w = 0; ///< likewise
+    double leakage_w = 0; ///< of all units or bytes
     double energy_pj = 0; ///< per operation: a cycle of work of a unit, or a byte moved
     double full_rate = 0; ///< operations per cycle while everything works
     double power_w = 0;   ///< at Technology::activity, like the rows of the table

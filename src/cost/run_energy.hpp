@@ -14,7 +14,7 @@ namespace degs::cost {
 
 /// What a block has done in a run.
 struct Activity {
-    std::string block;     ///< its name in the bill of materials
+    std::string block;     ///< name in the bill of materials
     double operations = 0; ///< cycles of work of its units, or bytes read and written
 };
 

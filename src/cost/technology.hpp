@@ -35,7 +35,7 @@ struct SramRow : Row {
 /// A row of SRAM whose design has keys for its ports.
 struct PortedSramRow : SramRow {
     int ports = 1;      ///< that its area contains
-    int sram_banks = 1; ///< likewise, of each part
+    int sram_banks = 1; ///< that the area of each part contains
     PortedSramRow(const SramRow& row, int ported, int banked)
         : SramRow(row), ports(ported), sram_banks(banked) {}
     void describe(ConfigVisitor& visitor);

@@ -25,7 +25,7 @@ public:
     Ck open_until(Ck date) const {
         return open_time_ + (open_ != 0 && date > open_since_ ? date - open_since_ : 0);
     }
-    /// The same up to the last change.
+    /// CK with a row open, up to the last change.
     Ck open_time() const { return open_time_; }
 
     /// What a command has done to the row buffer.

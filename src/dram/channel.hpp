@@ -57,9 +57,9 @@ public:
         ByRowState bursts{};   ///< first burst of an access as it found the row, others hit
         ByRowState accesses{}; ///< of up to 64 B
         std::uint64_t forwarded = 0, merged = 0; ///< accesses that never reached the DRAM
-        std::uint64_t forwarded_bursts = 0, merged_bursts = 0; ///< the same in bursts
+        std::uint64_t forwarded_bursts = 0, merged_bursts = 0; ///< never reached the DRAM
         std::uint64_t drains = 0;                              ///< turns from reads to writes
-        /// Of all column commands.
+        /// The number of all column commands.
         std::uint64_t column_commands() const;
         Ck open = 0; ///< CK with a row open, up to the last change
         void add(const Stats& other);

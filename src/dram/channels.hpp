@@ -60,7 +60,7 @@ public:
     /// Date up to which run() must be called, at the latest half a CK after it; kNoDate if no
     /// request of push() is in flight.
     Ck due() const;
-    /// The same for a request that is about to be pushed.
+    /// Date up to which run() must be called for a request that is about to be pushed.
     Ck due_of(bool write, Ck date) const;
     /// From now on admissions are reported at their dates as well, or no longer.
     void watch_admissions(bool exactly);

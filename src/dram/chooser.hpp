@@ -47,7 +47,7 @@ public:
     template <class Chosen>
     void update(const Chosen& policy, unsigned bank, const ChannelState& state);
     void update_all(const ChannelState& state);
-    /// The same for a bank that has got one more access, which leaves the choice among the others.
+    /// Updates a bank that has got one more access, which leaves the choice among the others.
     void add(unsigned bank, const ChannelState& state);
 
     /// The command that comes next if nothing more comes; it stays until drop() or add().
@@ -77,7 +77,7 @@ private:
         Command command = Command::Pre;
         std::uint8_t slot = Queue::kNone;
     };
-    /// The same once more, one array each and in 32 bits: all banks are compared at once. Masks say
+    /// The candidates once more, one array each and in 32 bits: all banks are compared at once. Masks say
     /// what holds a bank back beside itself.
     struct Keys {
         using PerBank = std::array<std::uint32_t, kBanks>;

@@ -17,7 +17,7 @@ struct Energy {
     }
 
     void describe(StatsVisitor& v) const;
-    /// The same with names that end in the unit.
+    /// Describes the energies under names that end in the unit.
     void describe_with_unit(StatsVisitor& v) const;
 
     Energy operator-(const Energy& earlier) const {

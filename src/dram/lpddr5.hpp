@@ -52,8 +52,8 @@ public:
     /// Counters of all channels, up to now.
     Channel::Stats commands() { return commands(sc_core::sc_time_stamp()); }
     Energy energy() { return energy(sc_core::sc_time_stamp()); }
-    /// The same up to another date, for a run that is over: it may end before or after the date at
-    /// which the kernel had nothing left to do. `until` is not before the last request, and no
+    /// Counters, energy and transfers up to another date, for a run that is over: it may end before or after
+    /// the date at which the kernel had nothing left to do. `until` is not before the last request, and no
     /// request follows.
     Channel::Stats commands(const sc_core::sc_time& until);
     Energy energy(const sc_core::sc_time& until);
@@ -86,7 +86,7 @@ private:
     struct Initiator {
         std::uint64_t sequence = 0;
         unsigned waiting = 0;         // requests not yet in the queues
-        Payload* held_back = nullptr; // its END_REQ is withheld
+        Payload* held_back = nullptr; // with END_REQ withheld
         std::uint64_t held_date = 0;  // of it, kernel time units
         bool responding = false;      // between BEGIN_RESP and END_RESP
         sc_core::sc_time resume;      // the date of END_RESP

@@ -51,7 +51,7 @@ public:
     /// True if order() counts. Otherwise column commands go before others and older accesses
     /// before younger ones.
     virtual bool has_order() const { return false; }
-    /// Of the commands that may be sent in the same CK the one with the lowest number goes first;
+    /// The number of a command in the order of those that may be sent in one CK: the lowest goes first;
     /// below 2^63. ACT-2 goes before all of them, because it has a deadline. May change only with
     /// the bank's accesses in the queue and with the calls below for this bank.
     virtual std::uint64_t order(const Ready& /*ready*/) const { return 0; }

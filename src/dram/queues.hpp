@@ -99,7 +99,7 @@ public:
     }
 
     bool writing() const { return writing_; }
-    /// That of the present direction.
+    /// The queue of the present direction.
     Queue& current() { return writing_ ? writes_ : reads_; }
     const Queue& current() const { return writing_ ? writes_ : reads_; }
 

@@ -73,7 +73,7 @@ struct Timing {
     int rc() const { return ras + rp_pb; }
     int read_latency() const { return rl + burst(); }  ///< RD to its last beat
     int write_latency() const { return wl + burst(); } ///< WR to its last beat
-    /// Of a channel, 1e9 B/s.
+    /// The peak bandwidth of a channel, 1e9 B/s.
     double peak_gb_per_s() const { return kBytesPerBeat * data_rate_mt_per_s / 1000.0; }
 };
 

@@ -71,7 +71,7 @@ private:
         bool busy = false, in_reset = false, irq = false;
     } lines_;
     AcceleratorRequest request_;     // of the present frame
-    AcceleratorFault request_fault_; // likewise: why it cannot be served, if so
+    AcceleratorFault request_fault_; // why the present frame cannot be served, if so
     SceneCopy scene_;
     bool scene_changed_ = false;
     std::deque<FrameWorkload> workloads_;

@@ -8,7 +8,7 @@ namespace degs {
 namespace {
 
 constexpr std::uint32_t kMaxSide = 65536; // px, as in cameras.json
-constexpr double kMaxFocal = 1e9;         // px, likewise
+constexpr double kMaxFocal = 1e9;         // px, as in cameras.json
 constexpr double kRotationSlack = 1e-3;   // of the products of two axes
 
 AcceleratorFault fault(AcceleratorError error, Register which) {

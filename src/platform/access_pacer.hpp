@@ -28,7 +28,7 @@ public:
 
 private:
     using Turn = std::tuple<std::uint64_t, unsigned, std::uint64_t>; // date, rank, number
-    /// Of a waiting access, left even by a thread that is killed.
+    /// The place of a waiting access in the order, left even by a thread that is killed.
     class Place {
     public:
         Place(AccessPacer& pacer, const Turn& turn)

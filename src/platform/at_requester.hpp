@@ -46,7 +46,7 @@ public:
     /// response is that of the first piece that failed, in the order of the pieces, or OK.
     void transport(unsigned rank, Payload& access, const std::vector<Piece>& pieces,
                    sc_core::sc_time& delay);
-    /// The same at once, without waiting. The bytes of a write are copied, unless they mean nothing (TimingOnly).
+    /// Starts an access without waiting. The bytes of a write are copied, unless they mean nothing (TimingOnly).
     /// `done` is called, outside of any thread, when all pieces are answered, with the bytes as the pieces
     /// number them.
     using Done = std::function<void(tlm::tlm_response_status, const unsigned char* data)>;
@@ -69,7 +69,7 @@ private:
         std::vector<Transaction*> parts;
         std::size_t left = 0;            // parts that are not answered
         Done done;                       // of an access that nobody waits for
-        std::vector<unsigned char> data; // likewise
+        std::vector<unsigned char> data; // of an access that nobody waits for
     };
     struct Transaction : Payload {
         Access* access = nullptr;
@@ -108,7 +108,7 @@ private:
     unsigned under_way_ = 0, most_under_way_ = 0;
     std::uint64_t sequence_ = 0;
     std::vector<Queue> queues_;         // by rank
-    Transaction* requesting_ = nullptr; // its request phase is not over
+    Transaction* requesting_ = nullptr; // the one whose request phase is not over
     sc_core::sc_event request_over_;
     tlm_utils::peq_with_get<Transaction> answers_;
     std::vector<Transaction*> free_;

@@ -36,7 +36,7 @@ public:
         std::uint64_t items = 0;
         Cycle full_cycles = 0;      ///< writer ready, no free cell: sum of write(i) - a_w
         Cycle empty_cycles = 0;     ///< reader ready, no item: sum of read(i) - a_r
-        Cycle late_cycles = 0;      ///< likewise, no answer to put_at() for any item but the first
+        Cycle late_cycles = 0;      ///< reader ready, no answer to put_at(), first item apart
         Cycle occupied_cycles = 0;  ///< sum of read(i) - write(i); mean fill = this / elapsed
         std::size_t high_water = 0; ///< most items inside at one date; <= depth
     };
@@ -284,7 +284,7 @@ private:
             reader_->wake();
         }
     }
-    /// Of the first late item, which lies behind the last one that is not.
+    /// The cell of the first late item, which lies behind the last one that is not.
     Cell& late_cell() {
         const std::size_t place = static_cast<std::size_t>(front_ - first_) + filled_;
         return first_[place < capacity_ ? place : place - capacity_];

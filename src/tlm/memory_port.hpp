@@ -50,7 +50,7 @@ public:
     Completion write(Process& process, std::uint64_t address, std::uint64_t bytes) {
         return access(process, tlm::TLM_WRITE_COMMAND, address, nullptr, bytes);
     }
-    /// The same for scattered records, in one request. `run` is the address at which as many bytes
+    /// Reads or writes scattered records, in one request. `run` is the address at which as many bytes
     /// begin for a memory that takes them as one run.
     Completion read(Process& process, const ScatteredRecords& records) {
         return access(process, tlm::TLM_READ_COMMAND, records.base, nullptr, records.total_bytes(),

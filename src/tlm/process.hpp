@@ -77,7 +77,7 @@ public:
             pass_alarm(before, nullptr);
         }
     }
-    /// The same, and `counter` counts the cycles, for the timeline with their dates.
+    /// Moves the local date forward, and `counter` counts the cycles, for the timeline with their dates.
     void advance_to(Cycle date, Cycle& counter) {
         const Cycle before = local_;
         local_ = std::max(local_, date);
@@ -99,9 +99,9 @@ public:
     /// block; `busy` counts the cycles in which its `units` units worked.
     void show(const sc_core::sc_object& block, const Cycle& busy, int units = 1,
               const char* part = "");
-    /// The same for a process that does not work, but forwards, or has no count of it.
+    /// Shows a process that does not work, but forwards, or has no count of it.
     void show(const sc_core::sc_object& block, const char* part = "", int units = 1);
-    /// Its track; nullptr without a timeline.
+    /// The track of this process; nullptr without a timeline.
     ProcessTrack* track() const { return track_; }
     /// Sleeps until kernel time has reached the local date.
     void sync();

@@ -24,7 +24,7 @@ DatedFifo<T>& add_ring(std::vector<std::unique_ptr<DatedFifo<T>>>& rings, const 
     return *rings.back();
 }
 
-/// The same for tokens and messages, which never push back.
+/// Adds a ring for tokens and messages, which never push back.
 template <class T>
 DatedFifo<T>& add_wire(std::vector<std::unique_ptr<DatedFifo<T>>>& rings, const char* name,
                        const Timebase& time, int latency) {

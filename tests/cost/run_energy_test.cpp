@@ -50,7 +50,7 @@ TEST(BillOfMaterials, ReferenceActivityMakesOperationsDearer) {
     Technology technology;
     technology.activity = 0.5;
     EXPECT_NEAR(bill_of(technology).block("unit").energy_pj, 2 * 247.5, 1e-9);
-    EXPECT_NEAR(bill_of(technology).power_w(), bill_of({}).power_w(), 1e-9); // that of the rows
+    EXPECT_NEAR(bill_of(technology).power_w(), bill_of({}).power_w(), 1e-9); // power of the rows
 }
 
 TEST(BillOfMaterials, AnotherNodeIsAFactor) {

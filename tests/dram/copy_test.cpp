@@ -75,7 +75,7 @@ TEST(SmallRunLpddr5Copy, AssignedOverAnyOtherItDoesWhatAFreshCopyDoes) {
     EXPECT_EQ(seen, 0U) << "an observer has outlived the assignment";
 }
 
-// The same through all channels, with requests from 64 B to 64 KiB: one object predicts all the
+// Predictions through all channels, with requests from 64 B to 64 KiB: one object predicts all the
 // time, the other for the first time; both know the same requests.
 TEST(SmallRunLpddr5Copy, TheThousandthPredictionIsThatOfOneWhoNeverPredicted) {
     const dram::Config config = test::lpddr5_config("lpddr5-6400x128");

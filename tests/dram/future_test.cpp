@@ -51,7 +51,7 @@ public:
             channel_.push(access);
             known_ = access.date;
         }
-        // Those that the channel itself answers up to here are in no copy of it.
+        // Accesses that the channel itself answers up to here are in no copy of it.
         dram::Outcome outcome;
         channel_.run(known_, outcome);
         std::map<std::uint32_t, dram::Ck> rest = asked;

@@ -47,7 +47,7 @@ TEST_P(Lpddr5Trace, KeepsEveryRule) {
               stats.commands[2] + stats.commands[3] + stats.commands[4] + stats.commands[5]);
 }
 
-// The same work in one go or in steps of any size.
+// The channel does the same work in one go or in steps of any size.
 TEST_P(Lpddr5Trace, DoesNotDependOnHowOftenItIsRun) {
     const auto& [file, scheduler, page, refresh] = GetParam();
     const dram::Config config =

@@ -47,7 +47,7 @@ void degs::fuzz::run(std::string_view bytes) {
             fail("a value outside its range was accepted");
         }
     });
-    // The same text as what a command line would override.
+    // The input once more as the text of an override on a command line.
     read_or_refuse([&text] {
         Everything config;
         ConfigSource::from_overrides({text}).load(config);

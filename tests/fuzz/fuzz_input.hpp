@@ -104,7 +104,7 @@ inline void turn_and_turn_back(const SceneContent& content) {
     }
 }
 
-/// Of formats with logarithms of scales: if all of them look activated, a note says so.
+/// Expects a note from formats with logarithms of scales if all scales look activated.
 inline void expect_note_of_scales(const SceneContent& content) {
     const auto small = [](const glm::vec3& s) { return s.x < 1 || s.y < 1 || s.z < 1; };
     const std::vector<glm::vec3>& scales = content.cloud.scales;

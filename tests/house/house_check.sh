@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # house_check.sh RULE [ROOT]: checks one rule about folders and sources, or `all`, and prints every violation as
-# "file:line: reason". Rules: arrows public systemc printing namespaces length width casts folders licence.
+# "file:line: reason". Rules: arrows public systemc printing namespaces length width comments casts folders licence.
 set -euo pipefail
 
 rule=${1:?usage: house_check.sh RULE [ROOT]}
@@ -106,6 +106,28 @@ check_width() {
     done <<<"$wide"
 }
 
+# A comment on lines of its own names its subject: nobody should have to read the declaration above it first. Only the
+# first line of a block counts; `//` and `///` do not continue each other.
+check_comments() {
+    local hits
+    mapfile -t files < <(sources include src sim tests examples)
+    hits=$(awk '
+        FNR == 1 { before = "" }
+        {
+            mark = $1 ~ /^\/\// ? $1 : ""
+            sub(/[^\/].*/, "", mark)
+            text = $0
+            sub(/^[ \t]*\/+[ \t]*/, "", text)
+            if (mark != "" && mark != before &&
+                tolower(text) ~ /^(of|its|those|the same|likewise|their|that of|these)([^a-z]|$)/)
+                print FILENAME ":" FNR ": a comment begins with a noun of its own: " text
+            before = mark
+        }' "${files[@]}")
+    [[ -n $hits ]] || return 0
+    echo "$hits"
+    violations=$((violations + $(wc -l <<<"$hits")))
+}
+
 # A type that fits needs no cast, and where there are few, each of them says something.
 check_casts() {
     local casts lines
@@ -136,7 +158,7 @@ check_licence() {
     done < <(sources src sim tests)
 }
 
-rules=(arrows public systemc printing namespaces length width casts folders licence)
+rules=(arrows public systemc printing namespaces length width comments casts folders licence)
 case " ${rules[*]} all " in
     *" $rule "*) ;;
     *) echo "unknown rule '$rule'; there are: ${rules[*]} all" >&2; exit 2 ;;

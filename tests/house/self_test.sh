@@ -18,7 +18,8 @@ clean_tree() {
     printf '%s\n' "$licence" '#include <systemc>' '#include <tlm>' '#include "tlm/b.hpp"' >"$tree/src/tlm/a.hpp"
     printf '%s\n' "$licence" '#include "splat/a.hpp"' '#include "tlm/a.hpp"' >"$tree/src/modules/a.cpp"
     printf '%s\n' "$licence" '#include "modules/a.hpp"' >"$tree/src/baselines/gscore/a.cpp"
-    printf '%s\n' "$licence" 'int main() { std::cout << 1; }' 'using namespace x;' >"$tree/sim/main.cpp"
+    printf '%s\n' "$licence" 'int main() { std::cout << 1; }' 'using namespace x;' \
+        '// Words' '// of two lines' 'int i; ///< of a tile' >"$tree/sim/main.cpp"
     printf '%s\n' "$licence" | tee "$tree/src/base/error.hpp" >"$tree/src/tlm/b.hpp"
     printf '%s\n' "$licence" '#include "splat/a.hpp"' >"$tree/src/splat/wing/b.hpp"
     printf '%s\n' "$licence" '#include <tlm_utils/simple_target_socket.h>' '#include "degs/b.hpp"' >"$tree/include/degs/a.hpp"
@@ -70,6 +71,9 @@ finds namespaces src/tlm/a.hpp 5 'using namespace sc_core;'
 finds length src/tlm/a.hpp 505 "$(printf '// %.0s\n' {1..501})"
 finds width src/tlm/a.hpp 5 "// $(printf 'x%.0s' {1..118})"
 finds width src/tlm/a.hpp 5 "int i; ///< $(printf 'ü%.0s' {1..110})"
+finds comments src/tlm/a.hpp 5 '/// The same for a range.'
+finds comments src/splat/a.hpp 5 $'int i;\n    // of a tile.'
+finds comments include/degs/a.hpp 5 $'// Sections.\n/// Those of a cluster.'
 finds casts src/tlm/a.hpp 1 'int i = static_cast<int>(d);'
 finds licence src/tlm/bare.hpp 1 '#pragma once'
 

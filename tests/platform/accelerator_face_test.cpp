@@ -127,7 +127,7 @@ TEST_P(SmallRunFace, TouchesNothingOutsideItsRegions) {
     EXPECT_TRUE(inside);
 }
 
-// The same records, elsewhere: pixels and bytes are the same. GCC writes no splat records.
+// The records lie elsewhere: pixels and bytes are the same. GCC writes no splat records.
 TEST_P(SmallRunFace, OrderOfRecordsMovesAddressesOnly) {
     const std::unique_ptr<AcceleratorConfig> morton = GetParam().make();
     ConfigSource::from_overrides({"memory.model=lpddr5", "memory.layout=morton"})

@@ -84,7 +84,7 @@ Dates recurrence(const Pipeline& p) {
     return d;
 }
 
-/// The same as processes and rings.
+/// The pipeline as processes and rings.
 class DatedPipeline {
 public:
     DatedPipeline(const std::string& name, const Pipeline& p, Fidelity fidelity)

@@ -24,7 +24,7 @@ struct SpeedDesign {
 };
 
 struct SpeedRequest {
-    /// Of one accelerator after the other; the first of each computes in `ideal`.
+    /// The designs, one accelerator after the other; the first of each accelerator computes in `ideal`.
     std::vector<SpeedDesign> designs;
     std::vector<std::string> fidelities; ///< as SpeedFidelity reads them
     std::uint64_t seeds = 1;             ///< of each sample: 1 to this
@@ -89,8 +89,8 @@ struct SpeedGroup {
         0; ///< sampled runs whose interval holds the cycles of exact in the same numbers
     double over_render = 0, fragments_per_s = 0,
            cycles_error = 0;          ///< medians, the error without sign
-    double utilization_error = 0;     ///< likewise
-    std::optional<double> dram_error; ///< likewise
+    double utilization_error = 0;     ///< median, without sign
+    std::optional<double> dram_error; ///< median, without sign
     bool identical = false;
     std::optional<double> psnr_db;
 };

@@ -36,7 +36,7 @@ public:
     int width() const { return scene.camera.width; }
     int height() const { return scene.camera.height; }
     double middle_x() const { return middle_of(width()); }  ///< a pixel centre
-    double middle_y() const { return middle_of(height()); } ///< likewise
+    double middle_y() const { return middle_of(height()); } ///< a pixel centre
 
     HardScene scene;
 

@@ -79,7 +79,7 @@ std::vector<NodeMap> node_maps() {
             {"sheared", {{glm::dvec3(1, 0, 0), {0.5, 1, 0}, {0, 0, 1}}, {0, 0, 12}}, true}};
 }
 
-/// Of SH degree 2, around the origin.
+/// A cloud of SH degree 2, around the origin.
 GaussianCloud local_cloud() {
     HardBuilder builder(64, 64);
     GaussianCloud& cloud = builder.scene.cloud;

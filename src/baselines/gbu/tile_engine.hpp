@@ -118,7 +118,7 @@ private:
     Config config_;
     RenderJob& job_;
     int first_context_, contexts_;
-    Process self_; // its date is the one at which entries are pushed
+    Process self_; // at the date at which entries are pushed
     std::vector<RowPe> pes_;
     std::vector<Cycle> loaded_; // per PE and queue cell: date at which its last entry was loaded
     std::vector<std::size_t> pe_of_row_;

@@ -41,7 +41,7 @@ public:
     const std::vector<Row>& rows() const { return rows_; }
     /// Windows of a row of windows that hold a valid pixel.
     WindowMask valid(int row) const { return valid_[row]; }
-    /// Those among them with a valid pixel on the given border.
+    /// Windows of a row of windows that hold a valid pixel on the given border.
     WindowMask border(Side side, int row) const { return border_[side][row]; }
     int first_window_row() const { return first_row_; } ///< that may hold a valid pixel
     int last_window_row() const { return last_row_; }   ///< below the first one if there is none

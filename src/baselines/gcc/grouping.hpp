@@ -48,7 +48,7 @@ public:
     };
 
     sc_core::sc_vector<FifoPort<std::uint32_t>> out; ///< frames whose lists are complete
-    /// The same for all others that wait for these lists.
+    /// Frames whose lists are complete, to all others that wait for these lists.
     sc_core::sc_vector<FifoPort<std::uint32_t>> listed;
     /// Frames that have been written; empty unless frames have to wait for each other.
     sc_core::sc_vector<FifoPort<std::uint32_t>> frame_free;

@@ -133,7 +133,7 @@ private:
     Cycle pending_skips_ = 0;
     bool idle_pending_ = false;
     SlotPart* part_ = nullptr;  // if slots are recorded
-    std::vector<Cycle> visits_; // of the splat, likewise
+    std::vector<Cycle> visits_; // of the splat, if slots are recorded
     Stats stats_;
 };
 

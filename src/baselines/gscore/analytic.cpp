@@ -70,7 +70,7 @@ std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload& frame) const {
     return std::make_unique<Clock>(*this, frame);
 }
 
-/// Those with a pixel that has not ended.
+/// Sub-tiles with a pixel that has not ended.
 SubtileMask Clock::live(const CoarseTile& tile) const {
     SubtileMask mask = 0;
     for (int row = 0, s = 0; row < grid_.per_side(); ++row) {
@@ -83,7 +83,7 @@ SubtileMask Clock::live(const CoarseTile& tile) const {
     return mask;
 }
 
-/// Those of `among` that the solved splat touches.
+/// Sub-tiles of `among` that the solved splat touches.
 SubtileMask Clock::named(const CoarseTile& tile, SubtileMask among) const {
     switch (model_.config().array.subtile_skip) {
     case SubtileTest::Obb:

@@ -57,10 +57,10 @@ struct Config : TiledConfig<Config> {
 private:
     void describe_rows(ConfigVisitor& visitor) override;
     BufferShare splat_share() const { return {1.0 - buffer.sort_share, fetchers()}; }
-    /// Of one cluster: one that works on all tiles has a fetcher for each sorter.
+    /// Fetchers of one cluster: one that works on all tiles has a fetcher for each sorter.
     int fetchers() const { return clusters > 1 ? 1 : sorting.count; }
     BufferShare sort_share() const { return {buffer.sort_share, sorting.count}; }
-    /// Of one cluster.
+    /// Bytes that the buffer of one cluster has beside its Pixel Buffer.
     int shared_bytes() const { return buffer.bytes - pixel_buffer.bytes; }
     int chunk_bytes() const { return traffic.splat_bytes * fetching.chunk; }
     void require_sizes(ConfigVisitor& visitor) const;

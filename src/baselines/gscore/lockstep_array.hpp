@@ -77,8 +77,8 @@ public:
 private:
     /// Lanes that share one place in the list. One cluster: the whole array.
     struct Cluster {
-        Cycle first = kNever;     ///< its first cycle of work
-        Cycle free = 0;           ///< the cycle after its last one
+        Cycle first = kNever;     ///< first cycle of work
+        Cycle free = 0;           ///< the cycle after the last one
         Cycle blocked = 0;        ///< blocked_ when it last worked
         SlotPart* part = nullptr; ///< if slots are recorded
     };

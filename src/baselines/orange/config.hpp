@@ -62,7 +62,7 @@ struct Config : TiledConfig<Config> {
     std::int64_t splat_batch_bytes() const;
     std::int64_t coefficient_batch_bytes() const;
     std::int64_t product_batch_bytes() const;
-    /// Of a core's scratchpad, for the three.
+    /// Bytes that batches of the three kinds take in a core's scratchpad.
     std::int64_t batches_bytes() const;
     /// Keys of lists being sorted that a sorting unit's share of what is left holds.
     int sort_capacity() const;

@@ -117,7 +117,7 @@ void DegsConfig::require_sizes(ConfigVisitor& visitor) const {
         "feature_buffer.bytes", feature_buffer.bytes, std::int64_t{entry} * streams(),
         "to hold a splat of every tile stream for every bank",
         {"feature_buffer.entry_bytes", "scheduler.banks", "slicing.interleave"});
-    constexpr int kMostEntries = 65535; // their numbers have 16 bits
+    constexpr int kMostEntries = 65535; // entry numbers have 16 bits
     visitor.require(feature_entries() <= kMostEntries,
                     {"feature_buffer.bytes",
                      "must not hold more than 65535 splats per bank",

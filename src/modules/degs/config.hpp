@@ -63,9 +63,9 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
     }
     bool keeps_pixel_order() const override { return scheduler.scoreboard; }
     std::vector<LossKey> loss_keys() const override;
-    /// Of the keys of the window of waiting segments, those that did not limit a run in which a bank
-    /// had up to `high_water` segments and `feature_waits` of the entries of the Feature Buffer, 0 to
-    /// 1, had to wait for a free one.
+    /// Keys that did not limit a run, out of those of the window of waiting segments: a bank had up to
+    /// `high_water` segments, and `feature_waits` of the entries of the Feature Buffer, 0 to 1, had to
+    /// wait for a free one.
     std::vector<std::string> idle_window_keys(std::uint64_t high_water, double feature_waits) const;
     cost::BillOfMaterials bill() const override;
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
@@ -136,7 +136,7 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
     // Sections with what follows for their blocks from the other sections.
     /// What writes chunks of splats to the Gaussian Buffer, as if it read them itself.
     SplatFetcher::Config chunk_writers() const;
-    /// Of the cluster whose tile contexts begin at `first_context` of the Pixel Buffer.
+    /// The section of an Issue Bank in the cluster whose tile contexts begin at `first_context` of the Pixel Buffer.
     IssueBank::Config issue_bank(int first_context) const;
     PackingUnit::Config packing_unit() const;
     ArraySlice::Config array_slice(int first_context) const;

@@ -15,7 +15,7 @@ bool is_full(double part) {
     return part > 0.75;
 }
 
-/// Of the keys of the rates at which Issue Banks take and issue segments, those that limited nothing.
+/// Keys that limited nothing, out of those of the rates at which Issue Banks take and issue segments.
 std::vector<std::string> idle_packing_keys(double intake, double issue) {
     const std::string takes = "scheduler.segments_per_cycle", issues = "scheduler.issue_width";
     std::vector<std::string> idle;
@@ -241,7 +241,7 @@ void Degs::collect_idle_keys(AcceleratorResult& result) const {
     collect_idle_streams(result);
 }
 
-/// Of the keys of the Issue Banks' rates and of the number of tile streams.
+/// Collects keys that limited nothing among the Issue Banks' rates and the number of tile streams.
 void Degs::collect_idle_streams(AcceleratorResult& result) const {
     using B = IssueBank::Stats;
     const double issued = ratio_of(sum_of(blocks_.banks, &B::segments_issued), 1);

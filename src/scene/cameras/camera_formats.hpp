@@ -25,8 +25,8 @@ struct ColmapFiles {
     bool binary = false;
 };
 
-/// Those in a folder, or in sparse/0 or 0 inside it; binary files first, as COLMAP itself prefers
-/// them. Empty names if there are none.
+/// The files of a COLMAP model in a folder, or in sparse/0 or 0 inside it; binary files first, as COLMAP
+/// itself prefers them. Empty names if there are none.
 ColmapFiles colmap_in(const std::string& folder);
 
 /// The views of a COLMAP model in the order of their names, as the original 3DGS code sorts them.

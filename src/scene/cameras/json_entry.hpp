@@ -32,7 +32,7 @@ public:
     glm::dmat3 rows(const char* key) const;
     /// Up to 4 rows of 4 numbers, at least 3; a fourth one must be 0 0 0 1.
     glm::dmat4 affine(const char* key) const;
-    /// The same, of a rotation, a uniform scale and a translation; no mirroring.
+    /// A matrix as affine() reads it, of a rotation, a uniform scale and a translation; no mirroring.
     glm::dmat4 similarity(const char* key) const;
 
 private:

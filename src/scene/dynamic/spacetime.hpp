@@ -25,7 +25,7 @@ struct SpacetimeGaussian {
     float opacity = 0;         ///< logit
     glm::vec3 log_scale{0.0F}; ///< ln of the standard deviations in scene units, constant
     glm::vec4 rotation{0.0F};  ///< quaternion w x y z, not normalised
-    glm::vec4 omega{0.0F};     ///< its change per time
+    glm::vec4 omega{0.0F};     ///< change of `rotation` per time
 };
 
 using SpacetimeCloud = std::vector<SpacetimeGaussian>;

@@ -24,7 +24,7 @@ struct SpacetimeField {
     std::size_t offset; ///< bytes into a SpacetimeGaussian
 };
 
-/// Those that are kept, in the order of the original's files.
+/// The fields that are kept, in the order of the original's files.
 const std::vector<SpacetimeField>& spacetime_fields() {
     static const std::vector<SpacetimeField> fields = [] {
         std::vector<SpacetimeField> list;

@@ -19,7 +19,7 @@ public:
     void add_scale(double value) { negative_scale_ = negative_scale_ || value < 0; }
     void add_opacity(double value) { wide_opacity_ = wide_opacity_ || value < 0 || value > 1; }
 
-    // Of everything added so far; true if nothing was.
+    // What everything added so far looks like; true if nothing was added.
     bool scales_look_activated() const { return !negative_scale_; }
     bool opacities_look_activated() const { return !wide_opacity_; }
 
@@ -43,10 +43,10 @@ bool sizes_fit_scene(const std::vector<glm::dvec3>& means, const std::vector<glm
 /// What a reader says of a file whose format has logarithms and logits, and some of whose values do not
 /// look like them. Empty if there is nothing to say. `cloud`: as they were read.
 std::string activated_note(ActivationScan scan, const GaussianCloud& cloud);
-/// The same from the cloud alone. `logits`: the format has logits of opacities; most formats keep them as
-/// shares, so that nothing can be wrong with them.
+/// What a reader says of such a file from the cloud alone. `logits`: the format has logits of opacities; most
+/// formats keep them as shares, so that nothing can be wrong with them.
 std::string activated_note(const GaussianCloud& cloud, bool logits = false);
-/// The same of a file whose format leaves it open, and of which they were taken as they look.
+/// What a reader says of a file whose format leaves it open, and whose values were taken as they look.
 std::string taken_as_they_are_note(bool scales, bool opacities);
 
 } // namespace degs

@@ -32,7 +32,7 @@ void take_render_model(const std::string& key, const std::string& model, SceneCo
 /// All that one scene file holds, before anything is dropped.
 struct SceneContent {
     GaussianCloud cloud;
-    std::vector<Camera> cameras; ///< those in the file itself; most formats have none
+    std::vector<Camera> cameras; ///< of the file itself; most formats have none
     SceneTraits traits;
     Axes axes;                 ///< of the cloud and the cameras; load_scene() turns both to RDF
     bool axes_assumed = false; ///< the file does not name them, and its format is used either way

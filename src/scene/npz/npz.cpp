@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint64_t kMaxArrayBytes = std::uint64_t{1} << 36;
 constexpr double kStartOpacity = 0.1;  ///< of the original code
-constexpr double kLeastSquared = 1e-7; ///< likewise, squared scene units
+constexpr double kLeastSquared = 1e-7; ///< of the original code, squared scene units
 constexpr std::uint64_t kMaxPoints = 1U << 31;
 
 class NpzReader {

@@ -27,7 +27,7 @@ NpyArray square_matrices(const ZipArchive& archive, const std::string& name, std
     return array;
 }
 
-/// The same for all cameras, or one for each.
+/// Width or height of a camera, from an array with one number for all cameras or one for each.
 int side_of(const ZipArchive& archive, const NpyArray& array, const std::string& name,
             std::uint64_t camera, std::uint64_t cameras) {
     if (array.size() > 1 && array.size() != cameras) {

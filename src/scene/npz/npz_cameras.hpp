@@ -15,7 +15,7 @@ namespace degs {
 /// values no camera can have, and for a viewmat that is no rotation and translation.
 std::vector<Camera> read_npz_cameras(const ZipArchive& archive, std::vector<std::string>& notes);
 
-/// Those of a file, of which nothing else is read.
+/// The cameras of an .npz file, of which nothing else is read.
 std::vector<Camera> read_npz_cameras(const std::string& path);
 
 } // namespace degs

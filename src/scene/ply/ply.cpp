@@ -58,7 +58,7 @@ public:
         rows_.finish();
         return std::move(cloud_);
     }
-    /// Of what read() returned; empty if the values look as the format has them.
+    /// The note on what read() returned; empty if the values look as the format has them.
     std::string note_of(const GaussianCloud& cloud) const {
         ActivationScan scan;
         scan.add_scale(scales_activated_ ? 0 : -1);

@@ -52,7 +52,7 @@ void refuse_ordinary_geometry(const std::string& path, const PlyHeader& header,
     }
 }
 
-/// Of a type that says which number is full intensity.
+/// True if the vertices have colours of a type that says which number is full intensity.
 bool has_rgb(const PlyElement& vertex) {
     for (const PlyProperty& p : vertex.properties) {
         const bool colour = p.name == "red" || p.name == "green" || p.name == "blue";

@@ -17,7 +17,7 @@ namespace degs {
 /// per Gaussian of degree 3. InputError "<where>: <sentence>" for anything that is not such a file.
 SceneContent decode_spz(const std::string& where, std::string_view bytes);
 
-/// The same for a file. InputError also if it cannot be read.
+/// Reads an .spz file and decodes it. InputError also if it cannot be read.
 SceneContent read_spz(const std::string& path);
 
 } // namespace degs

@@ -21,7 +21,7 @@ namespace {
 constexpr int kUsualFractionalBits = 12;
 constexpr double kCodeLimit = 8388607; ///< 24 bits with a sign
 constexpr std::uint32_t kRubRecord = 0xADBE0003, kRubSystem = 4;
-constexpr int kZstdLevel = 12; ///< that of the reference encoder
+constexpr int kZstdLevel = 12; ///< as in the reference encoder
 
 const Axes kRub{{1, -1, -1}};
 

@@ -42,7 +42,7 @@ public:
     /// Blends the solved splat.
     void blend();
 
-    // Of the tile.
+    // Number, place and size of the tile, and its list.
     int tile() const { return tile_; }
     int x() const { return x_; } ///< px
     int y() const { return y_; }
@@ -58,7 +58,7 @@ public:
     const std::vector<int>& rows() const { return rows_; }
     const std::vector<int>& blocks() const { return blocks_; }
 
-    // Of the solved splat.
+    // The solved splat, its rows and its spans.
     std::uint32_t splat() const { return splat_; }
     /// Rows of the tile that its bounding box meets, drawn or not.
     int first_row() const { return first_row_; }

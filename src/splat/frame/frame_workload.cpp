@@ -54,7 +54,7 @@ public:
         }
         return runs_;
     }
-    /// The same tiles once more.
+    /// The tiles of the last call of cover() once more.
     const std::vector<TileRun>& covered() const { return runs_; }
     std::size_t tile(int row, int column) const { return row * grid_.tiles_x() + column; }
 

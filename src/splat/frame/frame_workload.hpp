@@ -39,7 +39,7 @@ struct FrameWorkload {
     CullCounts culled;
     std::vector<ProjectedSplat> splats;     ///< visible splats, near to far; equal depths by index
     std::vector<std::uint32_t> visible_of;  ///< indices of visible Gaussians in cloud order
-    std::vector<glm::vec3> visible_means;   ///< their means, scene units
+    std::vector<glm::vec3> visible_means;   ///< means of visible Gaussians, scene units
     std::vector<std::uint64_t> tile_begin;  ///< tiles + 1 offsets into tile_splats
     std::vector<std::uint32_t> tile_splats; ///< indices into splats, ascending (= near to far)
     std::vector<std::uint32_t>

@@ -115,7 +115,7 @@ private:
 std::unique_ptr<Projector> make_projector(const GaussianCloud& cloud, const Camera& camera,
                                           const ProjectionOptions& options);
 
-/// The same with every operation computed in double and rounded afterwards, whatever the format;
+/// A projector with every operation computed in double and rounded afterwards, whatever the format;
 /// fp32 is the machine's own to the bit. For tests.
 std::unique_ptr<Projector> make_rounding_projector(const GaussianCloud& cloud, const Camera& camera,
                                                    const ProjectionOptions& options);

@@ -42,15 +42,15 @@ public:
     int side() const { return side_; }
     int per_side() const { return per_side_; }
     int count() const { return per_side_ * per_side_; }
-    /// Those with a pixel inside the image, for a tile cut to width x height px by its border.
+    /// Sub-tiles with a pixel inside the image, for a tile cut to width x height px by its border.
     SubtileMask inside(int width, int height) const;
-    /// Those of the tile at (x, y) whose areas meet the box.
+    /// Sub-tiles of the tile at (x, y) whose areas meet the box.
     SubtileMask meeting(const OrientedBox& box, int x, int y) const {
         return meeting(box, x, y, ~SubtileMask{0});
     }
-    /// The same of those in `among`.
+    /// Sub-tiles of `among` whose areas meet the box.
     SubtileMask meeting(const OrientedBox& box, int x, int y, SubtileMask among) const;
-    /// Those with a pixel among `columns` of a row of the tile.
+    /// Sub-tiles with a pixel among `columns` of a row of the tile.
     SubtileMask of_pixels(int row, const PixelRange& columns) const;
 
 private:

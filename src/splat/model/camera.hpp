@@ -25,7 +25,7 @@ struct Camera {
     /// any other point.
     std::optional<double> seen_depth(const glm::dvec3& point) const;
     std::uint64_t pixels() const { return std::uint64_t{1} * width * height; }
-    /// The same view at another width; height and focal lengths follow, height is rounded (at least
+    /// This view at another width; height and focal lengths follow, height is rounded (at least
     /// 1). Throws InputError if either side leaves 1 .. 65536.
     Camera scaled_to_width(int new_width) const;
 };

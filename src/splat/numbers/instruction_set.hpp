@@ -24,7 +24,7 @@ enum class InstructionSet {
 /// it.
 InstructionSet instruction_set();
 
-/// Those of `variants`, one per instruction set from Narrow on, that this machine can run; the last
+/// The elements of `variants`, one per instruction set from Narrow on, that this machine can run; the last
 /// one is the fastest.
 template <class Variant>
 std::vector<Variant> runnable(std::vector<Variant> variants) {

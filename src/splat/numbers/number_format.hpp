@@ -30,7 +30,7 @@ struct NumberFormat {
 
     int sign_bits() const { return has_sign ? 1 : 0; }
     int storage_bits() const;
-    /// The same without the sign.
+    /// Bits in storage without the sign.
     int magnitude_bits() const { return storage_bits() - sign_bits(); }
     /// Largest finite value.
     double max() const;

@@ -104,7 +104,7 @@ struct NumberSet {
 struct NumberStage {
     const char* key; ///< in configurations
     NumberFormat NumberSet::*format;
-    bool is_signed;        ///< its values may be negative
+    bool is_signed;        ///< values may be negative
     const char* unit;      ///< for a cost model; empty if it is stored only
     const char* operation; ///< that makes its values, for a cost model: "multiply."
     const char* meaning;
@@ -134,7 +134,7 @@ std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set)
 std::vector<std::string> number_set_names();
 /// Throws InputError, which lists the names, for any other.
 NumberSet number_set(const std::string& name);
-/// The same with parts changed by "key=value" of NumberSet::describe, as `--numbers` has them.
+/// A named set with parts changed by "key=value" of NumberSet::describe, as `--numbers` has them.
 /// Throws InputError that names the key.
 NumberSet number_set(const std::string& name, const std::vector<std::string>& assignments);
 

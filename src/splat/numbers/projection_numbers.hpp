@@ -13,7 +13,7 @@ namespace degs {
 struct ProjectionNumbers {
     NumberFormat format;  ///< of every operation; fp64 and fp32 are native
     NumberFormat sh_dc;   ///< SH coefficients of degree 0 in memory, rounded before use
-    NumberFormat sh_rest; ///< those of higher degrees
+    NumberFormat sh_rest; ///< SH coefficients of higher degrees
     NumberFormat depth_key = parse_format("fp32"); ///< depths in list entries; equal: by index
 
     /// Are splats and their order those of the reference?

@@ -10,7 +10,7 @@ namespace degs {
 /// SH coefficients as memory holds them: rounded to ProjectionNumbers::sh_dc and sh_rest.
 class StoredSh {
 public:
-    /// Of degree 3, three channels each.
+    /// Coefficients of degree 3, three channels each.
     using Values = std::array<float, 48>;
 
     explicit StoredSh(const ProjectionNumbers& numbers)

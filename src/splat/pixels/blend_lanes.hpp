@@ -113,7 +113,7 @@ struct ProductRow {
     std::uint32_t mask; ///< pixels to test
     std::size_t first;  ///< pixel of mask bit 0
 };
-/// The same as TestFunction with the exponents of gemm_product().
+/// PEs that check while they blend, as for TestFunction, with the exponents of gemm_product().
 template <class T>
 using ProductFunction = void (*)(const ProductRow* rows, int count, const GemmRow<T>& coefficients,
                                  const BlendRecord<T>& splat, bool refuse, PixelPlanes<T>& pixels,

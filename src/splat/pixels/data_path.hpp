@@ -36,7 +36,7 @@ struct DataPathOptions {
     /// The formats in which its frames are projected (ProjectionOptions::numbers). The data path
     /// itself takes splats as they are.
     ProjectionNumbers projection = {};
-    RenderingRules rules = {}; ///< likewise
+    RenderingRules rules = {}; ///< by which its frames are projected
     /// test() forms exponents so; nothing: as a completed square.
     std::optional<ExponentGemm> gemm = std::nullopt;
 };
@@ -49,7 +49,7 @@ NumberSet set_of(Arithmetic arithmetic);
 /// The numbers of that name with the span ends and the projection of their set; fp64 has exact
 /// ends. Throws InputError, which lists the names, for any other.
 DataPathOptions named_numbers(const std::string& name);
-/// The same with parts changed ("key=value" of NumberSet::describe). fp32 and fp64 stay the
+/// Named numbers with parts changed ("key=value" of NumberSet::describe). fp32 and fp64 stay the
 /// machine's own operations if projection, SH coefficients and depth keys alone are.
 DataPathOptions named_numbers(const std::string& name, const std::vector<std::string>& assignments);
 /// The formats, span ends and projection of any set.
@@ -144,12 +144,12 @@ public:
     virtual void expect(std::uint32_t splat) const = 0;
     /// The image rows (unclipped) that the splat's ellipse meets.
     virtual PixelRange rows(std::uint32_t splat) const = 0;
-    /// The same for the part of the ellipse in columns [x_begin, x_end). May name a row too many at
+    /// The image rows that the ellipse meets in columns [x_begin, x_end). May name a row too many at
     /// either end (rounding), never one too few; empty if the ellipse passes by.
     virtual PixelRange rows_in_columns(std::uint32_t splat, int x_begin, int x_end) const = 0;
     /// The image columns (unclipped) that the splat's ellipse meets.
     virtual PixelRange columns(std::uint32_t splat) const = 0;
-    /// Those of the bounding box of the ellipse as it was projected, to the pixel.
+    /// The columns of the bounding box of the ellipse as it was projected, to the pixel.
     virtual PixelRange box_columns(std::uint32_t splat) const = 0;
     /// Solves image row `y` for the columns [x_begin, x_end) of a tile whose top row is `tile_y`
     /// (paper Eq. 12-15, 19). Nothing if no pixel of the tile is covered.
@@ -164,8 +164,8 @@ public:
     /// 10), and blends the live ones with q <= Q_th; the others keep their state. For number
     /// sets see QuantizedRow::check. With DataPathOptions::gemm, q' is that product instead.
     virtual BlendOutcome test(const PixelTest& test) = 0;
-    /// The same for `rows` rows inside the tile, that of `test` and those below it, each with the
-    /// mask of `test` and an outcome of its own.
+    /// Tests pixels as test() does on `rows` rows inside the tile, from the row of `test` downwards, each
+    /// with the mask of `test` and an outcome of its own.
     virtual void test_rows(const PixelTest& test, int rows, BlendOutcome* outcomes) = 0;
     /// The rows among `rows` on which test() may find a pixel of `columns` inside. May name rows too
     /// many, never one too few. Like tested_columns() for the completed square alone.

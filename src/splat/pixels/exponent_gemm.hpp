@@ -27,7 +27,8 @@ enum class GemmOrigin { Tile, Image };
 
 struct ExponentGemm {
     GemmOrigin origin = GemmOrigin::Tile;
-    /// Of a number set: coefficients and monomials; products and their sums. Single and double precision use their own.
+    /// Formats of a number set: coefficients and monomials; products and their sums. Single and double precision
+    /// use their own.
     NumberFormat operands, sums;
 };
 

@@ -44,7 +44,7 @@ private:
 /// to the last rounding; columns and rows_in_columns() may name a few too many, never one too few.
 class QuantizedExtent {
 public:
-    /// Of no splat.
+    /// The extent of no splat.
     QuantizedExtent() = default;
     QuantizedExtent(const QuantizedRow& row, const QuantizedSlack& slack,
                     const QuantizedSplat& splat);

@@ -138,7 +138,7 @@ QuantizedSpan QuantizedRow::span_vector(const QuantizedSplat& splat, const Row& 
     return span;
 }
 
-/// Of the whole row.
+/// The ends of the span in the whole row, whatever the columns of the tile.
 QuantizedRow::Ends QuantizedRow::ends(const QuantizedSplat& splat, const Row& row,
                                       double centre) const {
     const double root = sqrt_(row.x);

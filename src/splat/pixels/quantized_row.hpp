@@ -22,7 +22,7 @@ struct QuantizedSplat {
     double q_threshold = 0;          ///< Q_th
     double fold = 0;                 ///< -2 ln o, from Q_th before the cut
     double limit = 0;                ///< q' at q = Q_th: that of alpha = 1/255, or of the cut
-    double q_inside = 0;             ///< the same in the format of q: the largest q' inside
+    double q_inside = 0;             ///< `limit` in the format of q: the largest q' inside
     double colour[3] = {0, 0, 0};
 };
 

@@ -12,7 +12,7 @@ namespace degs {
 /// A field of the splat record whose format does not reach far enough for a frame.
 struct Saturation {
     std::string stage;        ///< as in pipeline.formats
-    std::string format;       ///< its name
+    std::string format;       ///< name of the format
     double limit = 0;         ///< largest value of the format
     std::uint64_t splats = 0; ///< of the frame, whose value lies beyond
 };

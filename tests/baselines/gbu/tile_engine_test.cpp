@@ -122,7 +122,7 @@ TEST(TileEngine, ATileThatEndsIsAbandoned) {
     bench.run(bench.lists({0}));
     const Cycle push = bench.first_push();
     const Cycle end = push + 1 + 2 * 17 + 15;      // slot of the last pixel of the third entry
-    EXPECT_EQ(bench.stats().window.last, end + 1); // its probe
+    EXPECT_EQ(bench.stats().window.last, end + 1); // the pixel's probe
     EXPECT_EQ(bench.stats().slots[Slot::Useful], 512U);
     EXPECT_EQ(bench.stats().slots[Slot::Terminated], 256U);
     EXPECT_EQ(bench.stats().slots[Slot::Boundary], 48U);
@@ -220,7 +220,7 @@ TEST(TileEngine, TheNextTileWaitsForAllPes) {
     std::vector<ProjectedSplat> splats{one_row(0, 9, 4), one_row(16, 25, 8)};
     TileEngineBench bench(small_engine(), make_frame(splats, 32, 16, 16), 1, 2);
     bench.run(bench.lists({0, 1}));
-    // Its records are there, but the first tile keeps PE 4 busy.
+    // The records of the next tile are there, but the first tile keeps PE 4 busy.
     EXPECT_EQ(bench.stats().window.cycles(), 11U + 1 + 11);
     EXPECT_EQ(bench.stats().slots[Slot::Blocked], 0U);
 }

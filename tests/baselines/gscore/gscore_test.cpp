@@ -126,7 +126,7 @@ TEST(Gscore, FinishedTilesAreNeitherSortedNorFetched) {
     all.expect_sound();
     const AcceleratorResult result = run.result();
     EXPECT_EQ(result.tiles_cancelled, 4U);
-    // Of 8 chunks: one that is rendered, and one or two that the sorter is ahead.
+    // One chunk of 8 is rendered, and the sorter is one or two ahead.
     EXPECT_GE(count_of(result, "sorting", "keys_sorted"), 4U * 256);
     EXPECT_LE(count_of(result, "sorting", "keys_sorted"), 4U * 3 * 256);
     EXPECT_LE(count_of(result, "fetching", "records"), 4U * 2 * 256);
@@ -234,7 +234,7 @@ TEST(GscoreClusters, ChangeNoPixelAndTakeTheTilesInTurn) {
     EXPECT_LT(runs[2]->result().cycles, runs[1]->result().cycles);
 }
 
-// Of two arrays, each has two of four tiles of 4 sub-tiles under 60 splats. Chunks are there at
+// Each of two arrays has two of four tiles of 4 sub-tiles under 60 splats. Chunks are there at
 // once, so that the second starts a cycle after the first, because one tile is granted per cycle.
 TEST(GscoreClusters, ShareTheWorkOfTheArrayAlone) {
     const FrameWorkload frame =

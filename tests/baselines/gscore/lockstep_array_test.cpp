@@ -104,7 +104,7 @@ ProjectedSplat diagonal_needle() {
     return make_splat(7.5, 7.5, 10, std::sqrt(0.3), std::acos(-1.0) / 4, 2.0 / 255);
 }
 
-// Its box touches the corner of the two sub-tiles that hold none of its pixels.
+// The needle's box touches the corner of the two sub-tiles that hold none of its pixels.
 TEST(LockstepArray, DiagonalNeedleByItsBox) {
     expect_one_tile(skip(SubtileTest::Obb), {diagonal_needle()}, {4, 16});
 }

@@ -86,7 +86,7 @@ TEST(LockstepTiles, SplatsWithoutBitsCostNothing) {
     LockstepBench::start();
     EXPECT_EQ(bench.stats().passes, 2U);
     EXPECT_EQ(bench.stats().splats_skipped, 1U);
-    EXPECT_EQ(bench.tile_done[1], bench.tile_done[0]); // its chunk comes a cycle later
+    EXPECT_EQ(bench.tile_done[1], bench.tile_done[0]); // the chunk of tile 1 comes a cycle later
     bench.expect_sound();
 }
 

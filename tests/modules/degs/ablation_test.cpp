@@ -67,7 +67,7 @@ TEST(SmallRunAblation, WithoutParsingARowTakesAllPixelsOfTheBox) {
     }
 }
 
-// The same across two tiles, which have 3 and 2 of the columns.
+// A disc across two tiles, which have 3 and 2 of the columns.
 TEST(SmallRunAblation, WithoutParsingTheTileCutsTheBox) {
     const FrameWorkload frame = make_frame({disc(15, 8, 2.2)}, 32, 16, 16);
     const auto runs = run_all({16, 2, 8, 8, 8}, frame);

@@ -91,7 +91,7 @@ public:
         engine_->collect(r);
         return r;
     }
-    /// Of a run with Watch::Timeline that has ended at `end`.
+    /// The timeline of a run with Watch::Timeline that has ended at `end`.
     TimelineRecord timeline(Cycle end) { return timeline_.record(end); }
 
 private:

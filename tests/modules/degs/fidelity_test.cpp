@@ -248,7 +248,7 @@ void expect_same_tiles(const SlotRecorder& a, const SlotRecorder& b) {
     }
 }
 
-// Their names begin with those of the two accelerators, so that only what they hold is compared.
+// Names in timelines begin with those of the two accelerators, so that only what they hold is compared.
 void expect_same_timelines(const TimelineRecord& a, const TimelineRecord& b) {
     EXPECT_EQ(a.step, b.step);
     EXPECT_EQ(a.end, b.end);

@@ -121,7 +121,7 @@ TEST(SmallRun, ADiagonalNeedle) {
     run(tiles_of(32), frame);
 }
 
-// The same pixel again and again: executions are exactly the reuse distance apart.
+// One pixel again and again: executions are exactly the reuse distance apart.
 TEST(SmallRun, TheReuseDistanceHoldsAtTheArray) {
     const std::vector<ProjectedSplat> splats(40, one_pixel(3, 3, 0.02));
     const FrameWorkload frame = make_frame(splats, 16, 16, 16);
@@ -145,7 +145,7 @@ TEST(SmallRun, WithoutScoreboardPixelsAreUpdatedTooEarly) {
     EXPECT_FALSE(test::same_bytes(early.image(), render_reference(frame, counts)));
 }
 
-// The same with it: queues that run full and drain back to back.
+// With a scoreboard the image is right, even if queues run full and drain back to back.
 TEST(SmallRun, WithScoreboardNeverEvenIfDeepQueuesDrain) {
     const FrameWorkload frame = random_frame(2, 64, 64, 32, 150);
     DegsConfig config = tiles_of(32);

@@ -132,7 +132,7 @@ inline Deed before(const char* name, std::set<Rule> broken,
                 b.block(b.first());
             }};
 }
-/// The same before BEGIN_REQ.
+/// Changes a payload before BEGIN_REQ.
 inline Deed before_request(const char* name, std::set<Rule> broken,
                            const std::function<void(Payload&)>& change) {
     return {name, std::move(broken), [change](Bench& b) {

@@ -25,7 +25,7 @@ TEST(Cameras, AreReadWithRowsOfTheRotation) {
     // Columns are the view axes: here x is world y, y is world z, z (forward) is world x.
     EXPECT_EQ(cameras[0].camera_to_world[0], glm::dvec3(0, 1, 0));
     EXPECT_EQ(cameras[0].camera_to_world[2], glm::dvec3(1, 0, 0));
-    EXPECT_EQ(cameras[1].id, 1); // its place in the array
+    EXPECT_EQ(cameras[1].id, 1); // the camera's place in the array
     EXPECT_EQ(cameras[1].name, "camera 1");
     EXPECT_EQ(cameras[1].height, 65536);
 }

@@ -28,7 +28,7 @@ double psnr(const Image& reference, const Image& test) {
     return difference.psnr_db();
 }
 
-/// The same without the pixels to which one of both adds a splat that the other leaves out.
+/// The PSNR without the pixels to which one of both adds a splat that the other leaves out.
 double psnr_without_flips(const Image& reference, Image test, int& flipped) {
     flipped = 0;
     for (std::size_t i = 0; i < test.pixels(); ++i) {

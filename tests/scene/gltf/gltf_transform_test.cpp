@@ -117,7 +117,7 @@ TEST(GltfNodes, MoveLikeTheInverseOfTheCamera) {
     EXPECT_GT(same.psnr_db, 100);
     EXPECT_LT(compare_images(expected, render(moved, camera)).psnr_db, 40); // it does move
 
-    // The same splats whose colours have not turned with them.
+    // The moved splats, whose colours have not turned with them.
     GaussianCloud unturned = moved;
     unturned.sh = scene.cloud.sh;
     EXPECT_LT(compare_images(expected, render(unturned, follows)).psnr_db, 60);
@@ -135,7 +135,7 @@ TEST(GltfImages, AreThoseOfThePly) {
     for (const Camera& camera : ply.cameras) {
         const Image expected = render(ply.cloud, camera);
         EXPECT_EQ(render(ours, camera).rgb, expected.rgb);
-        // Their scales and rotations are rounded otherwise, and a fragment at the threshold may flip.
+        // Scales and rotations of `theirs` are rounded otherwise, and a fragment at the threshold may flip.
         EXPECT_GT(compare_images(expected, render(theirs, camera)).psnr_db, 105);
     }
 }

@@ -106,7 +106,7 @@ TEST(HostilePly, MissingPropertiesAreAllNamed) {
     for (const PlyBuilder::Property& property : complete.properties) {
         PlyBuilder ply = PlyBuilder::splat();
         ply.remove(property.name);
-        if (property.name[0] != 'n' && property.name != "scale_2") { // these may be missing
+        if (property.name[0] != 'n' && property.name != "scale_2") { // properties that are needed
             EXPECT_THAT(complaint_about_ply(ply.file()), IsSentenceWith("'" + property.name + "'"));
         }
     }

@@ -19,7 +19,7 @@ struct PlyBuilder {
     std::string format = "binary_little_endian";
     std::string before;      ///< header lines of elements in front of the vertices
     std::string after;       ///< header lines behind them
-    std::string body_before; ///< their data
+    std::string body_before; ///< data of the elements in front
     std::string body_after;
     std::string count; ///< as written in the header; the number of rows if empty
     std::string line_end = "\n";

@@ -180,7 +180,7 @@ TEST(Spz, PublishedFixturesHoldFourGaussians) {
     EXPECT_EQ(v3.means, v4.means);
     EXPECT_EQ(v3.rotations, v4.rotations);
     EXPECT_EQ(v3.sh, v4.sh);
-    ASSERT_EQ(v2.size(), 4U); // its writer mirrored z and took other colours
+    ASSERT_EQ(v2.size(), 4U); // the writer of v2 mirrored z and took other colours
     for (const GaussianCloud* const other : {&v3, &v4}) {
         EXPECT_EQ(other->scales, v2.scales);
         EXPECT_EQ(other->opacities, v2.opacities);

@@ -86,7 +86,7 @@ TEST(SpzWriting, WritesTheSameFileFromWhatItWrote) {
 
 TEST(SpzWriting, SaysWhatItClamped) {
     GaussianCloud cloud = moderate_cloud(1);
-    cloud.scales[0].y = 0; // its logarithm is minus infinity
+    cloud.scales[0].y = 0; // the logarithm is minus infinity
     cloud.scales[1].x = 1e4F;
     cloud.sh[0] = 4;
     cloud.sh[1] = -4;

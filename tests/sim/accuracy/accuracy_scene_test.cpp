@@ -86,7 +86,7 @@ void expect_difference_of_run_and_render(const std::string& numbers,
     const std::size_t at = run.at(pixel["x"], pixel["y"]);
     EXPECT_EQ(worst, std::max({std::abs(error.rgb[3 * at]), std::abs(error.rgb[3 * at + 1]),
                                std::abs(error.rgb[3 * at + 2])}));
-    EXPECT_NEAR(pixel["error"], worst, 0.1 * worst); // its replay
+    EXPECT_NEAR(pixel["error"], worst, 0.1 * worst); // the pixel's replay
 }
 
 TEST(AccuracyScenes, IsTheDifferenceOfRunAndRender) {

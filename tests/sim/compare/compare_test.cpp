@@ -81,7 +81,7 @@ TEST(CompareRuns, AgreesWithSingleRuns) {
     EXPECT_EQ(row["dram"]["bytes_read"], report["dram"]["bytes_read"]);
     EXPECT_EQ(row["image"]["psnr_db"], report["image"]["psnr_db"]);
     EXPECT_TRUE(report["timing"]["throughput_fps"].is_null());
-    // The same to the last byte, except for what the machine did.
+    // Both reports are the same to the last byte, except for what the machine did.
     nlohmann::json own = nlohmann::json::parse(
         read_file(folder / "c/reports/2-object-camera0-96x72/2-degs-64.json"));
     nlohmann::json other = report;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kHalf = 256; // px
 
-/// The same splats, whose pixels all lie in the left half, in an image of that width or twice as wide.
+/// One set of splats, whose pixels all lie in the left half, in an image of that width or twice as wide.
 FrameWorkload left_half_in(int width, int tile_size) {
     FrameWorkload frame = test::random_frame(7, kHalf, 96, tile_size, 150);
     std::vector<ProjectedSplat> inside;

@@ -36,7 +36,7 @@ TEST(UnusedMemory, OfAnArrayAloneDoesNothing) {
     const Counts with = counted_run(shipped("degs-64", {kLpddr5}), frame, array);
     EXPECT_EQ(with, counted_run(shipped("degs-64"), frame, array));
     EXPECT_TRUE(with["dram_commands"].is_null());
-    // The same design with its memory, so that the comparison can fail.
+    // The design with its memory, so that the comparison can fail.
     const Counts used = counted_run(shipped("degs-64", {kLpddr5}), frame);
     EXPECT_FALSE(used["dram_commands"].is_null());
     EXPECT_GT(used["activations"], with["activations"]);

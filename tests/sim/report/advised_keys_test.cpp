@@ -39,7 +39,7 @@ void add_entries(const std::string& design, const Settings& settings, std::set<E
     }
 }
 
-/// Of all designs of configs, with settings that decide which entries there are.
+/// Entries of all designs of configs, with settings that decide which entries there are.
 std::set<Entry> all_entries() {
     std::set<Entry> entries;
     for (const auto& file : fs::directory_iterator(DEGS_CONFIGS)) {

@@ -165,7 +165,7 @@ TEST(CompareCameras, ComeFromTheFileThatIsNamed) {
         EXPECT_EQ(written["views"][0]["height"], 48);
         EXPECT_EQ(written["views"][0]["img_name"], "camera 0");
     }
-    // The same names for the same things in degs run.
+    // Options of degs run have the same names for the same things.
     const auto run = [&folder, &views](const char* option, const std::string& value) {
         return degs({"run", config("degs-64"), "--scene", kSmallScene, "--camera-file", views,
                      option, value, "--width", "32", "--out", folder / "r"});

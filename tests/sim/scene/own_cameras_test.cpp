@@ -103,7 +103,7 @@ TEST(OwnCameras, AreReplacedWithTheirScene) {
     expect_success(generate("uniform", "s.ply"));
     EXPECT_EQ(info_of(folder / "out/s.ply")["cameras"],
               info_of("synthetic:uniform,gaussians=50")["cameras"]);
-    // The same scene in another format has the same cameras; another scene would lose its own.
+    // The scene keeps its cameras in another format; another scene would lose its own.
     expect_success(degs({"scene", "convert", folder / "out/s.ply", "--out", folder / "out/s.glb"}));
     expect_mistake(generate("outdoor", "s.glb"), "s.ply' is drawn as well");
     write_scene_at(folder / "in/cup.ply", 1000);

@@ -54,7 +54,7 @@ std::vector<Broken> broken_rows() {
         const std::string key = "cost." + name + ".power_w";
         rows.push_back({kind + (kind == "orange" ? "-o4" : "-64"), {key + "=0"}, key});
     }
-    // Its area is that of the vector units.
+    // The area of the preprocessing is that of the vector units.
     const std::string shared = "cost.orange.preprocessing.";
     rows.push_back(
         {"orange-o4", {shared + "power_w=0", shared + "area_mm2=1"}, shared + "power_w"});

@@ -24,7 +24,7 @@ TEST(ParetoFront, GoesOnWithTheFrontOfTheRest) {
     EXPECT_EQ(best_of(goals, 99).size(), goals.size());
 }
 
-// Of 1, 2, 2.1, 8 the two in the middle are neighbours; the ends stay.
+// Among 1, 2, 2.1, 8 the two in the middle are neighbours; the ends stay.
 TEST(ParetoFront, LosesItsClosestNeighboursFirst) {
     const std::vector<Goals> goals{{1, 8}, {2, 4}, {2.1, 3.9}, {8, 1}};
     const Positions three = best_of(goals, 3);

@@ -163,7 +163,7 @@ TEST(WorkloadModes, VisibilityFollowsTheTilesOfTheMode) {
 }
 
 TEST(WorkloadModes, ASplatBetweenPixelCentresIsNotVisible) {
-    GaussianCloud cloud; // its bounding box holds pixels, the thin faint ellipse none
+    GaussianCloud cloud; // a bounding box holds pixels, the thin faint ellipse none
     const auto turn = test::turn_about_z(test::kPi / 4);
     add_gaussian(cloud, {0.025, 0, 5}, glm::vec3(0.2F, 0, 0), turn, 1.1F / 255, test::kGrey);
     ProjectedSplat splat;

@@ -149,7 +149,7 @@ TEST(PixelCheck, Fp64AgainstBruteForce) {
     expect_blended_by_hand(Arithmetic::Fp64, StopRule::After);
 }
 
-/// The same row by its span.
+/// Blends the row of the splat by its span.
 BlendOutcome blend_span(DataPath& path, std::uint32_t splat, int y, int context) {
     const auto span = path.solve_row(splat, y, 0, kTileSize, 0);
     if (!span) {

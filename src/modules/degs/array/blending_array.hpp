@@ -74,7 +74,7 @@ public:
         stats_.hazards += distance < config_.writeback_cycles ? tasks : 0; // 0 with a scoreboard
     }
     Cycle writeback() const { return config_.writeback_cycles; }
-    /// Of these, the pixels `ended` end at `date`.
+    /// The pixels `ended` of these tasks end at `date`.
     void end_drawn(const TaskRun& run, std::uint32_t ended, Cycle date);
     /// All tasks of the cycle `date` have been told.
     inline void pass_packet(Cycle date);
@@ -154,7 +154,7 @@ private:
     int index_, slices_, segment_length_, segments_per_row_;
     Process self_;
     DatedFifo<TaskPacket>* packets_ = nullptr; // the ring behind `in`
-    std::vector<Context> contexts_;            // those in use have taken host memory
+    std::vector<Context> contexts_;            // contexts in use have taken host memory
     Context* current_;                         // asked for last
     int segments_;                             // of a context
     std::vector<std::size_t> port_of_row_; // in region_ended, of a stream; empty without listeners

@@ -42,7 +42,7 @@ private:
     /// The one in which the last pixel ends, and one more: the message of that takes some chunks.
     static constexpr int kSheetsAfterEnd = 2;
     static constexpr std::size_t kMostBytes = std::size_t{4} << 20U; // that wait
-    static constexpr std::size_t kMostTiles = 64;                    // likewise
+    static constexpr std::size_t kMostTiles = 64;                    // that wait
     static constexpr std::uint64_t kNoDemand = ~std::uint64_t{0};
     static constexpr std::uint32_t kWholeTile = ~std::uint32_t{0}; // in place of a sheet
 

@@ -29,7 +29,7 @@ struct BankStream {
     bool enterable = true;     ///< it may have spans in the queue
     bool entered = false;      ///< something of it has been taken
     std::size_t ends_seen = 0; ///< inputs that have delivered everything of it
-    // Its tiles that may issue: places in the bank's list, which is stream by stream.
+    // The stream's tiles that may issue: places in the bank's list, which is stream by stream.
     std::size_t first_started = 0, end_started = 0;
     std::size_t issuing = 0; ///< place that is looked at in this cycle
     int ready = -1;          ///< a domain of that tile that may issue in this cycle; -1: none

@@ -64,7 +64,7 @@ private:
     };
     struct Tile {
         std::uint64_t places = 0; // a bit each
-        std::uint64_t later = 0;  // those behind the one that issued last
+        std::uint64_t later = 0;  // places behind the one that issued last
         int first = 0;            // place
         TileNumber number = kNoTile;
         std::int16_t context = 0;
@@ -145,7 +145,7 @@ private:
     Cycle now_ = 0;
     // The span that is cut: what is left of it from `column_` on.
     int left_ = 0, column_ = 0;
-    int cut_ = 0;           // its place
+    int cut_ = 0;           // place of the span's next segment
     std::uint64_t low_ = 1; // bit of the segment's first pixel
     DrawnRow drawn_;
     int spans_left_ = 0;

@@ -54,7 +54,7 @@ public:
         int streams = 1;          ///< tile streams
         bool granted = false;     ///< tiles come one by one, see TileEnd
         int first_context = 0;    ///< of the Pixel Buffer
-        /// Of the waiting segments in a bank's part of the Packing Buffer. Packets lie in a memory
+        /// Ports of the waiting segments in a bank's part of the Packing Buffer. Packets lie in a memory
         /// of their own, of which one is written and one is read per cycle at most [assumed].
         SramPorts segment_ports;
         FeatureBuffer::Fill fill;

@@ -45,7 +45,7 @@ public:
     bool leaves_slots(Cycle until) const {
         return !open() && slot_ != 0 && until + latency_ > slot_; // a packet has been sent
     }
-    /// Those slots, if it is `now`.
+    /// Task slots that the slice leaves empty up to `until`, if it is `now`.
     Cycle left_slots(Cycle now, Cycle until) const {
         return (until + latency_ - next_execution(now)) * width_;
     }

@@ -99,7 +99,7 @@ std::uint32_t PacketPorts::full_from(const std::uint64_t* ports, int bank) const
     return static_cast<std::uint32_t>(bits);
 }
 
-// Of every SRAM bank the first port that is free.
+// Takes the first port that is free in every SRAM bank of the pixels.
 void PacketPorts::use(std::uint64_t* ports, int bank, std::uint32_t pixels) const {
     const std::size_t word = bank / kWordBits;
     const int shift = bank % kWordBits;

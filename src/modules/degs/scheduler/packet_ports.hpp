@@ -59,7 +59,7 @@ private:
     }
     bool reads_parameters(int entry);
     std::uint32_t take_pixels(const BlendTask& task, std::uint32_t mask, int most);
-    /// Those of a context, all of them free if the packet has no task there.
+    /// Ports of a context, all of them free if the packet has no task there.
     std::uint64_t* ports_of(std::size_t context) {
         if (context >= last_use_.size()) {
             last_use_.resize(context + 1, 0);

@@ -164,7 +164,7 @@ void PackingUnit::end_tile(Process& bank, TileNumber tile, std::int16_t context)
     }
 }
 
-// Of a tile.
+// Tells the slice that a tile ends.
 void PackingUnit::tell_end(Cycle slot, bool packet) {
     slice_->pass_end(ended_tile_, ended_context_, slot, packet);
 }

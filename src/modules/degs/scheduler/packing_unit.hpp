@@ -80,8 +80,8 @@ public:
         return packet_.fits(now, slot, tasks) && (config_.reorganisation || joins(run) ||
                                                   packet_.fits(now, slot, packet_.room() + tasks));
     }
-    /// The same for the tasks `mask` with limited ports, where packets need not be full; `entry` of
-    /// the Feature Buffer has the parameters of their splat.
+    /// True if there is room for the tasks `mask` with limited ports, where packets need not be full;
+    /// `entry` of the Feature Buffer has the parameters of their splat.
     bool room_by_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry) {
         return !ports_ || mask == 0 || fits_ports(now, run, mask, entry);
     }

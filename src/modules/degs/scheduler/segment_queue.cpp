@@ -38,7 +38,7 @@ void SegmentQueue::add_tiles(Ring& ring, std::size_t count) {
     ring.mask = ring.tiles.size() - 1;
 }
 
-// Those in flight go to where their turn says.
+// Tiles in flight go to where their turn says.
 void SegmentQueue::double_tiles(Ring& ring, std::size_t oldest) {
     const std::size_t before = ring.tiles.size();
     add_tiles(ring, before);

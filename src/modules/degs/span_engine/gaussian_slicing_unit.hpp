@@ -45,7 +45,7 @@ public:
         SlicedRows rows = SlicedRows::Splat;
         bool skip_dead_rows = false; ///< leave out rows whose pixels have all ended
         int feedback_cycles = 8;     ///< from the last pixel's end to the units that skip its row
-        // Of the buffers at both ends; their own sections have the keys.
+        // Ports of the buffers at both ends; the sections of these buffers have the keys.
         BankedSramPorts splat_ports; ///< of a module's part of the Gaussian Buffer
         SramPorts row_ports;         ///< of a lane of the Span Buffer
         bool reports_chunks = false; ///< to Parameter Release

@@ -15,7 +15,7 @@ class ParameterRelease : public sc_core::sc_module {
 public:
     /// From the Slicing module: the chunk whose last row has been sent, by the fetcher that sent it.
     FifoPort<ChunkSliced> sliced;
-    /// Of that chunk, by lane of the Slicing module: its rows.
+    /// From the Slicing module, by lane: the rows of that chunk.
     sc_core::sc_vector<FifoPort<RowCount>> rows;
     /// From the Span Units, by lane: one row more has become a span, or none.
     sc_core::sc_vector<FifoPort<RowSolved>> solved;

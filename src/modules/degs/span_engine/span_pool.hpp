@@ -41,7 +41,7 @@ private:
         std::size_t turn = 0;   // ends of tiles that it has delivered
         Cycle read = 0;         // date of the latest read
         int reads = 0;          // at that date
-        bool has_row = false;   // its next item is known to be a row that has arrived
+        bool has_row = false;   // the next item is known to be a row that has arrived
         bool looked_at = false; // at this date, and nothing has changed since then
     };
 

@@ -12,7 +12,7 @@ namespace degs {
 class SplatOutlet : public sc_core::sc_module {
 public:
     FifoPort<SplatChunk> in;                      ///< until kNoTile, where tiles are granted
-    sc_core::sc_vector<FifoPort<SplatChunk>> out; ///< the same stream to each reader
+    sc_core::sc_vector<FifoPort<SplatChunk>> out; ///< each reader gets the whole stream
     /// One per reader if there are `places`: a chunk has left its place.
     sc_core::sc_vector<FifoPort<ChunkReleased>> released;
     FifoPort<ChunkReleased> moved; ///< a chunk has left the FIFO

@@ -72,8 +72,8 @@ struct Conservation {
 
 /// Dates of one frame of a run; start of the run is 0.
 struct FrameDates {
-    Cycle preprocessed = 0; ///< its tile lists were complete
-    Cycle finished = 0;     ///< its last pixel was in memory
+    Cycle preprocessed = 0; ///< the frame's tile lists were complete
+    Cycle finished = 0;     ///< the frame's last pixel was in memory
 };
 
 /// A tile that lists at least one splat, and what the array did for it.
@@ -109,26 +109,26 @@ struct AcceleratorResult {
     double memory_gb_per_s = 0;    ///< peak; 0: unlimited
     /// Cycles over which memory is counted: the run, or up to its last answer if that is later.
     Cycle memory_window = 0;
-    // These exist only for a memory with banks and rows.
+    // Row hits, energy, transfers and activity of the DRAM exist only for a memory with banks and rows.
     std::optional<double> row_hit_rate; ///< share of accesses that found their row open
     std::optional<dram::Energy> dram_energy;
     std::optional<dram::TransferAccount> dram_transfers; ///< by the end of the run
-    std::optional<dram::Activity> dram_activity;         ///< likewise
+    std::optional<dram::Activity> dram_activity;         ///< by the end of the run
     std::uint64_t tiles_listed = 0;                      ///< that the accelerator has to render
     std::uint64_t tiles = 0;                             ///< that it has rendered
     std::uint64_t background_tiles = 0, tiles_cancelled = 0;
     Cycle stopped = 0; ///< nothing was left to happen at this date
     std::vector<Conservation> conservation;
-    /// Of the keys that the accelerator names for its losses (LossKey::name()), those that limited
-    /// nothing in this run, so that to move them changes nothing.
+    /// Keys that the accelerator names for its losses (LossKey::name()), but that limited nothing in this
+    /// run, so that to move them changes nothing.
     std::vector<std::string> idle_keys;
     std::vector<std::string> left_out;               ///< sentences for --explain
     std::vector<Image> images;                       ///< one per frame
     TimelineRecord timeline;                         ///< if the run was asked for one
-    std::vector<TileRecord> tile_records;            ///< likewise, in the order of the job
+    std::vector<TileRecord> tile_records;            ///< if asked for, in the order of the job
     double elaborate_s = 0, sim_s = 0;               ///< host; sim_s is sc_start() alone
     double drawing_s = 0;                            ///< host; see TileDrawing
-    double waited_s = 0;                             ///< host; likewise
+    double waited_s = 0;                             ///< host; see TileDrawing
     std::uint64_t activations = 0;                   ///< host; see Timebase
     std::chrono::steady_clock::time_point sim_start; ///< host; of sc_start()
 

@@ -52,7 +52,7 @@ struct TileCoupling {
     std::string remedy; ///< an assignment that takes it out; empty if there is none
 
     bool empty() const { return cause.empty(); }
-    /// Of a design whose clusters take tiles in turn; empty for one cluster.
+    /// The coupling in a design whose clusters take tiles in turn; empty for one cluster.
     static TileCoupling of_clusters(int clusters) {
         if (clusters == 1) {
             return {};

@@ -120,7 +120,7 @@ std::vector<ScheduledTile> all_tiles(const std::vector<Listed>& tiles,
     return result;
 }
 
-/// Of the tiles that list no splat.
+/// Pixels of the tiles that list no splat.
 double background_pixels(const FrameWorkload& frame) {
     double pixels = 0;
     for (int tile = 0; tile < frame.tiles(); ++tile) {

@@ -24,7 +24,7 @@ struct AnalyticFrame {
     std::vector<Unit> units;
     std::string limited_by; ///< the unit that is busy longest while tiles are rendered
     std::size_t tiles = 0;  ///< that list a splat
-    std::size_t drawn = 0;  ///< of them, those that the estimate rests on
+    std::size_t drawn = 0;  ///< of them, the tiles that the estimate rests on
     int rows_apart = 1;     ///< one block of their rows in so many
 };
 

@@ -10,7 +10,7 @@ namespace degs {
 /// A tile in the order in which the design takes them.
 struct ScheduledTile {
     double entries = 0;
-    TileCycles cycles; ///< its own, or scaled from one like it
+    TileCycles cycles; ///< of the tile, or scaled from one like it
 };
 
 /// The cycles from complete lists to the end of the last tile: every tile waits for its list, for

@@ -102,7 +102,7 @@ private:
     std::size_t memory_unit_;
 };
 
-/// Of one sorter on a list of `entries`.
+/// Cycles of one sorter for a list of `entries`.
 AnalyticModel::SortCycles sort_cycles(const SortingUnit::Config& config, double entries,
                                       std::uint64_t capacity);
 AnalyticModel::SortCycles sort_cycles(const HierarchicalSorter::Config& config, double entries,

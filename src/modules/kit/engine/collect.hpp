@@ -74,8 +74,8 @@ void add_activity(AcceleratorResult& result, const char* block, double operation
 inline void add_activity(AcceleratorResult& result, const char* block, std::uint64_t operations) {
     add_activity(result, block, rate_of(operations, 1));
 }
-/// The same for "pixel_buffer": a task reads the state of its pixel and writes it if it blends, and
-/// every pixel of the tiles is read out once. The slots of `result` must be known.
+/// Adds the activity of "pixel_buffer": a task reads the state of its pixel and writes it if it blends,
+/// and every pixel of the tiles is read out once. The slots of `result` must be known.
 void add_pixel_activity(AcceleratorResult& result, const RenderJob& job, double pixel_bytes);
 
 using PixelBuffers = std::vector<std::unique_ptr<PixelBuffer>>;

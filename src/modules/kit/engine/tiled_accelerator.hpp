@@ -48,7 +48,7 @@ public:
         int contexts = 1; ///< tiles of one engine whose pixels are on chip
         int splat_chunks =
             1; ///< that each fetcher's share of the buffer in front of an engine holds
-        const char* splat_rings = "splats"; ///< their name in timelines
+        const char* splat_rings = "splats"; ///< name of these rings in timelines
         int cache_records = 0;              ///< of an engine's reuse cache; 0: it has none
         int writeback_cycles = 1;           ///< report of a tile to its pixels written back
 

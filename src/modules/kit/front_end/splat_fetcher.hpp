@@ -22,7 +22,7 @@ public:
     struct Config {
         int chunk = 16;           ///< splat records per request and hand-over
         int chunks_in_flight = 8; ///< record requests outstanding
-        /// Of the readers' buffer, whose section has the keys: a chunk is written before the next.
+        /// Ports of the readers' buffer, whose section has the keys: a chunk is written before the next.
         BankedSramPorts splat_ports;
         std::size_t chunks = 0; ///< places for chunks; 0: those of the rings to the readers
         bool reads = true;      ///< false: a SplatSupply reads the records that it asks for
@@ -40,7 +40,7 @@ public:
 
     FifoPort<SortedRun> sorted;                   ///< until kNoTile
     FifoPort<TileNumber> cancel;                  ///< from the Tile Monitor
-    sc_core::sc_vector<FifoPort<SplatChunk>> out; ///< the same stream to each reader
+    sc_core::sc_vector<FifoPort<SplatChunk>> out; ///< each reader gets the whole stream
     /// To the Tile Dispatcher: the readers have been handed the last chunk of the tile before.
     /// Empty unless tiles are granted.
     sc_core::sc_vector<FifoPort<TileRequest>> request;
@@ -76,7 +76,7 @@ private:
     Process self_;
     ChunkWriter writer_;
     TileNumber cancelled_before_ = 0;  // tiles below this number are cancelled or over
-    TileNumber skipped_ = kNoTile;     // its readers have had the chunk that ends it
+    TileNumber skipped_ = kNoTile;     // tile whose last chunk its readers have had
     std::uint64_t done_ = 0;           // entries of the tile being fetched
     std::vector<Completion> answered_; // ring of completion dates of the latest requests
     std::uint64_t requests_ = 0;

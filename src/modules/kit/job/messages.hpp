@@ -89,7 +89,7 @@ struct DrawnTasks {
 /// follow in the next packets, before any other task of the same conflict domain.
 struct TaskRun {
     BlendTask task;         ///< all tasks of the segment, one per set bit of the mask
-    std::uint32_t part = 0; ///< those in this packet
+    std::uint32_t part = 0; ///< tasks in this packet
     TileNumber tile = 0;
     std::uint32_t domain = 0; ///< conflict domain inside the bank's part of the tile
     DrawnTasks drawn;         ///< if TileDrawing draws, in place of g0, d0 and offset

@@ -53,7 +53,7 @@ public:
 private:
     std::deque<JobTile> tiles_;
     std::vector<JobTile*> index_; // for the hot loops; a deque would have to divide
-    std::size_t size_ = 0;        // likewise
+    std::size_t size_ = 0;        // of tiles_, for the hot loops
 };
 
 /// The frames that an accelerator is asked to render, and the arithmetic that it uses.
@@ -66,7 +66,7 @@ struct RenderJob {
     std::unique_ptr<DataPath> path;
     int tile_size = 0;
     RecordOrder record_order = RecordOrder::Index; ///< of frames that join from now on
-    TileOrder tile_order = TileOrder::Raster;      ///< likewise
+    TileOrder tile_order = TileOrder::Raster;      ///< of frames that join from now on
     std::vector<RecordPlaces> places;              ///< of each frame's splat records
     /// Per frame: tile pairs of the first n visible Gaussians in scene order, for n = 0..visible.
     std::vector<std::vector<std::uint64_t>> pair_prefix;

@@ -21,7 +21,7 @@ namespace degs {
 struct TileActivity {
     SlotAccount slots;
     ActiveWindow window; ///< first task to last task
-    Cycle read_out = 0;  ///< its last pixel had left the Pixel Buffer
+    Cycle read_out = 0;  ///< the tile's last pixel had left the Pixel Buffer
 };
 
 class SlotRecorder;
@@ -36,7 +36,7 @@ public:
     /// `count` PE-cycles at a date, or evenly spread over the cycles [from, to).
     void add(Slot slot, TileNumber tile, Cycle date, std::uint64_t count);
     void add(Slot slot, TileNumber tile, Cycle from, Cycle to, std::uint64_t count);
-    /// The same for PE-cycles that count only if another task follows, which decides their tile.
+    /// `count` PE-cycles that count only if another task follows, which decides their tile.
     void idle(Slot slot, Cycle from, Cycle to, std::uint64_t count) {
         pending_.push_back({slot, from, to, count});
     }

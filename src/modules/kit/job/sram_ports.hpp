@@ -19,7 +19,7 @@ struct SramPorts {
     }
 };
 
-/// The same for an SRAM of several banks.
+/// The ports of an SRAM of several banks.
 struct BankedSramPorts : SramPorts {
     int sram_banks = 1;
 

@@ -16,7 +16,7 @@ public:
 
     /// Initiators are numbered, and ties in time resolved, in the order of these calls.
     void connect(MemoryPort& port, const StreamKind& kind) { streams_.push_back({&port, kind}); }
-    /// The same for reads that the frame waits for that is blended, see ReadPriority.
+    /// Connects a port for reads that hold up the frame being blended, see ReadPriority.
     void connect_urgent(MemoryPort& port, const StreamKind& kind) {
         streams_.push_back({&port, kind, true});
     }

@@ -123,7 +123,7 @@ private:
     Cycle read_out_ = 0;                // date at which the latest pixel had been read out
     std::vector<Completion> in_flight_; // ring of completion dates of the latest tile writes
     std::vector<PixelValue> pixels_;    // of the row being read out
-    std::vector<unsigned char> bytes_;  // the same as frame-buffer pixels
+    std::vector<unsigned char> bytes_;  // of the row, as frame-buffer pixels
     std::vector<Cycle> frames_written_;
     Stats stats_;
 };

@@ -13,7 +13,7 @@ TEST(FeatureBuffer, OneEntryForAllRowsOfASplat) {
     buffer.hold(entry);
     ASSERT_TRUE(buffer.admit(0, 7, 5));
     EXPECT_EQ(buffer.current(), entry);
-    ASSERT_TRUE(buffer.admit(1, 7, 6)); // the same splat in another tile is another entry
+    ASSERT_TRUE(buffer.admit(1, 7, 6)); // a splat in another tile is another entry
     EXPECT_NE(buffer.current(), entry);
     EXPECT_EQ(buffer.stats().waits, 0U);
 }

@@ -69,7 +69,7 @@ struct PackingBench {
         unit.close_cycles(bank, until, Slot::Conflict);
         bank.advance_to(until);
     }
-    /// The same for every cycle until then.
+    /// What the bank does at the end of every cycle until then.
     void next_cycles(Cycle until) {
         while (bank.local() < until) {
             next_cycle(bank.local() + 1);

@@ -122,7 +122,7 @@ TEST(SegmentQueue, EndedPixelsAddUpUntilTheSlotIsCleared) {
     EXPECT_EQ(queue.pick(queue.tile(1), 1), 0); // nor is it within a reuse distance
 }
 
-/// The same rules with plain lists and a date per domain.
+/// The rules of the queue with plain lists and a date per domain.
 struct Model {
     struct Domain {
         std::deque<std::uint64_t> waiting;

@@ -166,7 +166,7 @@ TEST(SlicingBySplats, AUnitMayTakeSeveralSplatsPerCycle) {
     EXPECT_EQ(slicing.unit.stats().busy, 5U);
 }
 
-// Of two units that share the rows, each passes over the other's splats in no time, or in a cycle,
+// Each of two units that share the rows passes over the other's splats in no time, or in a cycle,
 // of which it may take several at once.
 class SlicingBroadcast : public ::testing::TestWithParam<std::tuple<SliceDistribution, int, int>> {
 };
