@@ -12,15 +12,15 @@ commands=$cache/commands
 mkdir -p "$cache"
 common=$({ cat .clang-tidy; clang-tidy --version; } | sha256sum | cut -c1-64)
 
-# Lines "source dependency" for the project's own files; includes are written from src/ or from the root.
-files=$(find src sim -name '*.[ch]pp' -o -name '*.inc' | sort)
+# Lines "source dependency" for the project's own files; includes are written from include/, src/ or the root.
+files=$(find include src sim -name '*.[ch]pp' -o -name '*.inc' | sort)
 dependencies=$(xargs grep -HE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' <<<"$files" | awk -F '[:"]' -v files="$files" '
     BEGIN {
         total = split(files, list, "\n")
         for (i = 1; i <= total; ++i) known[list[i]]
     }
     {
-        header = ("src/" $3) in known ? "src/" $3 : $3
+        header = ("include/" $3) in known ? "include/" $3 : ("src/" $3) in known ? "src/" $3 : $3
         if (header in known) needs[$1] = needs[$1] " " header
     }
     END {
