@@ -23,7 +23,7 @@ public:
                       const std::string& doc) = 0;
     virtual void boolean(const std::string& path, bool& value, const std::string& doc) = 0;
     virtual void text(const std::string& path, std::string& value, const std::string& doc) = 0;
-    /// `value` is an index into `names`.
+    /// `value` is an index into `names`; one outside of them is refused with an InputError.
     virtual void choice(const std::string& path, int& value, const std::vector<std::string>& names,
                         const std::string& doc) = 0;
 };

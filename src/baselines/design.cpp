@@ -56,8 +56,10 @@ std::string Design::get(const std::string& key) const {
 }
 
 void Design::visit(KeyVisitor& visitor) {
+    Design changed = *this; // a visitor that throws changes nothing
     KeyWalk walk(visitor);
-    describe(walk);
+    changed.describe(walk);
+    *this = std::move(changed);
 }
 
 std::string Design::kind() const {

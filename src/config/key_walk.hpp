@@ -2,6 +2,8 @@
 #pragma once
 
 #include "config/config.hpp"
+#include "config/config_words.hpp"
+#include "degs/error.hpp"
 #include "degs/keys.hpp"
 
 namespace degs {
@@ -33,6 +35,11 @@ public:
     void choice(const char* key, int& value, const std::vector<const char*>& names,
                 const char* doc) override {
         visitor_.choice(path_of(key), value, {names.begin(), names.end()}, doc);
+        if (value < 0 || std::size_t(value) >= names.size()) {
+            throw InputError("key " + config_words::quote(path_of(key)) + " is choice " +
+                             std::to_string(value) + ", but must be one of 0 to " +
+                             std::to_string(names.size() - 1) + ".");
+        }
     }
 
 private:

@@ -31,7 +31,7 @@ public:
     /// Calls chooser.update() for this policy.
     virtual void update(Chooser& chooser, unsigned bank, const ChannelState& state) const = 0;
 
-    /// The name in configurations, and what the policy does, for the manual.
+    /// name() stands in configurations; doc() says in the manual what the policy does.
     virtual const char* name() const = 0;
     virtual const char* doc() const = 0;
     /// A policy with keys describes them; they stand in a section of its name.

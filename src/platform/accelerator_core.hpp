@@ -24,7 +24,7 @@ public:
     /// When nothing is left to happen, before the timeline is read.
     void complete_timeline();
 
-    // What the shell is called for.
+    // The shell forwards its callbacks and processes to these functions.
     void end_of_elaboration();
     void start_of_simulation();
     void trace(sc_core::sc_trace_file* file) const;

@@ -158,6 +158,32 @@ TEST(DesignKeys, AVisitorChangesValuesAndRulesAreCheckedAfterwards) {
     EXPECT_THAT(design.problem(), HasSubstr("pixel_buffer.bytes"));
 }
 
+/// Gives one choice an index that it does not have.
+class WrongChoice : public Keys {
+public:
+    explicit WrongChoice(std::string path, int index) : path_(std::move(path)), index_(index) {}
+    void choice(const std::string& path, int& value, const std::vector<std::string>& names,
+                const std::string& doc) override {
+        Keys::choice(path, value, names, doc);
+        value = path == path_ ? index_ : value;
+    }
+
+private:
+    std::string path_;
+    int index_;
+};
+
+TEST(HostileDesignKeys, AVisitorCannotChooseWhatDoesNotExist) {
+    for (const char* path : {"accelerator", "scheduler.scan", "memory.model"}) {
+        for (const int index : {-1, 1000}) {
+            Design design;
+            WrongChoice visitor(path, index);
+            EXPECT_THROW(design.visit(visitor), InputError) << path;
+            EXPECT_EQ(design.problem(), "") << path;
+        }
+    }
+}
+
 TEST(HostileDesignKeys, ARefusedValueLeavesTheDesignAsItWas) {
     Design design;
     for (const char* assignment : {"scheduler.banks=0", "scheduler.banks=x", "scheduler.bank=4",
