@@ -30,6 +30,7 @@ struct Droppable {
 };
 /// More files than these at a time are left to the next run.
 std::array<Droppable, 256> droppables;
+std::atomic<bool> dropped{false}; ///< a signal is ending the program
 
 int remember_droppable(const char* name) {
     for (std::size_t i = 0; i < droppables.size(); ++i) {
@@ -40,6 +41,13 @@ int remember_droppable(const char* name) {
         }
     }
     return -1;
+}
+
+void forget_droppable(int place) {
+    if (place >= 0) {
+        droppables[place].name = nullptr;
+        droppables[place].taken = false;
+    }
 }
 
 /// Unique among the threads of this process and, by its random part, among processes.
@@ -76,17 +84,26 @@ bool is_abandoned(const std::string& name) {
 
 } // namespace
 
+// A signal may come between any two lines, and on another thread: the name is in the list before
+// the file is there, and a file that is made after the list was read goes at once.
 PartialFile::PartialFile(const std::string& path) {
     for (int i = 0; i < kAttempts && file_ < 0; ++i) {
         name_ = partial_name(path);
+        place_ = remember_droppable(name_.c_str());
         file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-        if (file_ < 0 && errno != EEXIST) {
-            return;
+        if (file_ < 0) {
+            const bool is_there = errno == EEXIST;
+            forget_droppable(place_);
+            if (!is_there) {
+                return;
+            }
         }
     }
     if (file_ >= 0) {
         ::flock(file_, LOCK_EX | LOCK_NB);
-        place_ = remember_droppable(name_.c_str());
+        if (dropped) {
+            ::unlink(name_.c_str());
+        }
     }
 }
 
@@ -95,10 +112,7 @@ PartialFile::~PartialFile() {
         return;
     }
     ::unlink(name_.c_str()); // if it has not been renamed
-    if (place_ >= 0) {
-        droppables[place_].name = nullptr;
-        droppables[place_].taken = false;
-    }
+    forget_droppable(place_);
     ::close(file_);
 }
 
@@ -121,6 +135,7 @@ void remove_partial_files(const std::string& folder) {
 }
 
 void drop_partial_files() {
+    dropped = true;
     for (const Droppable& droppable : droppables) {
         const char* const name = droppable.name;
         if (name != nullptr && droppable.owner == ::getpid()) {

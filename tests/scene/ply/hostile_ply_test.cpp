@@ -216,19 +216,19 @@ TEST(HostilePly, AsciiThatIsNoNumber) {
 }
 
 TEST(HostilePly, BadValuesLoadAndAreDroppedWithACount) {
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    constexpr double kInf = std::numeric_limits<double>::infinity();
+    constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kEndless = std::numeric_limits<double>::infinity();
     PlyBuilder ply = PlyBuilder::splat();
     const auto add = [&](const std::string& property, double value, double others = 0.5) {
         ply.add_row([&](const std::string& name) { return name == property ? value : others; });
     };
     add("x", 3); // the only good one; its rotation is not of unit length
-    add("rot_2", kNan);
-    add("scale_0", kInf);
+    add("rot_2", kNoNumber);
+    add("scale_0", kEndless);
     add("scale_0", 100); // exp overflows float
-    add("opacity", kNan);
-    add("y", kInf);
-    add("f_dc_1", -kInf);
+    add("opacity", kNoNumber);
+    add("y", kEndless);
+    add("f_dc_1", -kEndless);
     add("x", 3, 0); // rotation of length zero
     const test::Folder folder;
     const Scene scene = load_scene(folder.write("bad.ply", ply.file()));
