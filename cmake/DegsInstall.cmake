@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# The public headers in include/degs, static libraries, configurations, a CMake package and a pkg-config file.
-# One component, so that a build without the program can be installed, too:
+# The public headers in include/degs, static libraries, configurations, a CMake package and a
+# pkg-config file. One component, so that a build without the program can be installed, too:
 #     cmake --install BUILD --prefix PREFIX --component degs
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/degs)
@@ -8,13 +8,14 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/degs)
 set_target_properties(degs_glm PROPERTIES EXPORT_NAME glm_headers)
 set_target_properties(degs_systemc PROPERTIES EXPORT_NAME systemc)
 set_target_properties(degs_driver PROPERTIES EXPORT_NAME driver)
-set(rooms base config stats cost splat scene tlm dram modules baselines platform) # one stands behind those that it needs
+# Each stands behind those that it needs.
+set(rooms base config stats cost splat scene tlm dram modules baselines platform)
 foreach(room IN LISTS rooms)
     set_target_properties(degs_${room} PROPERTIES EXPORT_NAME ${room})
     install(TARGETS degs_${room} EXPORT degsTargets COMPONENT degs)
 endforeach()
-# Machine code only: another compiler could not read the rest, and this one would optimise the whole model once more for
-# every program that links it, which takes most of a minute.
+# Machine code only: another compiler could not read the rest, and this one would optimise the whole
+# model once more for every program that links it, which takes most of a minute.
 if(DEGS_HAS_IPO AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     install(CODE "
         file(GLOB archives \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/libdegs_*.a\")

@@ -3,11 +3,12 @@
 add_library(degs_flags INTERFACE)
 add_library(degs::flags ALIAS degs_flags)
 target_compile_features(degs_flags INTERFACE cxx_std_17)
-# No contraction: results must not depend on whether the machine has fused multiply-add. For the same
-# reason the baseline architecture is a fixed one, never -march=native; x86-64-v2 (2009: popcnt, SSE4)
-# saves 10 % of a run and has no fused multiply-add. Wider lanes are chosen at run time (blend_lanes.cpp).
-# slp-vectorize: g++ 12.2 drops the rounding of neighbouring double -> float -> double conversions.
-# psabi: vector lanes are passed between our own functions only, all compiled with the same flags.
+# No contraction: results must not depend on whether the machine has fused multiply-add. For the
+# same reason the baseline architecture is a fixed one, never -march=native; x86-64-v2 (2009:
+# popcnt, SSE4) saves 10 % of a run and has no fused multiply-add. Wider lanes are chosen at run
+# time (blend_lanes.cpp). slp-vectorize: g++ 12.2 drops the rounding of neighbouring double -> float
+# -> double conversions. psabi: vector lanes are passed between our own functions only, all compiled
+# with the same flags.
 set(DEGS_ARCH "" CACHE STRING "Value of -march; empty: x86-64-v2 on x86-64, else the compiler's default")
 if(DEGS_ARCH)
     target_compile_options(degs_flags INTERFACE -march=${DEGS_ARCH})
@@ -22,17 +23,17 @@ target_compile_options(degs_flags INTERFACE -ffp-contract=off -fno-tree-slp-vect
 target_link_options(degs_flags INTERFACE -Wno-psabi)
 target_include_directories(degs_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
 
-# The program takes 3 % less time with whole-program optimisation. Objects carry machine code as well, for test programs,
-# each of which would repeat it, and for the package, whose archives any compiler can link (DegsInstall.cmake). A
-# platform that embeds this project decides for itself.
+# The program takes 3 % less time with whole-program optimisation. Objects carry machine code as
+# well, for test programs, each of which would repeat it, and for the package, whose archives any
+# compiler can link (DegsInstall.cmake). A platform that embeds this project decides for itself.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND (DEGS_INSTALL OR DEGS_BUILD_TESTS))
     set(CMAKE_CXX_COMPILE_OPTIONS_IPO -flto=auto -ffat-lto-objects)
 endif()
 include(CheckIPOSupported)
 check_ipo_supported(RESULT DEGS_HAS_IPO LANGUAGES CXX)
 
-# What src has inside, for those who build on it: this project's program and tests, and accelerators from outside.
-# Targets that link a room see the public headers of include/degs alone.
+# What src has inside, for those who build on it: this project's program and tests, and accelerators
+# from outside. Targets that link a room see the public headers of include/degs alone.
 add_library(degs_sources INTERFACE)
 add_library(degs::sources ALIAS degs_sources)
 target_include_directories(degs_sources INTERFACE ${PROJECT_SOURCE_DIR}/src)

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-# Which SystemC to use. A prefix that somebody names counts more than the SystemC of the system, in this order:
+# Which SystemC to use. A prefix that somebody names counts more than the SystemC of the system, in
+# this order:
 # 1. SystemCLanguage_DIR, or the CMake package of a SystemC under CMAKE_PREFIX_PATH or SYSTEMC_HOME;
 # 2. headers and a library under one of these prefixes;
-# 3. a CMake package elsewhere; 4. pkg-config. The variables may be those of CMake or of the environment.
-# Sets DEGS_SYSTEMC_INCLUDE, DEGS_SYSTEMC_LIBRARY (a file), DEGS_SYSTEMC_VERSION and DEGS_SYSTEMC_FROM (package, prefix
-# or pkg-config), and DEGS_SYSTEMC_PROBLEM, a sentence if there is none. The installed package has this file, too.
+# 3. a CMake package elsewhere;
+# 4. pkg-config.
+# The variables may be those of CMake or of the environment. Sets DEGS_SYSTEMC_INCLUDE,
+# DEGS_SYSTEMC_LIBRARY (a file), DEGS_SYSTEMC_VERSION and DEGS_SYSTEMC_FROM (package, prefix or
+# pkg-config), and DEGS_SYSTEMC_PROBLEM, a sentence if there is none. The installed package has this
+# file, too.
 
 # degs_systemc_prefixes(<variable>): the prefixes that somebody has named.
 function(degs_systemc_prefixes variable)

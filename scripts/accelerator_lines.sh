@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# accelerator_lines.sh example|all: a table of the lines of the files of examples/own-accelerator, or of all that an
-# accelerator has beyond the kit, comments included, for docs/adding-an-accelerator.md.
+# accelerator_lines.sh example|all: a table of the lines of the files of examples/own-accelerator,
+# or of all that an accelerator has beyond the kit, comments included, for
+# docs/adding-an-accelerator.md.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# all_designs.sh: runs shipped designs on two scenes at 720p, 4K and 8K and prints a table. A run fails if it takes
-# longer than its limit (a hang), ends with an error (a broken invariant is one), or shows an image below the floor
-# against the double-precision reference. The exit code is 1 if a run fails. Environment variables choose what is run;
-# the first three are lists of words:
+# all_designs.sh: runs shipped designs on two scenes at 720p, 4K and 8K and prints a table. A run
+# fails if it takes longer than its limit (a hang), ends with an error (a broken invariant is one),
+# or shows an image below the floor against the double-precision reference. The exit code is 1 if a
+# run fails. Environment variables choose what is run; the first three are lists of words:
 #     DESIGNS      names of files in configs/ without .yaml (default: all)
-#     SCENES       scene files or synthetic scenes (default: synthetic:object, and flowers of DEGS_SCENES if it exists)
+#     SCENES       scene files or synthetic scenes (default: synthetic:object, and flowers of
+#                  DEGS_SCENES if it exists)
 #     RESOLUTIONS  (default: 720p 4k 8k)
 #     SECONDS_EACH limit of a run in seconds of wall-clock time (default: 3600)
-#     REFERENCE    no: skip the reference image, which an 8K run spends much of its time with (default: yes)
+#     REFERENCE    no: skip the reference image, which an 8K run spends much of its time with
+#                  (default: yes)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=${DEGS_PROGRAM:-build/release/sim/degs}
@@ -22,8 +24,8 @@ options=()
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
-# floor_of DESIGN: PSNR in dB that its image must reach. Formats decide: `paper` with outward ends stays above 50 dB,
-# `tuned` and single precision (the baselines) above 70 dB.
+# floor_of DESIGN: PSNR in dB that its image must reach. Formats decide: `paper` with outward ends
+# stays above 50 dB, `tuned` and single precision (the baselines) above 70 dB.
 floor_of() {
     case $1 in
     *-tuned) echo 70 ;;
@@ -32,7 +34,8 @@ floor_of() {
     esac
 }
 
-# row DESIGN SCENE RESOLUTION: a line of the table out of the report; fails if the image is below the floor.
+# row DESIGN SCENE RESOLUTION: a line of the table out of the report; fails if the image is below
+# the floor.
 row() {
     python3 - "$out/report.json" "$1" "$2" "$3" "$(floor_of "$1")" <<'PYTHON'
 import json, sys

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# bench.sh [--print]: builds and runs degs_bench (tests/bench) and one large frame, and writes the results with machine
-# and commit into docs/performance.md, or with --print to the standard output only. Takes some minutes, on an otherwise
-# idle machine. Exit code 1 if a limit is exceeded. Trained scenes are in DEGS_SCENES (default ../shared/scenes).
-# SCENE, CAMERA and RESOLUTION choose the large frame, BENCH_ARGUMENTS is for degs_bench (e.g. --short). DEGS_BUILD is a
-# folder in which both have been built; without it the script builds them.
+# bench.sh [--print]: builds and runs degs_bench (tests/bench) and one large frame, and writes the
+# results with machine and commit into docs/performance.md, or with --print to the standard output
+# only. Takes some minutes, on an otherwise idle machine. Exit code 1 if a limit is exceeded.
+# Trained scenes are in DEGS_SCENES (default ../shared/scenes). SCENE, CAMERA and RESOLUTION choose
+# the large frame, BENCH_ARGUMENTS is for degs_bench (e.g. --short). DEGS_BUILD is a folder in which
+# both have been built; without it the script builds them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 build=${DEGS_BUILD:-build/release}

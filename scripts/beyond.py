@@ -28,8 +28,9 @@ MEASURED = ROOT / "docs/beyond.csv"
 SCENES = ["fruit-drops", "guitar", "seal", "skull", "st-peter"]
 SEARCHED = ["flowers", "flowers-small", "garden-crop"]
 CAMERAS = ["2", "1"]
+# GB/s: a file of configs/memory, and other keys
 MEMORIES = {"204.8": ("lpddr5-6400x256", ""), "102.4": ("lpddr5-6400x128", ""),
-            "409.6": ("lpddr5-6400x256", ", channels: 32"), "819.2": ("lpddr5-6400x256", ", channels: 64")}  # GB/s: a file of configs/memory, and other keys
+            "409.6": ("lpddr5-6400x256", ", channels: 32"), "819.2": ("lpddr5-6400x256", ", channels: 64")}
 NAMES = {"2": "close-up", "1": "small splats"}
 COLUMNS = ["group", "design", "memory", "scene", "camera", "utilization", "bound", "bounded_by", "conflict", "starved",
            "terminated", "throughput_fps", "latency_ms", "nj_per_frame", "area_mm2", "dram_gb_per_s", "limited_by"]

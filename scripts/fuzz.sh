@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# fuzz.sh [SECONDS] [TARGET...]: builds the fuzz targets (preset `fuzz`, which needs clang) and runs each of them for
-# SECONDS (default 600), one after the other, or only those named. What is found stays in build/fuzz/findings, as does
-# every input that reaches new code in build/fuzz/corpus, where the next run goes on. The exit code is 1 if a target
-# found something.
+# fuzz.sh [SECONDS] [TARGET...]: builds the fuzz targets (preset `fuzz`, which needs clang) and runs
+# each of them for SECONDS (default 600), one after the other, or only those named. What is found
+# stays in build/fuzz/findings, as does every input that reaches new code in build/fuzz/corpus,
+# where the next run goes on. The exit code is 1 if a target found something.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# install.sh [--tests]: installs what a fresh Debian 12 lacks to build the model (and, with --tests, to
-# check it). The one list of packages of this project; does nothing when everything is present.
+# install.sh [--tests]: installs what a fresh Debian 12 lacks to build the model (and, with --tests,
+# to check it). The one list of packages of this project; does nothing when everything is present.
 set -euo pipefail
 
 packages=(

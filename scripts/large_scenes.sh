@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# large_scenes.sh [FOLDER]: makes a tiled scene of a million Gaussians and prints the PE utilization and the time
-# of a frame of DeGS, GSCore and GBU with 64 and 256 PEs on it, in fp32 and in the numbers of the paper, as a Markdown
-# table. Complete accelerators, without reference images. Scene and comparisons stay in FOLDER, and what is there
-# already is not made again. Takes a few minutes of one core.
-# Environment variables: DEGS_PROGRAM (default build/release/sim/degs), DEGS_SCENES (default ../shared/scenes), SCENE (a
-# scene there, or synthetic:NAME; default skull), GAUSSIANS (default 1000000), RESOLUTION (default 1080p), CAMERA
-# (default 2, the close-up), DESIGNS and PES (lists, default "degs gscore gbu" and "64 256").
+# large_scenes.sh [FOLDER]: makes a tiled scene of a million Gaussians and prints the PE utilization
+# and the time of a frame of DeGS, GSCore and GBU with 64 and 256 PEs on it, in fp32 and in the
+# numbers of the paper, as a Markdown table. Complete accelerators, without reference images. Scene
+# and comparisons stay in FOLDER, and what is there already is not made again. Takes a few minutes
+# of one core. Environment variables: DEGS_PROGRAM (default build/release/sim/degs), DEGS_SCENES
+# (default ../shared/scenes), SCENE (a scene there, or synthetic:NAME; default skull), GAUSSIANS
+# (default 1000000), RESOLUTION (default 1080p), CAMERA (default 2, the close-up), DESIGNS and PES
+# (lists, default "degs gscore gbu" and "64 256").
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=${DEGS_PROGRAM:-build/release/sim/degs}

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-# morton_order.py IN.ply OUT.ply: sorts the Gaussians of a scene (binary little-endian PLY, all values float) by the
-# Morton code of their positions, so that neighbours in space are neighbours in memory. docs/memory.md says what it saves.
+# morton_order.py IN.ply OUT.ply: sorts the Gaussians of a scene (binary little-endian PLY, all
+# values float) by the Morton code of their positions, so that neighbours in space are neighbours in
+# memory. docs/memory.md says what it saves.
 import struct
 import sys
 

@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# ranges.sh [--quick] [--tables] [FOLDER]: the tables of docs/readings.md: what the published figures become over the
-# readings that the paper's text allows, and what every single assumption is worth, measured with
-# build/release/sim/degs on one core and printed as Markdown. Every comparison stays in FOLDER with its reports, and one
-# that is there already is not run again; a changed program or configuration needs another FOLDER. All of it takes some
-# twenty minutes; --quick measures one tiny view, and --tables runs nothing and prints what FOLDER has.
-# Environment variables choose what is run, as lists of words:
-#     SCENES      trained scenes in DEGS_SCENES (default ../shared/scenes), or synthetic:NAME,gaussians=N
+# ranges.sh [--quick] [--tables] [FOLDER]: the tables of docs/readings.md: what the published
+# figures become over the readings that the paper's text allows, and what every single assumption is
+# worth, measured with build/release/sim/degs on one core and printed as Markdown. Every comparison
+# stays in FOLDER with its reports, and one that is there already is not run again; a changed
+# program or configuration needs another FOLDER. All of it takes some twenty minutes; --quick
+# measures one tiny view, and --tables runs nothing and prints what FOLDER has. Environment
+# variables choose what is run, as lists of words:
+#     SCENES      trained scenes in DEGS_SCENES (default ../shared/scenes), or
+#                 synthetic:NAME,gaussians=N
 #                 (default: flowers st-peter)
 #     RESOLUTION  of the views of utilisation and speed-ups (default 1080p)
 #     CAMERAS     (default: 2 1; close-ups, and the same scenes small)
@@ -31,12 +33,13 @@ read -ra cameras <<<"${CAMERAS:-$cameras}"
 read -ra gaussians <<<"${GAUSSIANS:-$gaussians}"
 read -ra kinds <<<"${KINDS:-speed utilization small-tiles frames}"
 
-# Readings, a line each: name | file | class | settings. A reading of a baseline is compared with the shipped DeGS and
-# the other way round. Classes:
+# Readings, a line each: name | file | class | settings. A reading of a baseline is compared with
+# the shipped DeGS and the other way round. Classes:
 #     shipped   as the file has it
 #     open      the text leaves it open
 #     against   a sentence of the paper says otherwise
-#     squares   of all designs at once: the lists of the 3-sigma square; compared with each other only
+#     squares   of all designs at once: the lists of the 3-sigma square; compared with each other
+#               only
 #     slow      the same with the slow memory of Sec. V-E
 limited="span_buffer.ports=1 packing.ports=2 feature_buffer.ports=1 feature_buffer.sram_banks=8 \
 feature_buffer.fill_cycles=1 pixel_buffer.ports=1 pixel_buffer.sram_banks=32"

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# reproduction.sh [FOLDER]: tables of docs/results.md (arrays alone) and docs/reproduction.md (whole accelerators, and
-# checks against other publications), measured with build/release/sim/degs on the trained scenes in DEGS_SCENES (default
-# ../shared/scenes). Every comparison stays in FOLDER with its reports. scripts/figures.py has the paper's figures.
+# reproduction.sh [FOLDER]: tables of docs/results.md (arrays alone) and docs/reproduction.md (whole
+# accelerators, and checks against other publications), measured with build/release/sim/degs on the
+# trained scenes in DEGS_SCENES (default ../shared/scenes). Every comparison stays in FOLDER with
+# its reports. scripts/figures.py has the paper's figures.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=${DEGS_PROGRAM:-build/release/sim/degs}
@@ -29,8 +30,9 @@ compare() {
     "$program" compare "${configs[@]}" "$@" --no-reference --out "$out/$name" > /dev/null
 }
 
-# means NAME CAMERA COLUMN…: per configuration the geometric means of columns of FOLDER/NAME/compare.csv over
-# the views of a camera, tab separated, in the order of the configurations. Empty cells are left out.
+# means NAME CAMERA COLUMN…: per configuration the geometric means of columns of
+# FOLDER/NAME/compare.csv over the views of a camera, tab separated, in the order of the
+# configurations. Empty cells are left out.
 means() {
     awk -F, -v camera="$2" -v wanted="${*:3}" '
         NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; n = split(wanted, names, " "); next }

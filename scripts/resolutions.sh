@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# resolutions.sh [--quick] [--whole] [FOLDER]: PE utilization of every shipped design from 720p to 8K, measured with
-# build/release/sim/degs on one core and printed as Markdown tables: arrays alone, or with --whole complete accelerators
-# with their latencies. Every comparison stays in FOLDER with its reports, and one that is there already is not run
-# again; so the script goes on where it was stopped, and a changed program or configuration needs another FOLDER. All of
-# it takes many hours; --quick runs two small comparisons.
-# Environment variables choose what is run, as lists of words:
+# resolutions.sh [--quick] [--whole] [FOLDER]: PE utilization of every shipped design from 720p to
+# 8K, measured with build/release/sim/degs on one core and printed as Markdown tables: arrays alone,
+# or with --whole complete accelerators with their latencies. Every comparison stays in FOLDER with
+# its reports, and one that is there already is not run again; so the script goes on where it was
+# stopped, and a changed program or configuration needs another FOLDER. All of it takes many hours;
+# --quick runs two small comparisons. Environment variables choose what is run, as lists of words:
 #     DESIGNS      names of files in configs/ without .yaml (default: all)
-#     SCENES       trained scenes in DEGS_SCENES (default ../shared/scenes), or synthetic:NAME,gaussians=N
+#     SCENES       trained scenes in DEGS_SCENES (default ../shared/scenes), or
+#                  synthetic:NAME,gaussians=N
 #     RESOLUTIONS  (default: 720p 1080p 2k 4k 8k)
 #     CAMERAS      (default: 2 1; close-ups, and the same scenes small)
 set -euo pipefail
@@ -38,15 +39,16 @@ else
     read -ra cameras <<<"${CAMERAS:-2 1}"
 fi
 
-# path_of SCENE RESOLUTION CAMERA: where a comparison is kept. Designs are part of its name, so that another list of
-# designs is another comparison.
+# path_of SCENE RESOLUTION CAMERA: where a comparison is kept. Designs are part of its name, so that
+# another list of designs is another comparison.
 path_of() {
     local list
     list=$(printf '%s ' "${designs[@]}" | cksum | cut -d' ' -f1)
     echo "$out/$kind-${1//[:,=]/-}-$2-camera$3-$list"
 }
 
-# measure SCENE RESOLUTION CAMERA: runs the comparison unless it is there. It gets its name when it is complete.
+# measure SCENE RESOLUTION CAMERA: runs the comparison unless it is there. It gets its name when it
+# is complete.
 measure() {
     local path scene=$1 files=()
     path=$(path_of "$@")
@@ -62,8 +64,9 @@ measure() {
 # Names of synthetic scenes have commas, so they are quoted in a comparison.
 plain_csv() { sed -E 's/"[^"]*"/scene/g' "$1"; }
 
-# cells KIND CAMERA SCENE…: a table of all designs over all resolutions with geometric means over the scenes. KIND is
-# `slots`: useful share of all slots / of those that were supplied, i.e. without starved and drain; or `latency`: ms.
+# cells KIND CAMERA SCENE…: a table of all designs over all resolutions with geometric means over
+# the scenes. KIND is `slots`: useful share of all slots / of those that were supplied, i.e. without
+# starved and drain; or `latency`: ms.
 cells() {
     local what=$1 camera=$2 resolution scene files
     shift 2

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# results.sh [FOLDER]: the tables of docs/results.md, measured with build/release/sim/degs on the trained
-# scenes in DEGS_SCENES (default ../shared/scenes). Ratios of times come from single runs.
+# results.sh [FOLDER]: the tables of docs/results.md, measured with build/release/sim/degs on the
+# trained scenes in DEGS_SCENES (default ../shared/scenes). Ratios of times come from single runs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=${DEGS_PROGRAM:-build/release/sim/degs}

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# sweep_cost.sh: times a study of 64 points on one scene against 64 single runs of the same points, one at a time, and
-# prints both with their ratio. Fails if the study takes more than MOST (default 0.75) of the single runs' time.
-# SCENE, WIDTH and CAMERA choose the view; DEGS_PROGRAM is the program, default build/release/sim/degs.
+# sweep_cost.sh: times a study of 64 points on one scene against 64 single runs of the same points,
+# one at a time, and prints both with their ratio. Fails if the study takes more than MOST (default
+# 0.75) of the single runs' time. SCENE, WIDTH and CAMERA choose the view; DEGS_PROGRAM is the
+# program, default build/release/sim/degs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=${DEGS_PROGRAM:-build/release/sim/degs}

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# tidy.sh: clang-tidy over src/ and sim/, one process per core. Wants no build: it takes the compile commands of a
-# configuration of its own, in which every source is alone, so an include that is missing is an error here. A clean
-# source is remembered under build/tidy by a hash of itself, of every project header behind it and of the checks, and is
-# not read again until one of them changes.
+# tidy.sh: clang-tidy over src/ and sim/, one process per core. Wants no build: it takes the compile
+# commands of a configuration of its own, in which every source is alone, so an include that is
+# missing is an error here. A clean source is remembered under build/tidy by a hash of itself, of
+# every project header behind it and of the checks, and is not read again until one of them changes.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -12,7 +12,8 @@ commands=$cache/commands
 mkdir -p "$cache"
 common=$({ cat .clang-tidy; clang-tidy --version; } | sha256sum | cut -c1-64)
 
-# Lines "source dependency" for the project's own files; includes are written from include/, src/ or the root.
+# Lines "source dependency" for the project's own files; includes are written from include/, src/ or
+# the root.
 files=$(find include src sim -name '*.[ch]pp' -o -name '*.inc' | sort)
 dependencies=$(xargs grep -HE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' <<<"$files" | awk -F '[:"]' -v files="$files" '
     BEGIN {
@@ -56,7 +57,8 @@ echo "clang-tidy: $total sources, $((total - ${#pending[@]})) unchanged, ${#pend
 cmake -S . -B "$commands" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=OFF -DDEGS_BUILD_TESTS=OFF \
     >"$commands.log" || { cat "$commands.log"; exit 1; }
 
-# stderr is kept back: clang-tidy counts there the warnings of foreign headers that it does not show.
+# stderr is kept back: clang-tidy counts there the warnings of foreign headers that it does not
+# show.
 check='key=$1 source=$2 log=$(mktemp)
 if clang-tidy -p "'"$commands"'" --quiet --extra-arg=-Wno-ignored-optimization-argument --extra-arg=-Wno-unknown-pragmas "$source" 2>"$log"; then
     touch "'"$cache"'/$key"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// main() of every program of the library, `degs` and those with accelerators of their own, which have an sc_main().
+// main() of every program of the library, `degs` and those with accelerators of their own, which
+// have an sc_main().
 #include <cstdlib>
 
 #include <systemc>

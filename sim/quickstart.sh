@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# From a fresh checkout on Debian 12 to a first image: installs what is missing, builds, runs a synthetic scene.
+# From a fresh checkout on Debian 12 to a first image: installs what is missing, builds, runs a
+# synthetic scene.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds and runs all tests, also under the sanitizers. Runs from any directory; stops at
-# the first step that fails, ends with the summary of CTest. Static analysis takes as long again: scripts/tidy.sh.
+# Installs what is missing, builds and runs all tests, also under the sanitizers. Runs from any
+# directory; stops at the first step that fails, ends with the summary of CTest. Static analysis
+# takes as long again: scripts/tidy.sh.
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -96,7 +96,8 @@ void Array::sweep(std::uint32_t splat) {
     test.mask = bits_between(0, tile_->width);
     test.x = tile_->x;
     test.context = context_;
-    // Once a tile is reported, its context may hold another: not even the rest of the splat is swept.
+    // Once a tile is reported, its context may hold another: not even the rest of the splat is
+    // swept.
     for (test.y = rows.first; test.y <= rows.last && live_ > 0; ++test.y) {
         test.row = test.y - tile_->y;
         if (config_.skip_ended && live_in_row_[test.row] == 0) {

@@ -11,8 +11,9 @@
 
 namespace degs::row_sweep {
 
-/// One PE for each column of a tile. A splat takes a slot for each row of the tile that it meets, and
-/// every PE tests its pixel of that row. Nothing is packed: PEs beside the splat do nothing useful.
+/// One PE for each column of a tile. A splat takes a slot for each row of the tile that it meets,
+/// and every PE tests its pixel of that row. Nothing is packed: PEs beside the splat do nothing
+/// useful.
 class Array : public sc_core::sc_module {
 public:
     struct Config {

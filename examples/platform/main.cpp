@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A platform in one file: a processor, a bus, a memory, an interrupt and an accelerator of any design.
+// A platform in one file: a processor, a bus, a memory, an interrupt and an accelerator of any
+// design.
 //     platform DESIGN.yaml SCENE [CAMERA]
 // renders a view and prints the checksum of its pixels, which is image.crc32 in the report of
 //     degs run DESIGN.yaml --scene SCENE --camera CAMERA

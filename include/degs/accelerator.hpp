@@ -24,12 +24,12 @@ class AcceleratorCore;
 /// differ by then are an error, and so are refused accesses and bad registers. A frame always ends
 /// with Done, Error or Aborted and, if enabled, the interrupt. Nothing throws.
 ///
-/// A reset or an abort cuts the blocks off the bus and lets them hurry through the rest of the frame:
-/// no block knows of it, and all are then where they are between frames.
+/// A reset or an abort cuts the blocks off the bus and lets them hurry through the rest of the
+/// frame: no block knows of it, and all are then where they are between frames.
 ///
 /// Not modelled: power states, and the values of splat records and lists, which are written to the
-/// workspace as bytes without meaning. The host memory of a frame (about 200 B per visible splat) is
-/// kept until the end of the simulation.
+/// workspace as bytes without meaning. The host memory of a frame (about 200 B per visible splat)
+/// is kept until the end of the simulation.
 class Accelerator : public sc_core::sc_module {
 public:
     using Options = AcceleratorOptions;
@@ -45,8 +45,8 @@ public:
     OptionalPort<sc_core::sc_signal_inout_if<bool>> irq;
     /// Low: reset. Takes effect at once, whatever the clock does.
     OptionalPort<sc_core::sc_signal_in_if<bool>> reset_n;
-    /// An sc_clock, whose period and rising edges take the place of `clock_ghz`. Its period must not
-    /// change, and it is not gated.
+    /// An sc_clock, whose period and rising edges take the place of `clock_ghz`. Its period must
+    /// not change, and it is not gated.
     OptionalPort<sc_core::sc_signal_in_if<bool>> clk;
 
     /// Copies `design` and makes the copy read scenes of floats. What is wrong with it, with the
@@ -60,8 +60,8 @@ public:
 
     /// GHz; that of the bound clock, if any, from the end of elaboration on.
     double clock_ghz() const;
-    /// The state that registers show: busy, in_reset, irq, status, irq_enable, irq_status, error_code,
-    /// frames and the low word of cycles, below name().
+    /// The state that registers show: busy, in_reset, irq, status, irq_enable, irq_status,
+    /// error_code, frames and the low word of cycles, below name().
     void trace(sc_core::sc_trace_file* file) const override;
     /// What is behind the sockets, for programs that are built from the sources.
     AcceleratorCore& core() { return *core_; }

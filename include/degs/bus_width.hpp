@@ -6,9 +6,9 @@
 
 namespace degs {
 
-/// Joins sockets of two bus widths in bits, which TLM-2.0 does not let bind to each other. Every call
-/// goes through as it is, in both directions and in no time: payloads have a length of their own, and
-/// what a bus of some width costs is the business of the target. Header only.
+/// Joins sockets of two bus widths in bits, which TLM-2.0 does not let bind to each other. Every
+/// call goes through as it is, in both directions and in no time: payloads have a length of their
+/// own, and what a bus of some width costs is the business of the target. Header only.
 template <unsigned int FROM, unsigned int TO>
 class BusWidth : public sc_core::sc_module,
                  public tlm::tlm_fw_transport_if<>,

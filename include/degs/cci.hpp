@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An accelerator whose keys are SystemC CCI parameters. Only for platforms that have CCI: no other file
-// of this project includes it, and the library does not need CCI.
+// An accelerator whose keys are SystemC CCI parameters. Only for platforms that have CCI: no other
+// file of this project includes it, and the library does not need CCI.
 #pragma once
 
 #include <memory>
@@ -16,18 +16,19 @@
 
 namespace degs {
 
-/// Makes an immutable CCI parameter of every key of an accelerator, NAME.scheduler.banks for one of its
-/// design and NAME.options.memory.transport for one of AcceleratorOptions, whose value is
-/// what a broker has preset, else the default. Numbers are std::int64_t and double, choices and texts
+/// Makes an immutable CCI parameter of every key of an accelerator, NAME.scheduler.banks for one of
+/// its design and NAME.options.memory.transport for one of AcceleratorOptions, whose value is what
+/// a broker has preset, else the default. Numbers are std::int64_t and double, choices and texts
 /// std::string. Lives as long as tools shall see the parameters.
 ///
-///     degs::CciParameters parameters(cci::cci_get_broker(), std::string(name()) + ".gpu", defaults);
+///     const std::string path = std::string(name()) + ".gpu";
+///     degs::CciParameters parameters(cci::cci_get_broker(), path, defaults);
 ///     degs::Accelerator gpu("gpu", parameters.design(), parameters.options());
 ///
-/// Outside of modules, where there is no such broker, the first argument is cci_get_global_broker().
-/// A value out of its range and a choice that does not exist are refused as reports::kConfig, and a
-/// preset below NAME that is no parameter is a warning of this type; what else is wrong with a
-/// design, Accelerator reports.
+/// Outside of modules, where there is no such broker, the first argument is
+/// cci_get_global_broker(). A value out of its range and a choice that does not exist are refused
+/// as reports::kConfig, and a preset below NAME that is no parameter is a warning of this type;
+/// what else is wrong with a design, Accelerator reports.
 class CciParameters {
 public:
     /// `name`: hierarchical name of the accelerator to be built.

@@ -12,8 +12,8 @@ namespace degs {
 struct AcceleratorConfig;
 class ConfigVisitor;
 
-/// What a configuration file describes: the kind of accelerator, then the keys of that kind. Keys are
-/// set and read by the names that files and `--set` use; docs/keys.md lists them.
+/// What a configuration file describes: the kind of accelerator, then the keys of that kind. Keys
+/// are set and read by the names that files and `--set` use; docs/keys.md lists them.
 class Design {
 public:
     /// The first kind of accelerator, DeGS, with its defaults: the structure of degs-64 in fp32.
@@ -29,22 +29,24 @@ public:
     std::string kind() const;
     int pes() const;
 
-    /// Assigns values as `--set key=value` does, all at once, so that rules between keys hold again when the last
-    /// one is there. Throws InputError, one sentence that names the key, what is wrong and what is allowed; the
-    /// design is then as it was. Returns a sentence for each value that has no effect.
+    /// Assigns values as `--set key=value` does, all at once, so that rules between keys hold again
+    /// when the last one is there. Throws InputError, one sentence that names the key, what is
+    /// wrong and what is allowed; the design is then as it was. Returns a sentence for each value
+    /// that has no effect.
     std::vector<std::string> set(const std::vector<std::string>& assignments);
     std::vector<std::string> set(const std::string& key, const std::string& value) {
         return set({key + "=" + value});
     }
     /// The value of a key as a file would say it. Throws InputError if there is no such key.
     std::string get(const std::string& key) const;
-    /// All keys with their values, ranges and meanings. A visitor may change values; rules between keys are checked
-    /// by problem(), and by the accelerator that is built.
+    /// All keys with their values, ranges and meanings. A visitor may change values; rules between
+    /// keys are checked by problem(), and by the accelerator that is built.
     void visit(KeyVisitor& visitor);
     /// The first range or rule that does not hold, as one sentence, or nothing if all do.
     std::string problem() const;
-    /// Becomes the design of its family with that many PEs, by the rule of docs/families.md. Expects a design with
-    /// default values. Throws InputError, which names the nearest sizes, if there is none.
+    /// Becomes the design of its family with that many PEs, by the rule of docs/families.md.
+    /// Expects a design with default values. Throws InputError, which names the nearest sizes, if
+    /// there is none.
     void scale_to(int pes);
 
     /// One sentence for each key of the file that has no effect.

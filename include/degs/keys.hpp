@@ -7,9 +7,10 @@
 
 namespace degs {
 
-/// Walks over the keys of a Design or of AcceleratorOptions, in the order of the manual. `path` is the
-/// name of a key in `--set` and in files, "scheduler.banks". Every function may change the value; a
-/// choice decides which keys follow. `doc` starts with the unit and gives the reason of the default.
+/// Walks over the keys of a Design or of AcceleratorOptions, in the order of the manual. `path` is
+/// the name of a key in `--set` and in files, "scheduler.banks". Every function may change the
+/// value; a choice decides which keys follow. `doc` starts with the unit and gives the reason of
+/// the default.
 class KeyVisitor {
 public:
     KeyVisitor() = default;

@@ -19,25 +19,28 @@ enum class Fidelity { Strict, Exact };
 /// `At`: four phases, for memories without b_transport(); as many accesses are in flight.
 enum class Transport { Lt, At };
 
-/// Where a run of bytes begins or ends inside of a burst. `Pieces`: it is cut into smaller naturally
-/// aligned transactions. `FullBursts`: the whole burst, with byte enables if it is written.
+/// Where a run of bytes begins or ends inside of a burst. `Pieces`: it is cut into smaller
+/// naturally aligned transactions. `FullBursts`: the whole burst, with byte enables if it is
+/// written.
 enum class BurstEnds { Pieces, FullBursts };
 
-/// When an accelerator issues the accesses of its streams. Its blocks run ahead of the kernel on dates of
-/// their own, which a memory that serves transactions in the order of the calls must not see.
+/// When an accelerator issues the accesses of its streams. Its blocks run ahead of the kernel on
+/// dates of their own, which a memory that serves transactions in the order of the calls must not
+/// see.
 ///
-/// `Exact`: at their dates, half a cycle late, when no stream can make another one of the same date; in the
-/// order of the streams where dates are equal. The half cycle is taken off the answer again. What a
-/// memory sees then depends on dates alone, not on the order in which the host runs processes.
-/// `Quantum`: annotated up to the next multiple of the tlm::tlm_global_quantum, as a quantum keeper does;
-/// an access beyond it waits for its date. `Exact` if there is no quantum.
-/// `Annotated`: at once, however far ahead. For targets that sort by date, such as the memories of this
-/// project: a context switch less per access.
+/// `Exact`: at their dates, half a cycle late, when no stream can make another one of the same
+/// date; in the order of the streams where dates are equal. The half cycle is taken off the answer
+/// again. What a memory sees then depends on dates alone, not on the order in which the host runs
+/// processes. `Quantum`: annotated up to the next multiple of the tlm::tlm_global_quantum, as a
+/// quantum keeper does; an access beyond it waits for its date. `Exact` if there is no quantum.
+/// `Annotated`: at once, however far ahead. For targets that sort by date, such as the memories of
+/// this project: a context switch less per access.
 enum class Pacing { Exact, Quantum, Annotated };
 
 /// What an accelerator on a platform does beside its design. docs/accelerator.md has a table.
 struct AcceleratorOptions {
-    /// The largest limit on the Gaussians of a scene, whose geometry then takes 44 GiB. Indices have 32 bits.
+    /// The largest limit on the Gaussians of a scene, whose geometry then takes 44 GiB. Indices
+    /// have 32 bits.
     static constexpr std::uint32_t kMostGaussians = 1U << 30U;
 
     struct Limits {
@@ -51,8 +54,8 @@ struct AcceleratorOptions {
         unsigned outstanding = 64;
         /// AT: likewise, of one stream.
         unsigned outstanding_per_stream = ~0U;
-        /// B; accesses are cut into naturally aligned transactions of a power of two up to this. A power of two from
-        /// 4 on, or 0, which cuts nothing.
+        /// B; accesses are cut into naturally aligned transactions of a power of two up to this. A
+        /// power of two from 4 on, or 0, which cuts nothing.
         std::uint64_t burst_bytes = 0;
         BurstEnds burst_ends = BurstEnds::Pieces; ///< FullBursts: only with `burst_bytes`
         Pacing pacing = Pacing::Exact;            ///< AT is exact

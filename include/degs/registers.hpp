@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The registers of degs::Accelerator for programs in C++. docs/accelerator.md has the table, and degs_registers.h
-// the same numbers for programs in C.
+// The registers of degs::Accelerator for programs in C++. docs/accelerator.md has the table, and
+// degs_registers.h the same numbers for programs in C.
 #pragma once
 
 #include <cstdint>

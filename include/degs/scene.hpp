@@ -9,8 +9,8 @@ namespace degs {
 
 /// A scene as the bytes that an accelerator reads from a platform's memory, with its views.
 struct MemoryScene {
-    /// A pinhole camera: what the registers Width to Position take. Pixels are square units of the focal lengths; +x
-    /// of a camera is right, +y down, +z forward.
+    /// A pinhole camera: what the registers Width to Position take. Pixels are square units of the
+    /// focal lengths; +x of a camera is right, +y down, +z forward.
     struct View {
         std::string name;
         int width = 0, height = 0;                    ///< px
@@ -28,8 +28,8 @@ struct MemoryScene {
     std::vector<std::string> notes; ///< a sentence for everything that was guessed or left out
 };
 
-/// Loads a scene of any format that `degs run --scene` reads, with the cameras beside it or in it, or those of
-/// `cameras_file`. Throws InputError, one sentence, for every mistake in the files.
+/// Loads a scene of any format that `degs run --scene` reads, with the cameras beside it or in it,
+/// or those of `cameras_file`. Throws InputError, one sentence, for every mistake in the files.
 MemoryScene load_memory_scene(const std::string& scene, const std::string& cameras_file = "");
 
 } // namespace degs

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error of a data path's numbers against double precision: rows of results, as table and as JSON.
+// The error of a data path's numbers against double precision: rows of results, as table and as
+// JSON.
 #pragma once
 
 #include <cstdint>

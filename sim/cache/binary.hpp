@@ -10,8 +10,8 @@
 
 namespace degs::sim {
 
-/// Appends values to its bytes. pass() takes several of them, so that one list of members can serve both
-/// directions.
+/// Appends values to its bytes. pass() takes several of them, so that one list of members can serve
+/// both directions.
 class BinaryWriter {
 public:
     template <class... Values>

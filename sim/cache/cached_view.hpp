@@ -10,8 +10,8 @@
 
 namespace degs::sim {
 
-/// What precedes the simulation of a view, found in the cache or made. The Gaussians of the scene are
-/// loaded when something has to be made from them.
+/// What precedes the simulation of a view, found in the cache or made. The Gaussians of the scene
+/// are loaded when something has to be made from them.
 class CachedView {
 public:
     /// Throws InputError for mistakes in the view, its scene and its cameras.
@@ -19,7 +19,8 @@ public:
 
     /// Facts of the scene as it was loaded, also when its Gaussians are not there.
     const SceneFacts& facts() const { return facts_; }
-    /// Cameras of the path, the view's own first. A scene that changes is seen by a camera that stands still.
+    /// Cameras of the path, the view's own first. A scene that changes is seen by a camera that
+    /// stands still.
     const std::vector<Camera>& cameras() const { return cameras_; }
     /// The frames with the tiles of the accelerator, projected in its numbers.
     std::vector<FrameWorkload> frames(const AcceleratorConfig& config);

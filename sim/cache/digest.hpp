@@ -17,8 +17,8 @@ public:
     /// The content of a file; one that is no regular file or cannot be read has
     /// none.
     void add_file(const std::string& name);
-    /// A scene with the files in which its cameras may be, see docs/cameras.md: the name and the content.
-    /// InputError if it has options that no scene has.
+    /// A scene with the files in which its cameras may be, see docs/cameras.md: the name and the
+    /// content. InputError if it has options that no scene has.
     void add_scene(const std::string& name);
     /// The files of cameras that `name` stands for, see read_camera_file().
     void add_cameras(const std::string& name);

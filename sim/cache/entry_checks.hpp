@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the entries of a cache must satisfy before a run relies on them: they are files like any other.
+// What the entries of a cache must satisfy before a run relies on them: they are files like any
+// other.
 #pragma once
 
 #include "sim/cache/frame_cache.hpp"
@@ -9,8 +10,8 @@ namespace degs::sim {
 /// A scene whose facts and cameras a reader of scenes could have found.
 bool is_sound(const SceneCard& card);
 
-/// Lists, counts and splats that fit each other and the camera of the frame, as make_frame_workload()
-/// leaves them; every number is finite and in its range.
+/// Lists, counts and splats that fit each other and the camera of the frame, as
+/// make_frame_workload() leaves them; every number is finite and in its range.
 bool is_sound(const FrameWorkload& frame);
 
 /// An image of the size of the frame's camera, whose pixels a renderer could have drawn.

@@ -17,14 +17,14 @@ struct SceneCard {
     std::vector<Camera> cameras;
 };
 
-/// Scenes, projected frames and reference images, each found by everything that it depends on: contents of
-/// files, the camera, the options of the projection, and the program itself.
+/// Scenes, projected frames and reference images, each found by everything that it depends on:
+/// contents of files, the camera, the options of the projection, and the program itself.
 class FrameCache {
 public:
-    /// In the folder that DEGS_CACHE names, else in degs of XDG_CACHE_HOME, else in ~/.cache/degs; at most
-    /// DEGS_CACHE_BYTES, by default 4 GiB. An empty DEGS_CACHE, or no such folder: no cache. A folder that
-    /// others own or may write is not used, with a warning. Throws
-    /// InputError if DEGS_CACHE_BYTES is not a number.
+    /// In the folder that DEGS_CACHE names, else in degs of XDG_CACHE_HOME, else in ~/.cache/degs;
+    /// at most DEGS_CACHE_BYTES, by default 4 GiB. An empty DEGS_CACHE, or no such folder: no
+    /// cache. A folder that others own or may write is not used, with a warning. Throws InputError
+    /// if DEGS_CACHE_BYTES is not a number.
     static FrameCache of_user();
     /// One that keeps nothing.
     FrameCache() = default;

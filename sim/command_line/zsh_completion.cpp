@@ -16,7 +16,8 @@ std::string spaced(const ZshWords& words) {
     return text;
 }
 
-/// `text` for the inside of single quotes, with a backslash before each of the characters `special`.
+/// `text` for the inside of single quotes, with a backslash before each of the characters
+/// `special`.
 std::string escaped(const std::string& text, const std::string& special) {
     std::string result;
     for (const char c : text) {

@@ -32,8 +32,9 @@ public:
     CompareSession& operator=(const CompareSession&) = delete;
 
     /// Returns when all is done or Ctrl-C has come. A mistake in one scene, camera or configuration
-    /// costs the views or runs concerned; the comparison and failure() report it. Throws FailureError as
-    /// soon as results cannot be written, because the others would be simulated in vain.
+    /// costs the views or runs concerned; the comparison and failure() report it. Throws
+    /// FailureError as soon as results cannot be written, because the others would be simulated in
+    /// vain.
     Comparison run();
     /// The failure that kept the comparison from being complete.
     std::optional<Failure> failure() const;

@@ -19,12 +19,13 @@ struct LogAxis {
     double at(double value) const {
         return begin + (std::log10(value) - low) / (high - low) * (end - begin);
     }
-    /// Round values inside the axis: 1, 2, 5, 10, ..., on a long axis powers of ten alone, and on a short
-    /// one evenly spaced values.
+    /// Round values inside the axis: 1, 2, 5, 10, ..., on a long axis powers of ten alone, and on a
+    /// short one evenly spaced values.
     std::vector<double> ticks() const;
 };
 
-/// Draws lines of the grid for `y`, which begins at the bottom, and ticks below for `x`, with their values.
+/// Draws lines of the grid for `y`, which begins at the bottom, and ticks below for `x`, with their
+/// values.
 void draw_log_axes(Svg& svg, const LogAxis& x, const LogAxis& y);
 
 } // namespace degs::sim

@@ -19,8 +19,8 @@ public:
     void rectangle(int x, int y, int width, int height, const Colour& colour);
     /// The image with its top left corner at (x, y).
     void put(const Image& image, int x, int y);
-    /// Text with its top left corner at (x, y); "?" for characters that ASCII has no form of. A line is
-    /// kRasterText * scale px high.
+    /// Text with its top left corner at (x, y); "?" for characters that ASCII has no form of. A
+    /// line is kRasterText * scale px high.
     void text(int x, int y, int scale, const std::string& words, const Colour& colour);
 
     const Image& image() const { return image_; }

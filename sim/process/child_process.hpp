@@ -58,8 +58,8 @@ public:
     bool start(const ChildJob& job);
     /// Waits for all children.
     bool finish();
-    /// Kills the children, and makes this call and all later ones return false. For `watcher`, which is
-    /// called during calls.
+    /// Kills the children, and makes this call and all later ones return false. For `watcher`,
+    /// which is called during calls.
     void stop() { stopped_ = true; }
 
 private:

@@ -29,7 +29,8 @@ private:
     Failure failure_;
 };
 
-/// Turns an exception into a sentence for the user and an exit code. Throws only for lack of memory.
+/// Turns an exception into a sentence for the user and an exit code. Throws only for lack of
+/// memory.
 Failure failure_of(const std::exception_ptr& error);
 
 } // namespace degs::sim

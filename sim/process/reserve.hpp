@@ -22,12 +22,12 @@ public:
     bool available() const { return pid_ > 0; }
     /// In the copy, once it has been called: why. Else empty.
     const std::string& called_for() const { return reason_; }
-    /// In the copy, once it has been called: processor seconds of the process that it replaces, from the
-    /// start of that process. They belong to what a CpuStopwatch shows that was started before the copy,
-    /// because the clock of the copy begins at 0. Else 0.
+    /// In the copy, once it has been called: processor seconds of the process that it replaces,
+    /// from the start of that process. They belong to what a CpuStopwatch shows that was started
+    /// before the copy, because the clock of the copy begins at 0. Else 0.
     double replaced_s() const { return replaced_s_; }
-    /// The copy goes on in place of this process, which ends when the copy does, with its exit code.
-    /// `reason` is not empty.
+    /// The copy goes on in place of this process, which ends when the copy does, with its exit
+    /// code. `reason` is not empty.
     [[noreturn]] void call(const std::string& reason);
 
 private:

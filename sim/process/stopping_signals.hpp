@@ -27,8 +27,8 @@ private:
     int file_ = -1;
 };
 
-/// The exit code of a program that the signal ends which was taken last, by default SIGINT: the one that
-/// shells show, 130 or 143.
+/// The exit code of a program that the signal ends which was taken last, by default SIGINT: the one
+/// that shells show, 130 or 143.
 int interruption_code();
 
 } // namespace degs::sim

@@ -18,8 +18,8 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Measures the time that all threads of this process have computed since its construction, s: what one
-/// processor would need.
+/// Measures the time that all threads of this process have computed since its construction, s: what
+/// one processor would need.
 class CpuStopwatch {
 public:
     CpuStopwatch() : CpuStopwatch(CLOCK_PROCESS_CPUTIME_ID) {}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The register map of degs::Accelerator in the formats of its readers. All of them come from register_map().
+// The register map of degs::Accelerator in the formats of its readers. All of them come from
+// register_map().
 #pragma once
 
 #include <string>

@@ -14,7 +14,8 @@ std::string hexadecimal(std::uint32_t value, int digits) {
     return text;
 }
 
-/// "bit 0 DONE: a frame is done; bit 1 ..." of a register of bits, "0 RGBA8: ..." of one with names for values.
+/// "bit 0 DONE: a frame is done; bit 1 ..." of a register of bits, "0 RGBA8: ..." of one with names
+/// for values.
 std::string details(const RegisterInfo& info) {
     std::string text;
     const auto add = [&text](const std::string& words) {

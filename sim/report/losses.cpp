@@ -15,7 +15,8 @@ constexpr double kBusy = 0.6;
 // A part of the time before the first task is its cause if it is that long, and another one that is
 // shorter by less than this is so, too: to shorten only one of the two leaves the other.
 constexpr double kLong = 0.3, kAlike = 0.1;
-// The latency of memory is a cause if units waited for answers for this part of the time that is lost.
+// The latency of memory is a cause if units waited for answers for this part of the time that is
+// lost.
 constexpr double kLate = 0.5;
 
 /// The cause of a loss in words and by its name in LossKeys.
@@ -86,8 +87,8 @@ private:
                                          ratio_of(run_.window.cycles(), 1);
     }
 
-    /// The last pixels are read out, and then on their way to the memory. Only a memory whose latency
-    /// is a key names one for it; LPDDR5 leaves memory.latency_ns without effect.
+    /// The last pixels are read out, and then on their way to the memory. Only a memory whose
+    /// latency is a key names one for it; LPDDR5 leaves memory.latency_ns without effect.
     std::string after_cause(double cycles) const {
         const double latency = keys_.number("memory.latency_ns").value_or(0) * run_.clock_ghz;
         const bool is_latency = latency > cycles / 2 && !keys_.of("latency").empty();
@@ -97,7 +98,8 @@ private:
                                                    : "readout";
     }
 
-    /// Whether the memory takes longer for the pixels of a tile than the buffer that reads them out.
+    /// Whether the memory takes longer for the pixels of a tile than the buffer that reads them
+    /// out.
     bool is_written_slower_than_read_out() const {
         const double pixels = ratio_of(result_.camera.width, 1) * result_.camera.height * frames();
         const auto written =
@@ -129,8 +131,8 @@ private:
     }
 
     /// What kept the first tasks of the run from coming earlier. Memory and stages prepare a frame
-    /// at the same time, so it is the one that took longest; of two that took equally long, both, in
-    /// the order of preparation().
+    /// at the same time, so it is the one that took longest; of two that took equally long, both,
+    /// in the order of preparation().
     Cause before(Cycle first) const {
         const std::string words = "before the first task";
         if (run_.array_only || first == 0) {

@@ -84,8 +84,8 @@ Direction direction_of(Measure measure);
 /// "smaller is better", "larger is better"; empty without a direction.
 std::string direction_words(Direction direction);
 
-/// The measure that a column of results.csv is called after. Throws InputError, which begins with `place`
-/// and suggests measures, if there is none.
+/// The measure that a column of results.csv is called after. Throws InputError, which begins with
+/// `place` and suggests measures, if there is none.
 Measure measure_named(const std::string& name, const std::string& place);
 
 /// The keys of a run with their units and meanings, without values. `report` is the list of what a

@@ -12,8 +12,8 @@
 namespace degs::sim {
 namespace {
 
-/// Frames depend on these: the rules, the formats of the projection (empty for those of the reference, whose frames
-/// the reference's and come first), the side of a tile and the tile mode.
+/// Frames depend on these: the rules, the formats of the projection (empty for those of the
+/// reference, whose frames the reference's and come first), the side of a tile and the tile mode.
 using FrameKind = std::tuple<RuleKind, std::string, int, TileMode>;
 
 /// Configurations that want the same frames.

@@ -38,8 +38,8 @@ struct ViewRunsHooks {
     std::function<void(std::size_t cameras)> cameras_found;
     /// A run is over; its output is a message of RunSummary.
     std::function<void(const ViewRun& run, ChildOutcome&& outcome)> ended;
-    /// A scene could not be loaded, or (the rest of) a view not be prepared. `lost` is the number of
-    /// runs that are not made because of it.
+    /// A scene could not be loaded, or (the rest of) a view not be prepared. `lost` is the number
+    /// of runs that are not made because of it.
     std::function<void(std::size_t scene, const Failure& failure, std::size_t lost)> scene_failed;
     std::function<void(const ViewRun& view, const Failure& failure, std::size_t lost)> view_failed;
     /// Called four times a second with the names of the runs that are running.

@@ -12,9 +12,9 @@ namespace degs::sim {
 /// Every result of one engine gives the same amounts in the same order.
 std::vector<double> amounts_of(const AcceleratorResult& result);
 
-/// `shape` with other amounts; its cycles and its memory window must be those that shares shall refer
-/// to. Whole numbers are rounded; peaks are not changed. What follows from the amounts (busy shares,
-/// utilisation of the memory) is worked out again; the energy is not.
+/// `shape` with other amounts; its cycles and its memory window must be those that shares shall
+/// refer to. Whole numbers are rounded; peaks are not changed. What follows from the amounts (busy
+/// shares, utilisation of the memory) is worked out again; the energy is not.
 AcceleratorResult with_amounts(AcceleratorResult shape, const std::vector<double>& amounts);
 
 } // namespace degs::sim

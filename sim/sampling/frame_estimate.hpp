@@ -14,8 +14,8 @@
 
 namespace degs::sim {
 
-/// PE-cycles are recorded tile by tile, so their totals, and the time that is their sum, come from a
-/// regression over blocks. Other counters exist for a whole group only, and are scaled. Whatever
+/// PE-cycles are recorded tile by tile, so their totals, and the time that is their sum, come from
+/// a regression over blocks. Other counters exist for a whole group only, and are scaled. Whatever
 /// follows from both has the interval of the jackknife that leaves out one group at a time.
 class FrameEstimate {
 public:
@@ -48,7 +48,8 @@ private:
     Slots slots_without(std::size_t group) const;
     AcceleratorResult frame_of(const Slots& slots, const std::vector<double>& amounts) const;
     AcceleratorResult frame_without(std::size_t group) const;
-    /// The total of the tiles between the ends of the frame, with what the order of the tiles may cost.
+    /// The total of the tiles between the ends of the frame, with what the order of the tiles may
+    /// cost.
     Estimate own_total(std::size_t measure) const;
     /// The interval that the regression gives itself; width 0 if `path` is not of its kind.
     double own_half_width(const std::string& path) const;

@@ -20,8 +20,8 @@ public:
     std::size_t groups() const { return amounts_.size(); }
     void add_known(const std::vector<double>& amounts);
 
-    /// Totals of the frame; `rest`: the work of the tiles that are not known. `left_out`: a group to
-    /// do without, or groups() for none.
+    /// Totals of the frame; `rest`: the work of the tiles that are not known. `left_out`: a group
+    /// to do without, or groups() for none.
     std::vector<double> totals(const TileWork& rest, std::size_t left_out) const;
 
 private:

@@ -90,8 +90,8 @@ RegressionEstimator::RegressionEstimator(const std::vector<TileWork>& population
     }
 }
 
-// In the order of what they explain; a small sample is fitted to the first of them. The mean of each
-// over the population is 1.
+// In the order of what they explain; a small sample is fitted to the first of them. The mean of
+// each over the population is 1.
 RegressionEstimator::Terms RegressionEstimator::terms_of(const TileWork& work) const {
     Terms terms{work.cycles, work.fragments, work.tiles,  work.rows,
                 work.walked, work.tasks,     work.entries};

@@ -23,8 +23,8 @@ struct Estimate {
 };
 
 /// The generalised regression estimator: what was measured is explained by the sizes of the blocks,
-/// fitted to the sample; the total is that of the fitted values plus the mean residual of every block.
-/// The standard error is that of the residuals, with the correction for a finite population.
+/// fitted to the sample; the total is that of the fitted values plus the mean residual of every
+/// block. The standard error is that of the residuals, with the correction for a finite population.
 class RegressionEstimator {
 public:
     /// `population`: the blocks that the sample is drawn from, without replacement.

@@ -27,8 +27,8 @@ struct SampleSizes {
 struct SampleDesign {
     std::size_t edge = 0;
     std::vector<TileBlock> blocks;
-    /// Positions in `blocks`, in the order of expected work: a tile whose list takes long to sort must
-    /// not follow tiles that leave no time for it, if its neighbours would not.
+    /// Positions in `blocks`, in the order of expected work: a tile whose list takes long to sort
+    /// must not follow tiles that leave no time for it, if its neighbours would not.
     std::vector<std::vector<std::size_t>> groups;
 
     std::size_t tiles_of(const std::vector<std::size_t>& group) const;

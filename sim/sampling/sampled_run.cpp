@@ -191,8 +191,8 @@ public:
     std::size_t groups() const { return next_; }
 
 private:
-    /// The first tile of those that bring the pipeline into the state in which it meets tile `first`.
-    /// Where tiles take few cycles, writes of several tiles before are still under way.
+    /// The first tile of those that bring the pipeline into the state in which it meets tile
+    /// `first`. Where tiles take few cycles, writes of several tiles before are still under way.
     std::size_t warm_up_from(std::size_t first, std::size_t least) const {
         constexpr double kSettled = 200; // cycles
         constexpr std::size_t kMost = 6; // more of them would be light ones only, unlike a frame

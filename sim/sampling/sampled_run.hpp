@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame from a sample of its tiles: preprocessing as it is, then groups of blocks of tiles until
-// the estimate is good enough. docs/sampling.md explains the method.
+// One frame from a sample of its tiles: preprocessing as it is, then groups of blocks of tiles
+// until the estimate is good enough. docs/sampling.md explains the method.
 #pragma once
 
 #include <optional>

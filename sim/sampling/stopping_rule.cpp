@@ -8,8 +8,8 @@
 namespace degs::sim {
 namespace {
 
-/// The share of the tiles at which the interval will be as narrow as was asked for: its square falls
-/// with the number of tiles, but for the correction that a finite number of them brings.
+/// The share of the tiles at which the interval will be as narrow as was asked for: its square
+/// falls with the number of tiles, but for the correction that a finite number of them brings.
 double share_needed(double share, double reached, double within) {
     const double odds = share / (1 - share) * (reached / within) * (reached / within);
     return odds / (1 + odds);

@@ -14,13 +14,13 @@ inline constexpr std::size_t kLeastGroups = 5;
 /// Above this share of the tiles an exact run takes little longer, and is exact.
 inline constexpr double kMostShare = 0.5;
 
-/// Tiles that fill a pipeline with so many tile contexts: those in flight, and those whose lists are
-/// read ahead of them.
+/// Tiles that fill a pipeline with so many tile contexts: those in flight, and those whose lists
+/// are read ahead of them.
 std::size_t warm_up_tiles(int contexts);
 /// For a frame with so many tiles that list a splat.
 SampleSizes sizes_for(int contexts, std::size_t tiles);
-/// Whether a frame of so many tiles that list a splat has the groups of two first looks, and, unless a
-/// share is asked for, the first look costs much less than an exact run.
+/// Whether a frame of so many tiles that list a splat has the groups of two first looks, and,
+/// unless a share is asked for, the first look costs much less than an exact run.
 bool can_sample(const SamplingRequest& request, int contexts, std::size_t tiles);
 /// The least number of tiles of a frame from which on all frames can be sampled.
 std::size_t least_tiles(const SamplingRequest& request, int contexts);

@@ -7,8 +7,8 @@
 
 namespace degs::sim {
 
-/// The file that a command writes a scene to: its last argument, or --out. `extensions` are those that can
-/// be written.
+/// The file that a command writes a scene to: its last argument, or --out. `extensions` are those
+/// that can be written.
 void add_scene_out(CLI::App& command, std::string& out, const std::string& extensions);
 
 /// Throws InputError if neither was given.

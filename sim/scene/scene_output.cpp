@@ -36,8 +36,8 @@ std::string folder_of(const std::string& file) {
     return folder.empty() ? "." : folder;
 }
 
-/// Whether the file holds these cameras: the scene has them from it, or it is what would be written.
-/// Does not read it as an input, which no output may replace.
+/// Whether the file holds these cameras: the scene has them from it, or it is what would be
+/// written. Does not read it as an input, which no output may replace.
 bool holds(const std::string& camera_file, const std::vector<Camera>& cameras) {
     if (input_at(camera_file)) {
         return true;
@@ -68,8 +68,8 @@ std::string namesake_of(const std::string& file) {
     return "";
 }
 
-/// Whether the scene's camera file is there and right. Throws InputError if the scene would be drawn
-/// with the cameras of another one, or another scene with its.
+/// Whether the scene's camera file is there and right. Throws InputError if the scene would be
+/// drawn with the cameras of another one, or another scene with its.
 bool stays_as_it_is(const std::string& file, const std::string& own,
                     const std::vector<Camera>& cameras) {
     if (!fs::exists(own)) {

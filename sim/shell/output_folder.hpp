@@ -9,13 +9,14 @@
 
 namespace degs::sim {
 
-/// The folder that receives results. It is created, and writing to it is tried, before anything long starts.
+/// The folder that receives results. It is created, and writing to it is tried, before anything
+/// long starts.
 class OutputFolder {
 public:
     /// Creates the folder and removes what killed processes have left half written there; throws
-    /// InputError if that fails, if nothing can be written there, or if one of `files` is there and not a
-    /// file, is an input of this process, or belongs to another folder that lives. The first of `files` is
-    /// the document of the results: without it, the folder holds none.
+    /// InputError if that fails, if nothing can be written there, or if one of `files` is there and
+    /// not a file, is an input of this process, or belongs to another folder that lives. The first
+    /// of `files` is the document of the results: without it, the folder holds none.
     OutputFolder(std::string folder, const std::vector<std::string>& files);
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
@@ -26,9 +27,9 @@ public:
     void write_text(const std::string& file, const std::string& text) const;
     /// Writes the value as json_text() shows it, whole or not at all.
     void write_json(const std::string& file, const nlohmann::ordered_json& value) const;
-    /// Calls `write`, then puts the files that it has written in the place of all `files` and of `others`
-    /// (paths): the folder holds the results before or after, or no document. Does nothing else if
-    /// `write` throws or writes nothing.
+    /// Calls `write`, then puts the files that it has written in the place of all `files` and of
+    /// `others` (paths): the folder holds the results before or after, or no document. Does nothing
+    /// else if `write` throws or writes nothing.
     void replace(const std::function<void()>& write,
                  const std::vector<std::string>& others = {}) const;
     /// The paths of the files.
@@ -39,12 +40,12 @@ private:
     std::vector<std::string> paths_;
 };
 
-/// Throws InputError if `path`, which is going to be written, is an input of this process or a file of an
-/// OutputFolder that lives; also under another spelling of its path, or through a link.
+/// Throws InputError if `path`, which is going to be written, is an input of this process or a file
+/// of an OutputFolder that lives; also under another spelling of its path, or through a link.
 void refuse_output_in_use(const std::string& path);
 
-/// The files of a command that draws an image and writes `document`. The document of another such command
-/// is among them: it does not tell of the new image.
+/// The files of a command that draws an image and writes `document`. The document of another such
+/// command is among them: it does not tell of the new image.
 std::vector<std::string> image_result_files(const std::string& document);
 
 /// A document as it is written to a file; bytes that are not UTF-8 become U+FFFD.

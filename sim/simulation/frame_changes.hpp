@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much the work differs from frame to frame, and how uneven it is; docs/dynamic-scenes.md has the
-// formulas.
+// How much the work differs from frame to frame, and how uneven it is; docs/dynamic-scenes.md has
+// the formulas.
 #pragma once
 
 #include <cstddef>
@@ -23,12 +23,12 @@ struct FrameChanges {
 /// The changes from frame to frame; at least one frame. A single frame has no overlap and no churn.
 FrameChanges frame_changes(const std::vector<const FrameWorkload*>& frames);
 
-/// "active overlap 0.987 · tile churn 4.6 % · P99 of tile candidates 1.2 k · footprint Gini 0.85"; what is
-/// missing is left out.
+/// "active overlap 0.987 · tile churn 4.6 % · P99 of tile candidates 1.2 k · footprint Gini 0.85";
+/// what is missing is left out.
 std::string changes_words(const FrameChanges& changes);
 
-/// The Gini coefficient of values that are not negative: 0 if all are the same, near 1 if a few have nearly
-/// all. 0 for an empty list and for zeros alone.
+/// The Gini coefficient of values that are not negative: 0 if all are the same, near 1 if a few
+/// have nearly all. 0 for an empty list and for zeros alone.
 double gini(std::vector<double> values);
 
 } // namespace degs::sim

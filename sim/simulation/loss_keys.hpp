@@ -19,12 +19,13 @@ class LossKeys {
 public:
     explicit LossKeys(const RunResult& result);
 
-    /// Keys of which the design allows a step, for RunResult::movable_keys; needs its configuration alone.
+    /// Keys of which the design allows a step, for RunResult::movable_keys; needs its configuration
+    /// alone.
     std::vector<std::string> movable() const;
 
-    /// "raise KEY", "lower KEY and KEY" or "KEY=VALUE", the one that moves most on close-ups first. A
-    /// key is missing if the design does not have it, if it is at its limit or idle because of other
-    /// keys or in this run, or if the design allows no step of it.
+    /// "raise KEY", "lower KEY and KEY" or "KEY=VALUE", the one that moves most on close-ups first.
+    /// A key is missing if the design does not have it, if it is at its limit or idle because of
+    /// other keys or in this run, or if the design allows no step of it.
     std::vector<std::string> of(const std::string& cause) const;
     /// The value of a key, if the design has it and it is a number above 0.
     std::optional<double> number(const std::string& key) const;

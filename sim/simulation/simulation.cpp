@@ -107,8 +107,8 @@ void judge(RunResult& result, const Reference& reference) {
 
 namespace {
 
-/// The sample that the request asks for, or the reason why there is none. A sample that turns out to
-/// be too small costs the process its simulation, so that a reserve goes on.
+/// The sample that the request asks for, or the reason why there is none. A sample that turns out
+/// to be too small costs the process its simulation, so that a reserve goes on.
 std::optional<SampledResult> try_sample(const RunRequest& request,
                                         const std::vector<const FrameWorkload*>& frames,
                                         std::string& refusal, double& lost_s) {

@@ -90,8 +90,8 @@ std::uint64_t peak_rss_bytes();
 std::vector<FrameWorkload> make_workloads(const GaussianCloud& cloud, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds);
-/// The frames of a scene that changes, made like those of a cloud: frame k, seen by camera k. InputError for
-/// more cameras than the scene has frames.
+/// The frames of a scene that changes, made like those of a cloud: frame k, seen by camera k.
+/// InputError for more cameras than the scene has frames.
 std::vector<FrameWorkload> make_workloads(const DynamicScene& scene, const SceneTraits& traits,
                                           const std::vector<Camera>& cameras,
                                           const AcceleratorConfig& config, double& seconds);
@@ -103,9 +103,10 @@ Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame,
 void judge(RunResult& result, const Reference& reference);
 
 /// Runs the accelerator on frames that were made for it (at least one). The caller fills in the
-/// facts of the scene, the host times of earlier steps and the comparison. Throws std::logic_error if the
-/// model violates an invariant. May be called once per process. If a sample is asked for that does not
-/// reach the interval, the run is exact, with a warning; another process may go on with it then.
+/// facts of the scene, the host times of earlier steps and the comparison. Throws std::logic_error
+/// if the model violates an invariant. May be called once per process. If a sample is asked for
+/// that does not reach the interval, the run is exact, with a warning; another process may go on
+/// with it then.
 RunResult run_frames(const RunRequest& request, const std::vector<const FrameWorkload*>& frames);
 
 } // namespace degs::sim

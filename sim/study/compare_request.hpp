@@ -46,11 +46,10 @@ struct LoadedConfigs {
 
 /// Loads configurations, each written as FILE or NAME=FILE; without a name it is called like
 /// the file without folder and extension. A file with a list `points` is a study: every
-/// point is a configuration, called by its key `name`, and its views count, or with `quick` those of
-/// its section 'quick'; several studies must have the same ones. An override is "path=value" for all
-/// or "NAME:path=value" for one; `memory` is a file for put_memory() of all.
-/// Throws InputError for every mistake, also for a name that is
-/// empty, unknown or given twice.
+/// point is a configuration, called by its key `name`, and its views count, or with `quick` those
+/// of its section 'quick'; several studies must have the same ones. An override is "path=value" for
+/// all or "NAME:path=value" for one; `memory` is a file for put_memory() of all. Throws InputError
+/// for every mistake, also for a name that is empty, unknown or given twice.
 LoadedConfigs load_compared(const std::vector<std::string>& words,
                             const std::vector<std::string>& overrides, bool quick = false,
                             const std::string& memory = "");
@@ -65,22 +64,23 @@ std::vector<NamedConfig> load_configs(const std::vector<std::string>& words,
 /// what they say.
 void put_views(const StudyViews& views, CompareRequest& request);
 
-/// The cameras of each scene of the request, in its order. Throws InputError if one of them cannot be
-/// opened or does not have a camera that is asked for.
+/// The cameras of each scene of the request, in its order. Throws InputError if one of them cannot
+/// be opened or does not have a camera that is asked for.
 std::vector<std::vector<int>> cameras_by_scene(const CompareRequest& request);
 
-/// Scene units: all designs see the same camera path, which turns about what the one with the nearest
-/// plane sees.
+/// Scene units: all designs see the same camera path, which turns about what the one with the
+/// nearest plane sees.
 double nearest_plane(const std::vector<NamedConfig>& configs);
 
-/// "0,1,2" or "all", which is empty. Throws InputError for anything else and for a number given twice.
+/// "0,1,2" or "all", which is empty. Throws InputError for anything else and for a number given
+/// twice.
 std::optional<std::vector<int>> parse_cameras(const std::string& text);
 
 /// "1080p,4k". Throws InputError for an unknown name and one given twice.
 std::vector<ImageSize> parse_resolutions(const std::string& text);
 
-/// What --within asks for in commands that run several designs. Throws InputError for a mistake, and
-/// if there is a camera path of several frames.
+/// What --within asks for in commands that run several designs. Throws InputError for a mistake,
+/// and if there is a camera path of several frames.
 std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string>& within,
                                                  std::uint64_t seed, int frames);
 

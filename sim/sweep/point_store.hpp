@@ -25,8 +25,8 @@ struct StoredPoint {
 /// others: a point has the same content whoever ran it.
 class PointStore {
 public:
-    /// Creates the folder or goes on with it. Throws InputError if it holds results of another kind, or
-    /// cannot be written.
+    /// Creates the folder or goes on with it. Throws InputError if it holds results of another
+    /// kind, or cannot be written.
     PointStore(const std::string& folder, const StudyPlan& plan);
 
     const OutputFolder& folder() const { return folder_; }

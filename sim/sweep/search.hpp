@@ -20,13 +20,13 @@ namespace degs::sim {
 /// Two numbers. The functions below take them as costs, which shall be small.
 using Goals = std::array<double, 2>;
 
-/// Positions of those that no other beats: none is at least as good in both goals and better in one.
-/// In the order of the first goal. Of equal ones the first counts.
+/// Positions of those that no other beats: none is at least as good in both goals and better in
+/// one. In the order of the first goal. Of equal ones the first counts.
 std::vector<std::size_t> pareto_front(const std::vector<Goals>& goals);
 
 /// Positions of the best `count`, at most all: the front, then the front of the rest, and so on. Of
-/// the last front that does not fit those are taken that lie farthest from their neighbours, its ends
-/// first. In ascending order.
+/// the last front that does not fit those are taken that lie farthest from their neighbours, its
+/// ends first. In ascending order.
 std::vector<std::size_t> best_of(const std::vector<Goals>& goals, std::size_t count);
 
 /// Spearman's correlation of ranks of two lists of the same length; empty for fewer than three.

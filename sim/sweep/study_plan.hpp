@@ -57,9 +57,9 @@ constexpr std::size_t kMostPoints = 100000;
 /// not exist, if there are more than kMostPoints points, and if no variant can be built.
 StudyPlan plan_study(const Study& study);
 
-/// A plan with the same views for some of a plan's variants, in images with sides that are `divisor` times
-/// shorter. The plan's baseline must be among them. Throws InputError if a divisor other than 1 finds
-/// that images have the sizes of their cameras, which are not known yet.
+/// A plan with the same views for some of a plan's variants, in images with sides that are
+/// `divisor` times shorter. The plan's baseline must be among them. Throws InputError if a divisor
+/// other than 1 finds that images have the sizes of their cameras, which are not known yet.
 StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variants, int divisor);
 
 } // namespace degs::sim

@@ -31,8 +31,8 @@ public:
     SweepSession(const StudyPlan& plan, const PointStore& store, PointRange range,
                  std::function<void()> finished = {});
 
-    /// False after Ctrl-C. A point that fails costs the others nothing. Throws FailureError as soon as
-    /// a point cannot be kept, because the others would be simulated in vain.
+    /// False after Ctrl-C. A point that fails costs the others nothing. Throws FailureError as soon
+    /// as a point cannot be kept, because the others would be simulated in vain.
     bool run();
     /// The worst failure, or the interruption.
     std::optional<Failure> failure() const;

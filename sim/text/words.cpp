@@ -39,7 +39,8 @@ std::string three_digits(double value) {
 }
 
 std::string decimal_of(double value) {
-    // One value in thirty lies so near a number of twelve digits by chance, and then moves by 1e-14 of itself.
+    // One value in thirty lies so near a number of twelve digits by chance, and then moves by 1e-14
+    // of itself.
     constexpr double kRoundingOfSums = 1e-14, kRoundingOfOne = 2.3e-16; // relative
     for (const auto& [digits, rounding] : {std::pair(12, kRoundingOfSums), {15, kRoundingOfOne}}) {
         char text[64];

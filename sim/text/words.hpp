@@ -15,8 +15,9 @@ using degs::decimal_text;
 using degs::grouped;
 /// Three significant digits without exponent: 2.108 -> "2.11", 473.9 -> "474", 51234 -> "51200".
 std::string three_digits(double value);
-/// The shortest decimal that reads back to the value that was meant: a short one that the value misses
-/// by no more than rounding does (2.178 for 2.1780000000000004, which a sum made), else the value's own.
+/// The shortest decimal that reads back to the value that was meant: a short one that the value
+/// misses by no more than rounding does (2.178 for 2.1780000000000004, which a sum made), else the
+/// value's own.
 std::string decimal_of(double value);
 /// 54512345 -> "54.5 M"; k, M, G and T are decimal.
 std::string scaled(double value);

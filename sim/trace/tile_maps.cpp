@@ -90,8 +90,8 @@ Colour colour_of(double value, double largest) {
     return std::isnan(value) ? kNoSplat : heat(largest > 0 ? value / largest : 0);
 }
 
-// The picture in the upper left corner, so that its pixels keep their places, and below it the title,
-// the subtitle, the scale and, if there are some, the words for tiles that list no splat.
+// The picture in the upper left corner, so that its pixels keep their places, and below it the
+// title, the subtitle, the scale and, if there are some, the words for tiles that list no splat.
 Image with_legend(const Image& picture, const TileMap& map, const std::string& subtitle,
                   const std::string& no_splat) {
     constexpr int kTicks = 4, kLeastWidth = 520, kFullWidth = 960;

@@ -35,8 +35,8 @@ Image map_over(const TileMaps& maps, const TileMap& map, const std::string& subt
 std::vector<std::string> tile_map_files();
 /// tiles.exr with every map as a layer, and for each map a picture and an overlay.
 void write_tile_maps(const RunResult& result, const OutputFolder& out);
-/// The paths of the maps that a run replaces: those in `maps`, and those that an earlier run left among
-/// its results in `out`.
+/// The paths of the maps that a run replaces: those in `maps`, and those that an earlier run left
+/// among its results in `out`.
 std::vector<std::string> old_tile_maps(const OutputFolder& out,
                                        const std::optional<OutputFolder>& maps);
 

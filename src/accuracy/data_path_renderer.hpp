@@ -22,7 +22,8 @@ struct DataPathCounts {
 struct DataPathRender {
     DataPathOptions numbers;
     /// Rows per splat: all that its ellipse meets (slicing.rows: splat) or those that it meets in
-    /// the tile's columns (tile). The two differ for rows of pixels that are wider than the ellipse.
+    /// the tile's columns (tile). The two differ for rows of pixels that are wider than the
+    /// ellipse.
     bool rows_in_columns = false;
     /// Rows are solved, or as wide as the splat's bounding box, and pixels test themselves
     /// (span.parsing). With numbers.gemm every pixel of a tile tests itself.

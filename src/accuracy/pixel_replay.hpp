@@ -40,11 +40,12 @@ struct PixelBlame {
     std::string flip;      ///< "stop rule", "span ends", "depth order" or empty
 };
 
-/// Replays a pixel. The Gaussian is the one whose alpha moves the reference's pixel most if it alone
-/// is taken from the number set. The operation is the one that explains most: the error of a replay
-/// in which it alone is rounded, or the part of the error that vanishes if it alone is exact,
-/// whichever is larger. `flip` is set if the two disagree on whether the Gaussian is blended:
-/// because the pixel ends at another splat, or because only one of them has it in its span.
+/// Replays a pixel. The Gaussian is the one whose alpha moves the reference's pixel most if it
+/// alone is taken from the number set. The operation is the one that explains most: the error of a
+/// replay in which it alone is rounded, or the part of the error that vanishes if it alone is
+/// exact, whichever is larger. `flip` is set if the two disagree on whether the Gaussian is
+/// blended: because the pixel ends at another splat, or because only one of them has it in its
+/// span.
 PixelBlame blame_pixel(const FrameWorkload& workload, int x, int y, const NumberSet& set,
                        StopRule stop);
 

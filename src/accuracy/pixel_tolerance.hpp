@@ -7,7 +7,8 @@
 namespace degs {
 
 /// How far a number set may be from the reference on the splats of a frame, from its formats alone.
-/// It must not be used for sets that derive their record (Derivation::Literal): C - B^2/A may lose all digits.
+/// It must not be used for sets that derive their record (Derivation::Literal): C - B^2/A may lose
+/// all digits.
 struct NumberTolerance {
     double alpha = 0;     ///< bound on the error of a fragment's alpha
     double update = 0;    ///< bound on what rounding adds to a pixel per blended splat and unit of

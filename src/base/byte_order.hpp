@@ -15,7 +15,8 @@ inline bool host_is_big_endian() {
     return first == 0;
 }
 
-/// The value that starts at `bytes`; `swap`: its bytes are in the other order than those of the host.
+/// The value that starts at `bytes`; `swap`: its bytes are in the other order than those of the
+/// host.
 template <class Value>
 Value load_value(const char* bytes, bool swap) {
     char ordered[sizeof(Value)];

@@ -17,8 +17,8 @@ struct AcceleratorKind {
 /// Every accelerator of this project, DeGS first, and then those that add_accelerator() has added.
 const std::vector<AcceleratorKind>& accelerator_kinds();
 
-/// Makes `accelerator: NAME` in a configuration file mean this kind, from now on. Throws std::logic_error if the name
-/// is taken.
+/// Makes `accelerator: NAME` in a configuration file mean this kind, from now on. Throws
+/// std::logic_error if the name is taken.
 void add_accelerator(const AcceleratorKind& kind);
 template <class Config>
 void add_accelerator(const char* name) {

@@ -69,8 +69,8 @@ public:
     virtual void advise(bool in_proportion, const ConfigRule& rule) {
         (void)in_proportion, (void)rule;
     }
-    /// A design that can be built, but in which a part of a value is of no use. A reader warns only if an
-    /// override gives the key, because then somebody expects that it has an effect.
+    /// A design that can be built, but in which a part of a value is of no use. A reader warns only
+    /// if an override gives the key, because then somebody expects that it has an effect.
     virtual void advise_if_set(bool of_use, const ConfigRule& rule) { (void)of_use, (void)rule; }
 
     /// Says that `key`, a value or a section, has no effect while `decider` has its present value;
@@ -81,16 +81,18 @@ public:
         (void)key, (void)decider, (void)reason;
     }
 
-    /// Says that sections `keys` of the section `section` of this one, as far as they were not visited, are those of
-    /// other structs, which may stand in a file that both include. A reader does not look at them, and warns if an
-    /// override gives a key of theirs. `reason` completes "has no effect, because".
+    /// Says that sections `keys` of the section `section` of this one, as far as they were not
+    /// visited, are those of other structs, which may stand in a file that both include. A reader
+    /// does not look at them, and warns if an override gives a key of theirs. `reason` completes
+    /// "has no effect, because".
     virtual void of_others(const char* section, const std::vector<const char*>& keys,
                            const char* reason) {
         (void)section, (void)keys, (void)reason;
     }
 
-    /// True if this visitor also goes through sections that only another choice would use: those who
-    /// read and document do, so that every key is known; who writes a configuration down does not.
+    /// True if this visitor also goes through sections that only another choice would use: those
+    /// who read and document do, so that every key is known; who writes a configuration down does
+    /// not.
     virtual bool visits_unused() const { return true; }
 
     void integer(const char* key, int& value, int low, int high, const char* doc) {

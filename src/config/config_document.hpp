@@ -32,13 +32,15 @@ nlohmann::ordered_json resolved(Config config) {
     return resolved_json([&](ConfigVisitor& visitor) { config.describe(visitor); });
 }
 
-/// Returns the same as a YAML file with the meaning behind each key; loading it gives the same struct.
+/// Returns the same as a YAML file with the meaning behind each key; loading it gives the same
+/// struct.
 template <class Config>
 std::string resolved_yaml(Config config) {
     return resolved_yaml_text([&](ConfigVisitor& visitor) { config.describe(visitor); });
 }
 
-/// Lists the keys that a user may write, in the order of `describe`; the defaults are the values of `config`.
+/// Lists the keys that a user may write, in the order of `describe`; the defaults are the values of
+/// `config`.
 template <class Config>
 std::vector<KeyDoc> document(Config config) {
     return document_keys([&](ConfigVisitor& visitor) { config.describe(visitor); });

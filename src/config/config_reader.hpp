@@ -51,7 +51,8 @@ private:
     bool is_changed(const std::string& path) const;
     std::string path_of(const char* key) const;
     std::string sentence_of(const ConfigRule& rule) const;
-    /// Calls `parse(node)` for the value of the file, then for that of the override; both must be valid.
+    /// Calls `parse(node)` for the value of the file, then for that of the override; both must be
+    /// valid.
     template <class Parse>
     bool each_value(const char* key, const Parse& parse);
     template <class Number>

@@ -53,7 +53,8 @@ public:
     /// Reads values into everything that the function visits, and returns sentences like load().
     std::vector<std::string> read(const std::function<void(ConfigVisitor&)>& describe) const;
 
-    /// Returns "file:line" or "--set path=value" of the text that decides a key, "default" if nothing names it.
+    /// Returns "file:line" or "--set path=value" of the text that decides a key, "default" if
+    /// nothing names it.
     std::string place(const std::string& path) const;
     /// The files as one tree, before overrides, for callers that read lists.
     const ConfigNode& tree() const { return root_; }

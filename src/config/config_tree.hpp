@@ -34,7 +34,8 @@ ConfigNode read_config_file(const std::filesystem::path& path);
 /// to it.
 ConfigNode read_config_text(const std::string& name, const std::string& yaml);
 
-// Limits far above any real configuration. They keep a hostile file from taking all time, memory or stack.
+// Limits far above any real configuration. They keep a hostile file from taking all time, memory or
+// stack.
 constexpr std::size_t kLargestConfigBytes = std::size_t{1} << 20;
 constexpr std::size_t kMostConfigKeys = 4096; ///< in one section
 constexpr std::size_t kDeepestConfig = 32;    ///< sections and lists inside each other

@@ -20,7 +20,8 @@ std::string quote(const std::string& text);
 /// `text` as it is written between the bars of a Markdown table.
 std::string markdown_cell(std::string text);
 
-/// Returns "1 to 64", "at least 1", "at most 64" or "any"; a bound at the end of its type does not count.
+/// Returns "1 to 64", "at least 1", "at most 64" or "any"; a bound at the end of its type does not
+/// count.
 std::string range(std::int64_t low, std::int64_t high);
 std::string range(double low, double high);
 

@@ -34,8 +34,8 @@ struct QuantityKey {
 /// `place` and lists the units of the key, for one that does not fit what the key means.
 double in_unit_of(const QuantityKey& key, const Quantity& quantity, const std::string& place);
 
-/// `node`, or if it is a plain number with a unit (8KB), the same node with the number in the unit of
-/// the key (8192). Throws InputError as in_unit_of().
+/// `node`, or if it is a plain number with a unit (8KB), the same node with the number in the unit
+/// of the key (8192). Throws InputError as in_unit_of().
 ConfigNode in_unit_of(const QuantityKey& key, const ConfigNode& node);
 
 } // namespace degs

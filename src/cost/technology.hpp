@@ -97,8 +97,8 @@ private:
     double dynamic_pj_per_cycle(const Row& row) const;
 };
 
-/// The rows of an accelerator: the section `name` of the section of a Technology, which is open. An accelerator
-/// describes its rows between the constructor and end().
+/// The rows of an accelerator: the section `name` of the section of a Technology, which is open. An
+/// accelerator describes its rows between the constructor and end().
 class RowSection {
 public:
     RowSection(const char* name, const char* doc, const Technology& technology,

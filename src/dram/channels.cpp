@@ -101,7 +101,8 @@ Ck Channels::due() const {
     return *std::min_element(due_.begin(), due_.end());
 }
 
-// Where a write may wait, a read may be answered from it at once, so the channel must not be behind.
+// Where a write may wait, a read may be answered from it at once, so the channel must not be
+// behind.
 Ck Channels::due_of(bool write, Ck date) const {
     const bool at_once = exactly_ || write || writes_somewhere_;
     return at_once ? date : date + data_latency() - 1;

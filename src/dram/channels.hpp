@@ -70,10 +70,12 @@ public:
     std::vector<Answer>& completed() { return completed_; }
     std::vector<std::uint32_t>& admitted() { return admitted_; }
 
-    /// Like push(), for a requester that wants the answer at once. The request does not appear in completed().
+    /// Like push(), for a requester that wants the answer at once. The request does not appear in
+    /// completed().
     void push_for_prediction(const Request& request);
     /// The dates at which the requests pushed in this way since the last call are complete if
-    /// nothing more comes, found by running copies of the channels. All dates up to `known` have been pushed.
+    /// nothing more comes, found by running copies of the channels. All dates up to `known` have
+    /// been pushed.
     std::vector<Ck> predict(Ck known);
 
     /// Updates the statistics up to `until`.

@@ -77,8 +77,8 @@ private:
         Command command = Command::Pre;
         std::uint8_t slot = Queue::kNone;
     };
-    /// The candidates once more, one array each and in 32 bits: all banks are compared at once. Masks say
-    /// what holds a bank back beside itself.
+    /// The candidates once more, one array each and in 32 bits: all banks are compared at once.
+    /// Masks say what holds a bank back beside itself.
     struct Keys {
         using PerBank = std::array<std::uint32_t, kBanks>;
         alignas(16) PerBank date{}, age{}, column{}, act1{}, pre{};

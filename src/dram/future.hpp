@@ -8,9 +8,9 @@
 
 namespace degs::dram {
 
-/// The future of a channel if nothing more comes: a copy that has been run ahead. It goes on as long as
-/// what comes all the same cannot have changed anything that it has done, and is copied again then.
-/// A backlog of posted writes is thus run through once and not once for each of them.
+/// The future of a channel if nothing more comes: a copy that has been run ahead. It goes on as
+/// long as what comes all the same cannot have changed anything that it has done, and is copied
+/// again then. A backlog of posted writes is thus run through once and not once for each of them.
 class Future {
 public:
     /// Takes what the channel is about to take; `access` is Channel::marked(). Must come before

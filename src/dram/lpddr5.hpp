@@ -24,12 +24,13 @@ namespace degs::dram {
 /// by socket index; contents change in the same order. A payload with the extension TimingOnly
 /// takes time and moves no data; one with Scattered moves every record at its own address.
 ///
-/// AT, the accurate path: four phases. END_REQ comes at once unless `waiting_requests` requests of the
-/// initiator wait for room in the controllers' queues; then it is withheld until one has got in, which
-/// is the only back-pressure. BEGIN_RESP comes at the date of the last beat (a posted write: when the
-/// queues have it), one per socket at a time. Early completion is accepted. LT: b_transport() returns
-/// half a cycle of `time` after the request's date with the rest of the response time annotated: the
-/// answer that the present queues, banks and buses give if nothing more comes.
+/// AT, the accurate path: four phases. END_REQ comes at once unless `waiting_requests` requests of
+/// the initiator wait for room in the controllers' queues; then it is withheld until one has got
+/// in, which is the only back-pressure. BEGIN_RESP comes at the date of the last beat (a posted
+/// write: when the queues have it), one per socket at a time. Early completion is accepted. LT:
+/// b_transport() returns half a cycle of `time` after the request's date with the rest of the
+/// response time annotated: the answer that the present queues, banks and buses give if nothing
+/// more comes.
 ///
 /// Not modelled: the interconnect (every channel takes any number of requests per CK), and what
 /// channel.hpp and timing.hpp leave out.
@@ -52,9 +53,9 @@ public:
     /// Counters of all channels, up to now.
     Channel::Stats commands() { return commands(sc_core::sc_time_stamp()); }
     Energy energy() { return energy(sc_core::sc_time_stamp()); }
-    /// Counters, energy and transfers up to another date, for a run that is over: it may end before or after
-    /// the date at which the kernel had nothing left to do. `until` is not before the last request, and no
-    /// request follows.
+    /// Counters, energy and transfers up to another date, for a run that is over: it may end before
+    /// or after the date at which the kernel had nothing left to do. `until` is not before the last
+    /// request, and no request follows.
     Channel::Stats commands(const sc_core::sc_time& until);
     Energy energy(const sc_core::sc_time& until);
     TransferAccount transfers(const sc_core::sc_time& until);

@@ -60,7 +60,8 @@ private:
     std::string count_problem(const std::string& count, unsigned field) const;
     void place_field(unsigned field, unsigned bits, unsigned grain_bits);
     void append(unsigned field, unsigned bits);
-    /// Mixes row bits into bank and bank group. It is its own inverse, because the row does not change.
+    /// Mixes row bits into bank and bank group. It is its own inverse, because the row does not
+    /// change.
     void fold(Values& values) const;
 
     bool fold_channel_ = false, fold_bank_ = false;

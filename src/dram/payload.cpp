@@ -57,7 +57,8 @@ void Lpddr5::count(std::uint32_t socket, const Payload& payload, const sc_core::
     stats.last_answer = std::max(stats.last_answer, done);
 }
 
-// Accesses through the pointer bypass banks and buses; the reported latencies are those of a row hit.
+// Accesses through the pointer bypass banks and buses; the reported latencies are those of a row
+// hit.
 bool Lpddr5::direct_memory(int /*socket*/, Payload& payload, tlm::tlm_dmi& dmi) {
     const std::uint64_t address = payload.get_address();
     if (!config_.dmi || address >= channels_.mapping().capacity()) {

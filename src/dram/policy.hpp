@@ -51,9 +51,9 @@ public:
     /// True if order() counts. Otherwise column commands go before others and older accesses
     /// before younger ones.
     virtual bool has_order() const { return false; }
-    /// The number of a command in the order of those that may be sent in one CK: the lowest goes first;
-    /// below 2^63. ACT-2 goes before all of them, because it has a deadline. May change only with
-    /// the bank's accesses in the queue and with the calls below for this bank.
+    /// The number of a command in the order of those that may be sent in one CK: the lowest goes
+    /// first; below 2^63. ACT-2 goes before all of them, because it has a deadline. May change only
+    /// with the bank's accesses in the queue and with the calls below for this bank.
     virtual std::uint64_t order(const Ready& /*ready*/) const { return 0; }
 
     /// The last burst of an access is sent; it leaves its queue next.

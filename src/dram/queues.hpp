@@ -12,10 +12,10 @@
 
 namespace degs::dram {
 
-/// The read queue and the write queue of a channel, the accesses that wait for their date or for room
-/// in them, and the choice of the queue that is served. Reads go first. Writes go in batches between
-/// two watermarks, or when no read waits. Urgent reads enter the read queue before others, which leave
-/// a share of it free for them; once in the queue, all are equal.
+/// The read queue and the write queue of a channel, the accesses that wait for their date or for
+/// room in them, and the choice of the queue that is served. Reads go first. Writes go in batches
+/// between two watermarks, or when no read waits. Urgent reads enter the read queue before others,
+/// which leave a share of it free for them; once in the queue, all are equal.
 class Queues {
 public:
     explicit Queues(const ControllerConfig& config);
@@ -134,7 +134,8 @@ private:
     Queue reads_, writes_;
     Waiting urgent_in_, reads_in_, writes_in_; // wait for their date or for room
     bool writing_ = false;
-    // The number of waiting writes by hash. It shows at arrival that a read has nothing to wait for.
+    // The number of waiting writes by hash. It shows at arrival that a read has nothing to wait
+    // for.
     std::array<std::uint16_t, 256> writes_of_hash_{};
     std::size_t after_writes_ = 0; // waiting reads with after_write
 };

@@ -90,7 +90,8 @@ struct Rule {
     const char* name;
 };
 
-/// Every constraint between two commands. Two constraints are not of this kind: tFAW, and one command per CK.
+/// Every constraint between two commands. Two constraints are not of this kind: tFAW, and one
+/// command per CK.
 std::vector<Rule> rules(const Timing& timing);
 
 /// The rules sorted by what has been issued; made once, shared by all channels.

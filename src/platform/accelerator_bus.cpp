@@ -73,8 +73,8 @@ tlm::tlm_response_status AcceleratorCore::write(std::uint32_t offset, std::uint3
     return tlm::TLM_OK_RESPONSE;
 }
 
-// A start samples the registers here and not at its date: a decoupled processor may write those of the
-// next frame in the same quantum.
+// A start samples the registers here and not at its date: a decoupled processor may write those of
+// the next frame in the same quantum.
 void AcceleratorCore::command(std::uint32_t bits, const sc_core::sc_time& delay) {
     if ((bits & kControlReset) != 0) {
         request_stop(Stop::Reset);

@@ -12,7 +12,8 @@
 
 namespace degs {
 
-/// What is behind the sockets of degs::Accelerator, whose header names nothing of this project's inside.
+/// What is behind the sockets of degs::Accelerator, whose header names nothing of this project's
+/// inside.
 class AcceleratorCore {
 public:
     /// `shell` must outlive it, and is under construction: blocks become its children.

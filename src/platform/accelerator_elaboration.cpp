@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What degs::Accelerator checks before the simulation starts, and its tie to a clock of the platform.
+// What degs::Accelerator checks before the simulation starts, and its tie to a clock of the
+// platform.
 #include <cmath>
 #include <stdexcept>
 

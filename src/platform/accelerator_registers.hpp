@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The register map of degs::Accelerator. `degs registers` prints it in the formats of its readers:
-// docs/accelerator.md has the table, degs_registers.h is the header for programs in C, and driver/ has the
-// XML of tools.
+// docs/accelerator.md has the table, degs_registers.h is the header for programs in C, and driver/
+// has the XML of tools.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace degs {
 
 enum class Access { Read, ReadWrite, WriteOneToClear, Command };
 
-/// One bit with a meaning of its own. The bits that no field names are reserved: they read as 0, and
-/// what is written to them is lost.
+/// One bit with a meaning of its own. The bits that no field names are reserved: they read as 0,
+/// and what is written to them is lost.
 struct RegisterField {
     const char* name;
     std::uint32_t bit;
@@ -29,8 +29,8 @@ struct RegisterValue {
     std::string meaning;
 };
 
-/// One row of the map. Without fields, all bits of a register are one number; `values` names some of
-/// them.
+/// One row of the map. Without fields, all bits of a register are one number; `values` names some
+/// of them.
 struct RegisterInfo {
     Register offset;
     std::uint32_t words;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reset and abort of degs::Accelerator.
 //
-// The blocks are threads with state of their own. None of them knows how to give up a frame, so they
-// finish it, at no cost to the platform: the gateway stops touching the bus, and the clock hurries.
+// The blocks are threads with state of their own. None of them knows how to give up a frame, so
+// they finish it, at no cost to the platform: the gateway stops touching the bus, and the clock
+// hurries.
 #include "platform/accelerator_core.hpp"
 
 namespace degs {

@@ -19,7 +19,8 @@ void AccessPacer::await_turn(unsigned rank, sc_core::sc_time& delay) {
     }
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     if (!exact()) {
-        // As tlm_utils::tlm_quantumkeeper: who reaches the next multiple of the quantum waits for its date.
+        // As tlm_utils::tlm_quantumkeeper: who reaches the next multiple of the quantum waits for
+        // its date.
         if (delay >= tlm::tlm_global_quantum::instance().compute_local_quantum()) {
             sc_core::wait(delay, opens_);
             delay = sc_core::SC_ZERO_TIME;

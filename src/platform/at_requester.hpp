@@ -15,13 +15,13 @@
 
 namespace degs {
 
-/// Performs blocking accesses of several processes over one socket, with the four phases of the TLM-2.0 base
-/// protocol, for AT targets without b_transport().
+/// Performs blocking accesses of several processes over one socket, with the four phases of the
+/// TLM-2.0 base protocol, for AT targets without b_transport().
 ///
-/// BEGIN_REQ goes out at the date of the access without annotated delay, one at a time. The next one
-/// follows when END_REQ, an answer or early completion has ended the request phase. The oldest date
-/// goes first; ties are broken by rank. At most Limits::all transactions are in flight, and of one rank
-/// at most Limits::per_rank; a rank at its limit does not hold back the others. Answers
+/// BEGIN_REQ goes out at the date of the access without annotated delay, one at a time. The next
+/// one follows when END_REQ, an answer or early completion has ended the request phase. The oldest
+/// date goes first; ties are broken by rank. At most Limits::all transactions are in flight, and of
+/// one rank at most Limits::per_rank; a rank at its limit does not hold back the others. Answers
 /// may come in any order and with any kind of ending; END_RESP is sent at the date of the answer.
 ///
 /// Not modelled: time of the phases on this side.
@@ -36,8 +36,8 @@ public:
         unsigned per_rank = ~0U;
     };
 
-    /// Sends through `out`, whose nb_transport_bw() must call backward(). Throws std::invalid_argument if a
-    /// limit is 0.
+    /// Sends through `out`, whose nb_transport_bw() must call backward(). Throws
+    /// std::invalid_argument if a limit is 0.
     AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator_socket<>& out,
                 const Limits& limits);
     ~AtRequester() override;
@@ -46,9 +46,9 @@ public:
     /// response is that of the first piece that failed, in the order of the pieces, or OK.
     void transport(unsigned rank, Payload& access, const std::vector<Piece>& pieces,
                    sc_core::sc_time& delay);
-    /// Starts an access without waiting. The bytes of a write are copied, unless they mean nothing (TimingOnly).
-    /// `done` is called, outside of any thread, when all pieces are answered, with the bytes as the pieces
-    /// number them.
+    /// Starts an access without waiting. The bytes of a write are copied, unless they mean nothing
+    /// (TimingOnly). `done` is called, outside of any thread, when all pieces are answered, with
+    /// the bytes as the pieces number them.
     using Done = std::function<void(tlm::tlm_response_status, const unsigned char* data)>;
     void start(unsigned rank, const Payload& access, const std::vector<Piece>& pieces, Done done);
     tlm::tlm_sync_enum backward(Payload& payload, tlm::tlm_phase& phase, sc_core::sc_time& delay);

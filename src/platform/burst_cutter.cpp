@@ -8,7 +8,8 @@
 namespace degs {
 namespace {
 
-/// The largest naturally aligned power of two that starts at `address`, up to `burst` and to `room`.
+/// The largest naturally aligned power of two that starts at `address`, up to `burst` and to
+/// `room`.
 std::uint64_t aligned_piece(std::uint64_t address, std::uint64_t burst, std::uint64_t room) {
     std::uint64_t piece = burst;
     while (address % piece != 0 || piece > room) {

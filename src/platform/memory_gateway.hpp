@@ -19,11 +19,11 @@
 
 namespace degs {
 
-/// Sends all streams of an accelerator through one TLM-2.0 initiator socket, for memory that belongs
-/// to a platform: every access moves real bytes, and the platform arbitrates. Scattered records go
-/// out as ordinary transactions at their own addresses, one per run of bytes. An access that the
-/// platform refuses is counted as an error and then treated as done: an accelerator ends its frame
-/// and reports the error in a register, and the simulation goes on.
+/// Sends all streams of an accelerator through one TLM-2.0 initiator socket, for memory that
+/// belongs to a platform: every access moves real bytes, and the platform arbitrates. Scattered
+/// records go out as ordinary transactions at their own addresses, one per run of bytes. An access
+/// that the platform refuses is counted as an error and then treated as done: an accelerator ends
+/// its frame and reports the error in a register, and the simulation goes on.
 class MemoryGateway : public sc_core::sc_module, public MainMemory {
 public:
     using Options = AcceleratorOptions::Memory;
@@ -67,8 +67,8 @@ public:
         first_error_ = tlm::TLM_OK_RESPONSE;
     }
 
-    /// Stops touching the platform's memory. Transactions that are on the bus end in their own time;
-    /// every other access is answered at once, as if it had been done, until attach().
+    /// Stops touching the platform's memory. Transactions that are on the bus end in their own
+    /// time; every other access is answered at once, as if it had been done, until attach().
     void detach();
     void attach();
     bool detached() const { return detached_; }

@@ -31,8 +31,8 @@ public:
     /// so that the indices of the others are those of their records.
     GaussianCloud cloud(std::uint32_t& dropped) const;
 
-    /// True if these are the bytes of the copy, or of neither array. An access that starts in an array
-    /// ends in it.
+    /// True if these are the bytes of the copy, or of neither array. An access that starts in an
+    /// array ends in it.
     bool matches(std::uint64_t address, const unsigned char* data, std::uint64_t bytes) const;
 
 private:
@@ -40,7 +40,8 @@ private:
     std::vector<unsigned char> geometry_, sh_;
 };
 
-/// Encodes a cloud as these bytes, for a program that puts a scene into memory. Means are rounded to float.
+/// Encodes a cloud as these bytes, for a program that puts a scene into memory. Means are rounded
+/// to float.
 void encode_scene(const GaussianCloud& cloud, std::vector<unsigned char>& geometry,
                   std::vector<unsigned char>& sh);
 

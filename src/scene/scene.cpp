@@ -44,8 +44,8 @@ std::string reasons_of(const SanitizeReport& dropped) {
            " an opacity outside 0 to 1";
 }
 
-/// Rows of zeros or NaN are what an export could not write, and say nothing of the others. Scales and
-/// opacities out of their ranges in half of a file or more say that all were misread.
+/// Rows of zeros or NaN are what an export could not write, and say nothing of the others. Scales
+/// and opacities out of their ranges in half of a file or more say that all were misread.
 void judge_dropped(Scene& scene, std::uint64_t total) {
     const SanitizeReport& dropped = scene.dropped;
     const std::string count = grouped(dropped.total()) + " of the " + grouped(total) +

@@ -22,12 +22,14 @@ struct Scene {
 
 /// Loads `spec` (see parse_scene_spec): a scene file of any of the scene_formats(), with options
 /// behind its name, or "synthetic:NAME[,gaussians=N][,seed=N]"; of a scene that changes
-/// (open_dynamic_scene) the first frame, or the time that the spec names. World axes become RDF. Cameras come
-/// from `cameras_path` if given, else from cameras_beside() the file, else from the file itself. Throws
-/// InputError for every mistake in the input, also for a scene without a drawable Gaussian.
+/// (open_dynamic_scene) the first frame, or the time that the spec names. World axes become RDF.
+/// Cameras come from `cameras_path` if given, else from cameras_beside() the file, else from the
+/// file itself. Throws InputError for every mistake in the input, also for a scene without a
+/// drawable Gaussian.
 Scene load_scene(const std::string& spec, const std::string& cameras_path = "");
 
-/// The name that `load_scene` would give to the scene. InputError if no synthetic scene is called so.
+/// The name that `load_scene` would give to the scene. InputError if no synthetic scene is called
+/// so.
 std::string scene_name(const std::string& spec);
 
 /// Number of cameras that `load_scene` would find, without reading the Gaussians of a file. Throws

@@ -19,8 +19,8 @@ struct SceneFormat {
     std::vector<Camera> (*read_cameras)(const std::string& path) = nullptr;
     /// Files that `read` reads in addition; nullptr: none.
     std::vector<std::string> (*external_files)(const std::string& path) = nullptr;
-    /// Writes a file of the format's first extension and returns a sentence for everything that it cannot
-    /// hold; nullptr: such files are not written.
+    /// Writes a file of the format's first extension and returns a sentence for everything that it
+    /// cannot hold; nullptr: such files are not written.
     std::vector<std::string> (*write)(const GaussianCloud& cloud,
                                       const std::vector<Camera>& cameras, const SceneTraits& traits,
                                       const std::string& path) = nullptr;
@@ -50,9 +50,9 @@ std::string writable_scene_extensions();
 /// InputError unless write_scene_file() writes files of this name.
 void check_scene_writable(const std::string& path);
 
-/// Writes a cloud in the axes of PLY; the extension chooses the format. Cameras and traits go into the
-/// file if the format has any. Returns a sentence for everything that the file cannot hold. InputError if
-/// no format of the extension is written, or the place cannot be.
+/// Writes a cloud in the axes of PLY; the extension chooses the format. Cameras and traits go into
+/// the file if the format has any. Returns a sentence for everything that the file cannot hold.
+/// InputError if no format of the extension is written, or the place cannot be.
 std::vector<std::string> write_scene_file(const GaussianCloud& cloud,
                                           const std::vector<Camera>& cameras,
                                           const SceneTraits& traits, const std::string& path);

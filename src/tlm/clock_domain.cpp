@@ -10,8 +10,8 @@ namespace {
 
 // Two units of kernel time: one for each half of a cycle.
 constexpr std::uint64_t kHurriedPeriod = 2;
-// Cycles between what has happened before and after a change. Dates in rings are no more than a few latencies ahead
-// of their processes, so none of them is still to come.
+// Cycles between what has happened before and after a change. Dates in rings are no more than a few
+// latencies ahead of their processes, so none of them is still to come.
 constexpr Cycle kGap = Cycle{1} << 20U;
 
 } // namespace
@@ -41,7 +41,8 @@ void ClockMapping::follow(const sc_core::sc_time& period, const sc_core::sc_time
     origin_time_ = first_edge_ = first_edge;
 }
 
-// The present cycle begins anew, so that its second half, when its order is certain, is still to come.
+// The present cycle begins anew, so that its second half, when its order is certain, is still to
+// come.
 void ClockMapping::hurry() {
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     origin_ = floor(now);

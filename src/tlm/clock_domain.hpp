@@ -15,10 +15,11 @@ using Cycle = std::uint64_t;
 /// Later than anything; half the range, so that adding a latency cannot wrap.
 constexpr Cycle kNever = ~Cycle{0} / 2;
 
-/// Where the cycles of a clock domain lie in kernel time, for a domain that needs more than multiples
-/// of a period: its edges may have a phase, and it can hurry through work that nobody wants any more.
-/// Every ClockDomain made from it, copies included, asks the one mapping. Dates before the origin of
-/// the present mapping lie at its origin, so that they are never in the future.
+/// Where the cycles of a clock domain lie in kernel time, for a domain that needs more than
+/// multiples of a period: its edges may have a phase, and it can hurry through work that nobody
+/// wants any more. Every ClockDomain made from it, copies included, asks the one mapping. Dates
+/// before the origin of the present mapping lie at its origin, so that they are never in the
+/// future.
 class ClockMapping {
 public:
     explicit ClockMapping(const sc_core::sc_time& period)

@@ -35,8 +35,8 @@ private:
     std::vector<std::function<void(Cycle)>> told_;
 };
 
-/// The date at which an access to memory is complete. LT memories say it when they are asked; of others
-/// it is known when their answer comes, which must not keep a block from its next access.
+/// The date at which an access to memory is complete. LT memories say it when they are asked; of
+/// others it is known when their answer comes, which must not keep a block from its next access.
 class Completion {
 public:
     Completion(Cycle date = 0) : date_(date) {} // NOLINT(google-explicit-constructor): is a date

@@ -83,9 +83,9 @@ public:
             make_room(writer);
         }
     }
-    /// True if reserve(), which has to follow, will not move the writer's date. The answer is certain, as that of
-    /// Process::arrived(); for FIFOs with Lb >= 1, so that what is read in cycle t makes room from
-    /// t + 1 on, whoever is asked first.
+    /// True if reserve(), which has to follow, will not move the writer's date. The answer is
+    /// certain, as that of Process::arrived(); for FIFOs with Lb >= 1, so that what is read in
+    /// cycle t makes room from t + 1 on, whoever is asked first.
     bool has_room(Process& writer) {
         return full() ? writer.gains_room(*this) : room_date() <= writer.local();
     }
@@ -129,7 +129,8 @@ public:
     }
     /// The oldest item without removing it. Only if not empty().
     const T& front() const { return front_->value; }
-    /// For arrive(), and for a reader that has waited since `ready` for the oldest item in another way.
+    /// For arrive(), and for a reader that has waited since `ready` for the oldest item in another
+    /// way.
     void count_late(Cycle ready) {
         const Cycle from = std::max(ready, front_->written + forward_latency_);
         if (stats_.items != 0 && front_->date > from) {
@@ -254,7 +255,8 @@ private:
             reader_->wake();
         }
     }
-    /// The staged item takes its cell, but cannot be read before those that are late and its own answer.
+    /// The staged item takes its cell, but cannot be read before those that are late and its own
+    /// answer.
     __attribute__((noinline)) void hold(Process& writer, const Completion& ready) {
         tail_->written = writer.local();
         tail_ = next(tail_);
@@ -304,7 +306,8 @@ private:
     /// Twice the cells, or all of them. The new ring starts with the oldest item. Behind the last
     /// one come cells that are free from the start: the reads they would have to wait for all lie
     /// before the latest write, else the ring would have grown then. Cells keep the dates of their
-    /// last item, which count_fill() and residence() ask for. A reader may hold on to an item in the old cells.
+    /// last item, which count_fill() and residence() ask for. A reader may hold on to an item in
+    /// the old cells.
     __attribute__((noinline)) void grow() {
         std::vector<Cell> cells(capacity_ <= depth_ / 2 ? 2 * capacity_ : depth_);
         const std::size_t added = cells.size() - capacity_;

@@ -41,7 +41,8 @@ Completion MemoryPort::access(Process& process, tlm::tlm_command command, std::u
     payload.clear_extension(&timing_only_);
     payload.clear_extension(&may_answer_late_);
     payload.clear_extension(&urgent_);
-    // A memory that waits has moved the kernel on; a process must not stay more than a cycle behind.
+    // A memory that waits has moved the kernel on; a process must not stay more than a cycle
+    // behind.
     const auto catch_up = [&] {
         process.advance_to(std::max<Cycle>(clock_->floor(sc_core::sc_time_stamp()), 1) - 1);
     };

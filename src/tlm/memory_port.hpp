@@ -18,17 +18,18 @@
 
 namespace degs {
 
-/// With this extension a port says that it does not need the date of an answer at once. A target that cannot
-/// know it may return from b_transport() before, with an answer that will come; it then has copied what it
-/// writes, and reports what it reads and errors itself.
+/// With this extension a port says that it does not need the date of an answer at once. A target
+/// that cannot know it may return from b_transport() before, with an answer that will come; it then
+/// has copied what it writes, and reports what it reads and errors itself.
 struct MayAnswerLate : tlm::tlm_extension<MayAnswerLate> {
     std::shared_ptr<LateAnswer> answer; ///< the target's; null: answered as usual
     tlm_extension_base* clone() const override { return new MayAnswerLate; }
     void copy_from(const tlm_extension_base&) override {}
 };
 
-/// Connects one stream to memory: a TLM-2.0 initiator socket that a dated process uses, with any LT target.
-/// All accesses of the port share one payload, because b_transport() returns before the next access begins.
+/// Connects one stream to memory: a TLM-2.0 initiator socket that a dated process uses, with any LT
+/// target. All accesses of the port share one payload, because b_transport() returns before the
+/// next access begins.
 class MemoryPort : public sc_core::sc_module {
 public:
     tlm_utils::simple_initiator_socket<MemoryPort> out;
@@ -50,8 +51,8 @@ public:
     Completion write(Process& process, std::uint64_t address, std::uint64_t bytes) {
         return access(process, tlm::TLM_WRITE_COMMAND, address, nullptr, bytes);
     }
-    /// Reads or writes scattered records, in one request. `run` is the address at which as many bytes
-    /// begin for a memory that takes them as one run.
+    /// Reads or writes scattered records, in one request. `run` is the address at which as many
+    /// bytes begin for a memory that takes them as one run.
     Completion read(Process& process, const ScatteredRecords& records) {
         return access(process, tlm::TLM_READ_COMMAND, records.base, nullptr, records.total_bytes(),
                       &records);
@@ -67,8 +68,8 @@ public:
                       const_cast<unsigned char*>(data.data()), data.size());
     }
 
-    /// Is called with the bytes of every read, run by run, which then really come from the memory. It
-    /// is for memories that hold the data, and must be set before the simulation starts.
+    /// Is called with the bytes of every read, run by run, which then really come from the memory.
+    /// It is for memories that hold the data, and must be set before the simulation starts.
     using Observer =
         std::function<void(std::uint64_t address, const unsigned char* data, std::uint64_t bytes)>;
     void observe_reads(Observer observer) { observer_ = std::move(observer); }

@@ -55,7 +55,8 @@ void Process::sleep() {
     count_activation(activations_);
 }
 
-// Others see a process that stays at its date: they wait for the kernel, which the answer cannot be behind.
+// Others see a process that stays at its date: they wait for the kernel, which the answer cannot be
+// behind.
 void Process::sleep_until_known(const Completion& answer) {
     answer.when_known([this](Cycle /*date*/) { wake(); });
     ring_alarms();
@@ -64,8 +65,9 @@ void Process::sleep_until_known(const Completion& answer) {
     }
 }
 
-// Most sleeps end before their time. So a timeout is not taken back but serves later sleeps, too: an
-// event keeps its earliest notification. Entering one in the kernel's timed queue costs far more.
+// Most sleeps end before their time. So a timeout is not taken back but serves later sleeps, too:
+// an event keeps its earliest notification. Entering one in the kernel's timed queue costs far
+// more.
 void Process::doze_until(const sc_core::sc_time& date) {
     const sc_core::sc_time now = sc_core::sc_time_stamp();
     if (date > now) {

@@ -77,7 +77,8 @@ public:
             pass_alarm(before, nullptr);
         }
     }
-    /// Moves the local date forward, and `counter` counts the cycles, for the timeline with their dates.
+    /// Moves the local date forward, and `counter` counts the cycles, for the timeline with their
+    /// dates.
     void advance_to(Cycle date, Cycle& counter) {
         const Cycle before = local_;
         local_ = std::max(local_, date);
@@ -144,9 +145,10 @@ public:
     }
     /// A thread-less body holds a result because `room` is full; nullptr: it holds none.
     void hold_for(FifoBase* room) { room_ = room; }
-    /// Wakes the process in the next delta cycle, not at the date of the item that it waits for: dates are
-    /// in the rings, and kernel time only has to pass where somebody sleeps for it. Inlined everywhere, so
-    /// that each caller's jump into a thread-less body has one target, which the host then foresees.
+    /// Wakes the process in the next delta cycle, not at the date of the item that it waits for:
+    /// dates are in the rings, and kernel time only has to pass where somebody sleeps for it.
+    /// Inlined everywhere, so that each caller's jump into a thread-less body has one target, which
+    /// the host then foresees.
     __attribute__((always_inline)) void wake() {
         if (body_ != nullptr) {
             body_->pump();
@@ -235,7 +237,8 @@ public:
         const Cycle next = writer_ == nullptr ? 0 : writer_->bound(depth) + forward_latency_;
         return std::min(next, late_from_);
     }
-    /// First date at which a cell could be free, of a FIFO that is full as far as the host has come.
+    /// First date at which a cell could be free, of a FIFO that is full as far as the host has
+    /// come.
     Cycle room_horizon(int depth) const {
         return reader_ == nullptr ? 0 : reader_->bound(depth) + release_latency_;
     }

@@ -10,9 +10,9 @@
 
 namespace degs {
 
-/// Records of one array that a single request moves, wherever they lie: a base address, the size of a
-/// record, and a view of their numbers. A record is moved in whole bursts, counted from the base, so
-/// one that straddles two bursts takes both.
+/// Records of one array that a single request moves, wherever they lie: a base address, the size of
+/// a record, and a view of their numbers. A record is moved in whole bursts, counted from the base,
+/// so one that straddles two bursts takes both.
 struct ScatteredRecords {
     std::uint64_t base = 0;   ///< address of the array
     std::uint64_t stride = 1; ///< bytes from one record to the next, at least 1
@@ -25,12 +25,12 @@ struct ScatteredRecords {
     std::size_t count = 0;
     /// Where the record of a number lies in the array; nullptr: at its number.
     const std::uint32_t* places = nullptr;
-    /// Records that follow each other in the array, and in this list, move the burst between them once.
-    /// Places must then rise.
+    /// Records that follow each other in the array, and in this list, move the burst between them
+    /// once. Places must then rise.
     bool neighbours_share = false;
 
-    /// Calls visit(address, bytes) for every run of bytes, in the order of the list: one per record, or
-    /// one per run of neighbours that touch if they share bursts.
+    /// Calls visit(address, bytes) for every run of bytes, in the order of the list: one per
+    /// record, or one per run of neighbours that touch if they share bursts.
     template <class Visit>
     void for_each_run(const Visit& visit) const;
     /// Bytes of all runs.
@@ -78,9 +78,9 @@ inline std::uint64_t ScatteredRecords::total_bytes() const {
     return sum;
 }
 
-/// Says that a payload moves scattered records: its data are those of the runs, one behind the other,
-/// and its length is their sum. A target that does not know the extension, or does not care for
-/// addresses, sees one access of as many bytes. The records live as long as the access.
+/// Says that a payload moves scattered records: its data are those of the runs, one behind the
+/// other, and its length is their sum. A target that does not know the extension, or does not care
+/// for addresses, sees one access of as many bytes. The records live as long as the access.
 struct Scattered : tlm::tlm_extension<Scattered> {
     const ScatteredRecords* records = nullptr;
     tlm_extension_base* clone() const override { return new Scattered(*this); }

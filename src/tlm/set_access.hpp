@@ -7,9 +7,9 @@
 
 namespace degs {
 
-/// Sets every attribute that an initiator must set before it passes a payload on (IEEE 1666-2011, 14.7):
-/// an access to `bytes` bytes without byte enables, not answered yet and without a hint at direct memory access.
-/// Extensions stay. TLM-2.0 has 32 bits for the number of bytes.
+/// Sets every attribute that an initiator must set before it passes a payload on (IEEE
+/// 1666-2011, 14.7): an access to `bytes` bytes without byte enables, not answered yet and without
+/// a hint at direct memory access. Extensions stay. TLM-2.0 has 32 bits for the number of bytes.
 inline void set_access(tlm::tlm_generic_payload& payload, tlm::tlm_command command,
                        std::uint64_t address, unsigned char* data, std::uint64_t bytes) {
     const auto length = static_cast<unsigned int>(bytes);

@@ -210,8 +210,8 @@ void Timeline::fit(Cycle date) {
     }
 }
 
-// A ring knows its sides from the end of elaboration on, or from the first item: the sides that this
-// process then turns out to be have done nothing before.
+// A ring knows its sides from the end of elaboration on, or from the first item: the sides that
+// this process then turns out to be have done nothing before.
 void Timeline::attach(ProcessTrack& track) {
     const auto complete = [&](std::size_t number) {
         Ring& ring = rings_[number];

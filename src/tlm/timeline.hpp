@@ -118,8 +118,8 @@ private:
     std::vector<std::pair<std::string, TimeSeries*>> states_;
 };
 
-/// Collects the timeline of one clock domain. Processes and rings that are built with a Timebase that
-/// names it join by themselves; it must outlive them.
+/// Collects the timeline of one clock domain. Processes and rings that are built with a Timebase
+/// that names it join by themselves; it must outlive them.
 class Timeline {
 public:
     struct Config {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes, time and peak bandwidth of a report belong together: no memory transfers more than its peak
-// allows, and every byte of a request is somewhere.
+// Bytes, time and peak bandwidth of a report belong together: no memory transfers more than its
+// peak allows, and every byte of a request is somewhere.
 #include "baselines/gscore/config.hpp"
 #include "tests/baselines/engine_run.hpp"
 #include "tests/baselines/gcc/gcc_run.hpp"
@@ -30,7 +30,8 @@ void expect_within_peak(const AcceleratorResult& result, std::uint64_t on_bus) {
     EXPECT_GE(result.memory_window, result.cycles);
 }
 
-// The image is background and fits the write queues: the frame ends when they have it, before most of it has gone.
+// The image is background and fits the write queues: the frame ends when they have it, before most
+// of it has gone.
 TEST(SmallRunMemoryWindow, PostedWritesAreQueuedNotTransferred) {
     gcc::Config config = test::gcc_of(64);
     config.memory.model = MemoryModel::Lpddr5;

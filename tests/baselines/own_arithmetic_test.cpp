@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a baseline leaves out before its pixels check must not pass their check: the image is, bit by
-// bit, that of pixels that check every splat of their tile's list, in every number format.
+// What a baseline leaves out before its pixels check must not pass their check: the image is, bit
+// by bit, that of pixels that check every splat of their tile's list, in every number format.
 #include <cmath>
 
 #include "baselines/gscore/engine.hpp"

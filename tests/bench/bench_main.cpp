@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// degs_bench [--short] [--slack X] [options of Google Benchmark]: exit code 1 if a ratio is above its limit times X
-// or a benchmark failed; 2 for a mistake in the arguments.
+// degs_bench [--short] [--slack X] [options of Google Benchmark]: exit code 1 if a ratio is above
+// its limit times X or a benchmark failed; 2 for a mistake in the arguments.
 #include <cstdio>
 #include <cstdlib>
 

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Runs of a design on a view. Other work on the machine only adds to a time, so the smallest one counts.
+/// Runs of a design on a view. Other work on the machine only adds to a time, so the smallest one
+/// counts.
 struct Times {
     double sim_s = kNever, render_s = kNever;
     double all_s = kNever; ///< of the simulation and of the thread that draws
@@ -123,7 +124,8 @@ void add_by_memory(const std::string& name, const View& view, double limit) {
 }
 
 void add_over_reference(const std::string& name, const View& view) {
-    // Single precision is the machine's own. In the formats of `paper` every operation is rounded as well.
+    // Single precision is the machine's own. In the formats of `paper` every operation is rounded
+    // as well.
     const std::pair<const char*, double> numbers[] = {{"fp32", 2.0}, {"paper", 3.0}};
     for (const auto& [set, limit] : numbers) {
         add_ratio("exact over reference/" + name + "/" + set,

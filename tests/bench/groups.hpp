@@ -4,7 +4,8 @@
 
 namespace degs::bench {
 
-/// Exact simulation against the double-precision reference, and how its time grows with image and array.
+/// Exact simulation against the double-precision reference, and how its time grows with image and
+/// array.
 void register_frames();
 /// LPDDR5 against copies of lines of a cache.
 void register_memory();

@@ -17,14 +17,15 @@ struct Options {
     int repetitions() const { return shortened ? 1 : 3; }
 };
 const Options& options();
-/// Takes what it knows out of the arguments and leaves the rest. Returns a mistake as a sentence, or nothing.
+/// Takes what it knows out of the arguments and leaves the rest. Returns a mistake as a sentence,
+/// or nothing.
 std::string read_options(int& argc, char** argv);
 
 /// Reports `ratio` and its `limit` as counters of the benchmark.
 void report_ratio(benchmark::State& state, double ratio, double limit);
 
-/// Adds a benchmark that measures a ratio from runs of the program: `run` calls SetIterationTime(). An
-/// exception ends it as failed.
+/// Adds a benchmark that measures a ratio from runs of the program: `run` calls SetIterationTime().
+/// An exception ends it as failed.
 void add_ratio(const std::string& name, const std::function<void(benchmark::State&)>& run);
 
 /// Prints like Google Benchmark and remembers what went wrong.

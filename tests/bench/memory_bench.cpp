@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests of 64 B to LPDDR5-6400 x 256 bit, and as a yardstick copies of lines of 64 B by the host in the same
-// pattern.
+// Requests of 64 B to LPDDR5-6400 x 256 bit, and as a yardstick copies of lines of 64 B by the host
+// in the same pattern.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -34,8 +34,8 @@ private:
     std::uint64_t state_ = 1;
 };
 
-/// Seconds that the host takes to copy a line from one half of an array to the other, line after line or at
-/// random. The array is larger than its caches. The smallest of a few rounds.
+/// Seconds that the host takes to copy a line from one half of an array to the other, line after
+/// line or at random. The array is larger than its caches. The smallest of a few rounds.
 double seconds_per_line(bool random) {
     const std::size_t bytes = options().shortened ? 64U << 20U : 512U << 20U;
     std::vector<Line> lines(bytes / kLineBytes);
@@ -56,7 +56,8 @@ double seconds_per_line(bool random) {
     return best;
 }
 
-/// `degs memory`: the SystemC module behind its TLM sockets, saturated. The limit is in copied lines.
+/// `degs memory`: the SystemC module behind its TLM sockets, saturated. The limit is in copied
+/// lines.
 void through_sockets(benchmark::State& state, const std::string& pattern, double limit) {
     const std::string requests = options().shortened ? "50000" : "2000000";
     double fastest = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built program as a child process, and the numbers that it reports. SystemC elaborates once per process, so every
-// simulation is a run of its own.
+// The built program as a child process, and the numbers that it reports. SystemC elaborates once
+// per process, so every simulation is a run of its own.
 #pragma once
 
 #include <filesystem>
@@ -31,8 +31,8 @@ struct View {
     std::vector<std::string> size; ///< options, e.g. --width 320; empty: that of the camera
 };
 
-/// Runs the program and returns the JSON file that it has written. `cache`: the folder where it keeps views; empty:
-/// nowhere. Throws std::runtime_error with what the program said if it fails.
+/// Runs the program and returns the JSON file that it has written. `cache`: the folder where it
+/// keeps views; empty: nowhere. Throws std::runtime_error with what the program said if it fails.
 nlohmann::json run_program(const std::vector<std::string>& arguments, const std::string& file,
                            const std::filesystem::path& cache = {});
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Plants one mistake after the other in an otherwise clean little site: site_check.sh, documents.py and facts.py must
-# accept the clean one and must name each mistake.
+# Plants one mistake after the other in an otherwise clean little site: site_check.sh, documents.py
+# and facts.py must accept the clean one and must name each mistake.
 set -euo pipefail
 
 here=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
@@ -48,7 +48,8 @@ END
     chmod +x "$tree/degs"
 }
 
-# finds_command REASON LINES...: a page of LINES must fail and say REASON; without REASON it must pass.
+# finds_command REASON LINES...: a page of LINES must fail and say REASON; without REASON it must
+# pass.
 finds_command() {
     local reason=$1 output
     shift
@@ -119,8 +120,8 @@ facts_tree() {
     printf '`degs config %s --keys own`\n' gbu gcc gscore >"$tree/docs/keys.md"
 }
 
-# finds_fact REASON TEXT [FILE]: after TEXT is appended to FILE, facts.py must fail and say REASON; without REASON it
-# must pass.
+# finds_fact REASON TEXT [FILE]: after TEXT is appended to FILE, facts.py must fail and say REASON;
+# without REASON it must pass.
 finds_fact() {
     local reason=$1 text=$2 output
     facts_tree

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# site_check.sh [ROOT]: builds the site of ROOT into a temporary folder and fails on any warning, on a page of docs/
-# that the navigation does not reach, on a dead link or anchor, and on anything loaded from another host.
+# site_check.sh [ROOT]: builds the site of ROOT into a temporary folder and fails on any warning, on
+# a page of docs/ that the navigation does not reach, on a dead link or anchor, and on anything
+# loaded from another host.
 set -euo pipefail
 
 here=$(realpath "$(dirname "${BASH_SOURCE[0]}")")

@@ -70,7 +70,8 @@ TEST_P(Lpddr5Latency, RowPingPongInABankTakesTrcEach) {
     EXPECT_EQ(all, 100U * static_cast<dram::Ck>(reference.rc()));
 }
 
-// A hundred reads wait, a row cycle each. One that comes later waits for those in the queue at most.
+// A hundred reads wait, a row cycle each. One that comes later waits for those in the queue at
+// most.
 TEST_P(Lpddr5Latency, UrgentReadsWaitForTheQueueOnly) {
     for (const double share : {0.0, 0.5, 1.0}) {
         dram::Config rows = config({"controller.scheduler=fcfs", "controller.read_queue=16"});

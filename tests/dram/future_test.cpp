@@ -40,8 +40,8 @@ public:
     explicit Pair(const dram::Config& config)
         : rules_(config.timing), channel_(config.timing, rules_, config.controller) {}
 
-    /// Takes accesses with dates behind `known`, and compares the predictions once all up to the last
-    /// of them are known. Returns the steps of the future.
+    /// Takes accesses with dates behind `known`, and compares the predictions once all up to the
+    /// last of them are known. Returns the steps of the future.
     int expect_equal(std::vector<dram::Access> accesses) {
         std::map<std::uint32_t, dram::Ck> asked;
         for (dram::Access& access : accesses) {

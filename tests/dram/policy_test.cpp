@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Policies with state and with an order of their own: FR-FCFS with a cap, and one that only this test has.
+// Policies with state and with an order of their own: FR-FCFS with a cap, and one that only this
+// test has.
 #include "dram/policy_of.hpp"
 
 #include <algorithm>

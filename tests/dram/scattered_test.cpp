@@ -34,7 +34,8 @@ dram::Ck completion(dram::Channels& channels, std::uint32_t ids) {
     return *std::max_element(dates.begin(), dates.end());
 }
 
-// One request for n records ends when the last of n requests of the same date would, and does the same.
+// One request for n records ends when the last of n requests of the same date would, and does the
+// same.
 TEST(Lpddr5Scattered, ARequestIsCompleteWithItsLastRecord) {
     std::mt19937 random(3);
     for (int round = 0; round < 40; ++round) {
@@ -102,7 +103,8 @@ TEST(Lpddr5Scattered, MovesTheBytesOfTheRecordsAndChecksEveryAddress) {
                                                                 {1024 + 48, 2},
                                                                 {1024 + 70000 * 24, 70000 % 251}}));
     EXPECT_EQ(memory.stats(0).reads, 1U);
-    // 121024: 32 B * 3782 = 121024, one burst; 1072: 16 B into a burst, 2; 1681024 = 32 * 52532, one.
+    // 121024: 32 B * 3782 = 121024, one burst; 1072: 16 B into a burst, 2; 1681024 = 32 * 52532,
+    // one.
     EXPECT_EQ(memory.stats(0).bytes_read, 32U * 4);
     EXPECT_EQ(
         memory.transfers(sc_core::sc_time_stamp() + sc_core::sc_time(1, sc_core::SC_US)).total(),

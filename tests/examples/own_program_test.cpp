@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// examples/own-accelerator as the program that a user has: every command works with its accelerator.
+// examples/own-accelerator as the program that a user has: every command works with its
+// accelerator.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

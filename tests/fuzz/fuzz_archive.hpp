@@ -7,8 +7,8 @@
 
 namespace degs::fuzz {
 
-/// The first byte chooses: 0: the rest is the file; else the rest is a list of files, each a name and
-/// a content behind their lengths, which are stored (1, 3 ...) or deflated (2, 4 ...).
+/// The first byte chooses: 0: the rest is the file; else the rest is a list of files, each a name
+/// and a content behind their lengths, which are stored (1, 3 ...) or deflated (2, 4 ...).
 inline std::string archive_of(std::string_view bytes) {
     Cursor input(bytes);
     const std::uint8_t kind = input.byte();

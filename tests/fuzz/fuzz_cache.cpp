@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entries of the cache. The first byte chooses the kind of the entry, and whether the rest is its content or
-// all of its file.
+// Entries of the cache. The first byte chooses the kind of the entry, and whether the rest is its
+// content or all of its file.
 #include "tests/fuzz/fuzz_cache.hpp"
 
 void degs::fuzz::run(std::string_view bytes) {

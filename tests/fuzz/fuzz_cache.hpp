@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Entries of the cache with a content of one's own under a right head and checksum, through which no
-// mutation finds its way.
+// Entries of the cache with a content of one's own under a right head and checksum, through which
+// no mutation finds its way.
 #pragma once
 
 #include <array>
@@ -46,7 +46,8 @@ public:
         return whole(kind).substr(whole(kind).size() - content_bytes(kind));
     }
 
-    /// Whether the cache takes the bytes for the entry. What it takes must be sound, and can be drawn.
+    /// Whether the cache takes the bytes for the entry. What it takes must be sound, and can be
+    /// drawn.
     bool takes_file(Entry kind, const std::string& bytes) const {
         const std::string& file = files_.at(at(kind));
         std::filesystem::remove(file);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// COLMAP models, binary or text: a first byte that chooses, the file of the cameras behind its length, and
-// the file of the images.
+// COLMAP models, binary or text: a first byte that chooses, the file of the cameras behind its
+// length, and the file of the images.
 #include "scene/cameras/camera_formats.hpp"
 #include "tests/fuzz/fuzz_input.hpp"
 

@@ -80,8 +80,8 @@ bool accepts(const Read& read) {
     }
 }
 
-/// Runs a reader. It may refuse its input with an InputError that says something; every other exception
-/// ends the process. Whoever prints the sentence makes its control characters visible.
+/// Runs a reader. It may refuse its input with an InputError that says something; every other
+/// exception ends the process. Whoever prints the sentence makes its control characters visible.
 template <class Read>
 void read_or_refuse(const Read& read) {
     try {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// degs_fuzz_seeds FOLDER: writes a small valid input, or a few, for every fuzz target, to FOLDER/TARGET.
+// degs_fuzz_seeds FOLDER: writes a small valid input, or a few, for every fuzz target, to
+// FOLDER/TARGET.
 #include <cmath>
 #include <cstdio>
 #include <sstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SOG. From 128 on, the first byte makes files beside a meta.json of the list that follows; else it is one
-// archive.
+// SOG. From 128 on, the first byte makes files beside a meta.json of the list that follows; else it
+// is one archive.
 #include "scene/sog/sog.hpp"
 #include "tests/fuzz/fuzz_archive.hpp"
 

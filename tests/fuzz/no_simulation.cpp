@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The headers of the cache pull in SystemC, whose library asks for this function. Nothing here simulates.
+// The headers of the cache pull in SystemC, whose library asks for this function. Nothing here
+// simulates.
 #include <cstdlib>
 
 #include <systemc>

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# links_check.sh [ROOT]: every relative link and image of our Markdown pages must lead to a file or folder.
-# Prints each dead one as "page:line: target".
+# links_check.sh [ROOT]: every relative link and image of our Markdown pages must lead to a file or
+# folder. Prints each dead one as "page:line: target".
 set -euo pipefail
 
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../..}"

@@ -69,7 +69,7 @@ finds printing src/modules/a.cpp 4 'void f() { exit(1); }'
 finds printing src/modules/a.cpp 4 'void f() { std::exit(1); }'
 finds namespaces src/tlm/a.hpp 5 'using namespace sc_core;'
 finds length src/tlm/a.hpp 505 "$(printf '// %.0s\n' {1..501})"
-finds width src/tlm/a.hpp 5 "// $(printf 'x%.0s' {1..118})"
+finds width src/tlm/a.hpp 5 "// $(printf 'x%.0s' {1..99})"
 finds width src/tlm/a.hpp 5 "int i; ///< $(printf 'ü%.0s' {1..110})"
 finds comments src/tlm/a.hpp 5 '/// The same for a range.'
 finds comments src/splat/a.hpp 5 $'int i;\n    // of a tile.'

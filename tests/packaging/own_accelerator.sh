@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# own_accelerator.sh BUILD COMPILER: copies examples/own-accelerator out of the sources, configures the copy, and
-# compiles its files. With DEGS_SLOW_TESTS=1 it also builds the program, which takes minutes of a processor because all
-# of DeGS is compiled once more, and runs it; it must give the image of the program that BUILD has of the same files.
+# own_accelerator.sh BUILD COMPILER: copies examples/own-accelerator out of the sources, configures
+# the copy, and compiles its files. With DEGS_SLOW_TESTS=1 it also builds the program, which takes
+# minutes of a processor because all of DeGS is compiled once more, and runs it; it must give the
+# image of the program that BUILD has of the same files.
 set -euo pipefail
 
 build=$1

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# program.sh BUILD: installs the program into a folder of its own and tries what a user would: the command, its manual
-# page, and completion in a shell.
+# program.sh BUILD: installs the program into a folder of its own and tries what a user would: the
+# command, its manual page, and completion in a shell.
 set -euo pipefail
 
 build=$1

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# registers.sh PROGRAM [--update]: the files in driver/ that the program writes are up to date (or are written), the C
-# files compile as C11 without a library, and the XML says what the header says and is valid to the standards' schemas.
+# registers.sh PROGRAM [--update]: the files in driver/ that the program writes are up to date (or
+# are written), the C files compile as C11 without a library, and the XML says what the header says
+# and is valid to the standards' schemas.
 set -euo pipefail
 
 program=$(realpath "$1")

@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # run.sh BUILD COMPILER [PROGRAM]: the ways in which another project uses DeGS.
-# 1. find_package: installs a build into a folder of its own, moves it elsewhere, and builds and runs outside/ and
-#    shadow/, which know nothing but the prefix, with COMPILER and with clang++. shadow/ has headers of its own with the
-#    names of ours. The libraries must have been built. The installed example must give the image of PROGRAM, and the
-#    snippet of docs/accelerator.md must compile.
+# 1. find_package: installs a build into a folder of its own, moves it elsewhere, and builds and
+#    runs outside/ and shadow/, which know nothing but the prefix, with COMPILER and with clang++.
+#    shadow/ has headers of its own with the names of ours. The libraries must have been built. The
+#    installed example must give the image of PROGRAM, and the snippet of docs/accelerator.md must
+#    compile.
 # 2. pkg-config: compiles and links outside/main.cpp with what degs.pc says.
-# 3. add_subdirectory: builds and runs embedded/ with a SystemC of its own: headers and library under a prefix, which
-#    must be taken in place of the SystemC of the system. Compiles a few rooms once more, with the flags of BUILD.
-# 4. The same with SystemC as a package for CMake, configured only; degs.pc and degsConfig.cmake must name it.
+# 3. add_subdirectory: builds and runs embedded/ with a SystemC of its own: headers and library
+#    under a prefix, which must be taken in place of the SystemC of the system. Compiles a few rooms
+#    once more, with the flags of BUILD.
+# 4. The same with SystemC as a package for CMake, configured only; degs.pc and degsConfig.cmake
+#    must name it.
 set -euo pipefail
 
 build=$1
@@ -90,7 +93,8 @@ snippet_flags=$(PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name degs.pc)"
 # shellcheck disable=SC2086 # words of the command line
 "$compiler" -fsyntax-only -Wall -Wextra $snippet_flags "$work/snippet.cpp"
 
-# The public headers are few, each stands alone, and none shows more than SystemC, TLM and the standard library.
+# The public headers are few, each stands alone, and none shows more than SystemC, TLM and the
+# standard library.
 headers=("$work"/prefix/include/degs/*)
 [[ ${#headers[@]} -le 12 ]] || { echo "${#headers[@]} public headers: ${headers[*]}"; exit 1; }
 [[ $(find "$work/prefix/include" -type f | wc -l) == "${#headers[@]}" ]] || { echo "headers outside of include/degs"; exit 1; }

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# systemc.sh BUILD COMPILER: builds the library and the tests of the accelerator on a platform with the SystemC under
-# the prefix DEGS_OTHER_SYSTEMC, where every warning is an error, also that of a deprecated call, and runs the tests.
-# DEGS_CCI_PREFIX, if set, is that of a SystemC CCI that was built with this SystemC; its parameters are tested then.
-# Keeps its build beside BUILD. Exits with 77 if no prefix is named.
+# systemc.sh BUILD COMPILER: builds the library and the tests of the accelerator on a platform with
+# the SystemC under the prefix DEGS_OTHER_SYSTEMC, where every warning is an error, also that of a
+# deprecated call, and runs the tests. DEGS_CCI_PREFIX, if set, is that of a SystemC CCI that was
+# built with this SystemC; its parameters are tested then. Keeps its build beside BUILD. Exits with
+# 77 if no prefix is named.
 set -euo pipefail
 
 build=$1

@@ -54,10 +54,11 @@ protected:
     }
 };
 
-// Bandwidth is unlimited, and as many accesses are in flight as with an annotated memory. A request goes
-// out half a cycle after its date and an answer counts from the next cycle on, so the same dates come
-// of an annotated latency that is a cycle longer. A memory that needs BEGIN_RESP to end a request, or that
-// keeps its response phase for the whole latency, serves one transaction after the other.
+// Bandwidth is unlimited, and as many accesses are in flight as with an annotated memory. A request
+// goes out half a cycle after its date and an answer counts from the next cycle on, so the same
+// dates come of an annotated latency that is a cycle longer. A memory that needs BEGIN_RESP to end
+// a request, or that keeps its response phase for the whole latency, serves one transaction after
+// the other.
 TEST_P(SmallRunAtAccelerator, TakesTheTimeOfAnAnnotatedMemoryAndWritesItsBytes) {
     AtPlatform p("four_phases", config, cloud, four_phases(100000));
     Platform annotated("annotated", config, cloud, Timing::Annotated);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the registers of degs::Accelerator count, against the slots of a closed run, and which bits they keep.
+// What the registers of degs::Accelerator count, against the slots of a closed run, and which bits
+// they keep.
 #include "modules/degs/config.hpp"
 #include "tests/baselines/engine_run.hpp"
 #include "tests/platform/accelerator_bench.hpp"

@@ -194,8 +194,8 @@ TEST_P(SmallRunReset, FramesAfterItAreThoseAfterPowerOn) {
     const ResetBench bench(*accelerator_kinds()[kind].make(), bus, fidelity, quick ? 50 : 24);
     EXPECT_GT(bench.written, 0U);
     EXPECT_GT(bench.missing, bench.written / 10);
-    // An access that is on the bus, up to a quantum ahead, takes 50 ns, and what is left of the frame
-    // 2 ps per cycle.
+    // An access that is on the bus, up to a quantum ahead, takes 50 ns, and what is left of the
+    // frame 2 ps per cycle.
     EXPECT_LT(bench.longest, quantum + sc_core::sc_time(60, sc_core::SC_NS) +
                                  sc_core::sc_time::from_value(4 * bench.cycles()));
     RecordProperty("cycles", std::to_string(bench.cycles()));

@@ -6,7 +6,8 @@
 namespace degs::test {
 namespace {
 
-/// Writes registers as a temporally decoupled processor does: its own time passes, the kernel's does not.
+/// Writes registers as a temporally decoupled processor does: its own time passes, the kernel's
+/// does not.
 class Decoupled {
 public:
     explicit Decoupled(Host& host, double ns = 0) : host_(host), ahead_(ns, sc_core::SC_NS) {}

@@ -57,8 +57,8 @@ private:
     sc_core::sc_time busy_until_;
 };
 
-/// A processor that reads `lines` lines of 64 B, one every `period_ns`, and waits for each; from the start of
-/// the simulation on, or from `begin`.
+/// A processor that reads `lines` lines of 64 B, one every `period_ns`, and waits for each; from
+/// the start of the simulation on, or from `begin`.
 class LineReader : public sc_core::sc_module {
 public:
     tlm_utils::simple_initiator_socket<LineReader> out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of an accelerator as parameters of SystemC CCI, where the build has found it (DEGS_CCI_PREFIX).
+// The keys of an accelerator as parameters of SystemC CCI, where the build has found it
+// (DEGS_CCI_PREFIX).
 #include <gtest/gtest.h>
 
 #ifdef DEGS_HAS_CCI

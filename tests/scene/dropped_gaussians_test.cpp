@@ -144,7 +144,8 @@ bool says_activated(const Scene& scene) {
     });
 }
 
-// In large units of length all logarithms are positive; sizes that fit the scene are no reason for a warning.
+// In large units of length all logarithms are positive; sizes that fit the scene are no reason for
+// a warning.
 TEST(ActivatedScales, AreToldFromLargeUnitsByTheExtentOfTheScene) {
     for (const char* const format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
         const auto says = [&](double side, double low, double high) {

@@ -12,7 +12,8 @@
 
 namespace degs::test {
 
-/// What reading a file takes in a process of its own, whose peak of memory begins at what this one has.
+/// What reading a file takes in a process of its own, whose peak of memory begins at what this one
+/// has.
 struct ReadingCost {
     bool ended = false; ///< without a signal
     long bytes = 0;     ///< grown
@@ -29,8 +30,8 @@ inline ReadingCost cost_so_far() {
     return {true, usage.ru_maxrss * 1024, seconds(usage.ru_utime) + seconds(usage.ru_stime)};
 }
 
-/// The cost of `read()`, which may accept the file or refuse it. Not for suites under the address sanitizer, which
-/// keeps what has been freed.
+/// The cost of `read()`, which may accept the file or refuse it. Not for suites under the address
+/// sanitizer, which keeps what has been freed.
 template <class Read>
 ReadingCost cost_of_reading(const Read& read) {
     ::malloc_trim(0); // what this process has freed must not be at hand for the child

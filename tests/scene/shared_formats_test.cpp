@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every file of a scene format among the shared scenes loads, with the Gaussians it is known to have.
+// Every file of a scene format among the shared scenes loads, with the Gaussians it is known to
+// have.
 #include <algorithm>
 #include <map>
 

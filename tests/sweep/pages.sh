@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# pages.sh PROGRAM CONFIGS: opens the pages of a sweep and of a comparison in headless Chromium, 390 and 1400 px wide,
-# dark and light, uses them, and fails for any message on the console. Exits with 77 if there is no Chromium.
+# pages.sh PROGRAM CONFIGS: opens the pages of a sweep and of a comparison in headless Chromium, 390
+# and 1400 px wide, dark and light, uses them, and fails for any message on the console. Exits with
+# 77 if there is no Chromium.
 set -euo pipefail
 program=$1 configs=$2
 command -v chromium >/dev/null || { echo "skipped: chromium is not installed (scripts/install.sh --tests)"; exit 77; }
@@ -36,7 +37,8 @@ YAML
 "$program" compare "$configs/degs-16.yaml" "$configs/gscore-16.yaml" --scene synthetic:object,gaussians=300 \
     --width 64 --out "$folder/compare" >/dev/null 2>&1
 
-# The page in a frame of a given width, used like a reader would; the last line of the document says what was seen.
+# The page in a frame of a given width, used like a reader would; the last line of the document says
+# what was seen.
 cat >"$folder/use.html" <<'HTML'
 <!doctype html><title>use</title><body style="margin:0"><iframe id="page" style="height:900px;border:0"></iframe>
 <pre id="seen"></pre><script>

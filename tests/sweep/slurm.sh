@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# slurm.sh PROGRAM CONFIGS: runs a study as a job array on a Slurm cluster of two nodes on this machine, which it
-# starts and stops itself, loses a node on the way, and compares the results with those of a plain sweep. Exits with 77
-# where it is not root, because slurmd needs that.
+# slurm.sh PROGRAM CONFIGS: runs a study as a job array on a Slurm cluster of two nodes on this
+# machine, which it starts and stops itself, loses a node on the way, and compares the results with
+# those of a plain sweep. Exits with 77 where it is not root, because slurmd needs that.
 set -euo pipefail
 program=$1 configs=$2
 [[ $(id -u) -eq 0 ]] || { echo "skipped: a Slurm cluster can be started by root only"; exit 77; }
@@ -39,7 +39,8 @@ until_true() { # SECONDS COMMAND...
     done
 }
 
-# The cluster: its ports are free ones, and everything lies in the folder, the socket of its own munge too.
+# The cluster: its ports are free ones, and everything lies in the folder, the socket of its own
+# munge too.
 mkdir -m 755 "$folder/munge"
 chmod 755 "$folder"
 head -c 128 /dev/urandom >"$folder/munge/key"
@@ -106,8 +107,9 @@ points() { find "$folder/slurm-out/points" -name '*.point' 2>/dev/null | wc -l |
 some_points() { [[ $(points) -ge 4 ]]; }
 until_true 60 some_points
 
-# The node is lost with all of its processes, in the midst of a task. They are stopped first, one after the other from
-# the daemon down, so that no task begins or ends while the others are looked for.
+# The node is lost with all of its processes, in the midst of a task. They are stopped first, one
+# after the other from the daemon down, so that no task begins or ends while the others are looked
+# for.
 of_n1() { # pids of what runs there
     local environment
     for environment in $(grep -lszx 'SLURMD_NODENAME=n1' /proc/[0-9]*/environ || true); do

@@ -119,7 +119,8 @@ TEST_P(LateItems, TakeTheCellsOfTheRing) {
     EXPECT_EQ(reader.local(), 21U);
 }
 
-// A reader must not conclude from a ring without readable items, whose writer is far ahead, that nothing comes.
+// A reader must not conclude from a ring without readable items, whose writer is far ahead, that
+// nothing comes.
 TEST_P(LateItems, CountInQuestionsOfOrder) {
     DatedFifo<int> late("late", bench.time, 4);
     DatedFifo<int> early("early", bench.time, 4);

@@ -92,8 +92,8 @@ TEST(MemoryPort, WritesRealBytesOrOnlyTheirTime) {
     EXPECT_EQ(bench.memory.total().writes, 2U);
 }
 
-// A bus has no addresses that matter: 3 records of 64 B cost what 192 B cost. Contents are those of the
-// records, and the next access is an ordinary one.
+// A bus has no addresses that matter: 3 records of 64 B cost what 192 B cost. Contents are those of
+// the records, and the next access is an ordinary one.
 TEST(MemoryPort, MovesScatteredRecordsInOneRequest) {
     PortBench bench;
     std::vector<unsigned char> data(1024);

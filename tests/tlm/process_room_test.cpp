@@ -16,8 +16,8 @@ using test::Script;
 
 class RoomIn : public ::testing::TestWithParam<Fidelity> {};
 
-// Read at 6 with release latency 2: no room at 7, room at 8. The writer asks before the reader's host
-// time has come that far.
+// Read at 6 with release latency 2: no room at 7, room at 8. The writer asks before the reader's
+// host time has come that far.
 TEST_P(RoomIn, IsExactToTheCycle) {
     ProcessBench bench(GetParam());
     DatedFifo<int> ring("ring", bench.time, 1, 1, 2);

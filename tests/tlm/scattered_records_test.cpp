@@ -34,7 +34,8 @@ ScatteredRecords records_of(std::uint64_t bytes, const std::vector<std::uint32_t
 TEST(ScatteredRecords, EveryRecordTakesTheWholeBurstsThatItTouches) {
     const std::vector<std::uint32_t> numbers{3, 0, 1};
     EXPECT_EQ(runs_of(records_of(32, numbers)), (Runs{{1064, 64}, {1000, 64}, {1000, 64}}));
-    // 48 B: number 1 lies from 48 to 96 and straddles two bursts, number 3 from 144 to 192 does not.
+    // 48 B: number 1 lies from 48 to 96 and straddles two bursts, number 3 from 144 to 192 does
+    // not.
     EXPECT_EQ(runs_of(records_of(48, numbers)), (Runs{{1128, 64}, {1000, 64}, {1000, 128}}));
 }
 
@@ -63,7 +64,8 @@ TEST(ScatteredRecords, NoneHaveNoRuns) {
     EXPECT_EQ(records_of(32, numbers).total_bytes(), 0U);
 }
 
-// Against a map of bytes: what is moved contains every record, whole bursts only, and the sum is right.
+// Against a map of bytes: what is moved contains every record, whole bursts only, and the sum is
+// right.
 TEST(ScatteredRecords, MoveEveryRecordAndNothingButItsBursts) {
     std::mt19937 random(5);
     for (int round = 0; round < 500; ++round) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed of a run against its error: every fidelity in every number set, measured against the run that
-// leaves nothing out, `strict` in double precision.
+// Speed of a run against its error: every fidelity in every number set, measured against the run
+// that leaves nothing out, `strict` in double precision.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ struct SpeedDesign {
 };
 
 struct SpeedRequest {
-    /// The designs, one accelerator after the other; the first of each accelerator computes in `ideal`.
+    /// The designs, one accelerator after the other; the first of each accelerator computes in
+    /// `ideal`.
     std::vector<SpeedDesign> designs;
     std::vector<std::string> fidelities; ///< as SpeedFidelity reads them
     std::uint64_t seeds = 1;             ///< of each sample: 1 to this
@@ -41,8 +42,9 @@ struct SpeedFidelity {
 /// Throws InputError.
 SpeedFidelity speed_fidelity(const std::string& name);
 
-/// The designs of all configurations, which are words as load_configs() reads them with their overrides,
-/// in `ideal` and in every named set, or without names in `fp32` and in their own. Throws InputError.
+/// The designs of all configurations, which are words as load_configs() reads them with their
+/// overrides, in `ideal` and in every named set, or without names in `fp32` and in their own.
+/// Throws InputError.
 std::vector<SpeedDesign> speed_designs(const std::vector<std::string>& configs,
                                        const std::vector<std::string>& overrides,
                                        const std::vector<std::string>& numbers,

@@ -30,7 +30,8 @@ struct HardCase {
     std::string expectation;
     /// The scenes for a viewport of width x height px; nullptr if there is nothing to draw.
     std::vector<HardScene> (*make)(int width, int height) = nullptr;
-    /// Checks a scene and its workload further. Returns a sentence if a condition fails, else nothing.
+    /// Checks a scene and its workload further. Returns a sentence if a condition fails, else
+    /// nothing.
     std::string (*check)(const HardScene& scene, const FrameWorkload& workload) = nullptr;
     /// For cases about files: writes broken files to the folder. Returns a sentence if one of them
     /// is not refused with a clear message, or a right one is misread, else nothing.

@@ -10,8 +10,9 @@
 
 namespace degs::gbu {
 
-/// The standalone GBU (Ye et al., HPCA 2025) with GSCore's projection and sorting, as the DeGS paper
-/// compares against it; defaults are its 64-PE design. Values that neither paper gives are [assumed].
+/// The standalone GBU (Ye et al., HPCA 2025) with GSCore's projection and sorting, as the DeGS
+/// paper compares against it; defaults are its 64-PE design. Values that neither paper gives are
+/// [assumed].
 struct Config : TiledConfig<Config> {
     struct ListBuffer {
         int bytes = 15 * 1024; ///< lists being sorted

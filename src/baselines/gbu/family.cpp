@@ -10,8 +10,8 @@
 namespace degs::gbu {
 namespace {
 
-// How the SRAM of 91 KB per 64 PEs is spent at the sizes of the shipped files [assumed]: what is left
-// for lists and cache depends on how many tiles of which side the Pixel Buffer has to hold.
+// How the SRAM of 91 KB per 64 PEs is spent at the sizes of the shipped files [assumed]: what is
+// left for lists and cache depends on how many tiles of which side the Pixel Buffer has to hold.
 struct SharesOfSram {
     int pes;
     int cache_bytes, list_bytes;
@@ -23,7 +23,8 @@ constexpr std::array<SharesOfSram, 4> kColumns{{{16, 6144, 8192, 2, 4},
                                                 {256, 131072, 61440, 1, 8},
                                                 {1024, 262144, 32768, 1, 4}}};
 
-// Bytes on the straight line through both columns on logarithmic axes; beyond the columns as the PEs.
+// Bytes on the straight line through both columns on logarithmic axes; beyond the columns as the
+// PEs.
 int between(int pes, const SharesOfSram& low, const SharesOfSram& high, int SharesOfSram::*bytes) {
     if (low.pes == high.pes) {
         return static_cast<int>(std::int64_t{low.*bytes} * pes / low.pes);

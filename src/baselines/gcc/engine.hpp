@@ -43,7 +43,8 @@ public:
     const Config& config() const { return config_; }
     /// Null if the array is alone.
     const Grouping* grouping() const { return grouping_.get(); }
-    // One for each cluster; there are no stages if the array is alone, and no fetchers if it is not.
+    // One for each cluster; there are no stages if the array is alone, and no fetchers if it is
+    // not.
     const Units<ProjectionStage>& projection() const { return projection_; }
     const Units<ColourStage>& colour() const { return colour_; }
     const Units<SplatFetcher>& fetchers() const { return fetchers_; }

@@ -9,10 +9,11 @@
 
 namespace degs::gcc {
 
-/// The traversal of GCC from window to window of one splat (rule: docs/gcc-window-array.md). It keeps
-/// a frontier of windows and visits them in the order in which they were found. A visited window adds
-/// the neighbours across those of its sides on which it has a valid border pixel. The class returns
-/// the next window and the date from which it is known; the caller handles dates otherwise.
+/// The traversal of GCC from window to window of one splat (rule: docs/gcc-window-array.md). It
+/// keeps a frontier of windows and visits them in the order in which they were found. A visited
+/// window adds the neighbours across those of its sides on which it has a valid border pixel. The
+/// class returns the next window and the date from which it is known; the caller handles dates
+/// otherwise.
 class Traversal {
 public:
     struct Window {

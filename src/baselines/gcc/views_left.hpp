@@ -6,8 +6,8 @@
 
 namespace degs::gcc {
 
-/// Tells a stage whether groups still come. All views of the job do, or, if views are granted, those
-/// up to an empty last group of kNoTile.
+/// Tells a stage whether groups still come. All views of the job do, or, if views are granted,
+/// those up to an empty last group of kNoTile.
 class ViewsLeft {
 public:
     ViewsLeft(const RenderJob& job, bool granted) : job_(job), granted_(granted) {}

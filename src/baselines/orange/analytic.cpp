@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ORANGE without simulation: a batch takes the array a product and the vector unit its coefficients and pixels, and a
-// tile is left after the batch in which its pixels end. See docs/analytic.md.
+// ORANGE without simulation: a batch takes the array a product and the vector unit its coefficients
+// and pixels, and a tile is left after the batch in which its pixels end. See docs/analytic.md.
 #include <algorithm>
 #include <cmath>
 

@@ -9,8 +9,9 @@
 
 namespace degs::orange {
 
-/// ORANGE (Li et al., HPCA 2026), an NPU that blends by products of matrices, with GSCore's projection and sorting;
-/// defaults are O-4, its four cores. Most of its values are not public: those are [assumed].
+/// ORANGE (Li et al., HPCA 2026), an NPU that blends by products of matrices, with GSCore's
+/// projection and sorting; defaults are O-4, its four cores. Most of its values are not public:
+/// those are [assumed].
 struct Config : TiledConfig<Config> {
     struct Cores {
         int count = 4;

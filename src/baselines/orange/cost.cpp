@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bill of materials of ORANGE, and the activity of each block of it; docs/cost.md explains both.
+// The bill of materials of ORANGE, and the activity of each block of it; docs/cost.md explains
+// both.
 #include "baselines/orange/engine.hpp"
 
 namespace degs::orange {
@@ -28,8 +29,8 @@ void Config::describe_rows(ConfigVisitor& visitor) {
     section.end();
 }
 
-// What a core moves per cycle while all of it works: operands and results of the array, and the values of the vector
-// unit.
+// What a core moves per cycle while all of it works: operands and results of the array, and the
+// values of the vector unit.
 cost::BillOfMaterials Config::bill() const {
     const CostRows& rows = cost_rows;
     constexpr int kReadAndWritten = 2;

@@ -7,8 +7,8 @@
 
 namespace degs::orange {
 
-/// Splats of one tile that pass through a core together: coefficients on their way to the systolic array, then a
-/// product on its way back.
+/// Splats of one tile that pass through a core together: coefficients on their way to the systolic
+/// array, then a product on its way back.
 struct GemmBatch {
     TileNumber tile = 0;     ///< kNoTile: nothing follows
     std::uint64_t first = 0; ///< index into FrameWorkload::tile_splats

@@ -15,7 +15,8 @@ std::vector<LossKey> Config::loss_keys() const {
         {"acknowledgements", "pixel_buffer.writes_in_flight", Way::Raise, "1024"},
         {"readout", "pixel_buffer.readout_pixels", Way::Raise, "4096"},
     };
-    // The lists of most tiles are a batch: those that a Sorting Unit waits for, and those that a core does.
+    // The lists of most tiles are a batch: those that a Sorting Unit waits for, and those that a
+    // core does.
     const int lists = sorting.count;
     const int batches = cores.count * std::min(fetching.chunks_in_flight, scratchpad.splat_batches);
     if (batches > lists) {

@@ -12,8 +12,8 @@ struct BatchOutcome {
     std::uint64_t useful = 0, boundary = 0, terminated = 0;
 };
 
-/// The multiplier-cycles of one systolic array. Every pixel of a splat is kGemmDepth of them, the rest of a product is
-/// padding: multipliers that its shape leaves out, filling and draining.
+/// The multiplier-cycles of one systolic array. Every pixel of a splat is kGemmDepth of them, the
+/// rest of a product is padding: multipliers that its shape leaves out, filling and draining.
 class MacAccount {
 public:
     /// `macs`: of the array.

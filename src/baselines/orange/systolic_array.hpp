@@ -11,17 +11,19 @@
 
 namespace degs::orange {
 
-/// Which operand stays in the array. `Weight`: the monomials of the pixels, a row for each step of the reduction and a
-/// column for each pixel, while splats stream through. `Output`: the sums of as many splats as there are rows and as
-/// many pixels as there are columns, while the reduction streams through.
+/// Which operand stays in the array. `Weight`: the monomials of the pixels, a row for each step of
+/// the reduction and a column for each pixel, while splats stream through. `Output`: the sums of as
+/// many splats as there are rows and as many pixels as there are columns, while the reduction
+/// streams through.
 enum class Dataflow { Weight, Output };
-/// What a pass pays for the skew of a systolic array. `Pass`: every pass fills and drains. `Batch`: passes of a product
-/// follow each other closely. `None`: those of neighbouring products, too.
+/// What a pass pays for the skew of a systolic array. `Pass`: every pass fills and drains. `Batch`:
+/// passes of a product follow each other closely. `None`: those of neighbouring products, too.
 enum class Fill { Pass, Batch, None };
 
-/// The matrix unit of a core: the product of a batch's coefficients (splats x kGemmDepth) and the monomials of a tile's
-/// pixels (kGemmDepth x pixels) on `rows` x `columns` multipliers. It works on one product at a time, and on the next
-/// as soon as that one's coefficients are there and its result has room.
+/// The matrix unit of a core: the product of a batch's coefficients (splats x kGemmDepth) and the
+/// monomials of a tile's pixels (kGemmDepth x pixels) on `rows` x `columns` multipliers. It works
+/// on one product at a time, and on the next as soon as that one's coefficients are there and its
+/// result has room.
 class SystolicArray : public sc_core::sc_module {
 public:
     struct Config {

@@ -68,8 +68,8 @@ void VectorUnit::run() {
     self_.finish();
 }
 
-/// False if the next step is a chunk, or the end of them. A unit whose coefficients have no room has a product to wait
-/// for; with room it takes what comes first.
+/// False if the next step is a chunk, or the end of them. A unit whose coefficients have no room
+/// has a product to wait for; with room it takes what comes first.
 bool VectorUnit::blends_next() {
     if (batches_ahead_ == 0) {
         return false;

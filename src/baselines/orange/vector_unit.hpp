@@ -13,17 +13,19 @@
 
 namespace degs::orange {
 
-/// When a core leaves the list of a tile. `Batch`: once a batch has been blended and every pixel of the tile has ended;
-/// what is in the core by then is thrown away. `None`: never.
+/// When a core leaves the list of a tile. `Batch`: once a batch has been blended and every pixel of
+/// the tile has ended; what is in the core by then is thrown away. `None`: never.
 enum class Termination { Batch, None };
 
-/// The vector unit of a core, which does everything but the product: it forms the coefficients of each chunk of splats
-/// for the systolic array, and takes each product through exponential, alpha test, transmittance and colour. Both are
-/// streams of element operations on `lanes` lanes, one after the other; products come first where both wait. A product
-/// has every pixel of the tile, and pixels outside of the ellipse are masked, not skipped.
+/// The vector unit of a core, which does everything but the product: it forms the coefficients of
+/// each chunk of splats for the systolic array, and takes each product through exponential, alpha
+/// test, transmittance and colour. Both are streams of element operations on `lanes` lanes, one
+/// after the other; products come first where both wait. A product has every pixel of the tile, and
+/// pixels outside of the ellipse are masked, not skipped.
 ///
-/// Values are those of DataPath::test_rows(): the product is formed when it is blended, because it depends on nothing
-/// else. Once no pixel of a tile takes splats, its further pixels count as terminated without a look at them.
+/// Values are those of DataPath::test_rows(): the product is formed when it is blended, because it
+/// depends on nothing else. Once no pixel of a tile takes splats, its further pixels count as
+/// terminated without a look at them.
 class VectorUnit : public sc_core::sc_module {
 public:
     struct Config {
@@ -62,8 +64,8 @@ public:
     FifoPort<SliceReport> tile_done;   ///< to the Pixel Buffer, once per tile, then kNoTile
     FifoPort<SliceReport> tile_state;  ///< to the Tile Monitor, once per tile, then kNoTile
 
-    /// The core's n-th tile lives in context first_context + n mod contexts of the data path. `macs`: multipliers of
-    /// the core's systolic array.
+    /// The core's n-th tile lives in context first_context + n mod contexts of the data path.
+    /// `macs`: multipliers of the core's systolic array.
     VectorUnit(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                RenderJob& job, int macs, int first_context, int contexts);
 

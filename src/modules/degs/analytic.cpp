@@ -238,9 +238,10 @@ void DegsClock::splat(const CoarseTile& tile) {
     }
 }
 
-/// The tile alone takes `alone` cycles, and keeps units that all streams share busy for `shared`. Tiles
-/// of several streams hold each other up most if both are about the same: between the longer and
-/// the sum, the root of the third powers is nearest to simulations [calibrated, docs/analytic.md].
+/// The tile alone takes `alone` cycles, and keeps units that all streams share busy for `shared`.
+/// Tiles of several streams hold each other up most if both are about the same: between the longer
+/// and the sum, the root of the third powers is nearest to simulations [calibrated,
+/// docs/analytic.md].
 double DegsClock::with_other_streams(double alone, double shared) const {
     const double streams = config_.streams();
     return streams == 1 ? alone

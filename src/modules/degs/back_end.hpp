@@ -50,8 +50,8 @@ struct DegsBlocks {
     Rings<TileNumber> context_free, cancel;
 };
 
-/// A back end of DeGS: all blocks from the Splat Fetchers to the Pixel Buffers. It builds them, connects them among
-/// themselves and with the front end, and leaves them in `DegsBlocks`.
+/// A back end of DeGS: all blocks from the Splat Fetchers to the Pixel Buffers. It builds them,
+/// connects them among themselves and with the front end, and leaves them in `DegsBlocks`.
 class DegsBackEnd {
 public:
     /// What all back ends share.

@@ -65,7 +65,8 @@ void DegsBackEnd::connect_slice(int bank) {
     const std::size_t b = bank;
     const int writeback = config_.array.writeback_cycles;
     // The end of a tile takes no room of the Packing Buffer, but a cell of its ring. At most one of
-    // every tile in flight waits there. As many packets as the latency has cycles are in the pipeline.
+    // every tile in flight waits there. As many packets as the latency has cycles are in the
+    // pipeline.
     const int latency = config_.packing.latency_cycles;
     const int tile_ends = std::max(4, config_.contexts());
     auto& packets = ring(packing_rings_, "packing_buffer",

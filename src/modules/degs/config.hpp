@@ -32,8 +32,8 @@ struct PortedPixelBufferConfig : PixelBuffer::Config {
     void describe(ConfigVisitor& visitor);
 };
 
-/// A complete DeGS accelerator; defaults are the structure of the paper's 64-PE design (Tables I and
-/// II), computing in fp32. configs/degs-64.yaml is that design with the paper's formats, too.
+/// A complete DeGS accelerator; defaults are the structure of the paper's 64-PE design (Tables I
+/// and II), computing in fp32. configs/degs-64.yaml is that design with the paper's formats, too.
 /// Capacities are in bytes; the depths of rings follow from record sizes.
 struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBufferConfig> {
     int tile_size = 32;
@@ -63,9 +63,9 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
     }
     bool keeps_pixel_order() const override { return scheduler.scoreboard; }
     std::vector<LossKey> loss_keys() const override;
-    /// Keys that did not limit a run, out of those of the window of waiting segments: a bank had up to
-    /// `high_water` segments, and `feature_waits` of the entries of the Feature Buffer, 0 to 1, had to
-    /// wait for a free one.
+    /// Keys that did not limit a run, out of those of the window of waiting segments: a bank had up
+    /// to `high_water` segments, and `feature_waits` of the entries of the Feature Buffer, 0 to 1,
+    /// had to wait for a free one.
     std::vector<std::string> idle_window_keys(std::uint64_t high_water, double feature_waits) const;
     cost::BillOfMaterials bill() const override;
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
@@ -126,7 +126,8 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
     int feature_entries() const {
         return feature_buffer.bytes / feature_buffer.entry_bytes / scheduler.banks;
     }
-    /// The shares in the Gaussian Buffer of a cluster: of a fetcher for sorted splats, of a Sorting Unit for lists.
+    /// The shares in the Gaussian Buffer of a cluster: of a fetcher for sorted splats, of a Sorting
+    /// Unit for lists.
     BufferShare splat_share() const { return {1.0 - gaussian_buffer.sort_share, fetchers()}; }
     BufferShare sort_share() const { return {gaussian_buffer.sort_share, sorting.count}; }
     /// Splat chunks that a fetcher's share of the Gaussian Buffer holds.
@@ -136,7 +137,8 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
     // Sections with what follows for their blocks from the other sections.
     /// What writes chunks of splats to the Gaussian Buffer, as if it read them itself.
     SplatFetcher::Config chunk_writers() const;
-    /// The section of an Issue Bank in the cluster whose tile contexts begin at `first_context` of the Pixel Buffer.
+    /// The section of an Issue Bank in the cluster whose tile contexts begin at `first_context` of
+    /// the Pixel Buffer.
     IssueBank::Config issue_bank(int first_context) const;
     PackingUnit::Config packing_unit() const;
     ArraySlice::Config array_slice(int first_context) const;

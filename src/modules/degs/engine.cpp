@@ -40,8 +40,8 @@ Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const 
     build_memory();
 }
 
-// Strict mode blends tasks when they execute. So do runs whose pixels depend on that date, and tiles that are too wide
-// or may be too many for TileDrawing.
+// Strict mode blends tasks when they execute. So do runs whose pixels depend on that date, and
+// tiles that are too wide or may be too many for TileDrawing.
 bool Degs::draws_ahead() const {
     const std::int64_t tiles_in_flight =
         config_.clusters * (std::int64_t{1} * config_.streams() * config_.span_lane_depth() +

@@ -22,8 +22,8 @@ namespace degs {
 /// There are two ways back: terminations to the Issue Banks, and tile cancellation to the fetchers.
 /// With several tile streams (slicing.interleave) each has its own fetcher, Slicing Units, lanes of
 /// the Span Buffer, queues of the crossbar and contexts of the Pixel Buffer; the Tile Dispatcher
-/// hands out the tiles. With several clusters everything from the Splat Fetchers to the Pixel Buffer is
-/// there as often, behind one front end and one memory.
+/// hands out the tiles. With several clusters everything from the Splat Fetchers to the Pixel
+/// Buffer is there as often, behind one front end and one memory.
 class Degs : public RenderEngine {
 public:
     /// `job` supplies the work and receives the images. `config.problem()` must be empty.

@@ -13,8 +13,9 @@ constexpr const char* kIssues = "scheduler.issue_width";
 
 } // namespace
 
-// The Packing Buffer holds the waiting segments, as many as it has room for if queue_segments_per_pe is 0. It holds the
-// packets, too, but no number of them keeps the array waiting: it executes one in every cycle in which one waits.
+// The Packing Buffer holds the waiting segments, as many as it has room for if
+// queue_segments_per_pe is 0. It holds the packets, too, but no number of them keeps the array
+// waiting: it executes one in every cycle in which one waits.
 std::vector<LossKey> DegsConfig::loss_keys() const {
     using Way = LossKey::Way;
     std::vector<LossKey> keys{

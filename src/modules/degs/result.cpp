@@ -15,7 +15,8 @@ bool is_full(double part) {
     return part > 0.75;
 }
 
-/// Keys that limited nothing, out of those of the rates at which Issue Banks take and issue segments.
+/// Keys that limited nothing, out of those of the rates at which Issue Banks take and issue
+/// segments.
 std::vector<std::string> idle_packing_keys(double intake, double issue) {
     const std::string takes = "scheduler.segments_per_cycle", issues = "scheduler.issue_width";
     std::vector<std::string> idle;

@@ -21,8 +21,8 @@ public:
     std::uint64_t bytes() const { return bytes_; } ///< of the archive itself
     std::vector<std::string> names() const;
     bool has(const std::string& name) const;
-    /// The whole file. Refused if it is missing, encrypted, damaged or packed by a method other than
-    /// store and deflate, claims more than `limit_bytes`, or inflates more than 1,032 times.
+    /// The whole file. Refused if it is missing, encrypted, damaged or packed by a method other
+    /// than store and deflate, claims more than `limit_bytes`, or inflates more than 1,032 times.
     std::string read(const std::string& name, std::uint64_t limit_bytes) const;
 
 private:

@@ -14,9 +14,9 @@ namespace degs {
 /// takes at most 12 bytes of memory per byte of the file, the cameras included.
 CameraFile read_cameras_json(const std::string& path);
 
-/// transforms.json of nerfstudio and instant-ngp: intrinsics, which a frame may have of its own, and
-/// `frames`, whose transform_matrix is camera-to-world with the axes of OpenGL (x right, y up, z
-/// back). An applied_transform and an applied_scale are undone. Memory as for cameras.json.
+/// transforms.json of nerfstudio and instant-ngp: intrinsics, which a frame may have of its own,
+/// and `frames`, whose transform_matrix is camera-to-world with the axes of OpenGL (x right, y up,
+/// z back). An applied_transform and an applied_scale are undone. Memory as for cameras.json.
 CameraFile read_transforms_json(const std::string& path);
 
 /// The files of a COLMAP model: cameras and images, both .bin or both .txt.
@@ -25,8 +25,8 @@ struct ColmapFiles {
     bool binary = false;
 };
 
-/// The files of a COLMAP model in a folder, or in sparse/0 or 0 inside it; binary files first, as COLMAP
-/// itself prefers them. Empty names if there are none.
+/// The files of a COLMAP model in a folder, or in sparse/0 or 0 inside it; binary files first, as
+/// COLMAP itself prefers them. Empty names if there are none.
 ColmapFiles colmap_in(const std::string& folder);
 
 /// The views of a COLMAP model in the order of their names, as the original 3DGS code sorts them.

@@ -10,7 +10,8 @@
 namespace degs {
 namespace {
 
-/// View depths of the means that project into the image behind the near plane, of Gaussians that are not transparent.
+/// View depths of the means that project into the image behind the near plane, of Gaussians that
+/// are not transparent.
 std::vector<double> depths_of(const GaussianCloud& cloud, const Camera& camera, double near_plane) {
     const double alpha_min = ProjectionOptions().alpha_min;
     std::vector<double> depths;

@@ -41,8 +41,8 @@ int checked_side(const CameraPlace& place, const std::string& name, double value
 double checked_focal_length(const CameraPlace& place, const std::string& name, double value,
                             const std::string& text);
 
-/// Throws InputError unless the rows of the matrix are orthogonal unit vectors within 1e-3 and it does
-/// not mirror. `name` is the key.
+/// Throws InputError unless the rows of the matrix are orthogonal unit vectors within 1e-3 and it
+/// does not mirror. `name` is the key.
 void check_rotation(const CameraPlace& place, const std::string& name, const glm::dmat3& matrix);
 
 /// Lens properties beyond a Camera, which has its principal point in the middle and no distortion.

@@ -27,10 +27,10 @@ struct JsonEntries {
     int most_values = 0;           ///< of a key that is kept; nested arrays count as one more each
 };
 
-/// Parses the file and hands over every entry with the kept keys alone. Memory stays in proportion to
-/// what the entries need, whatever else the file holds. Throws InputError for a file that is not valid JSON,
-/// larger than 256 MiB, not of that shape, with a key twice in one entry, nested more than 64 deep,
-/// or with more than 256 keys in one entry.
+/// Parses the file and hands over every entry with the kept keys alone. Memory stays in proportion
+/// to what the entries need, whatever else the file holds. Throws InputError for a file that is not
+/// valid JSON, larger than 256 MiB, not of that shape, with a key twice in one entry, nested more
+/// than 64 deep, or with more than 256 keys in one entry.
 void read_json_entries(const std::string& path, const JsonEntries& entries,
                        const std::function<void(std::size_t index, const nlohmann::json&)>& take);
 

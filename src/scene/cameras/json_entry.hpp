@@ -13,7 +13,8 @@ namespace degs {
 /// Every failure is an InputError that names the file, the entry and the key.
 class JsonEntry {
 public:
-    /// `needed` lists the keys that an entry must have, for messages. All of them outlive this object.
+    /// `needed` lists the keys that an entry must have, for messages. All of them outlive this
+    /// object.
     JsonEntry(const CameraPlace& place, const nlohmann::json& json, const char* needed)
         : place_(place), json_(json), needed_(needed) {}
 
@@ -32,7 +33,8 @@ public:
     glm::dmat3 rows(const char* key) const;
     /// Up to 4 rows of 4 numbers, at least 3; a fourth one must be 0 0 0 1.
     glm::dmat4 affine(const char* key) const;
-    /// A matrix as affine() reads it, of a rotation, a uniform scale and a translation; no mirroring.
+    /// A matrix as affine() reads it, of a rotation, a uniform scale and a translation; no
+    /// mirroring.
     glm::dmat4 similarity(const char* key) const;
 
 private:

@@ -29,8 +29,8 @@ double reach_of(const GaussianCloud& cloud, std::size_t i) {
     return 2 * static_cast<double>(std::max({scale.x, scale.y, scale.z}));
 }
 
-/// The least coordinate of what is seen of the Gaussians, without the first `tail` of them; with `sign`
-/// -1 that of the mirrored scene.
+/// The least coordinate of what is seen of the Gaussians, without the first `tail` of them; with
+/// `sign` -1 that of the mirrored scene.
 double end_of(const GaussianCloud& cloud, int axis, double sign, std::size_t tail,
               std::vector<double>& values) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {

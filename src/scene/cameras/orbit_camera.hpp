@@ -21,10 +21,10 @@ struct OrbitView {
     glm::dvec3 target{0.0}; ///< what it looks at, in the middle of the image
 };
 
-/// A view of the whole scene: the box that holds the middle 98 % of the Gaussians on each axis, each with
-/// two standard deviations of its largest axis, fits into the image with a rim of 5 %. A scene that
-/// reaches far beyond its middle 80 % (surroundings, floaters) counts up to twice as far as these.
-/// Up is -y, as in scenes from COLMAP. The cloud is not empty.
+/// A view of the whole scene: the box that holds the middle 98 % of the Gaussians on each axis,
+/// each with two standard deviations of its largest axis, fits into the image with a rim of 5 %. A
+/// scene that reaches far beyond its middle 80 % (surroundings, floaters) counts up to twice as far
+/// as these. Up is -y, as in scenes from COLMAP. The cloud is not empty.
 OrbitView orbit_view(const GaussianCloud& cloud, const OrbitOptions& options = {});
 Camera orbit_camera(const GaussianCloud& cloud, const OrbitOptions& options = {});
 

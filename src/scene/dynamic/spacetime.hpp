@@ -11,8 +11,8 @@
 
 namespace degs {
 
-/// A Gaussian of the lite model of SpacetimeGaussians (Li et al., CVPR 2024), with the values of its
-/// PLY file. With d = t - centre:
+/// A Gaussian of the lite model of SpacetimeGaussians (Li et al., CVPR 2024), with the values of
+/// its PLY file. With d = t - centre:
 ///   mean(t)     = mean + d motion[0] + d^2 motion[1] + d^3 motion[2]
 ///   rotation(t) = normalised rotation + d omega
 ///   opacity(t)  = sigmoid(opacity) exp(-(d / exp(log_duration))^2)
@@ -30,9 +30,9 @@ struct SpacetimeGaussian {
 
 using SpacetimeCloud = std::vector<SpacetimeGaussian>;
 
-/// The Gaussians at time `t` (0..1), SH degree 0, in the order of the scene, none left out: those that
-/// have not appeared yet or are gone have an opacity near 0. The original draws colours without
-/// the lower bound of 0 that colours from spherical harmonics have here.
+/// The Gaussians at time `t` (0..1), SH degree 0, in the order of the scene, none left out: those
+/// that have not appeared yet or are gone have an opacity near 0. The original draws colours
+/// without the lower bound of 0 that colours from spherical harmonics have here.
 GaussianCloud at_time(const SpacetimeCloud& scene, double t);
 
 /// Removes Gaussians that hold NaN or infinity, or cannot be drawn at any time; returns how many.

@@ -7,8 +7,8 @@
 
 namespace degs {
 
-/// Whether the file is a PLY file of SpacetimeGaussians: its vertices have trbf_center. InputError for a
-/// PLY file with a broken header.
+/// Whether the file is a PLY file of SpacetimeGaussians: its vertices have trbf_center. InputError
+/// for a PLY file with a broken header.
 bool is_spacetime_ply(const std::string& path);
 
 /// Reads a file of the lite model: x y z trbf_center trbf_scale motion_0..8 f_dc_0..2 opacity

@@ -21,8 +21,8 @@ public:
 
     SyntheticRandom& random() { return random_; }
 
-    /// A still disc at `mean` that faces `normal`, there all the time. `size` is its typical standard
-    /// deviation in scene units for 100 000 Gaussians.
+    /// A still disc at `mean` that faces `normal`, there all the time. `size` is its typical
+    /// standard deviation in scene units for 100 000 Gaussians.
     SpacetimeGaussian& add(const glm::dvec3& mean, const glm::dvec3& normal, double size,
                            const glm::dvec3& rgb) {
         SpacetimeGaussian g;

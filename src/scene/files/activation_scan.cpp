@@ -7,7 +7,8 @@
 namespace degs {
 namespace {
 
-// The largest median of the sizes, as a share of the scene's extent. In trained scenes it is below 0.02.
+// The largest median of the sizes, as a share of the scene's extent. In trained scenes it is below
+// 0.02.
 constexpr double kLargestSize = 0.25;
 // The logarithm of the median, if no Gaussian is smaller than a unit.
 constexpr double kSmallestLogarithm = 0.2;

@@ -36,7 +36,8 @@ std::array<float, 16> sh_signs(const Axes& from, const Axes& to);
 /// Rewrites a cloud of world `from` for world `to`. Exact: only signs change. An odd number of
 /// opposite axes gives the mirror image in coordinates, which is the same scene in the world.
 void convert_axes(GaussianCloud& cloud, const Axes& from, const Axes& to);
-/// Rewrites cameras of world `from` for world `to`; with an odd number of opposite axes their bases become left-handed.
+/// Rewrites cameras of world `from` for world `to`; with an odd number of opposite axes their bases
+/// become left-handed.
 void convert_axes(std::vector<Camera>& cameras, const Axes& from, const Axes& to);
 
 } // namespace degs

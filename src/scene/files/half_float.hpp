@@ -7,7 +7,8 @@
 
 namespace degs {
 
-/// Value of a binary16 number of IEEE 754, which every double holds exactly; infinities and NaN stay.
+/// Value of a binary16 number of IEEE 754, which every double holds exactly; infinities and NaN
+/// stay.
 inline double half_value(std::uint16_t bits) {
     const int exponent = bits >> 10 & 31;
     const double fraction = (bits & 1023) / 1024.0;

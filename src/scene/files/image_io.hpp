@@ -26,16 +26,16 @@ struct ExrLayer {
 /// Writes float channels of these names, for what is not a picture; likewise whole or not at all.
 void write_exr(const std::vector<ExrLayer>& layers, int width, int height, const std::string& path);
 
-/// Reads R, G, B and, where present, `transmittance` and `fragments` (else 1 and 0). Throws InputError if
-/// this is not an EXR image of at most 2^28 pixels with these channels.
+/// Reads R, G, B and, where present, `transmittance` and `fragments` (else 1 and 0). Throws
+/// InputError if this is not an EXR image of at most 2^28 pixels with these channels.
 Image read_exr(const std::string& path);
 
 /// Writes 8 bits per channel: clamp(value, 0, 1) * 255 + 0.5, truncated; NaN is 0. No gamma: the
 /// values are display-referred already.
 void write_png(const Image& image, const std::string& path);
 
-/// CRC-32 (that of zlib and PNG) of the bytes that write_png() stores: rows from the top, red, green, blue. 0 if the
-/// image has no pixels.
+/// CRC-32 (that of zlib and PNG) of the bytes that write_png() stores: rows from the top, red,
+/// green, blue. 0 if the image has no pixels.
 std::uint32_t pixel_crc32(const Image& image);
 
 } // namespace degs

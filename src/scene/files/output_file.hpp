@@ -26,10 +26,10 @@ public:
     FileSet(const FileSet&) = delete;
     FileSet& operator=(const FileSet&) = delete;
 
-    /// Removes the files `old`, in this order, and puts those in place that write_atomically() has written
-    /// since the set began. The first of `old` is put in place last, so that a folder in which it is
-    /// there holds the whole set, even if the program is killed in between. Does nothing if nothing has been
-    /// written. InputError if a file cannot be removed or put in place.
+    /// Removes the files `old`, in this order, and puts those in place that write_atomically() has
+    /// written since the set began. The first of `old` is put in place last, so that a folder in
+    /// which it is there holds the whole set, even if the program is killed in between. Does
+    /// nothing if nothing has been written. InputError if a file cannot be removed or put in place.
     void publish(const std::vector<std::string>& old);
 
 private:
@@ -46,8 +46,8 @@ private:
 /// Whether a file can be made in the folder and takes a byte.
 bool takes_files(const std::string& folder);
 
-/// Removes the temporary files that processes left in a folder when they were killed; those of processes
-/// that still run stay.
+/// Removes the temporary files that processes left in a folder when they were killed; those of
+/// processes that still run stay.
 void remove_partial_files(const std::string& folder);
 
 /// Removes the temporary files of this process. May be called in a handler of signals.

@@ -5,9 +5,10 @@
 
 namespace degs {
 
-/// A file that is being written, beside the one that it will become. It is new and no link, whatever
-/// others have put into the folder, and locked, so that remove_partial_files() can tell it from one
-/// that a killed process left. Gone at the end, unless it has been renamed, or when a signal ends the program.
+/// A file that is being written, beside the one that it will become. It is new and no link,
+/// whatever others have put into the folder, and locked, so that remove_partial_files() can tell it
+/// from one that a killed process left. Gone at the end, unless it has been renamed, or when a
+/// signal ends the program.
 class PartialFile {
 public:
     /// Makes the file, empty, for the file `path`.

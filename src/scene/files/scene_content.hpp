@@ -25,8 +25,9 @@ constexpr const char* kLinearColoursNote = "The colours are linear: the image is
                                            "too, and looks dark where it is shown as "
                                            "sRGB.";
 
-/// Takes over how a scene was trained, as PlayCanvas' programs call it: "default", "antialiased" (also
-/// "mip") or "2dgs". The latter and unknown words add a note; `key` is what the file calls it.
+/// Takes over how a scene was trained, as PlayCanvas' programs call it: "default", "antialiased"
+/// (also "mip") or "2dgs". The latter and unknown words add a note; `key` is what the file calls
+/// it.
 void take_render_model(const std::string& key, const std::string& model, SceneContent& content);
 
 /// All that one scene file holds, before anything is dropped.

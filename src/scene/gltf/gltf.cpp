@@ -76,7 +76,8 @@ public:
         }
     }
 
-    /// SPZ data is in known axes; attributes hold whatever their exporter wrote, mostly those of the PLY.
+    /// SPZ data is in known axes; attributes hold whatever their exporter wrote, mostly those of
+    /// the PLY.
     SceneContent take() {
         SceneContent content;
         content.cloud = std::move(cloud_);

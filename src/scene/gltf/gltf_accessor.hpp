@@ -27,8 +27,8 @@ struct GltfAccessorRule {
     std::string what; ///< who names it, for messages: "mesh 0, primitive 1: POSITION"
     int least_width = 1, most_width = 4; ///< components: 1 SCALAR .. 4 VEC4
     unsigned components = kGltfFloat;    ///< set of GltfComponents
-    /// A sparse accessor may do without a buffer view: what it does not replace is 0. Nothing in the
-    /// file then bears its count out, so that another accessor must.
+    /// A sparse accessor may do without a buffer view: what it does not replace is 0. Nothing in
+    /// the file then bears its count out, so that another accessor must.
     bool may_be_zeros = false;
 };
 
@@ -53,8 +53,9 @@ public:
     std::size_t count() const { return count_; }
     int width() const { return width_; } ///< components of an element
 
-    /// Component `c` of element i goes to to[i * pitch + c], for the first min(width(), components) of each.
-    /// Integers: normalised ones as c / 255, max(c / 127, -1) and so on, others as they are.
+    /// Component `c` of element i goes to to[i * pitch + c], for the first min(width(), components)
+    /// of each. Integers: normalised ones as c / 255, max(c / 127, -1) and so on, others as they
+    /// are.
     void read(float* to, std::size_t pitch, int components) const;
     void read(double* to, std::size_t pitch, int components) const;
 

@@ -10,8 +10,8 @@
 
 namespace degs {
 
-/// A glTF that the library has parsed. Nothing in it is checked but the sizes of its buffers: every index and
-/// range is looked at where it is used.
+/// A glTF that the library has parsed. Nothing in it is checked but the sizes of its buffers: every
+/// index and range is looked at where it is used.
 struct GltfFile {
     std::string path;
     tinygltf::Model model;
@@ -27,7 +27,8 @@ struct GltfFile {
 /// extensions that this reader does not know. The bytes of `source` are released.
 GltfFile parse_gltf(GltfSource source);
 
-/// "'name'" of an object of the file for a message, or "" if it has none; printable, at most 60 characters.
+/// "'name'" of an object of the file for a message, or "" if it has none; printable, at most 60
+/// characters.
 std::string quoted_name(const std::string& name);
 
 /// The member `key` of an object value; nullptr if there is none or `value` is no object.

@@ -19,10 +19,10 @@ struct SplatPrimitive {
 };
 
 /// The Gaussians of such a primitive in the axes of its mesh. Attributes are those of the release
-/// candidate of KHR_gaussian_splatting (Khronos, text of 2026-04-15) or of the drafts of 2025, which
-/// are read with a note. A primitive that is compressed with SPZ (drafts of 2025 and 2026, three names)
-/// is read from that data alone. Rotations and ranges are as in the file; sanitize() looks at them.
-/// InputError names mesh, primitive and attribute.
+/// candidate of KHR_gaussian_splatting (Khronos, text of 2026-04-15) or of the drafts of 2025,
+/// which are read with a note. A primitive that is compressed with SPZ (drafts of 2025 and 2026,
+/// three names) is read from that data alone. Rotations and ranges are as in the file; sanitize()
+/// looks at them. InputError names mesh, primitive and attribute.
 SplatPrimitive read_splat_primitive(GltfFile& file, std::size_t mesh, std::size_t primitive);
 
 } // namespace degs

@@ -96,8 +96,8 @@ std::size_t glb_length(GltfSource& source) {
     return length;
 }
 
-/// Returns the JSON chunk. Chunks of other applications are cut off: the library refuses them, and the
-/// specification wants them ignored.
+/// Returns the JSON chunk. Chunks of other applications are cut off: the library refuses them, and
+/// the specification wants them ignored.
 GlbChunk check_glb(GltfSource& source) {
     const std::vector<GlbChunk> chunks = chunk_table(source, glb_length(source));
     if (chunks.empty() || chunks[0].type != kJsonChunk || chunks[0].bytes == 0) {

@@ -25,13 +25,14 @@ struct GltfSource {
     std::vector<std::string> notes;
 };
 
-/// Reads a .gltf or .glb, told apart by the magic number. Checks the size of the file (below 4 GiB), the
-/// chunk table of a GLB, the JSON (see scan_gltf_json), and that buffers lie in files of the scene's folder
-/// and are not larger than these. InputError for anything else.
+/// Reads a .gltf or .glb, told apart by the magic number. Checks the size of the file (below 4
+/// GiB), the chunk table of a GLB, the JSON (see scan_gltf_json), and that buffers lie in files of
+/// the scene's folder and are not larger than these. InputError for anything else.
 GltfSource read_gltf_source(const std::string& path);
 
-/// What the JSON text of a glTF declares as buffers. The text must be JSON of at most 64 levels and 262,144
-/// values, with integers of at most 32 bits outside `extras`; InputError names the byte where it is not.
+/// What the JSON text of a glTF declares as buffers. The text must be JSON of at most 64 levels and
+/// 262,144 values, with integers of at most 32 bits outside `extras`; InputError names the byte
+/// where it is not.
 std::vector<GltfBuffer> scan_gltf_json(const std::string& path, const char* begin, const char* end);
 
 /// Files in which buffers of `path` lie, in order. InputError as read_gltf_source().

@@ -7,7 +7,8 @@
 
 namespace degs {
 
-/// One array of NumPy's .npy format: row-major numbers of any integer or floating type of 1 to 8 bytes.
+/// One array of NumPy's .npy format: row-major numbers of any integer or floating type of 1 to 8
+/// bytes.
 struct NpyArray {
     char kind = 'f';      ///< f float, i signed, u unsigned, b bool
     int item_bytes = 4;   ///< of one number
@@ -22,8 +23,8 @@ struct NpyArray {
     std::string shape_words() const;
 };
 
-/// Parses a .npy file (versions 1 to 3). InputError "<where>: ..." that calls it `name` if it is none, is
-/// stored column by column, of another type, or longer or shorter than its shape says.
+/// Parses a .npy file (versions 1 to 3). InputError "<where>: ..." that calls it `name` if it is
+/// none, is stored column by column, of another type, or longer or shorter than its shape says.
 NpyArray parse_npy(const std::string& where, const std::string& name, std::string bytes);
 
 } // namespace degs

@@ -179,8 +179,8 @@ private:
         }
     }
 
-    /// Mip-Splatting's 3D smoothing filter: a wider Gaussian of the same integral. A disc has none to
-    /// keep along its normal.
+    /// Mip-Splatting's 3D smoothing filter: a wider Gaussian of the same integral. A disc has none
+    /// to keep along its normal.
     void fuse_filter(double filter, glm::dvec3& scale, double& opacity) const {
         const glm::dvec3 smoothed = glm::sqrt(scale * scale + filter * filter);
         const glm::dvec3 ratio = scale / smoothed;

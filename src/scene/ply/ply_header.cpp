@@ -82,8 +82,8 @@ private:
         fail_file(file_.path(), "line " + std::to_string(line_) + " of the header: " + sentence);
     }
 
-    /// What ends the first line ends all of them. The CR of CRLF counts as a blank, but the one of LFCR
-    /// must not be taken for the first byte of the data.
+    /// What ends the first line ends all of them. The CR of CRLF counts as a blank, but the one of
+    /// LFCR must not be taken for the first byte of the data.
     void find_line_end() {
         constexpr const char* kBreaks = "\r\n";
         const std::size_t begin = std::min(text_.find_first_of(kBreaks), text_.size());

@@ -183,8 +183,8 @@ void PlyRows::skip_row() {
     end_row();
 }
 
-/// Rows may share a line, or take several. One that begins behind another and goes on in the next line
-/// shows that a row has a value too many or too few, and all that follow would be shifted.
+/// Rows may share a line, or take several. One that begins behind another and goes on in the next
+/// line shows that a row has a value too many or too few, and all that follow would be shifted.
 void PlyRows::end_row() {
     const bool behind = row_begun_ && row_ > 0 && row_line_ == last_line_;
     if (behind && words_.line() != row_line_) {

@@ -61,12 +61,12 @@ public:
     PlyColumn column(const std::string& property) const;
     /// Reads the next `count` rows to `destination` (count * row_bytes() bytes).
     void read(char* destination, std::size_t count);
-    /// Goes on to an element that stands behind this one, all rows of which have been read. Its size
-    /// is checked as that of the first.
+    /// Goes on to an element that stands behind this one, all rows of which have been read. Its
+    /// size is checked as that of the first.
     void move_to(const PlyElement& later);
-    /// To be called when all rows have been read: skips the elements behind them, unless the file ends
-    /// here. InputError if they are cut off, or if data is left over behind the last one, since the header
-    /// and the data then do not agree.
+    /// To be called when all rows have been read: skips the elements behind them, unless the file
+    /// ends here. InputError if they are cut off, or if data is left over behind the last one,
+    /// since the header and the data then do not agree.
     void finish();
 
 private:

@@ -18,8 +18,8 @@ struct PlySplatLayout {
     bool has_filter_3d = false; ///< Mip-Splatting file whose 3D filter is not fused yet
 };
 
-/// Everything guessed or passed over is added to `notes`. InputError with one sentence if the file is
-/// something else (point cloud, mesh, dynamic scene), lacks properties (all are named) or has an
+/// Everything guessed or passed over is added to `notes`. InputError with one sentence if the file
+/// is something else (point cloud, mesh, dynamic scene), lacks properties (all are named) or has an
 /// impossible number of f_rest.
 PlySplatLayout find_splat_layout(const std::string& path, const PlyHeader& header,
                                  std::vector<std::string>& notes);

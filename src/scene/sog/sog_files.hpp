@@ -15,7 +15,8 @@ public:
     virtual std::string meta() const = 0; ///< the text of meta.json
     /// The file that meta.json calls `name`; InputError if it has more than `limit_bytes`.
     virtual std::string read(const std::string& name, std::uint64_t limit_bytes) const = 0;
-    /// Bytes of everything, packed, that meta.json names (`images`, each once) or the archive holds.
+    /// Bytes of everything, packed, that meta.json names (`images`, each once) or the archive
+    /// holds.
     virtual std::uint64_t bytes(const std::vector<std::string>& images) const = 0;
 };
 

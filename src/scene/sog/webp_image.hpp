@@ -16,8 +16,8 @@ struct RgbaImage {
     std::uint64_t pixels() const { return std::uint64_t{1} * width * height; }
 };
 
-/// Decodes a WebP image. InputError "<where>: ..." that calls it `name` if it is none or has more than
-/// `limit_pixels`; this is checked before anything is allocated.
+/// Decodes a WebP image. InputError "<where>: ..." that calls it `name` if it is none or has more
+/// than `limit_pixels`; this is checked before anything is allocated.
 RgbaImage decode_webp(const std::string& where, const std::string& name, const std::string& file,
                       std::uint64_t limit_pixels);
 

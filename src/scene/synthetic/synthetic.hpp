@@ -41,11 +41,12 @@ constexpr int kMostSceneFrames = 10000;
 /// A number of frames, an integer from 1 to kMostSceneFrames; nothing for any other text.
 std::optional<int> parse_scene_frames(const std::string& text);
 
-/// Parses "NAME[,gaussians=N][,seed=N][,time=T][,frames=N]". InputError names the profiles, keys and ranges.
+/// Parses "NAME[,gaussians=N][,seed=N][,time=T][,frames=N]". InputError names the profiles, keys
+/// and ranges.
 SyntheticSpec parse_synthetic(const std::string& text);
 
-/// Makes a scene. The same spec gives the same bytes on every platform with IEEE arithmetic (nothing
-/// depends on the distributions of the standard library or the last bit of the C library's
+/// Makes a scene. The same spec gives the same bytes on every platform with IEEE arithmetic
+/// (nothing depends on the distributions of the standard library or the last bit of the C library's
 /// exp). Sizes shrink as the count grows, so that coverage and depth complexity stay; below
 /// 10 000 Gaussians only roughly.
 SyntheticScene make_synthetic(const SyntheticSpec& spec);

@@ -8,9 +8,10 @@
 
 namespace degs {
 
-/// The parts of the profile `lighthouse`. Surfaces carry flat splats that lie in them, as training leaves them; leaves
-/// and blades are needles; sky and clouds are big and far. A scene unit is about 15 m; y points down. Each call adds
-/// one Gaussian. Random numbers are drawn one per statement, because operands and arguments have no order.
+/// The parts of the profile `lighthouse`. Surfaces carry flat splats that lie in them, as training
+/// leaves them; leaves and blades are needles; sky and clouds are big and far. A scene unit is
+/// about 15 m; y points down. Each call adds one Gaussian. Random numbers are drawn one per
+/// statement, because operands and arguments have no order.
 class Lighthouse {
 public:
     Lighthouse(SyntheticBuilder& builder, const std::vector<Camera>& cameras)

@@ -10,8 +10,8 @@
 
 namespace degs {
 
-/// Some rows of a tile: of its blocks of `height` rows every `apart`-th one, from `first` on, and in
-/// these every `step`-th row.
+/// Some rows of a tile: of its blocks of `height` rows every `apart`-th one, from `first` on, and
+/// in these every `step`-th row.
 struct RowChoice {
     int height = 1, apart = 1, first = 0, step = 1;
 };

@@ -12,8 +12,8 @@
 namespace degs {
 
 /// Which tiles list a splat. `Exact`: tiles whose pixels the ellipse q <= Q_th may touch.
-/// `Reference`: the 3-sigma square of the original rasteriser, pixel test unchanged. A splat that no
-/// tile lists is not visible (counted as off_screen); transparent Gaussians are dropped in both.
+/// `Reference`: the 3-sigma square of the original rasteriser, pixel test unchanged. A splat that
+/// no tile lists is not visible (counted as off_screen); transparent Gaussians are dropped in both.
 enum class TileMode { Exact, Reference };
 
 struct CullCounts {
@@ -51,10 +51,10 @@ struct FrameWorkload {
     std::uint32_t visible_among(std::uint64_t first_gaussians) const;
 };
 
-/// Projects, shades, sorts and bins a scene, in the format of `options`, on all processors; culling, lists
-/// and order follow from its splats. The depth key is that of the options, rounded to float, as the original
-/// sorts float bits; ties keep index order. Throws InputError for an image without pixels, focal lengths
-/// or a tile size below 1, or a negative near plane.
+/// Projects, shades, sorts and bins a scene, in the format of `options`, on all processors;
+/// culling, lists and order follow from its splats. The depth key is that of the options, rounded
+/// to float, as the original sorts float bits; ties keep index order. Throws InputError for an
+/// image without pixels, focal lengths or a tile size below 1, or a negative near plane.
 FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& camera, int tile_size,
                                   TileMode mode, const ProjectionOptions& options = {});
 

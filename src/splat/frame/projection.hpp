@@ -27,8 +27,8 @@ struct ProjectionOptions {
     double alpha_min = 1.0 / 255.0; ///< support threshold (paper Eq. 7)
     double cut = kNoCut;            ///< largest q at which a splat is drawn, the limit included
     SplatOrder order = SplatOrder::Depth;
-    /// Opacities are multiplied by sqrt(max(kLeastCompensation, det before / det after dilation)), so
-    /// that splats thinner than a pixel keep their weight when the low-pass filter widens them
+    /// Opacities are multiplied by sqrt(max(kLeastCompensation, det before / det after dilation)),
+    /// so that splats thinner than a pixel keep their weight when the low-pass filter widens them
     /// (Mip-Splatting; option `antialiasing` of the original code).
     bool compensated = false;
     ProjectionNumbers numbers; ///< in which formats, and what lists are sorted by
@@ -52,8 +52,8 @@ struct ProjectedSplat {
     double depth = 0;             ///< what it is ordered by, scene units; see SplatOrder
     std::uint32_t id = 0;         ///< index in the cloud
 
-    /// Largest q inside: Q_th, with kCutMargin where a cut ends the splat. Pixel tests and everything that bounds
-    /// them use this one.
+    /// Largest q inside: Q_th, with kCutMargin where a cut ends the splat. Pixel tests and
+    /// everything that bounds them use this one.
     double q_end() const { return q_cut_off > 0 ? q_threshold + kCutMargin : q_threshold; }
     double conic_a() const { return cov_c / det; }
     double conic_b() const { return -cov_b / det; }

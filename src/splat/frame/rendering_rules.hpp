@@ -35,8 +35,8 @@ struct RenderingRules {
 
     /// A preset other than the present one replaces the rules before they are visited.
     void describe(ConfigVisitor& visitor);
-    /// The options that project a scene in such formats; `antialiased` is what the file of the scene says
-    /// (SceneTraits::antialiased).
+    /// The options that project a scene in such formats; `antialiased` is what the file of the
+    /// scene says (SceneTraits::antialiased).
     ProjectionOptions options(bool antialiased, const ProjectionNumbers& numbers = {}) const;
 };
 

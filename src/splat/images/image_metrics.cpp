@@ -44,7 +44,8 @@ std::array<double, kTaps> gaussian_window() {
     return window;
 }
 
-/// Walks a band of rows of the images once, keeping the horizontally filtered rows of one window height.
+/// Walks a band of rows of the images once, keeping the horizontally filtered rows of one window
+/// height.
 class StructuralSimilarity {
 public:
     StructuralSimilarity(const Image& first, const Image& second)

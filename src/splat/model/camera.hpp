@@ -21,8 +21,8 @@ struct Camera {
     glm::dvec3 position{0.0};        ///< camera centre in world space
     glm::dmat3 camera_to_world{1.0}; ///< columns are the view axes in world space
 
-    /// View z of a point in front of the camera that projects into the image, edges included; none of
-    /// any other point.
+    /// View z of a point in front of the camera that projects into the image, edges included; none
+    /// of any other point.
     std::optional<double> seen_depth(const glm::dvec3& point) const;
     std::uint64_t pixels() const { return std::uint64_t{1} * width * height; }
     /// This view at another width; height and focal lengths follow, height is rounded (at least

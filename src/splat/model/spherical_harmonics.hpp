@@ -21,9 +21,9 @@ std::array<double, kMaxShCoefficients> sh_basis(int degree, const glm::dvec3& di
 /// GaussianCloud::sh. The 0.5 that the 3DGS colour adds is not included.
 glm::dvec3 evaluate_sh(int degree, const float* coefficients, const glm::dvec3& direction);
 
-/// sum c_k Y_k(direction) in the arithmetic of `numbers`: coefficients and constants are rounded once, and so is
-/// the result of every operation. Compiled for double, float and Rounded; sh_evaluation.hpp has it for any scalar.
-/// Degree 0 does not read `direction`.
+/// sum c_k Y_k(direction) in the arithmetic of `numbers`: coefficients and constants are rounded
+/// once, and so is the result of every operation. Compiled for double, float and Rounded;
+/// sh_evaluation.hpp has it for any scalar. Degree 0 does not read `direction`.
 template <class Numbers>
 Vector3<typename Numbers::Scalar> evaluate_sh(const Numbers& numbers, int degree,
                                               const float* coefficients,

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
-// The pragmas that compile a kernel for an instruction set are those of g++; with other compilers there
-// are lanes for the instruction set of the build alone, which give the same bits.
+// The pragmas that compile a kernel for an instruction set are those of g++; with other compilers
+// there are lanes for the instruction set of the build alone, which give the same bits.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define DEGS_HAS_WIDE_LANES 1
 #endif
@@ -24,8 +24,8 @@ enum class InstructionSet {
 /// it.
 InstructionSet instruction_set();
 
-/// The elements of `variants`, one per instruction set from Narrow on, that this machine can run; the last
-/// one is the fastest.
+/// The elements of `variants`, one per instruction set from Narrow on, that this machine can run;
+/// the last one is the fastest.
 template <class Variant>
 std::vector<Variant> runnable(std::vector<Variant> variants) {
     const std::size_t most = static_cast<std::size_t>(instruction_set()) + 1;

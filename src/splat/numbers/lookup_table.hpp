@@ -63,7 +63,8 @@ public:
     /// Largest distance of a result from the function, beside rounding: of the result itself with
     /// Reduction::None, else relative to the power of two that the table's result is shifted by.
     double shape_error() const;
-    /// Tables with cells that this process has filled so far: work that other formats must not cost.
+    /// Tables with cells that this process has filled so far: work that other formats must not
+    /// cost.
     static std::uint64_t filled();
 
     /// For lanes: per cell, the value at its lower end and the fall to its upper end (0 if

@@ -13,12 +13,13 @@ namespace degs {
 
 /// The values that a register, a record field or a result of the data path can take.
 ///
-/// A `Float` has the shape of IEEE 754. Stored exponent 0 holds subnormals, the highest one infinities
-/// and NaN. Values are rounded to nearest, ties to even, and values that are too large become infinite.
+/// A `Float` has the shape of IEEE 754. Stored exponent 0 holds subnormals, the highest one
+/// infinities and NaN. Values are rounded to nearest, ties to even, and values that are too large
+/// become infinite.
 ///
-/// A `Fixed` value is a multiple of 2^-fraction_bits. Values that are too large saturate at the largest
-/// value of either sign (the lowest two's complement code is not used), and NaN at the positive one.
-/// An unsigned format has no sign bit, and negative values become 0.
+/// A `Fixed` value is a multiple of 2^-fraction_bits. Values that are too large saturate at the
+/// largest value of either sign (the lowest two's complement code is not used), and NaN at the
+/// positive one. An unsigned format has no sign bit, and negative values become 0.
 struct NumberFormat {
     enum class Kind { Float, Fixed };
     Kind kind = Kind::Float;
@@ -53,7 +54,8 @@ inline bool operator!=(const NumberFormat& a, const NumberFormat& b) {
 
 /// Reads a name of one of these forms; a `u` in front means that there is no sign:
 /// * "fp64", "fp32", "fp16", "bf16"
-/// * "e6m9", "e5m10b29", "ue5m11b29": exponent bits, mantissa bits and bias (2^(E-1) - 1 if not given)
+/// * "e6m9", "e5m10b29", "ue5m11b29": exponent bits, mantissa bits and bias (2^(E-1) - 1 if not
+/// given)
 /// * "q4.12", "uq0.16": integer bits (the sign included) and fraction bits
 ///
 /// Throws InputError, which lists what is allowed.
@@ -88,8 +90,8 @@ public:
             return y >= to_.min && y <= to_.max ? y : outside(x);
         }
         // What lies between the smallest normal and the largest value: half a unit less one is
-        // added to the pattern, and the last bit that is kept, before the rest is cut. With fp64 all
-        // patterns stay as they are.
+        // added to the pattern, and the last bit that is kept, before the rest is cut. With fp64
+        // all patterns stay as they are.
         std::uint64_t bits = 0;
         std::memcpy(&bits, &x, sizeof bits);
         if ((bits & to_.magnitude) - to_.low > to_.range) {

@@ -7,9 +7,9 @@
 
 namespace degs {
 
-/// Formats of what makes splats out of Gaussians. By default those of the reference: SH coefficients
-/// as the scene has them, everything else in double, and depths compared as fp32 (the original code
-/// sorts by the bits of a float).
+/// Formats of what makes splats out of Gaussians. By default those of the reference: SH
+/// coefficients as the scene has them, everything else in double, and depths compared as fp32 (the
+/// original code sorts by the bits of a float).
 struct ProjectionNumbers {
     NumberFormat format;  ///< of every operation; fp64 and fp32 are native
     NumberFormat sh_dc;   ///< SH coefficients of degree 0 in memory, rounded before use

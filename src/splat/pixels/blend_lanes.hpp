@@ -126,9 +126,9 @@ struct EndsOfRows {
     bool exact = true; ///< ceil and floor; else floor and ceil, and `delta`
     float delta = 0;   ///< px more at either end
 };
-/// DataPath::draw_rows() of solved rows in single precision: neighbouring rows are solved together, then the
-/// neighbouring pixels of each row are blended together. `firsts` has the first pixel of every row, by row of the
-/// tile. Planes, `refuse` and widths as for BlendFunction.
+/// DataPath::draw_rows() of solved rows in single precision: neighbouring rows are solved together,
+/// then the neighbouring pixels of each row are blended together. `firsts` has the first pixel of
+/// every row, by row of the tile. Planes, `refuse` and widths as for BlendFunction.
 using DrawFunction = void (*)(const TileRows& rows, const SpanRecord<float>& span,
                               const BlendRecord<float>& splat, const EndsOfRows& ends, bool refuse,
                               PixelPlanes<float>& pixels, const std::size_t* firsts,

@@ -23,8 +23,9 @@ struct CheckedRow {
         return a * u * u + rest <= limit;
     }
 
-    /// The columns of `bounds` whose pixels pass, to the last rounding. They are neighbours, because
-    /// the sum falls towards the centre and rises behind it, rounded or not; there may be none.
+    /// The columns of `bounds` whose pixels pass, to the last rounding. They are neighbours,
+    /// because the sum falls towards the centre and rises behind it, rounded or not; there may be
+    /// none.
     ///
     /// The solved ends, centre -+ width, name them unless a pixel is so close to an end that
     /// rounding may decide. With e = epsilon of T: a sum up to the limit passes and one an ulp
@@ -54,8 +55,8 @@ private:
     static constexpr T kDoubt = T(0x1p-14);
     static_assert(kDoubt >= 512 * std::numeric_limits<T>::epsilon() && kQLimit < 16);
 
-    /// The pixel nearest to the centre decides whether there are any; the solved ends are then moved
-    /// until the check agrees.
+    /// The pixel nearest to the centre decides whether there are any; the solved ends are then
+    /// moved until the check agrees.
     [[gnu::noinline]] PixelRange searched(const PixelRange& bounds, T first, T last) const {
         const int low = bounds.first;
         const int high = bounds.last;

@@ -21,12 +21,13 @@ inline PixelRange columns_of_box(const ProjectedSplat& splat) {
             index_within(std::floor(splat.mu_x + reach), -kLimit, kLimit)};
 }
 
-/// All columns of the splat's bounding box on image row `y`, in place of DataPath::solve_row. Its g0
-/// and d0 mean nothing.
+/// All columns of the splat's bounding box on image row `y`, in place of DataPath::solve_row. Its
+/// g0 and d0 mean nothing.
 std::optional<RowSpan> row_of_box(const DataPath& path, std::uint32_t splat, int y, int x_begin,
                                   int x_end, int tile_y);
 
-/// The test of the pixels of a task whose tile has its first pixel at (tile_x, tile_y) of the image.
+/// The test of the pixels of a task whose tile has its first pixel at (tile_x, tile_y) of the
+/// image.
 PixelTest test_of(const BlendTask& task, int tile_x, int tile_y);
 
 } // namespace degs

@@ -122,8 +122,8 @@ struct TileRows {
     bool tests = false; ///< rows are as wide as the splat's box, and every pixel tests itself
 };
 
-/// What becomes of the pixels of a row. Bit i of a mask is column i of the tile. It is 32 bytes without a gap, so that
-/// a copy of what was just written need not wait for the write.
+/// What becomes of the pixels of a row. Bit i of a mask is column i of the tile. It is 32 bytes
+/// without a gap, so that a copy of what was just written need not wait for the write.
 struct DrawnRow {
     std::uint64_t inside = 0; ///< tasks inside the ellipse; all others of the span are outside
     std::uint64_t useful = 0; ///< of these, blended; the others have ended or refuse the splat
@@ -144,8 +144,8 @@ public:
     virtual void expect(std::uint32_t splat) const = 0;
     /// The image rows (unclipped) that the splat's ellipse meets.
     virtual PixelRange rows(std::uint32_t splat) const = 0;
-    /// The image rows that the ellipse meets in columns [x_begin, x_end). May name a row too many at
-    /// either end (rounding), never one too few; empty if the ellipse passes by.
+    /// The image rows that the ellipse meets in columns [x_begin, x_end). May name a row too many
+    /// at either end (rounding), never one too few; empty if the ellipse passes by.
     virtual PixelRange rows_in_columns(std::uint32_t splat, int x_begin, int x_end) const = 0;
     /// The image columns (unclipped) that the splat's ellipse meets.
     virtual PixelRange columns(std::uint32_t splat) const = 0;
@@ -164,11 +164,11 @@ public:
     /// 10), and blends the live ones with q <= Q_th; the others keep their state. For number
     /// sets see QuantizedRow::check. With DataPathOptions::gemm, q' is that product instead.
     virtual BlendOutcome test(const PixelTest& test) = 0;
-    /// Tests pixels as test() does on `rows` rows inside the tile, from the row of `test` downwards, each
-    /// with the mask of `test` and an outcome of its own.
+    /// Tests pixels as test() does on `rows` rows inside the tile, from the row of `test`
+    /// downwards, each with the mask of `test` and an outcome of its own.
     virtual void test_rows(const PixelTest& test, int rows, BlendOutcome* outcomes) = 0;
-    /// The rows among `rows` on which test() may find a pixel of `columns` inside. May name rows too
-    /// many, never one too few. Like tested_columns() for the completed square alone.
+    /// The rows among `rows` on which test() may find a pixel of `columns` inside. May name rows
+    /// too many, never one too few. Like tested_columns() for the completed square alone.
     virtual PixelRange tested_rows(std::uint32_t splat, const PixelRange& columns,
                                    const PixelRange& rows) const = 0;
     /// The columns among [x_begin, x_end) whose pixels on image row `y` pass test()'s q <= Q_th, to
@@ -177,8 +177,9 @@ public:
     /// True if rounding may let test() find pixels inside that lie visibly outside the ellipse of
     /// the splat as it was projected: number sets.
     virtual bool rounds_coarsely() const = 0;
-    /// Solves rows and blends them, each as solve_row() and blend() do, or as row_of_box() and test(). `drawn` has a
-    /// place for each of the rows, in their order. Splats of a row come in the order of their depth.
+    /// Solves rows and blends them, each as solve_row() and blend() do, or as row_of_box() and
+    /// test(). `drawn` has a place for each of the rows, in their order. Splats of a row come in
+    /// the order of their depth.
     virtual void draw_rows(const TileRows& rows, DrawnRow* drawn) = 0;
     /// Makes room for tile contexts up to this number, at most kMostContexts.
     virtual void hold_contexts(int contexts) = 0;

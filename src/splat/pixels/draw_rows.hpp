@@ -11,9 +11,9 @@
 
 namespace degs {
 
-/// DataPath::draw_rows() of any data path, row by row. `Path` is the data path's own class, so that the calls need no
-/// table; solved(i, row) is the span of the i-th row, `row` of the tile, without a pixel if its length is 0. It is not
-/// asked for if PEs test.
+/// DataPath::draw_rows() of any data path, row by row. `Path` is the data path's own class, so that
+/// the calls need no table; solved(i, row) is the span of the i-th row, `row` of the tile, without
+/// a pixel if its length is 0. It is not asked for if PEs test.
 template <class Path, class Solved>
 void draw_row_by_row(Path& path, const TileRows& rows, const Solved& solved, DrawnRow* drawn) {
     constexpr int kTasks = 32; // of a BlendTask

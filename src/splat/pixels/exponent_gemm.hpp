@@ -12,30 +12,34 @@
 
 namespace degs {
 
-/// The exponents of a tile's pixels as a product of matrices, as ORANGE forms them (Li et al., HPCA 2026): every
-/// splat is a row of kGemmDepth coefficients, every pixel a column of as many monomials of its coordinates,
+/// The exponents of a tile's pixels as a product of matrices, as ORANGE forms them (Li et al., HPCA
+/// 2026): every splat is a row of kGemmDepth coefficients, every pixel a column of as many
+/// monomials of its coordinates,
 ///
-///     q' = v . (x^2, y^2, x y, x, y, 1),   x, y from an origin that all pixels of the product share.
+///     q' = v . (x^2, y^2, x y, x, y, 1),   x, y from an origin of the whole product.
 ///
-/// It is q - 2 ln o of the same conic A, B, C as everywhere, multiplied out. The terms are larger than their sum by the
-/// square of the distance from the origin to the splat, in standard deviations, and their rounding stays in q'.
+/// It is q - 2 ln o of the same conic A, B, C as everywhere, multiplied out. The terms are larger
+/// than their sum by the square of the distance from the origin to the splat, in standard
+/// deviations, and their rounding stays in q'.
 constexpr int kGemmDepth = 6;
 
-/// Where x = y = 0. `Tile`: at the pixel in the middle of the tile, so that the coefficients of a splat are those of
-/// one tile. `Image`: at the first pixel of the image, so that one row of coefficients serves all tiles.
+/// Where x = y = 0. `Tile`: at the pixel in the middle of the tile, so that the coefficients of a
+/// splat are those of one tile. `Image`: at the first pixel of the image, so that one row of
+/// coefficients serves all tiles.
 enum class GemmOrigin { Tile, Image };
 
 struct ExponentGemm {
     GemmOrigin origin = GemmOrigin::Tile;
-    /// Formats of a number set: coefficients and monomials; products and their sums. Single and double precision
-    /// use their own.
+    /// Formats of a number set: coefficients and monomials; products and their sums. Single and
+    /// double precision use their own.
     NumberFormat operands, sums;
 };
 
 template <class T>
 using GemmRow = std::array<T, kGemmDepth>;
 
-/// The parameters from which the coefficients of a splat are formed: mean, conic, each rounded once, and 2 ln o.
+/// The parameters from which the coefficients of a splat are formed: mean, conic, each rounded
+/// once, and 2 ln o.
 template <class T>
 struct GemmSplat {
     int pixel_x = 0, pixel_y = 0; ///< nearest to the mean
@@ -44,7 +48,8 @@ struct GemmSplat {
     T fold = 0;                   ///< 2 ln o
     bool cut = false;             ///< a cut ends the splat, see ProjectedSplat::q_end
 
-    /// The coefficients for an origin, image px. Every operation is rounded to T, in the order in which it is written.
+    /// The coefficients for an origin, image px. Every operation is rounded to T, in the order in
+    /// which it is written.
     GemmRow<T> row(int origin_x, int origin_y) const {
         const T dx = static_cast<T>(pixel_x - origin_x) + offset_x;
         const T dy = static_cast<T>(pixel_y - origin_y) + offset_y;

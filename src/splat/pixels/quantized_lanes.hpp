@@ -55,8 +55,8 @@ struct TestedPixels {
     std::uint32_t mask = 0;
     float q[32] = {}; ///< of mask bit i
 };
-/// A PE that blends where q <= the limit of the splat, otherwise like QuantizedBlendFunction; all else is
-/// boundary.
+/// A PE that blends where q <= the limit of the splat, otherwise like QuantizedBlendFunction; all
+/// else is boundary.
 using QuantizedTestFunction = BlendOutcome (*)(const TestedPixels& tested,
                                                const BlendRecord<float>& splat,
                                                const LaneNumbers& numbers, bool refuse,

@@ -58,7 +58,8 @@ public:
     QuantizedSplat record(const ProjectedSplat& splat) const;
     /// Solves image row `y` for the columns x_begin .. x_end - 1 (paper Eq. 12-15, 19).
     QuantizedSpan solve(const QuantizedSplat& splat, int y, int x_begin, int x_end) const;
-    /// True if row `y` meets the ellipse (x <= 1). All rows nearer to the mean then meet it as well.
+    /// True if row `y` meets the ellipse (x <= 1). All rows nearer to the mean then meet it as
+    /// well.
     bool meets(const QuantizedSplat& splat, int y) const;
     /// The coupled check of a pixel (DataPath::test) with the Span Unit's operations: dy, x_c and
     /// level as in solve(), then q' = (A u) u + level, rounded to the format of q. With

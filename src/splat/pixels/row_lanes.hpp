@@ -33,9 +33,9 @@ struct RowsToSolve {
 /// The span in columns from x_begin on, without splat and row; its length is 0 if it is empty.
 RowSpan row_span(const QuantizedSpan& span, int x_begin);
 
-/// Solves the rows as QuantizedRow::solve does, several at once, into the spans that row_span() makes of them, and
-/// returns those that it leaves out, bit by bit: there an operation has left the range in which the values of a format
-/// round alike.
+/// Solves the rows as QuantizedRow::solve does, several at once, into the spans that row_span()
+/// makes of them, and returns those that it leaves out, bit by bit: there an operation has left the
+/// range in which the values of a format round alike.
 using SolveRowsFunction = std::uint64_t (*)(const RowNumbers& numbers, const QuantizedSplat& splat,
                                             const RowsToSolve& rows, RowSpan* spans);
 /// With the widest vectors of the machine it runs on; the same bits at any width.

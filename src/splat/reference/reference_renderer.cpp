@@ -15,7 +15,8 @@
 namespace degs {
 namespace {
 
-/// Where alpha decides, pixels this far outside Q_th need no exponential; far above the rounding of q.
+/// Where alpha decides, pixels this far outside Q_th need no exponential; far above the rounding of
+/// q.
 constexpr double kQMargin = 1e-6;
 
 struct Pixel {
@@ -25,8 +26,9 @@ struct Pixel {
     bool done = false; ///< a splat was refused
 };
 
-/// The terms of a splat for the pixel loop. q = A (dx - (b/c) dy)^2 + dy^2 / c is the completed square
-/// of the conic form: the same q, but a sum of non-negative terms that stays exact for needles.
+/// The terms of a splat for the pixel loop. q = A (dx - (b/c) dy)^2 + dy^2 / c is the completed
+/// square of the conic form: the same q, but a sum of non-negative terms that stays exact for
+/// needles.
 struct SplatTerms {
     double conic_a, slope, inverse_c, det_over_c, q_limit;
     explicit SplatTerms(const ProjectedSplat& s)

@@ -24,9 +24,9 @@ glm::dmat3 unit_columns(const glm::dmat3& m) {
     return {glm::normalize(m[0]), glm::normalize(m[1]), glm::normalize(m[2])};
 }
 
-/// Makes the columns orthogonal by rotations from the right (one-sided Jacobi). The columns of the result
-/// are the left singular vectors, times the singular values. Small values keep their relative
-/// accuracy, which an eigen-decomposition of the product with the transpose would lose.
+/// Makes the columns orthogonal by rotations from the right (one-sided Jacobi). The columns of the
+/// result are the left singular vectors, times the singular values. Small values keep their
+/// relative accuracy, which an eigen-decomposition of the product with the transpose would lose.
 glm::dmat3 orthogonal_columns(glm::dmat3 a) {
     constexpr int kSweeps = 30; // 5 are enough for every matrix seen
     constexpr double kOrthogonal = 1e-15;

@@ -9,9 +9,9 @@
 namespace degs {
 namespace {
 
-/// Calls `visit(direction, weight)` for a quadrature of the sphere that integrates polynomials up to
-/// degree 7 without error: Gauss-Legendre in z, equal steps of the azimuth. Products of two functions
-/// of degree 3 have degree 6.
+/// Calls `visit(direction, weight)` for a quadrature of the sphere that integrates polynomials up
+/// to degree 7 without error: Gauss-Legendre in z, equal steps of the azimuth. Products of two
+/// functions of degree 3 have degree 6.
 template <class Visit>
 void for_each_quadrature_point(const Visit& visit) {
     constexpr int kAzimuths = 8;

@@ -12,9 +12,11 @@ namespace degs {
 /// A band maps to itself, so the matrix consists of blocks of 3, 5 and 7 rows.
 class ShRotation {
 public:
-    /// `rotation` is orthonormal, with determinant +1; degree 0..3. The elements are exact up to double rounding.
+    /// `rotation` is orthonormal, with determinant +1; degree 0..3. The elements are exact up to
+    /// double rounding.
     ShRotation(int degree, const glm::dmat3& rotation);
-    /// `coefficients` is [coefficient][channel], as in GaussianCloud::sh. Sums in double, rounds once.
+    /// `coefficients` is [coefficient][channel], as in GaussianCloud::sh. Sums in double, rounds
+    /// once.
     void apply(float* coefficients) const;
 
 private:

@@ -208,7 +208,8 @@ TEST(SmallRunGccStages, FramesOverlap) {
     EXPECT_LT(both.result().frames[1].preprocessed, both.result().frames[0].finished);
 }
 
-// What a pixel takes does not depend on the cluster that works on its view, nor on how many there are.
+// What a pixel takes does not depend on the cluster that works on its view, nor on how many there
+// are.
 TEST(GccClusters, ChangeNoPixelAndTakeTheViewsInTurn) {
     const FrameWorkload first = test::random_frame(5, 200, 150, 32, 300);
     const FrameWorkload second = test::random_frame(6, 170, 90, 32, 250);
@@ -233,8 +234,9 @@ TEST(GccClusters, ChangeNoPixelAndTakeTheViewsInTurn) {
     EXPECT_LT(runs[2]->result().cycles, runs[1]->result().cycles);
 }
 
-// Four views of 64 windows under 30 splats, of which each of two arrays has two. The lists are there
-// at once, so that the second starts a cycle after the first, because one view is granted per cycle.
+// Four views of 64 windows under 30 splats, of which each of two arrays has two. The lists are
+// there at once, so that the second starts a cycle after the first, because one view is granted per
+// cycle.
 TEST(GccClusters, ShareTheWorkOfTheArrayAlone) {
     const FrameWorkload frame =
         make_frame(std::vector<ProjectedSplat>(30, blanket(128, 32, 1e4, 0.01)), 256, 64, 64);

@@ -7,8 +7,8 @@
 
 namespace degs::test {
 
-/// `cores` cores of `rows` x `columns` multipliers for tiles of `tile` px in double precision; buffers as large as
-/// needed.
+/// `cores` cores of `rows` x `columns` multipliers for tiles of `tile` px in double precision;
+/// buffers as large as needed.
 inline orange::Config orange_of(int tile, int cores, int rows = 32, int columns = 32) {
     orange::Config c;
     c.pipeline.numbers = Arithmetic::Fp64;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole ORANGE: nothing is lost, the image is right, dates are those of the rule, run-ahead changes nothing.
+// The whole ORANGE: nothing is lost, the image is right, dates are those of the rule, run-ahead
+// changes nothing.
 #include <random>
 
 #include "tests/baselines/orange/orange_fixture.hpp"
@@ -50,7 +51,8 @@ FrameWorkload stack(int count, double opacity = 0.01) {
                             8, 8);
 }
 
-// One core, one tile, batches of 256: the array works on them one after the other, and the vector unit is faster.
+// One core, one tile, batches of 256: the array works on them one after the other, and the vector
+// unit is faster.
 TEST(SmallRunOrange, BatchesFollowEachOtherInTheArray) {
     const FrameWorkload frame = stack(700);
     BuildOptions alone;
@@ -69,7 +71,8 @@ TEST(SmallRunOrange, BatchesFollowEachOtherInTheArray) {
     EXPECT_EQ(result.slots[Slot::Padding], busy * 1024 - 700U * 64 * 6);
 }
 
-// A vector unit of few lanes is what limits: products come first, so the array waits for coefficients.
+// A vector unit of few lanes is what limits: products come first, so the array waits for
+// coefficients.
 TEST(SmallRunOrange, ANarrowVectorUnitStarvesTheArray) {
     const FrameWorkload frame = stack(256 * 6, 0.005);
     BuildOptions alone;
@@ -90,8 +93,8 @@ TEST(SmallRunOrange, ANarrowVectorUnitStarvesTheArray) {
     EXPECT_EQ(run.result().slots[Slot::Blocked], 0U);
 }
 
-// Opaque splats end every pixel of the tile within the first batch: what is fetched or multiplied by then is thrown
-// away.
+// Opaque splats end every pixel of the tile within the first batch: what is fetched or multiplied
+// by then is thrown away.
 TEST(SmallRunOrange, LeavesATileAfterTheBatchThatEndsIt) {
     const FrameWorkload frame = stack(256 * 20, 0.9);
     orange::Config config = orange_of(8, 1);
@@ -114,7 +117,8 @@ TEST(SmallRunOrange, LeavesATileAfterTheBatchThatEndsIt) {
 
 class SmallRunOrangeNumbers : public ::testing::TestWithParam<Arithmetic> {};
 
-// Every pixel of a tile tests every splat of its list, so the image is that of all pixels, bit by bit.
+// Every pixel of a tile tests every splat of its list, so the image is that of all pixels, bit by
+// bit.
 TEST_P(SmallRunOrangeNumbers, ImageIsThatOfItsPixels) {
     orange::Config config = orange_of(8, 2);
     config.pipeline.numbers = GetParam();

@@ -82,8 +82,8 @@ INSTANTIATE_TEST_SUITE_P(Sides, OrangeArrayShare,
                                            ShareOfSide{64, 0.09375, 0.09375 * 256 / 382},
                                            ShareOfSide{128, 0.046875, 0.046875 * 256 / 510}));
 
-// The paper's two ends: 96.0 % with 4 multipliers is a fill of two cycles behind 48 splats, and 4.69 % with 16 384 is
-// the share of the reduction alone.
+// The paper's two ends: 96.0 % with 4 multipliers is a fill of two cycles behind 48 splats,
+// and 4.69 % with 16 384 is the share of the reduction alone.
 TEST(OrangeArray, EndsOfThePapersSweep) {
     EXPECT_DOUBLE_EQ(used(array_of(2), 48, 64), 0.96);
     EXPECT_NEAR(100 * array_of(128).reduction_share(), 4.69, 0.005);

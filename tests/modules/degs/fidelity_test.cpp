@@ -248,7 +248,8 @@ void expect_same_tiles(const SlotRecorder& a, const SlotRecorder& b) {
     }
 }
 
-// Names in timelines begin with those of the two accelerators, so that only what they hold is compared.
+// Names in timelines begin with those of the two accelerators, so that only what they hold is
+// compared.
 void expect_same_timelines(const TimelineRecord& a, const TimelineRecord& b) {
     EXPECT_EQ(a.step, b.step);
     EXPECT_EQ(a.end, b.end);
@@ -270,7 +271,8 @@ void expect_same_timelines(const TimelineRecord& a, const TimelineRecord& b) {
     }
 }
 
-// Tasks that have been drawn are recorded when they are packed, with the dates at which they execute.
+// Tasks that have been drawn are recorded when they are packed, with the dates at which they
+// execute.
 class RecordedRunFidelity : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(RecordedRunFidelity, ExactIsStrict) {

@@ -263,8 +263,8 @@ TEST(SmallRun, ManyTinyTilesInFlight) {
 }
 
 // A bank has long been at work on one tile when the next hundred, of which it has no row, end with
-// it in one cycle. The ends take no room of its few packets: if they waited for each other, PE slots
-// would be lost until its next tile.
+// it in one cycle. The ends take no room of its few packets: if they waited for each other, PE
+// slots would be lost until its next tile.
 TEST(SmallRun, MoreTilesEndThanPacketsFit) {
     DegsConfig config = exact_arithmetic();
     config.tile_size = 4;

@@ -109,10 +109,11 @@ std::ostream& operator<<(std::ostream& out, const GrainDates& dates) {
 }
 class OwnPixels : public ::testing::TestWithParam<GrainDates> {};
 
-// 13 splats on one pixel, and behind them a splat on its whole row. The third one, at 12 + 2 * 4, ends
-// the pixel; its report is back at 24, when the fourth one has been issued for 24. By segments all wait
-// their turn: the last of the pixel executes at 12 + 12 * 4, the row at 64. Else the nine that are left
-// are dropped from 26 on, four per cycle, and the row goes with the last one at 28 and executes at 30.
+// 13 splats on one pixel, and behind them a splat on its whole row. The third one, at 12 + 2 * 4,
+// ends the pixel; its report is back at 24, when the fourth one has been issued for 24. By segments
+// all wait their turn: the last of the pixel executes at 12 + 12 * 4, the row at 64. Else the nine
+// that are left are dropped from 26 on, four per cycle, and the row goes with the last one at 28
+// and executes at 30.
 TEST_P(OwnPixels, DecideAtIssue) {
     const GrainDates& expected = GetParam();
     std::vector<ProjectedSplat> splats(13, one_pixel(4, 0, 0.98));
@@ -153,7 +154,8 @@ INSTANTIATE_TEST_SUITE_P(Grains, OwnPixels,
                                            GrainDates{TerminationGrain::Pixel, 30, 5, 2, 10}),
                          [](const auto& dates) { return name_of(dates.param.grain); });
 
-/// Opaque splats of 5 to 15 pixels in width: most segments are parts of a region, and pixels end soon.
+/// Opaque splats of 5 to 15 pixels in width: most segments are parts of a region, and pixels end
+/// soon.
 FrameWorkload small_opaque_frame() {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> unit(0, 1);

@@ -14,7 +14,8 @@ using test::one_row;
 constexpr std::uint64_t kSplats = 20;
 
 /// Two tiles of 16 x 16 px, each with twenty splats that cover row 5: one conflict domain per tile,
-/// so that a tile keeps the array busy in every fourth cycle. One bank of 16 PEs: a row is a packet.
+/// so that a tile keeps the array busy in every fourth cycle. One bank of 16 PEs: a row is a
+/// packet.
 FrameWorkload two_chains() {
     std::vector<ProjectedSplat> splats;
     for (std::uint64_t i = 0; i < kSplats; ++i) {
@@ -56,8 +57,8 @@ TEST(TileStreams, OneStreamWorksOnOneTileAfterTheOther) {
     EXPECT_EQ(run.window().cycles(), 2 * chain(kSplats) + handover - 1);
 }
 
-// Two streams: the chains run side by side. The lists are granted one cycle after the other, and the
-// second chain executes in the gaps of the first.
+// Two streams: the chains run side by side. The lists are granted one cycle after the other, and
+// the second chain executes in the gaps of the first.
 TEST(TileStreams, TwoStreamsFillEachOthersGaps) {
     const FrameWorkload frame = two_chains();
     const DegsRun run("run", one_bank(2), {&frame});

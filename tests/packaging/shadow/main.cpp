@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uses headers of its own and the package's in one program. Exits with 0 if an accelerator is built with the keys that
-// were set by name.
+// Uses headers of its own and the package's in one program. Exits with 0 if an accelerator is built
+// with the keys that were set by name.
 #include <cstdio>
 #include <string>
 

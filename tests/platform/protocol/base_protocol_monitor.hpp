@@ -34,12 +34,13 @@ enum class Rule {
     Unfinished         ///< a transaction that never ends
 };
 
-/// Stands between an initiator and a memory and passes every call on as it is; checks both and records what they break.
+/// Stands between an initiator and a memory and passes every call on as it is; checks both and
+/// records what they break.
 ///
-/// Channels are that of requests (BEGIN_REQ, END_REQ) and that of responses (BEGIN_RESP, END_RESP). A request that ends
-/// without END_REQ, by BEGIN_RESP or by TLM_COMPLETED, ends with that call, whatever date it is annotated with. Phases
-/// that are not of the base protocol may be ignored, and are. An interconnect may change addresses and belongs on the
-/// initiator's side.
+/// Channels are that of requests (BEGIN_REQ, END_REQ) and that of responses (BEGIN_RESP, END_RESP).
+/// A request that ends without END_REQ, by BEGIN_RESP or by TLM_COMPLETED, ends with that call,
+/// whatever date it is annotated with. Phases that are not of the base protocol may be ignored, and
+/// are. An interconnect may change addresses and belongs on the initiator's side.
 class BaseProtocolMonitor : public sc_core::sc_module,
                             public tlm::tlm_fw_transport_if<>,
                             public tlm::tlm_bw_transport_if<> {
@@ -56,8 +57,8 @@ public:
         out.bind(*this);
     }
 
-    /// What was broken so far; with `ended`, transactions that have not ended and references that have not been given
-    /// back count, too.
+    /// What was broken so far; with `ended`, transactions that have not ended and references that
+    /// have not been given back count, too.
     std::vector<std::string> violations(bool ended = true) const {
         std::vector<std::string> all;
         for (const Violation& each : all_found(ended)) {

@@ -78,8 +78,8 @@ protected:
     }
 };
 
-// Early, late and blocking answers, with the hint of direct access in each; a memory that is busy annotates dates that
-// grow.
+// Early, late and blocking answers, with the hint of direct access in each; a memory that is busy
+// annotates dates that grow.
 TEST_P(MonitoredAccelerators, KeepsToTheProtocolWithBlockingMemories) {
     std::vector<std::unique_ptr<Platform>> platforms;
     const MemoryGateway::Options ways[] = {cut(0), cut(64), cut(32, BurstEnds::FullBursts)};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera files with bytes changed at random: each of them is either read or refused in one sentence.
+// Camera files with bytes changed at random: each of them is either read or refused in one
+// sentence.
 #include <cmath>
 #include <random>
 

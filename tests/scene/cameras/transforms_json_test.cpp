@@ -142,7 +142,8 @@ TEST(TrainedFrame, MovesCamerasOfTheOriginalData) {
                 test::IsSentenceWith("principal points up to 2.5 px off"));
 }
 
-// A COLMAP model is in the coordinates of the original data as well, beside the scene and by its name.
+// A COLMAP model is in the coordinates of the original data as well, beside the scene and by its
+// name.
 TEST(TrainedFrame, MovesCamerasOfAColmapModel) {
     for (const bool binary : {false, true}) {
         const test::Folder folder;

@@ -29,7 +29,8 @@ void end_on(int signal) {
 }
 
 // Most of the loop is between the call that makes a file and the next line of the program, so that
-// a name that enters the list of the handler after its file is there leaves a file within few signals.
+// a name that enters the list of the handler after its file is there leaves a file within few
+// signals.
 TEST(HostileSignal, LeavesNoPartialFileWhereverItComes) {
     const test::Folder folder;
     const std::string path = folder.path("result.txt");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that hold more than their headers say: one sentence each, because what is left over mostly means
-// that everything was read from the wrong place.
+// Files that hold more than their headers say: one sentence each, because what is left over mostly
+// means that everything was read from the wrong place.
 #include "scene/files/input_file.hpp"
 #include "scene/ply/ply.hpp"
 #include "scene/scene.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a glTF may cost: memory in proportion to its size. Not a Hostile suite, because the address sanitizer keeps what
-// has been freed.
+// What a glTF may cost: memory in proportion to its size. Not a Hostile suite, because the address
+// sanitizer keeps what has been freed.
 #include <algorithm>
 
 #include "tests/scene/gltf/glb_builder.hpp"
@@ -9,7 +9,8 @@
 namespace degs {
 namespace {
 
-// Bytes that every reader may keep (docs/scene-formats.md), and the pages of code that a child touches first.
+// Bytes that every reader may keep (docs/scene-formats.md), and the pages of code that a child
+// touches first.
 constexpr double kBuffers = 8e6;
 
 /// Bytes of memory that reading the file takes.

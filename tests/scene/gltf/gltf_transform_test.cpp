@@ -97,7 +97,8 @@ TEST(GltfNodes, WithoutAScenesListShowAllRoots) {
     EXPECT_EQ(test::read(glb).cloud.size(), 2U);
 }
 
-/// A node that moves splats gives the image that the inverse motion of the camera gives; colours included.
+/// A node that moves splats gives the image that the inverse motion of the camera gives; colours
+/// included.
 TEST(GltfNodes, MoveLikeTheInverseOfTheCamera) {
     DEGS_NEEDS_SCENE("skull");
     const auto folder = test::scenes() / "skull";
@@ -123,7 +124,8 @@ TEST(GltfNodes, MoveLikeTheInverseOfTheCamera) {
     EXPECT_LT(compare_images(expected, render(unturned, follows)).psnr_db, 60);
 }
 
-/// The GLB that another program made of a PLY has nearly the images of the PLY, and ours has them exactly.
+/// The GLB that another program made of a PLY has nearly the images of the PLY, and ours has them
+/// exactly.
 TEST(GltfImages, AreThoseOfThePly) {
     DEGS_NEEDS_SCENE("fruit-drops");
     const auto folder = test::scenes() / "fruit-drops";
@@ -135,7 +137,8 @@ TEST(GltfImages, AreThoseOfThePly) {
     for (const Camera& camera : ply.cameras) {
         const Image expected = render(ply.cloud, camera);
         EXPECT_EQ(render(ours, camera).rgb, expected.rgb);
-        // Scales and rotations of `theirs` are rounded otherwise, and a fragment at the threshold may flip.
+        // Scales and rotations of `theirs` are rounded otherwise, and a fragment at the threshold
+        // may flip.
         EXPECT_GT(compare_images(expected, render(theirs, camera)).psnr_db, 105);
     }
 }

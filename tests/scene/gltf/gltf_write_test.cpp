@@ -58,9 +58,9 @@ INSTANTIATE_TEST_SUITE_P(Shared, WrittenGlb,
                              return name;
                          });
 
-/// PLY -> GLB -> PLY against PLY -> PLY: the same file, byte for byte. Against the values of the original file, means
-/// and SH keep their bits; rotations do if they had length 1; logarithms and logits come back within what
-/// a float of the linear value can tell apart.
+/// PLY -> GLB -> PLY against PLY -> PLY: the same file, byte for byte. Against the values of the
+/// original file, means and SH keep their bits; rotations do if they had length 1; logarithms and
+/// logits come back within what a float of the linear value can tell apart.
 TEST(WrittenGlbAsPly, EqualsThePly) {
     DEGS_NEEDS_SCENE("fruit-drops");
     const std::string original = (test::scenes() / "fruit-drops/scene.ply").string();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Broken and malicious glTF: one sentence each, and no byte read outside the file. The rows of the first table are what
-// tinygltf 2.7.0 lets through.
+// Broken and malicious glTF: one sentence each, and no byte read outside the file. The rows of the
+// first table are what tinygltf 2.7.0 lets through.
 #include <random>
 
 #include "tests/scene/gltf/glb_builder.hpp"
@@ -309,7 +309,8 @@ TEST(HostileGlb, InstancesAreCountedBeforeTheyAreMade) {
 
 class HostileGlbMutation : public testing::TestWithParam<int> {};
 
-/// Random bytes of the whole file, or random numbers of its JSON: it loads, or there is one sentence.
+/// Random bytes of the whole file, or random numbers of its JSON: it loads, or there is one
+/// sentence.
 TEST_P(HostileGlbMutation, LoadsOrIsRefusedInOneSentence) {
     std::mt19937 random(static_cast<unsigned>(GetParam()));
     const auto below = [&](std::size_t n) { return random() % n; };

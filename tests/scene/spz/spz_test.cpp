@@ -58,7 +58,8 @@ TEST(Spz, RotationsOfVersions1And2HoldThreeComponents) {
     }
 }
 
-/// Half floats: subnormal, largest and negative ones; the fractional bits of the header mean nothing.
+/// Half floats: subnormal, largest and negative ones; the fractional bits of the header mean
+/// nothing.
 TEST(Spz, PositionsOfVersion1AreHalfFloats) {
     SpzBuilder spz = SpzBuilder::scene(1, 2, 1);
     spz.fractional_bits = 0;

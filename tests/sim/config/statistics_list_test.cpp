@@ -184,8 +184,8 @@ TEST(StatisticsCommand, ShowsASectionOfAnAccelerator) {
     EXPECT_EQ(keys.out.rfind("accelerator = gbu\n", 0), 0U);
 }
 
-// Not under the address sanitizer, which cannot follow an exception after SystemC's threads have run
-// (github.com/google/sanitizers/issues/189): the list comes from a run of one empty tile.
+// Not under the address sanitizer, which cannot follow an exception after SystemC's threads have
+// run (github.com/google/sanitizers/issues/189): the list comes from a run of one empty tile.
 TEST(UnknownStatistics, AreMistakes) {
     expect_mistake(degs({"config", "--stats", "--section", "stages.spam"}),
                    "did you mean 'stages.span'?");

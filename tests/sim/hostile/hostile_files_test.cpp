@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands in the folders of results and of the cache, and what ends a run while it writes there.
+// What stands in the folders of results and of the cache, and what ends a run while it writes
+// there.
 #include <csignal>
 
 #include <sys/resource.h>
@@ -107,8 +108,8 @@ TEST(HostileEnd, PartialFilesOfKilledRunsGoAndOthersStay) {
 }
 
 // A full disk keeps what was there before.
-// Not among the tests under the address sanitizer, which takes an exception behind a simulation for a
-// mistake because it does not know the stacks of SystemC's processes.
+// Not among the tests under the address sanitizer, which takes an exception behind a simulation for
+// a mistake because it does not know the stacks of SystemC's processes.
 TEST(FullDisk, ALimitOfFileSizesIsOne) {
     const Folder folder;
     const std::string out = folder / "out";

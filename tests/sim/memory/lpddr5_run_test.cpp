@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trained scenes on LPDDR5: scattered records load all channels, and what the report says of the memory
-// explains the cycles of a frame that memory limits.
+// Trained scenes on LPDDR5: scattered records load all channels, and what the report says of the
+// memory explains the cycles of a frame that memory limits.
 #include <algorithm>
 
 #include "tests/sim/process/child.hpp"

@@ -20,8 +20,9 @@ inline sim::RunConfig shipped(const std::string& design,
     return sim::load_run_config(std::string(DEGS_CONFIGS) + "/" + design + ".yaml", overrides);
 }
 
-/// Counters by "stage.counter", bytes and requests by "stream.bytes", and besides "activations", "tiles",
-/// "background_tiles", "lookup_tables" (with cells) and "dram_commands" (null without LPDDR5).
+/// Counters by "stage.counter", bytes and requests by "stream.bytes", and besides "activations",
+/// "tiles", "background_tiles", "lookup_tables" (with cells) and "dram_commands" (null without
+/// LPDDR5).
 using Counts = nlohmann::json;
 
 inline Counts counts_of(const AcceleratorResult& result) {

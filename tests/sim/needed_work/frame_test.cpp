@@ -8,7 +8,8 @@ namespace {
 
 constexpr int kHalf = 256; // px
 
-/// One set of splats, whose pixels all lie in the left half, in an image of that width or twice as wide.
+/// One set of splats, whose pixels all lie in the left half, in an image of that width or twice as
+/// wide.
 FrameWorkload left_half_in(int width, int tile_size) {
     FrameWorkload frame = test::random_frame(7, kHalf, 96, tile_size, 150);
     std::vector<ProjectedSplat> inside;
@@ -36,7 +37,8 @@ TEST_P(NeededTileWork, EmptyHalfCostsTheArrayNothing) {
     EXPECT_EQ(whole["tiles"], half["tiles"]);
 }
 
-/// The counters of a stage without those that follow from dates, which background writes on the bus move.
+/// The counters of a stage without those that follow from dates, which background writes on the bus
+/// move.
 Counts work_of(const Counts& stage) {
     Counts work;
     for (const auto& [name, value] : stage.items()) {
@@ -50,8 +52,8 @@ Counts work_of(const Counts& stage) {
     return work;
 }
 
-// With front end and memory, the background is written: a request per row of pixels of a run of tiles,
-// each of which resumes its writer a few times. Everything else does what it does without.
+// With front end and memory, the background is written: a request per row of pixels of a run of
+// tiles, each of which resumes its writer a few times. Everything else does what it does without.
 TEST_P(NeededTileWork, EmptyHalfCostsTheFrameItsBackgroundOnly) {
     const sim::RunConfig config = shipped(GetParam());
     const int tile = config.accelerator().tile_size_px();
@@ -121,7 +123,8 @@ TEST(NeededSplatWork, OneVisibleAmongAMillionCulledIsOneSplat) {
             EXPECT_EQ(million["streams"][name], stream) << name;
         }
     }
-    // Culled Gaussians come in chunks of 64, of which each is read, projected, handed on and dropped.
+    // Culled Gaussians come in chunks of 64, of which each is read, projected, handed on and
+    // dropped.
     const double chunks = kMany / 64.0;
     const double more = million["activations"].get<double>() - one["activations"].get<double>();
     EXPECT_GT(more, chunks);

@@ -67,7 +67,8 @@ TEST(NeededShWork, DegreeZeroIsOneProductPerChannel) {
 }
 
 TEST(NeededShWork, EveryBandAddsItsOwnOperationsOnly) {
-    // Operations of the basis functions alone: -k y, k z, -k x; then three squares and the five functions of band 2.
+    // Operations of the basis functions alone: -k y, k z, -k x; then three squares and the five
+    // functions of band 2.
     const int basis_products[] = {0, 3, 3 + 3 + 9};
     const int basis_sums[] = {0, 0, 3};
     for (int degree = 0; degree <= 2; ++degree) {

@@ -87,8 +87,8 @@ inline std::optional<nlohmann::ordered_json> report_with(const AdvisedView& view
     return degs(arguments).code == 0 ? std::optional(report_in(folder / "out")) : std::nullopt;
 }
 
-/// Whether a step of the advice for the loss of that reason lowers it by 5 % without a longer frame; ""
-/// or why not. `before` is the report of the view.
+/// Whether a step of the advice for the loss of that reason lowers it by 5 % without a longer
+/// frame; "" or why not. `before` is the report of the view.
 inline std::string failure_of(const std::string& advice, const std::string& reason,
                               const AdvisedView& view, const nlohmann::ordered_json& before) {
     const double lost = lost_for(before, reason);

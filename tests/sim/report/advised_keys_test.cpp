@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every cause and key that an accelerator can name has a situation in which `degs run` names it, and in
-// which to follow it lowers the loss.
+// Every cause and key that an accelerator can name has a situation in which `degs run` names it,
+// and in which to follow it lowers the loss.
 #include <algorithm>
 #include <filesystem>
 #include <set>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reasons that `degs run` names, where they are known by construction, and the keys that move them.
+// The reasons that `degs run` names, where they are known by construction, and the keys that move
+// them.
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -143,7 +144,8 @@ TEST(Losses, KeysAtTheirBestAreNotNamed) {
     EXPECT_EQ(gbu.find("end_probe"), std::string::npos) << gbu;
 }
 
-// GCC colours all groups but the first beside its array: no colour keeps the first task waiting for long.
+// GCC colours all groups but the first beside its array: no colour keeps the first task waiting for
+// long.
 TEST(Losses, TheFirstTaskOfGccWaitsForStageOne) {
     for (const char* more : {"memory.latency_ns=100", "clusters=2", "view_size=64"}) {
         SCOPED_TRACE(more);
@@ -200,7 +202,8 @@ TEST(Losses, WithoutAKeySayThatNoneMovesThem) {
     }
 }
 
-// The vector units keep ORANGE's array waiting, and more arrays behind the same lanes would wait more.
+// The vector units keep ORANGE's array waiting, and more arrays behind the same lanes would wait
+// more.
 TEST(Losses, OfOrangeNameTheVectorUnitsAndNotTheArray) {
     const std::string line = losses_of_run("orange-o1", kObject, {"cores.vector.lanes=64"}, kSmall);
     expect_first(line, "starved, for vector_units", "raise cores.vector.lanes");

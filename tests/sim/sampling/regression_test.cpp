@@ -56,8 +56,8 @@ TEST(RegressionEstimator, IsExactWhereTheSizesExplainEverything) {
     EXPECT_NEAR(estimator.total_without(0, 3), total, 1e-3 * total);
 }
 
-// Equal sizes leave the mean: total = N mean, and each block is the distance to the mean of the others
-// away from it, n / (n - 1) times that to the mean of all.
+// Equal sizes leave the mean: total = N mean, and each block is the distance to the mean of the
+// others away from it, n / (n - 1) times that to the mean of all.
 TEST(RegressionEstimator, IsTheExpansionEstimatorForEqualSizes) {
     const std::vector<TileWork> blocks(40, TileWork{1, 16, 5, 5, 4, 8, 8, 9});
     RegressionEstimator estimator(blocks);

@@ -55,7 +55,8 @@ TEST_P(SmallRunSampled, AgreesWithTheExactRun) {
             interval = interval.at(part);
         }
         const double value = number(exact, path);
-        // A sample of its kind misses in one case of twenty; four half-widths are missed by a mistake.
+        // A sample of its kind misses in one case of twenty; four half-widths are missed by a
+        // mistake.
         const double half = (interval[1].get<double>() - interval[0].get<double>()) / 2;
         EXPECT_NEAR(number(sample, path), value, std::max(2 * half, 0.004 * value)) << path;
         EXPECT_LT(half, 0.2 * value) << path;

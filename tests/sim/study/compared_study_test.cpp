@@ -59,7 +59,8 @@ TEST(ComparedStudy, OptionsReplaceItsViews) {
     EXPECT_EQ(quick["views"][0]["width"], 32);
 }
 
-// A study has the same numbers when it is compared as when it is swept, beside a plain configuration, too.
+// A study has the same numbers when it is compared as when it is swept, beside a plain
+// configuration, too.
 TEST(ComparedStudy, AgreesWithItsSweep) {
     const Folder folder;
     const std::string file =

@@ -36,8 +36,8 @@ void run_and_kill(const std::vector<std::string>& arguments, std::chrono::micros
     ::waitpid(child, &status, 0);
 }
 
-/// Kills `first` and `second` by turns, both of whose points are finished, at moments all over their
-/// time, and calls `check` after each.
+/// Kills `first` and `second` by turns, both of whose points are finished, at moments all over
+/// their time, and calls `check` after each.
 void kill_by_turns(const std::vector<std::string>& first, const std::vector<std::string>& second,
                    const std::function<void()>& check) {
     ASSERT_EQ(degs(first).code, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exponents as products of matrices: the multiplied-out form is the same q', in the order of the reduction, and its
-// error is what the sizes of the terms allow.
+// Exponents as products of matrices: the multiplied-out form is the same q', in the order of the
+// reduction, and its error is what the sizes of the terms allow.
 #include <cmath>
 #include <limits>
 #include <random>

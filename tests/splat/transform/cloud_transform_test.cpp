@@ -97,7 +97,8 @@ TEST(ShRotation, LeavesDegreeZeroAlone) {
     EXPECT_NE(turned[3], cloud.sh[3]);
 }
 
-/// Half a turn about y: x and z change sign, and with them the functions that are odd in one of the two.
+/// Half a turn about y: x and z change sign, and with them the functions that are odd in one of the
+/// two.
 TEST(ShRotation, KnowsHalfATurn) {
     const glm::dmat3 rotation(-1, 0, 0, 0, 1, 0, 0, 0, -1);
     std::vector<float> ones(16 * 3, 1.0F);

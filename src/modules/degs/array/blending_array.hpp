@@ -20,7 +20,8 @@ namespace degs {
 /// packet per cycle, in order. The data path computes q_n, alpha and the recurrence; without span
 /// parsing the PEs also test whether their pixel is inside the ellipse. Pixel state is
 /// written back after `writeback_cycles`, and the reports that a pixel or a whole segment has ended
-/// leave at the same date. The slice never stalls, because a packet is issued only when nothing can stop it.
+/// leave at the same date. The slice never stalls, because a packet is issued only when nothing can
+/// stop it.
 class ArraySlice : public sc_core::sc_module, private Pumped {
 public:
     struct Config {
@@ -64,7 +65,8 @@ public:
                RenderJob& job, int index, int slices, int segment_length);
 
     const Stats& stats() const { return stats_; }
-    // For tasks that TileDrawing has drawn: the Packing Unit tells their dates, which do not fall, in place of packets.
+    // For tasks that TileDrawing has drawn: the Packing Unit tells their dates, which do not fall,
+    // in place of packets.
     /// The tasks `mask` of a segment execute in the cycles `first` to `last`.
     inline void execute(const TaskRun& run, std::uint32_t mask, Cycle first, Cycle last);
     /// Counts tasks by class; see DrawnTasks.
@@ -78,20 +80,22 @@ public:
     void end_drawn(const TaskRun& run, std::uint32_t ended, Cycle date);
     /// All tasks of the cycle `date` have been told.
     inline void pass_packet(Cycle date);
-    /// The end of a tile comes at `date`, or as soon as what came before has been executed; `packet`: together with
-    /// the tasks of this cycle, which have all been told.
+    /// The end of a tile comes at `date`, or as soon as what came before has been executed;
+    /// `packet`: together with the tasks of this cycle, which have all been told.
     void pass_end(TileNumber tile, std::int16_t context, Cycle date, bool packet);
 
     /// Records executed tasks in `part`, which may be null; before the simulation starts.
     void record(SlotPart* part) { part_ = part; }
-    /// Packets tell dates alone, and of their tasks those that end a pixel; before the simulation starts.
+    /// Packets tell dates alone, and of their tasks those that end a pixel; before the simulation
+    /// starts.
     void expect_drawn() { drawn_ = true; }
 
 private:
-    /// What to do with the tasks of packets: blend them, record them as well, or neither, since they were drawn and
-    /// recorded before.
+    /// What to do with the tasks of packets: blend them, record them as well, or neither, since
+    /// they were drawn and recorded before.
     enum class Tasks { Blended, Recorded, Drawn };
-    /// Runs the slice in place of itself unless its tasks are blended alone, so that pump() need not ask.
+    /// Runs the slice in place of itself unless its tasks are blended alone, so that pump() need
+    /// not ask.
     class RecordedPump : public Pumped {
     public:
         explicit RecordedPump(ArraySlice& slice) : slice_(slice) {}
@@ -199,8 +203,8 @@ inline __attribute__((always_inline)) void ArraySlice::pass_packet(Cycle date) {
     self_.advance_to(date + 1);
 }
 
-// The scoreboard exists for this invariant. One date per segment is enough for it: a pixel that came
-// before that date may count too much, but no hazard is missed. EarlyBlender counts exactly.
+// The scoreboard exists for this invariant. One date per segment is enough for it: a pixel that
+// came before that date may count too much, but no hazard is missed. EarlyBlender counts exactly.
 inline void ArraySlice::check_reuse(Recent& recent, std::uint32_t tasks, Cycle date) {
     const Cycle writeback = config_.writeback_cycles;
     const bool late = date - recent.date >= writeback;

@@ -12,8 +12,8 @@ namespace degs {
 /// Blends tasks that nothing keeps apart: the PEs of an array slice without a scoreboard. A task
 /// reads the pixel state that is written back at its date, and its own result is written back
 /// `writeback_cycles` later. A task that comes earlier than that builds on the older state, and its
-/// write-back replaces the result that it did not see. Between two calls the data path holds what is
-/// written back; its counts of updates are those of the tasks executed.
+/// write-back replaces the result that it did not see. Between two calls the data path holds what
+/// is written back; its counts of updates are those of the tasks executed.
 class EarlyBlender {
 public:
     EarlyBlender(RenderJob& job, int writeback_cycles, bool tests = false)

@@ -42,7 +42,8 @@ DrawingThread::~DrawingThread() {
     thread_.join();
 }
 
-// The simulation's side: it reads what is published, and says what it has taken and what it waits for.
+// The simulation's side: it reads what is published, and says what it has taken and what it waits
+// for.
 
 void DrawingThread::hand_over_joined() {
     const std::lock_guard<std::mutex> lock(mutex_);

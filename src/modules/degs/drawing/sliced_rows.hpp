@@ -8,8 +8,8 @@
 
 namespace degs {
 
-/// Which rows of a splat are sliced: all that its ellipse meets (paper: y_min .. y_max), or those inside the
-/// tile's columns.
+/// Which rows of a splat are sliced: all that its ellipse meets (paper: y_min .. y_max), or those
+/// inside the tile's columns.
 enum class SlicedRows { Splat, Tile };
 
 /// The splat at a place of a tile's list, as the data path counts it.

@@ -17,8 +17,8 @@ public:
     int open();
     /// All rows of the canvas are cleared already.
     void close(int canvas) { free_.push_back(canvas); }
-    /// Draws rows first, first + step, ... last of a splat inside the tile. The splats of a row come in depth
-    /// order.
+    /// Draws rows first, first + step, ... last of a splat inside the tile. The splats of a row
+    /// come in depth order.
     void draw(int canvas, const JobTile& tile, std::uint32_t splat, const PixelRange& range,
               int step, DrawnRow* rows);
     void read_row(int canvas, int row, int count, PixelValue* pixels) const {

@@ -11,11 +11,12 @@
 
 namespace degs {
 
-/// Draws tiles ahead of time, in exact mode. Which splat a pixel takes depends on the order of the splats in
-/// its row alone, and no block changes that order: queues, conflicts and terminations decide when a task
-/// executes, and how many tasks of ended pixels do. So a splat's rows are solved and blended when it is sliced
-/// or before, and the blocks behind carry masks that say what becomes of each task. In strict mode, where
-/// tasks are blended when they execute, reports and images are the same.
+/// Draws tiles ahead of time, in exact mode. Which splat a pixel takes depends on the order of the
+/// splats in its row alone, and no block changes that order: queues, conflicts and terminations
+/// decide when a task executes, and how many tasks of ended pixels do. So a splat's rows are solved
+/// and blended when it is sliced or before, and the blocks behind carry masks that say what becomes
+/// of each task. In strict mode, where tasks are blended when they execute, reports and images are
+/// the same.
 ///
 /// A splat is named by its place in the list of its tile, from 0.
 class TileDrawing : public DrawnPixels {
@@ -24,9 +25,9 @@ public:
     virtual void expect(const SplatChunk& chunk) { (void)chunk; }
     /// The rows inside the tile that are sliced of a splat; see sliced_rows().
     virtual PixelRange rows(TileNumber number, std::uint32_t place) = 0;
-    /// What becomes of the rows first, first + step, ... last of these, in `drawn`. Each of the modules that
-    /// share a tile asks once for each splat, in the order of the list, although its range may be empty. It
-    /// may end early, when all pixels of the tile have ended.
+    /// What becomes of the rows first, first + step, ... last of these, in `drawn`. Each of the
+    /// modules that share a tile asks once for each splat, in the order of the list, although its
+    /// range may be empty. It may end early, when all pixels of the tile have ended.
     virtual void take(TileNumber number, std::uint32_t place, const PixelRange& own, int step,
                       DrawnRow* drawn) = 0;
     /// Host seconds that the simulation has slept until something was drawn.
@@ -48,8 +49,9 @@ struct DrawingOptions {
     int modules = 1; ///< that share a tile and take rows
 };
 
-/// Draws on a thread of its own, ahead of the simulation, if the host may use another processor and no frame
-/// joins the job later; otherwise each splat when it is taken. Results are the same. `job` must outlive it.
+/// Draws on a thread of its own, ahead of the simulation, if the host may use another processor and
+/// no frame joins the job later; otherwise each splat when it is taken. Results are the same. `job`
+/// must outlive it.
 std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options);
 
 } // namespace degs

@@ -34,7 +34,8 @@ struct BankStream {
     std::size_t issuing = 0; ///< place that is looked at in this cycle
     int ready = -1;          ///< a domain of that tile that may issue in this cycle; -1: none
 
-    /// The first turn that is not over for the bank of those that have this one of the stream's `contexts`.
+    /// The first turn that is not over for the bank of those that have this one of the stream's
+    /// `contexts`.
     std::size_t turn_of(int context, int contexts) const {
         return oldest + (context + contexts - oldest % contexts) % contexts;
     }

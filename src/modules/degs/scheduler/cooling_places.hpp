@@ -9,8 +9,8 @@
 
 namespace degs {
 
-/// A scoreboard over up to 64 places, which cool for a while after each use. It is a ring of bit sets, one per
-/// date, so that a date costs one operation on a word, however many places there are.
+/// A scoreboard over up to 64 places, which cool for a while after each use. It is a ring of bit
+/// sets, one per date, so that a date costs one operation on a word, however many places there are.
 class CoolingPlaces {
 public:
     /// A place cools for less than so many cycles.
@@ -23,8 +23,8 @@ public:
         }
         return cooling_;
     }
-    /// The place cools until `end`, which is 1 to kDates - 1 cycles after the date asked for last. It must not be
-    /// cooling.
+    /// The place cools until `end`, which is 1 to kDates - 1 cycles after the date asked for last.
+    /// It must not be cooling.
     void cool(int place, Cycle end) {
         const std::uint64_t bit = std::uint64_t{1} << place;
         cooling_ |= bit;

@@ -136,8 +136,8 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
 
 // Issue.
 
-// The older tile goes first, and in it the first place behind the one that issued last. Returns the number of
-// segments issued.
+// The older tile goes first, and in it the first place behind the one that issued last. Returns the
+// number of segments issued.
 inline __attribute__((always_inline)) int DrawnBank::issue() {
     no_room_ = false;
     int issued = 0;

@@ -11,10 +11,11 @@
 
 namespace degs {
 
-/// The cycles of an Issue Bank with its Packing Unit where tasks are drawn (TileDrawing) and nothing limits
-/// them but the queue, the scoreboard and the Packing Buffer: in one loop over little data, because these
-/// cycles are half of a run. Segments carry masks, and packets are counted, not made. Every decision and date
-/// is that of IssueBank and PackingUnit, which do the same for all other designs and in strict mode.
+/// The cycles of an Issue Bank with its Packing Unit where tasks are drawn (TileDrawing) and
+/// nothing limits them but the queue, the scoreboard and the Packing Buffer: in one loop over
+/// little data, because these cycles are half of a run. Segments carry masks, and packets are
+/// counted, not made. Every decision and date is that of IssueBank and PackingUnit, which do the
+/// same for all other designs and in strict mode.
 class DrawnBank {
 public:
     /// What an Issue Bank has, for its DrawnBank.
@@ -34,9 +35,10 @@ public:
         Slot width_cause;
     };
 
-    /// True if the bank has one tile stream from one Span Unit, goes round robin, compacts, and has no limited
-    /// ports and no filling of Feature Buffer entries, if the domains of all tiles in flight fit in a word, and if
-    /// nobody records its tasks. The unit must hand its rows over, too; see DrawnSpans.
+    /// True if the bank has one tile stream from one Span Unit, goes round robin, compacts, and has
+    /// no limited ports and no filling of Feature Buffer entries, if the domains of all tiles in
+    /// flight fit in a word, and if nobody records its tasks. The unit must hand its rows over,
+    /// too; see DrawnSpans.
     static bool can_run(const Parts& parts);
 
     /// Before the simulation starts; `spans` and all parts must exist until the bank has finished.

@@ -131,8 +131,8 @@ void IssueBank::run_cycles() {
     self_.finish();
 }
 
-// Drawn tasks report the ends of their pixels when they are issued, so a report that the ring does not hold yet is due
-// later than now.
+// Drawn tasks report the ends of their pixels when they are issued, so a report that the ring does
+// not hold yet is due later than now.
 inline void IssueBank::see_terminations() {
     if (packing_.draws()) {
         while (!terminations_->empty() && terminations_->head_date() <= self_.local()) {

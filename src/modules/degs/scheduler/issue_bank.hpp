@@ -54,8 +54,9 @@ public:
         int streams = 1;          ///< tile streams
         bool granted = false;     ///< tiles come one by one, see TileEnd
         int first_context = 0;    ///< of the Pixel Buffer
-        /// Ports of the waiting segments in a bank's part of the Packing Buffer. Packets lie in a memory
-        /// of their own, of which one is written and one is read per cycle at most [assumed].
+        /// Ports of the waiting segments in a bank's part of the Packing Buffer. Packets lie in a
+        /// memory of their own, of which one is written and one is read per cycle at most
+        /// [assumed].
         SramPorts segment_ports;
         FeatureBuffer::Fill fill;
         void describe(ConfigVisitor& visitor);
@@ -90,8 +91,9 @@ public:
     /// From the Pixel Buffer, one per stream: another tile may start.
     sc_core::sc_vector<FifoPort<TileNumber>> context_free;
 
-    /// `packing` takes what the bank issues; it must exist until the bank has finished. `inputs` and
-    /// `contexts` are those of a stream; stream s has the contexts from first_context + s * contexts on.
+    /// `packing` takes what the bank issues; it must exist until the bank has finished. `inputs`
+    /// and `contexts` are those of a stream; stream s has the contexts from first_context + s *
+    /// contexts on.
     IssueBank(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
               const RenderJob& job, PackingUnit& packing, int index, std::size_t inputs,
               int contexts);

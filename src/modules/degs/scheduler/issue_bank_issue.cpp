@@ -103,9 +103,9 @@ inline bool IssueBank::find_ready(BankStream& stream, Cycle now) {
     return stream.ready >= 0;
 }
 
-// The next stream that has a ready domain, that which issued last at the end; nullptr: there is none.
-// All streams are searched, because what they have at this date counts for later issues of the
-// cycle; for the `last` one only as far as needed.
+// The next stream that has a ready domain, that which issued last at the end; nullptr: there is
+// none. All streams are searched, because what they have at this date counts for later issues of
+// the cycle; for the `last` one only as far as needed.
 inline BankStream* IssueBank::first_ready(Cycle now, bool last) {
     BankStream* first = nullptr;
     BankStream* stream = issued_stream_;

@@ -10,13 +10,14 @@
 
 namespace degs {
 
-/// The packet that tasks go to next, and the date at which the array slice executes it: the arithmetic of the
-/// Packing Unit over plain data. What becomes of the tasks is up to a sink, a class with
+/// The packet that tasks go to next, and the date at which the array slice executes it: the
+/// arithmetic of the Packing Unit over plain data. What becomes of the tasks is up to a sink, a
+/// class with
 ///     end_idle()                    the array has had nothing to do before the next packet
 ///     begin()                       another packet begins
-///     take(left, count, room, slot) moves some of the tasks `left`, which are `count`, into the packet that
-///                                   executes at `slot` and has room for `room`; returns their number
-///     send(cause)                   sends the packet by calling sent(); `cause` is that of its empty slots
+///     take(left, count, room, slot) moves some of the tasks `left`, which are `count`, into the
+///         packet that executes at `slot` and has room for `room`; returns their number
+///     send(cause) sends the packet by calling sent(); `cause` is that of its empty slots
 class OpenPacket {
 public:
     /// `depth`: packets that wait in the Packing Buffer. `latency`: cycles from issue to execution.
@@ -33,8 +34,9 @@ public:
     Cycle slot() const { return slot_; }
     /// Execution date of the next task if it is packed at `now`.
     Cycle next_execution(Cycle now) const { return std::max(now + latency_, slot_); }
-    /// True if the Packing Buffer has room for `tasks` tasks more at `now`, the first of which executes at `slot`:
-    /// for ceil(tasks / width) packets, that which is open among them. It does not divide.
+    /// True if the Packing Buffer has room for `tasks` tasks more at `now`, the first of which
+    /// executes at `slot`: for ceil(tasks / width) packets, that which is open among them. It does
+    /// not divide.
     bool fits(Cycle now, Cycle slot, int tasks) const {
         return (slot - (now + latency_)) * width_ + (tasks_ + tasks) <= capacity_;
     }
@@ -50,8 +52,8 @@ public:
         return (until + latency_ - next_execution(now)) * width_;
     }
 
-    /// Fills packets with the tasks `mask`, which are `count`, at least one. Returns the execution date of the last
-    /// one.
+    /// Fills packets with the tasks `mask`, which are `count`, at least one. Returns the execution
+    /// date of the last one.
     template <class Sink>
     inline Cycle pack(Cycle now, std::uint32_t mask, int count, Sink& sink);
     /// The open packet is sent; returns its execution date.

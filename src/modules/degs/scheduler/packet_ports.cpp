@@ -87,7 +87,8 @@ std::uint32_t PacketPorts::take_pixels(const BlendTask& task, std::uint32_t mask
     return taken;
 }
 
-// Whether the last port is taken, of up to 32 SRAM banks from `bank` on, no further than the last one.
+// Whether the last port is taken, of up to 32 SRAM banks from `bank` on, no further than the last
+// one.
 std::uint32_t PacketPorts::full_from(const std::uint64_t* ports, int bank) const {
     const std::uint64_t* const last = ports + (config_.pixels.ports - 1) * words_;
     const std::size_t word = bank / kWordBits;

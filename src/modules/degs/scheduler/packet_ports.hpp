@@ -14,8 +14,8 @@ namespace degs {
 /// writes it `writeback_cycles` later, through as many write ports. All tasks of a splat in the
 /// packet share one read of its parameters (paper, Sec. IV-C: the PE fetches them by G_ID).
 ///
-/// Pixels of an Issue Bank's rows are dealt to the SRAM banks by their address, row after row; every
-/// tile context has SRAM banks of its own, so that reading out a finished tile meets no task
+/// Pixels of an Issue Bank's rows are dealt to the SRAM banks by their address, row after row;
+/// every tile context has SRAM banks of its own, so that reading out a finished tile meets no task
 /// [assumed].
 class PacketPorts {
 public:
@@ -34,12 +34,12 @@ public:
         ++packet_;
         reads_.clear();
     }
-    /// Takes the lowest tasks of `mask` whose ports are free, at most `most`, and returns them; 0 if
-    /// there is none. `entry` of the Feature Buffer has the splat's parameters. A packet without
+    /// Takes the lowest tasks of `mask` whose ports are free, at most `most`, and returns them; 0
+    /// if there is none. `entry` of the Feature Buffer has the splat's parameters. A packet without
     /// tasks takes at least one.
     std::uint32_t take(const BlendTask& task, std::uint32_t mask, int entry, int most);
-    /// The most packets of `width` tasks that the tasks `mask` of a row take beside one that is open.
-    /// Neighbours in a row lie in different SRAM banks, unless there are too few of those.
+    /// The most packets of `width` tasks that the tasks `mask` of a row take beside one that is
+    /// open. Neighbours in a row lie in different SRAM banks, unless there are too few of those.
     int most_packets(std::uint32_t mask, int width) const {
         const int tasks = __builtin_popcount(mask);
         return !spreads(mask) ? tasks : tasks <= width ? 1 : ceil_div(tasks, width);

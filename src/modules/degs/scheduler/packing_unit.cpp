@@ -210,7 +210,8 @@ void PackingUnit::record_packet(const TaskPacket& packet, Slot cause) {
     }
 }
 
-// Slots [from, to) of the array. For the bank they are the cycles in which it could have filled them.
+// Slots [from, to) of the array. For the bank they are the cycles in which it could have filled
+// them.
 void PackingUnit::record_cycles(Process& bank, Cycle from, Cycle to, Slot cause) {
     part_->idle(cause, from, to, (to - from) * packet_.width());
     if (bank.track() == nullptr) {

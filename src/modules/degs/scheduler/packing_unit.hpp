@@ -34,8 +34,8 @@ public:
         int task_bytes = 16;
         int lead_packets = 5;   ///< packets that may wait for the array slice
         int latency_cycles = 2; ///< issue to execution, unloaded: pack, read the buffer
-        /// A packet may have tasks of different spans; false: of one span only, so that a segment of
-        /// another span closes an open packet.
+        /// A packet may have tasks of different spans; false: of one span only, so that a segment
+        /// of another span closes an open packet.
         bool reorganisation = true;
         SramPorts segment_ports; ///< of the waiting segments, which the Issue Bank keeps
         // What follows from the blocks around the unit; their own sections have the keys.
@@ -56,8 +56,9 @@ public:
     FifoPort<TaskPacket> out;
 
     PackingUnit(const sc_core::sc_module_name& name, const Config& config);
-    /// Tells `slice` what executes when, in place of packets: the tasks have been drawn; before the simulation starts.
-    /// With a timeline, which shows the Packing Buffer, packets without tasks tell it.
+    /// Tells `slice` what executes when, in place of packets: the tasks have been drawn; before the
+    /// simulation starts. With a timeline, which shows the Packing Buffer, packets without tasks
+    /// tell it.
     void tell(ArraySlice& slice, bool timeline) {
         slice_ = &slice;
         packets_ = timeline;
@@ -67,8 +68,8 @@ public:
     const Config& config() const { return config_; }
     /// The packets told without the ring.
     const PassedPackets& passed() const { return passed_; }
-    /// Records empty slots in `part`, and the tasks if they have been drawn; it may be null; before the simulation
-    /// starts.
+    /// Records empty slots in `part`, and the tasks if they have been drawn; it may be null; before
+    /// the simulation starts.
     void record(SlotPart* part) { part_ = part; }
 
     /// Execution date of the next task if it is packed at `now`.
@@ -80,8 +81,8 @@ public:
         return packet_.fits(now, slot, tasks) && (config_.reorganisation || joins(run) ||
                                                   packet_.fits(now, slot, packet_.room() + tasks));
     }
-    /// True if there is room for the tasks `mask` with limited ports, where packets need not be full;
-    /// `entry` of the Feature Buffer has the parameters of their splat.
+    /// True if there is room for the tasks `mask` with limited ports, where packets need not be
+    /// full; `entry` of the Feature Buffer has the parameters of their splat.
     bool room_by_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry) {
         return !ports_ || mask == 0 || fits_ports(now, run, mask, entry);
     }
@@ -93,8 +94,9 @@ public:
     void end_tile(Process& bank, TileNumber tile, std::int16_t context);
     /// True if an open packet must go at `now`.
     bool due(Cycle now) const { return packet_.due(now); }
-    /// Hands over an open packet whose time has come, its empty slots accounted for by `cause`. Call
-    /// it before the bank asks for its next date, because others rely on its doing nothing until then.
+    /// Hands over an open packet whose time has come, its empty slots accounted for by `cause`.
+    /// Call it before the bank asks for its next date, because others rely on its doing nothing
+    /// until then.
     void send_due(Process& bank, Slot cause);
     /// The cycles [bank.local(), until) are over for the bank; `until` may not lie beyond the date
     /// given by open_until(). Accounts for those in which the array gets nothing, by `cause`.
@@ -106,11 +108,11 @@ public:
     bool leaves_slots(Cycle until) const { return packet_.leaves_slots(until); }
 
     // For a bank that keeps the open packet itself and calls nothing above.
-    /// True if packets need only be counted: their tasks have been drawn, nobody records them, and nothing but the
-    /// width limits a packet.
+    /// True if packets need only be counted: their tasks have been drawn, nobody records them, and
+    /// nothing but the width limits a packet.
     bool counts() const { return draws() && !packets_ && !picky() && config_.reorganisation; }
-    /// A packet of `tasks` tasks leaves the bank at `now` and executes at `slot`; `ends_tile`: with the end that
-    /// name_end() has named.
+    /// A packet of `tasks` tasks leaves the bank at `now` and executes at `slot`; `ends_tile`: with
+    /// the end that name_end() has named.
     inline void pass_packet(Cycle now, Cycle slot, int tasks, bool ends_tile);
     /// The end of a tile that comes next.
     void name_end(TileNumber tile, std::int16_t context) {
@@ -119,7 +121,8 @@ public:
     }
     /// It leaves the bank alone at `now`.
     void pass_end(Cycle now) { tell_end(passed_.pass_end(now, now + packet_.latency()), false); }
-    /// Slots that stay empty; count_idle_later(): if another packet comes, which settle_idle() says.
+    /// Slots that stay empty; count_idle_later(): if another packet comes, which settle_idle()
+    /// says.
     void count_idle(Slot cause, std::uint64_t slots) { idle_[cause] += slots; }
     void count_idle_later(Slot cause, std::uint64_t slots) { since_last_[cause] += slots; }
     [[gnu::noinline]] void settle_idle();
@@ -271,7 +274,8 @@ private:
     std::uint32_t mask_;
 };
 
-/// Tasks that have been drawn are counted. Which of them go into a packet matters only if a pixel ends with one.
+/// Tasks that have been drawn are counted. Which of them go into a packet matters only if a pixel
+/// ends with one.
 class PackingUnit::CountingSink : public Sink {
 public:
     CountingSink(PackingUnit& unit, Process& bank, const TaskRun& run, std::uint32_t mask)

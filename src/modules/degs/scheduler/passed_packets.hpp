@@ -8,8 +8,8 @@
 
 namespace degs {
 
-/// Counts packets that reach their array slice without the ring of the Packing Buffer, as that ring would
-/// count them; see DatedFifo::Stats.
+/// Counts packets that reach their array slice without the ring of the Packing Buffer, as that ring
+/// would count them; see DatedFifo::Stats.
 class PassedPackets {
 public:
     std::uint64_t items() const { return items_; }

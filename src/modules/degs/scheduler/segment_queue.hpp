@@ -119,7 +119,8 @@ public:
         took(tile, domain);
         return domain;
     }
-    /// Finds what pick() takes, for a caller that chooses among tiles and calls took() for the one that it takes.
+    /// Finds what pick() takes, for a caller that chooses among tiles and calls took() for the one
+    /// that it takes.
     int find(Tile& tile, Cycle date) const;
     /// RoundRobin goes on behind the domain; -1: none was found.
     void took(Tile& tile, int domain) const {
@@ -127,8 +128,8 @@ public:
             tile.cursor_ = domain + 1 < domains_ ? domain + 1 : 0;
         }
     }
-    /// The key of a domain that find() returned: among those of several tiles the smallest key goes first;
-    /// not for RoundRobin.
+    /// The key of a domain that find() returned: among those of several tiles the smallest key goes
+    /// first; not for RoundRobin.
     static std::uint64_t key_of(const Tile& tile, int domain) { return tile.keys_[domain]; }
     /// Earliest date at which a waiting domain of `tile` becomes ready; kNever if none is cooling.
     Cycle next_ready(const Tile& tile) const;
@@ -251,7 +252,8 @@ inline __attribute__((always_inline)) void SegmentQueue::pop(Tile& tile, int dom
     tile.waiting_--;
     list.head = second;
     list.length--;
-    // There is no branch, because both outcomes are equally likely. The key of an empty list is never read.
+    // There is no branch, because both outcomes are equally likely. The key of an empty list is
+    // never read.
     const bool last = second == nullptr;
     const Entry& head = last ? entry : *second;
     list.end = last ? &list.head : list.end;

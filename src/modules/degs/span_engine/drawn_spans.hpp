@@ -8,11 +8,11 @@
 
 namespace degs {
 
-/// A Span Unit and its ring of the crossbar, where rows come drawn (TileDrawing) and the unit reaches one bank: a
-/// single ring of small cells, because every row of a frame passes here. What is in the cells was drawn before; when
-/// the unit takes a row from its lane, when the crossbar has room for it, and when the bank may read it, is worked
-/// out here. Dates and counts are those of SpanUnit and DatedFifo, which do the same for all other designs and in
-/// strict mode.
+/// A Span Unit and its ring of the crossbar, where rows come drawn (TileDrawing) and the unit
+/// reaches one bank: a single ring of small cells, because every row of a frame passes here. What
+/// is in the cells was drawn before; when the unit takes a row from its lane, when the crossbar has
+/// room for it, and when the bank may read it, is worked out here. Dates and counts are those of
+/// SpanUnit and DatedFifo, which do the same for all other designs and in strict mode.
 class DrawnSpans final : public FifoBase, public Pumped {
 public:
     /// A row that covers pixels of its tile, or the end of a tile.
@@ -37,7 +37,8 @@ public:
     const Span& front() const { return cells_[taken_ & mask_]; }
     /// The bank has taken the oldest one at `now`.
     inline void drop(Cycle now);
-    /// Takes rows from the lane until it is empty, or the crossbar is full and the unit holds another span.
+    /// Takes rows from the lane until it is empty, or the crossbar is full and the unit holds
+    /// another span.
     void pump() override;
 
     /// To be added to those of the ring.

@@ -15,18 +15,18 @@
 
 namespace degs {
 
-/// What the units share. `Broadcast`: every unit sees every splat, spends a cycle on it at least and
-/// takes the rows whose index is its own modulo the number of units. `BroadcastSkip`: the same, but
-/// a splat without a row of the unit costs it nothing. `Splats`: every splat goes to one unit, which
-/// takes all of its rows.
+/// What the units share. `Broadcast`: every unit sees every splat, spends a cycle on it at least
+/// and takes the rows whose index is its own modulo the number of units. `BroadcastSkip`: the same,
+/// but a splat without a row of the unit costs it nothing. `Splats`: every splat goes to one unit,
+/// which takes all of its rows.
 enum class SliceDistribution { Broadcast, BroadcastSkip, Splats };
 
 /// Enumerates the scanlines of each splat inside the tile and pushes them into the Span Buffer
 /// (paper, Sec. IV-A). The module is one unit, or all units if they share out the splats, because
 /// they then fill the lanes together. Splats that cover a pixel must reach it in depth order. Units
-/// that own rows keep this order by themselves. Units that own splats never overtake an older splat:
-/// they send a row only when every older splat in work has passed that row, in the same cycle at the
-/// earliest [assumed]. A full lane of the Span Buffer stops all units of the module.
+/// that own rows keep this order by themselves. Units that own splats never overtake an older
+/// splat: they send a row only when every older splat in work has passed that row, in the same
+/// cycle at the earliest [assumed]. A full lane of the Span Buffer stops all units of the module.
 ///
 /// With several tile streams every stream has units of its own, which share its tiles in the same
 /// way. Where tiles are granted one by one, kNoTile ends every lane.
@@ -88,8 +88,8 @@ public:
     sc_core::sc_vector<FifoPort<ChunkSliced>> sliced;
     sc_core::sc_vector<FifoPort<RowCount>> row_counts;
 
-    /// Module `index` of a stream with `lanes` lanes feeds lanes index, index + modules(), ... Row y
-    /// goes to lane y modulo the lanes.
+    /// Module `index` of a stream with `lanes` lanes feeds lanes index, index + modules(), ... Row
+    /// y goes to lane y modulo the lanes.
     GaussianSlicingUnit(const sc_core::sc_module_name& name, const Config& config,
                         const Timebase& time, const RenderJob& job, int index, std::size_t inputs,
                         int lanes, std::size_t slices, int segment_length);

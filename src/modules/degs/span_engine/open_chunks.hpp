@@ -10,8 +10,9 @@
 
 namespace degs {
 
-/// The chunks of splats whose last row a Slicing module has not sent yet, and their rows by lane, which
-/// it reports to Parameter Release. Chunks are numbered from 0 in the order in which they are taken.
+/// The chunks of splats whose last row a Slicing module has not sent yet, and their rows by lane,
+/// which it reports to Parameter Release. Chunks are numbered from 0 in the order in which they are
+/// taken.
 class OpenChunks {
 public:
     using Sliced = sc_core::sc_vector<FifoPort<ChunkSliced>>; // one, or none: nothing is reported

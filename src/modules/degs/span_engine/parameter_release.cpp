@@ -25,8 +25,8 @@ void ParameterRelease::end_of_elaboration() {
     }
 }
 
-// Chunks leave in order, each when the last of its rows has been solved; so every item is waited for
-// in turn, and its date moves this process.
+// Chunks leave in order, each when the last of its rows has been solved; so every item is waited
+// for in turn, and its date moves this process.
 void ParameterRelease::run() {
     for (;;) {
         const std::size_t fetcher = sliced->get(self_).fetcher;

@@ -9,11 +9,12 @@
 namespace degs {
 
 /// Keeps the Temporary Gaussian Parameters of a chunk in the Gaussian Buffer until the spans of all
-/// its splats have been made (paper, Sec. IV-A: they are "released after span generation"), then lets
-/// the Splat Fetcher write another chunk there. One module per Slicing module.
+/// its splats have been made (paper, Sec. IV-A: they are "released after span generation"), then
+/// lets the Splat Fetcher write another chunk there. One module per Slicing module.
 class ParameterRelease : public sc_core::sc_module {
 public:
-    /// From the Slicing module: the chunk whose last row has been sent, by the fetcher that sent it.
+    /// From the Slicing module: the chunk whose last row has been sent, by the fetcher that sent
+    /// it.
     FifoPort<ChunkSliced> sliced;
     /// From the Slicing module, by lane: the rows of that chunk.
     sc_core::sc_vector<FifoPort<RowCount>> rows;

@@ -93,8 +93,8 @@ protected:
     Stats stats_;
 };
 
-// Inlined in the hot loops. The pixels of the span are made in place, because a copy of what was just
-// written waits for the write.
+// Inlined in the hot loops. The pixels of the span are made in place, because a copy of what was
+// just written waits for the write.
 inline __attribute__((always_inline)) bool SpanStage::solve(const RowItem& row, SpanItem& result) {
     stats_.rows++;
     result.tile = row.tile;

@@ -17,8 +17,8 @@ public:
     SpanUnit(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
              const RenderJob& job, int index, int banks);
 
-    /// What the bank reads in place of the crossbar's ring, if rows come drawn and no other bank reads them; nullptr
-    /// otherwise. Before the simulation starts.
+    /// What the bank reads in place of the crossbar's ring, if rows come drawn and no other bank
+    /// reads them; nullptr otherwise. Before the simulation starts.
     std::unique_ptr<DrawnSpans> hand_over(Process& bank);
 
 private:

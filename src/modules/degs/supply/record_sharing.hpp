@@ -16,8 +16,8 @@ namespace degs {
 /// tile's read has brought, nor those that a cache holds.
 ///
 /// Multicast: a record that is read for one fetcher is captured by every other fetcher that has the
-/// splat among the next `window` entries of its tile's list, counted from the first one that has not
-/// been requested. A fetcher's window opens with its first request of a tile.
+/// splat among the next `window` entries of its tile's list, counted from the first one that has
+/// not been requested. A fetcher's window opens with its first request of a tile.
 ///
 /// Cache: of all fetchers together, least recently used record replaced, fully associative
 /// [assumed]. It keeps what is read, also while it is on its way.

@@ -14,15 +14,16 @@
 
 namespace degs {
 
-/// Brings splat records from memory to the Gaussian Buffers of all clusters, for Splat Fetchers that
-/// walk the lists and read nothing themselves:
+/// Brings splat records from memory to the Gaussian Buffers of all clusters, for Splat Fetchers
+/// that walk the lists and read nothing themselves:
 ///
 ///   Splat Fetchers -> Splat Supply -> memory -> bus -> FIFO of each fetcher -> [Gaussian Buffer]
 ///
-/// Requests are taken in the order of their dates, those of equal dates from fetchers in turn. Records
-/// that RecordSharing names are read, with one request of memory per chunk and per cycle, a cycle
-/// after the choice; every fetcher may have so many chunks outstanding. Complete chunks travel on a bus
-/// that all clusters share: whole chunks, to clusters in turn that have one ready and room for it.
+/// Requests are taken in the order of their dates, those of equal dates from fetchers in turn.
+/// Records that RecordSharing names are read, with one request of memory per chunk and per cycle, a
+/// cycle after the choice; every fetcher may have so many chunks outstanding. Complete chunks
+/// travel on a bus that all clusters share: whole chunks, to clusters in turn that have one ready
+/// and room for it.
 ///
 /// Not modelled: the wires of the bus, the comparators of the windows, and that a record which one
 /// cluster reads passes the bus once for all who capture it; each chunk of each cluster passes it.

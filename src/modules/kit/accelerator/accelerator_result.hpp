@@ -28,8 +28,8 @@ struct StageUse {
     double busy_cycles = 0;
     double busy = 0;
     Counters counters; ///< of the units
-    /// Share of its work for a frame that is over when the first task of this frame can start; 0 for
-    /// stages that tasks pass one after the other. Not a number of results.
+    /// Share of its work for a frame that is over when the first task of this frame can start; 0
+    /// for stages that tasks pass one after the other. Not a number of results.
     double prepares = 0;
     void describe(StatsVisitor& visitor) const;
 };
@@ -57,8 +57,8 @@ struct StreamUse {
     void describe(StatsVisitor& visitor) const;
 };
 
-/// Cycles in which the units of a kind had nothing to do before the memory answered, as a mean of the
-/// units. What a run waits for before it starts is left out. Not numbers of results.
+/// Cycles in which the units of a kind had nothing to do before the memory answered, as a mean of
+/// the units. What a run waits for before it starts is left out. Not numbers of results.
 struct AnswerWaits {
     double splats = 0; ///< of the first units behind the fetchers
     double pixels = 0; ///< of buffers that write them
@@ -109,7 +109,8 @@ struct AcceleratorResult {
     double memory_gb_per_s = 0;    ///< peak; 0: unlimited
     /// Cycles over which memory is counted: the run, or up to its last answer if that is later.
     Cycle memory_window = 0;
-    // Row hits, energy, transfers and activity of the DRAM exist only for a memory with banks and rows.
+    // Row hits, energy, transfers and activity of the DRAM exist only for a memory with banks and
+    // rows.
     std::optional<double> row_hit_rate; ///< share of accesses that found their row open
     std::optional<dram::Energy> dram_energy;
     std::optional<dram::TransferAccount> dram_transfers; ///< by the end of the run
@@ -119,8 +120,8 @@ struct AcceleratorResult {
     std::uint64_t background_tiles = 0, tiles_cancelled = 0;
     Cycle stopped = 0; ///< nothing was left to happen at this date
     std::vector<Conservation> conservation;
-    /// Keys that the accelerator names for its losses (LossKey::name()), but that limited nothing in this
-    /// run, so that to move them changes nothing.
+    /// Keys that the accelerator names for its losses (LossKey::name()), but that limited nothing
+    /// in this run, so that to move them changes nothing.
     std::vector<std::string> idle_keys;
     std::vector<std::string> left_out;               ///< sentences for --explain
     std::vector<Image> images;                       ///< one per frame
@@ -136,8 +137,8 @@ struct AcceleratorResult {
     void describe(StatsVisitor& visitor) const;
 };
 
-/// Frames per second while the pipeline is full: of all frames but the first, which starts alone, and
-/// the last, behind which no other is preprocessed. Empty for fewer than three frames.
+/// Frames per second while the pipeline is full: of all frames but the first, which starts alone,
+/// and the last, behind which no other is preprocessed. Empty for fewer than three frames.
 std::optional<double> steady_fps(const AcceleratorResult& result);
 
 /// Name of the stage (or the memory) with the largest busy share of the run.

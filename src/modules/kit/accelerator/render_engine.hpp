@@ -95,9 +95,9 @@ struct AcceleratorConfig {
     /// describe() that does not hold, as one sentence, or nothing if all do.
     std::string problem() const;
 
-    /// Becomes the design of its family with that many PEs, by the rule of docs/families.md. Expects a
-    /// configuration with default values. Throws InputError, which names the nearest sizes, if the
-    /// family has no such design.
+    /// Becomes the design of its family with that many PEs, by the rule of docs/families.md.
+    /// Expects a configuration with default values. Throws InputError, which names the nearest
+    /// sizes, if the family has no such design.
     virtual void scale_to(int pes);
     virtual int pes() const = 0;
     /// Side of the square of pixels whose list is one unit of work, px.
@@ -109,13 +109,14 @@ struct AcceleratorConfig {
     /// What makes tiles depend on each other; with `array_only` memory takes no time.
     virtual TileCoupling tile_coupling(bool array_only) const = 0;
     virtual PixelSearch pixel_search() const { return {}; }
-    /// A pixel is read only after its last update has been written. False: images may be wrong, and the result counts
-    /// hazards.
+    /// A pixel is read only after its last update has been written. False: images may be wrong, and
+    /// the result counts hazards.
     virtual bool keeps_pixel_order() const { return true; }
     /// No unit of the array works once all pixels are in memory.
     virtual bool ends_with_its_pixels() const { return true; }
-    /// Keys that move losses of PE-cycles, without those that other keys make idle. Of several keys for a
-    /// cause the one that moves most on close-ups stands first. Empty: reports name losses without keys.
+    /// Keys that move losses of PE-cycles, without those that other keys make idle. Of several keys
+    /// for a cause the one that moves most on close-ups stands first. Empty: reports name losses
+    /// without keys.
     virtual std::vector<LossKey> loss_keys() const { return {}; }
     /// Record layouts of the streams that all accelerators have.
     virtual TrafficConfig records() const = 0;
@@ -123,13 +124,15 @@ struct AcceleratorConfig {
     virtual cost::BillOfMaterials bill() const = 0;
     /// How splat records lie in memory.
     virtual RecordOrder record_order() const { return RecordOrder::Index; }
-    /// Switches to the scene as a platform's memory holds it: values of 4 B, see docs/accelerator.md.
+    /// Switches to the scene as a platform's memory holds it: values of 4 B, see
+    /// docs/accelerator.md.
     virtual void read_floats() = 0;
     /// `job` must be made for this configuration and outlive the engine.
     virtual std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time,
                                                 RenderJob& job,
                                                 const BuildOptions& options) const = 0;
-    /// How long a frame takes on the design, without a simulation; null if nobody has worked it out.
+    /// How long a frame takes on the design, without a simulation; null if nobody has worked it
+    /// out.
     virtual std::unique_ptr<AnalyticModel> analytic() const { return nullptr; }
 
 protected:
@@ -138,7 +141,8 @@ protected:
     void describe_cost(ConfigVisitor& visitor);
 
 private:
-    /// The rows of the cost model that only this accelerator has: a cost::RowSection named after its kind.
+    /// The rows of the cost model that only this accelerator has: a cost::RowSection named after
+    /// its kind.
     virtual void describe_rows(ConfigVisitor& visitor) = 0;
 };
 

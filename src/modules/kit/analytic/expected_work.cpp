@@ -11,9 +11,9 @@ namespace {
 
 /// Entries of lists, and rows of splats, that are looked at: some 20 ns each.
 constexpr double kMostVisits = 3e5;
-/// In a frame of so many tiles rows may lie twice as far apart as a model allows for an estimate of its
-/// own: a fit to what is simulated takes out the bias, and the tiles that the larger scatter costs
-/// are few of many (docs/sampling.md).
+/// In a frame of so many tiles rows may lie twice as far apart as a model allows for an estimate of
+/// its own: a fit to what is simulated takes out the bias, and the tiles that the larger scatter
+/// costs are few of many (docs/sampling.md).
 constexpr std::size_t kManyTiles = 3000;
 /// Tiles that a worker takes at a time; a clock starts afresh with them.
 constexpr std::size_t kRun = 128;

@@ -33,8 +33,8 @@ struct MemoryRate {
     }
 };
 
-/// Bytes that a record of `record` bytes moves if it is read alone, in whole bursts of `burst` bytes,
-/// on average over the places at which records of this length lie.
+/// Bytes that a record of `record` bytes moves if it is read alone, in whole bursts of `burst`
+/// bytes, on average over the places at which records of this length lie.
 double scattered_bytes(int record, int burst);
 
 /// Kinds of units of the front end; those of an array follow.
@@ -71,8 +71,8 @@ public:
         return front_.memory.writes(pixels * front_.traffic.pixel_bytes, memory_unit_);
     }
     const FrontEndLoad& front() const { return front_; }
-    /// What a tile takes of the front end and of memory if `walked` splats of its list are fetched; the array is left
-    /// to the model.
+    /// What a tile takes of the front end and of memory if `walked` splats of its list are fetched;
+    /// the array is left to the model.
     TileCycles front_end_cycles(const CoarseTile& tile, double walked) const {
         TileCycles cycles;
         cycles.walked = walked;

@@ -13,8 +13,8 @@ namespace degs {
 /// rows.
 enum class MemoryModel { Bus, Lpddr5 };
 
-/// Which reads wait for room in the queues of an LPDDR5 channel first: the older ones, or those of the
-/// frame that is blended (tile lists, splat records) before those of preprocessing.
+/// Which reads wait for room in the queues of an LPDDR5 channel first: the older ones, or those of
+/// the frame that is blended (tile lists, splat records) before those of preprocessing.
 enum class ReadPriority { Age, Blending };
 
 /// The off-chip memory of an accelerator: which model, and the parameters of each.

@@ -17,9 +17,9 @@ struct PipelineConfig {
     RenderingRules rules;
     ConfigChanges formats; ///< of the number set that `numbers` names
     void describe(ConfigVisitor& visitor);
-    /// Formats of SH coefficients and depth keys, if `formats` sets them, fit such records; an entry
-    /// also holds an index of 16 bits at least (MemoryMap checks that of a frame). Keys of the
-    /// records are in section `traffic` of `visitor`.
+    /// Formats of SH coefficients and depth keys, if `formats` sets them, fit such records; an
+    /// entry also holds an index of 16 bits at least (MemoryMap checks that of a frame). Keys of
+    /// the records are in section `traffic` of `visitor`.
     void require_records(ConfigVisitor& visitor, int sh_value_bytes, int list_entry_bytes) const;
     /// Bits of a pixel's transmittance and colour in the formats of `numbers` and `formats`.
     int pixel_bits() const;

@@ -5,8 +5,9 @@
 
 namespace degs {
 
-/// A TiledAccelerator whose engines are arrays with two buffers each: one for the splats on their way to the array,
-/// which also holds the lists being sorted, and the Pixel Buffer. With one array and Parts as they are:
+/// A TiledAccelerator whose engines are arrays with two buffers each: one for the splats on their
+/// way to the array, which also holds the lists being sorted, and the Pixel Buffer. With one array
+/// and Parts as they are:
 ///
 ///   Tile Front End -> Splat Fetchers -> [buffer] -> (array) -> Pixel Buffer -> memory
 ///

@@ -74,8 +74,8 @@ void add_activity(AcceleratorResult& result, const char* block, double operation
 inline void add_activity(AcceleratorResult& result, const char* block, std::uint64_t operations) {
     add_activity(result, block, rate_of(operations, 1));
 }
-/// Adds the activity of "pixel_buffer": a task reads the state of its pixel and writes it if it blends,
-/// and every pixel of the tiles is read out once. The slots of `result` must be known.
+/// Adds the activity of "pixel_buffer": a task reads the state of its pixel and writes it if it
+/// blends, and every pixel of the tiles is read out once. The slots of `result` must be known.
 void add_pixel_activity(AcceleratorResult& result, const RenderJob& job, double pixel_bytes);
 
 using PixelBuffers = std::vector<std::unique_ptr<PixelBuffer>>;
@@ -87,8 +87,8 @@ void collect_frames(AcceleratorResult& result, const PixelBuffers& buffers,
 /// `bytes`: of all instances together.
 void add_pixel_buffer(AcceleratorResult& result, std::int64_t bytes, int contexts,
                       const PixelBuffers& buffers);
-/// Slots of several arrays with windows of their own: first each of them is added, then each, of `width` PEs, has
-/// its cycles between the window of all and its own counted.
+/// Slots of several arrays with windows of their own: first each of them is added, then each, of
+/// `width` PEs, has its cycles between the window of all and its own counted.
 void add_slots(AcceleratorResult& result, const SlotAccount& slots, const ActiveWindow& window);
 void close_slots(AcceleratorResult& result, const ActiveWindow& window, std::uint64_t width);
 /// Both for `arrays` whose stats() have slots and a window.

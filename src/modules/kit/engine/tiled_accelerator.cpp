@@ -41,8 +41,8 @@ void TiledAccelerator::build_streams() {
     build_pixel_buffer(0);
 }
 
-// Granted lists have been sorted to their end, so that the sorters wait for cancellations that never
-// come.
+// Granted lists have been sorted to their end, so that the sorters wait for cancellations that
+// never come.
 void TiledAccelerator::build_engines() {
     nobody_ = std::make_unique<Process>(time_);
     nobody_->finish();

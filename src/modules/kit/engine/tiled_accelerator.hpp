@@ -21,19 +21,20 @@
 
 namespace degs {
 
-/// An accelerator of one or several engines behind a Tile Front End. This class has everything but the engines. Tiles
-/// are either granted, so that each engine is on a tile of its own and asks for the next one when its fetcher has
-/// handed on the one before:
+/// An accelerator of one or several engines behind a Tile Front End. This class has everything but
+/// the engines. Tiles are either granted, so that each engine is on a tile of its own and asks for
+/// the next one when its fetcher has handed on the one before:
 ///
-///   Tile Front End -> List Collectors -> Tile Dispatcher -> per engine: Splat Fetcher, perhaps with a
-///   reuse cache -> [buffer] -> (engine) -> Pixel Buffer -> memory
+///   Tile Front End -> List Collectors -> Tile Dispatcher -> per engine: Splat Fetcher, perhaps
+///   with a reuse cache -> [buffer] -> (engine) -> Pixel Buffer -> memory
 ///
 /// or the only engine gets all tiles, from a Splat Fetcher for each sorter:
 ///
 ///   Tile Front End -> Splat Fetchers -> [buffer] -> (engine) -> Pixel Buffer -> memory
 ///
-/// A tile whose pixels have all ended is not fetched any further; if tiles are not granted, neither is it sorted. A
-/// derived class builds its engines in its constructor and calls connect() with each.
+/// A tile whose pixels have all ended is not fetched any further; if tiles are not granted, neither
+/// is it sorted. A derived class builds its engines in its constructor and calls connect() with
+/// each.
 class TiledAccelerator : public RenderEngine {
 public:
     struct Parts {
@@ -53,7 +54,8 @@ public:
         int writeback_cycles = 1;           ///< report of a tile to its pixels written back
 
         Parts() = default;
-        /// The sections that the configurations of such accelerators share, with hierarchical sorters.
+        /// The sections that the configurations of such accelerators share, with hierarchical
+        /// sorters.
         template <class Config>
         explicit Parts(const Config& config)
             : fetching(config.fetching), pixel_buffer(config.pixel_buffer), monitor(config.monitor),
@@ -93,8 +95,8 @@ protected:
         return {inputs(), parts_.contexts, first_context(engine), parts_.granted};
     }
     int first_context(int engine) const { return engine * parts_.contexts; }
-    /// Wires the ports `in`, `context_free`, `tile_done` and `tile_state` of the next engine. `in` is a port, or a
-    /// vector of share_of().inputs ports.
+    /// Wires the ports `in`, `context_free`, `tile_done` and `tile_state` of the next engine. `in`
+    /// is a port, or a vector of share_of().inputs ports.
     template <class Engine>
     void connect(Engine& engine) {
         const std::size_t index = connected_++;
@@ -107,8 +109,8 @@ protected:
     std::string name_of(const char* block, int engine) const {
         return parts_.granted ? numbered(block, engine) : block;
     }
-    /// Fills slots, window, stages, buffers, activity and invariants of the engines. Called when the stages of the
-    /// front end and the fetchers are there.
+    /// Fills slots, window, stages, buffers, activity and invariants of the engines. Called when
+    /// the stages of the front end and the fetchers are there.
     virtual void collect_engines(AcceleratorResult& result) const = 0;
 
     const Timebase& time() const { return time_; }

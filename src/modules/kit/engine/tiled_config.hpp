@@ -15,9 +15,10 @@
 
 namespace degs {
 
-/// The configuration of an accelerator that sorts a list of splats for each tile and fetches their records from
-/// memory. It has the sections of the blocks that all of these need; `Self`, which derives from it, describes them in
-/// an order of its own, and adds its sorter and its array. `Pipeline` and `Pixels` may be sections with more keys.
+/// The configuration of an accelerator that sorts a list of splats for each tile and fetches their
+/// records from memory. It has the sections of the blocks that all of these need; `Self`, which
+/// derives from it, describes them in an order of its own, and adds its sorter and its array.
+/// `Pipeline` and `Pixels` may be sections with more keys.
 template <class Self, class Pipeline = PipelineConfig, class Pixels = PixelBuffer::Config>
 struct TiledConfig : AcceleratorConfig {
     Pipeline pipeline;

@@ -12,15 +12,15 @@
 
 namespace degs {
 
-/// Writes chunks of splats to the Gaussian Buffer of every reader: when each has a place, and as fast
-/// as the ports of the buffer allow. Part of the process that calls it.
+/// Writes chunks of splats to the Gaussian Buffer of every reader: when each has a place, and as
+/// fast as the ports of the buffer allow. Part of the process that calls it.
 class ChunkWriter {
 public:
     using Out = sc_core::sc_vector<FifoPort<SplatChunk>>;
     using Released = sc_core::sc_vector<FifoPort<ChunkReleased>>;
 
-    /// `places` for chunks, which `released` frees; 0: those of the rings. `instant`: no time of its
-    /// own but that of limited ports.
+    /// `places` for chunks, which `released` frees; 0: those of the rings. `instant`: no time of
+    /// its own but that of limited ports.
     ChunkWriter(Out& out, Released& released, const BankedSramPorts& ports, std::size_t places,
                 bool instant)
         : out_(out), released_(released), ports_(ports), places_(places), instant_(instant) {}

@@ -11,8 +11,9 @@
 
 namespace degs {
 
-/// Reports that all pixels of a frame are in memory: to the front end, which may then start another frame,
-/// so that a limited number of frames have lists in memory, and to listeners that wait for the image.
+/// Reports that all pixels of a frame are in memory: to the front end, which may then start another
+/// frame, so that a limited number of frames have lists in memory, and to listeners that wait for
+/// the image.
 class FrameGate : public sc_core::sc_module {
 public:
     /// Frame of each tile, one per Pixel Buffer, and of each background.

@@ -9,10 +9,10 @@
 
 namespace degs {
 
-/// Sorts the list of a tile in two steps (Lee et al., ASPLOS 2024): a coarse partition by pivots into
-/// chunks that are in depth order among themselves, then each chunk exactly, just before it is rendered.
-/// Chunks of a tile that has been cancelled are never sorted. Tiles go round the units; loading,
-/// the coarse step and the fine step overlap.
+/// Sorts the list of a tile in two steps (Lee et al., ASPLOS 2024): a coarse partition by pivots
+/// into chunks that are in depth order among themselves, then each chunk exactly, just before it is
+/// rendered. Chunks of a tile that has been cancelled are never sorted. Tiles go round the units;
+/// loading, the coarse step and the fine step overlap.
 ///
 /// A coarse level halves the partitions and moves every key once. While partitions are
 /// longer than the unit's buffer, levels go through memory, and each chunk is read once

@@ -49,8 +49,8 @@ private:
 /// A cache that keeps splat records between the tiles of one engine (Ye et al., HPCA 2025). Reuse
 /// distances that binning has computed in advance decide which record is replaced: the one whose
 /// next use is farthest away, which may be the record that has just been read. Next uses are those
-/// of all tiles in the order of the job, whichever engine works on them; once the engine has passed a tile,
-/// its entries no longer count. Fully associative [assumed].
+/// of all tiles in the order of the job, whichever engine works on them; once the engine has passed
+/// a tile, its entries no longer count. Fully associative [assumed].
 ///
 /// The cache has no time of its own: the Splat Fetcher asks which records it must read.
 class ReuseCache {

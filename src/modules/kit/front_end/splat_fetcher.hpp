@@ -22,7 +22,8 @@ public:
     struct Config {
         int chunk = 16;           ///< splat records per request and hand-over
         int chunks_in_flight = 8; ///< record requests outstanding
-        /// Ports of the readers' buffer, whose section has the keys: a chunk is written before the next.
+        /// Ports of the readers' buffer, whose section has the keys: a chunk is written before the
+        /// next.
         BankedSramPorts splat_ports;
         std::size_t chunks = 0; ///< places for chunks; 0: those of the rings to the readers
         bool reads = true;      ///< false: a SplatSupply reads the records that it asks for

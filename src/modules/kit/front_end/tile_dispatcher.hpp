@@ -14,8 +14,8 @@ namespace degs {
 
 /// Hands sorted tiles to engines that each work on a tile of their own: in tile order, the next
 /// complete list goes to the engine that asked first; of those that asked in the same cycle, to the
-/// one with the lowest index. Engines that wait for the first list of a frame count as asking when it comes, so that a
-/// frame does not depend on the one before. One tile is granted per cycle.
+/// one with the lowest index. Engines that wait for the first list of a frame count as asking when
+/// it comes, so that a frame does not depend on the one before. One tile is granted per cycle.
 class TileDispatcher : public sc_core::sc_module {
 public:
     struct Stats {

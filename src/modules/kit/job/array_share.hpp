@@ -10,7 +10,8 @@ struct ArrayShare {
     std::size_t inputs = 1; ///< rings of splats; tile t comes on ring t modulo their number
     int contexts = 1;       ///< an array's n-th tile lives in context first_context + n modulo this
     int first_context = 0;  ///< in the data path
-    /// Tiles come one by one, ascending, on one ring, until kNoTile; else all tiles of the job come.
+    /// Tiles come one by one, ascending, on one ring, until kNoTile; else all tiles of the job
+    /// come.
     bool granted = false;
 };
 

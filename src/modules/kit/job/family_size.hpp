@@ -26,8 +26,8 @@ inline int whole_root(int square) {
     return root;
 }
 
-/// Side of a tile that grows with the square root of the PEs from 32 px at 64 PEs (paper, Table II),
-/// rounded down to a power of two.
+/// Side of a tile that grows with the square root of the PEs from 32 px at 64 PEs (paper, Table
+/// II), rounded down to a power of two.
 inline int family_tile(int pes) {
     constexpr int kSquareOfRatio = 16; // (32 px)^2 / 64 PEs
     return power_of_two_below(whole_root(kSquareOfRatio * pes));

@@ -8,9 +8,9 @@
 
 namespace degs {
 
-/// The order in which the splat records of a frame lie in memory. `Index`: that of their Gaussians in
-/// the scene. `Morton`: that of the Morton code of the Gaussian's position, so that neighbours in space
-/// are neighbours in memory.
+/// The order in which the splat records of a frame lie in memory. `Index`: that of their Gaussians
+/// in the scene. `Morton`: that of the Morton code of the Gaussian's position, so that neighbours
+/// in space are neighbours in memory.
 enum class RecordOrder { Index, Morton };
 
 /// Where each splat record of a frame lies among the records of the frame.
@@ -29,8 +29,8 @@ private:
     std::vector<std::uint32_t> of_splats_, of_visible_;
 };
 
-/// Ranks of positions in the order of their Morton codes: 21 bits per axis of the smallest cube with
-/// sides parallel to the axes that holds all of them. Equal codes keep their order.
+/// Ranks of positions in the order of their Morton codes: 21 bits per axis of the smallest cube
+/// with sides parallel to the axes that holds all of them. Equal codes keep their order.
 std::vector<std::uint32_t> morton_ranks(const std::vector<glm::vec3>& positions);
 
 } // namespace degs

@@ -7,8 +7,8 @@ namespace degs {
 
 namespace {
 
-// Splats are in depth order, Gaussians are streamed in scene order. Ranks reach from the first visible
-// Gaussian to the last one only, so that a few visible ones of a large scene cost little.
+// Splats are in depth order, Gaussians are streamed in scene order. Ranks reach from the first
+// visible Gaussian to the last one only, so that a few visible ones of a large scene cost little.
 std::vector<std::uint64_t> prefix_of_pairs(const FrameWorkload& frame) {
     std::vector<std::uint64_t> prefix(frame.visible_of.size() + 1, 0);
     if (frame.visible_of.empty()) {

@@ -11,7 +11,8 @@
 
 namespace degs {
 
-/// What a PE slot was used for, in the order of all results and pictures. The same classes serve every accelerator.
+/// What a PE slot was used for, in the order of all results and pictures. The same classes serve
+/// every accelerator.
 enum class Slot { Useful, Boundary, Terminated, Conflict, Ports, Padding, Starved, Blocked, Drain };
 
 /// A class of PE-cycles and what it means.

@@ -8,12 +8,13 @@
 
 namespace degs {
 
-/// Tells a block when no tile follows. Without tile streams that are granted their tiles, all tiles of the job
-/// come. A stream that is granted tiles does not know which is its last one: kNoTile ends it.
+/// Tells a block when no tile follows. Without tile streams that are granted their tiles, all tiles
+/// of the job come. A stream that is granted tiles does not know which is its last one: kNoTile
+/// ends it.
 class TileEnd {
 public:
-    /// `granted_streams`: number of tile streams that end with kNoTile; 0 if tiles are not granted, so
-    /// that the block sees all tiles of the job.
+    /// `granted_streams`: number of tile streams that end with kNoTile; 0 if tiles are not granted,
+    /// so that the block sees all tiles of the job.
     TileEnd(const RenderJob& job, std::size_t granted_streams)
         : job_(job), granted_streams_(granted_streams) {}
 

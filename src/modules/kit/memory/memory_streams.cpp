@@ -28,7 +28,8 @@ void MemoryStreams::build(const char* name, const MainMemoryConfig& config, cons
     }
 }
 
-// The bytes of an access are counted in its last cycles, as many as they take at the peak bandwidth.
+// The bytes of an access are counted in its last cycles, as many as they take at the peak
+// bandwidth.
 void MemoryStreams::watch(std::size_t initiator, const Timebase& time) {
     const std::string name = streams_[initiator].kind.name;
     TimeSeries& read = time.timeline->series("memory", name + " read");

@@ -14,7 +14,8 @@ public:
     DrawnPixels& operator=(const DrawnPixels&) = delete;
     virtual ~DrawnPixels() = default;
 
-    /// The first `count` pixels of a row whose splats have all been blended, or whose tile has ended.
+    /// The first `count` pixels of a row whose splats have all been blended, or whose tile has
+    /// ended.
     virtual void read_row(TileNumber number, int row, int count, PixelValue* pixels) = 0;
     /// The row has been read out. A row may be outside of the image.
     virtual void clear_row(TileNumber number, int row) = 0;

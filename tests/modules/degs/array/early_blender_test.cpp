@@ -136,7 +136,8 @@ TEST(EarlyBlender, ATileEndsAlone) {
 }
 
 // Parts of a row's tasks at 10, 12, 14 and 16: each pixel comes again after 4 cycles, when it is
-// written back. At 17 one pixel of either part comes too early; at 21 nothing is under way but those.
+// written back. At 17 one pixel of either part comes too early; at 21 nothing is under way but
+// those.
 TEST(EarlyBlender, CountsPixelsThatComeBeforeTheirWriteBack) {
     Bench bench(std::vector<ProjectedSplat>(6, test::one_row(0, 7, 2, 0.1)));
     EarlyBlender pes(bench.job, 4);
@@ -165,8 +166,8 @@ DegsConfig one_pe_without_scoreboard() {
     return config;
 }
 
-// 40 updates of one pixel in 40 cycles, written back after 4: an update sees the one 4 before it, so
-// that only 10 of them are in the pixel at the end. All 39 after the first come too early.
+// 40 updates of one pixel in 40 cycles, written back after 4: an update sees the one 4 before it,
+// so that only 10 of them are in the pixel at the end. All 39 after the first come too early.
 TEST(SmallRunWithoutScoreboard, OneOfFourUpdatesReachesThePixel) {
     std::vector<ProjectedSplat> splats(40, one_pixel(3, 2, 0.02));
     for (ProjectedSplat& splat : splats) {
@@ -194,8 +195,8 @@ TEST(SmallRunWithoutScoreboard, OneOfFourUpdatesReachesThePixel) {
     EXPECT_NEAR(kept.image().transmittance[pixel], std::pow(0.98, 40), 1e-6);
 }
 
-// The third update of a chain ends the pixel, and the next three tasks do not know it yet: the pixel
-// ends once.
+// The third update of a chain ends the pixel, and the next three tasks do not know it yet: the
+// pixel ends once.
 TEST(SmallRunWithoutScoreboard, APixelEndsOnce) {
     const FrameWorkload frame =
         make_frame(std::vector<ProjectedSplat>(40, one_pixel(3, 2, 0.98)), 16, 16, 16);

@@ -100,8 +100,8 @@ TEST(FeatureBuffer, HoldsAsManySplatsAsItHasEntries) {
     EXPECT_EQ(buffer.current(), entries[2]);
 }
 
-// Writing an entry takes four cycles. Splats that enter together wait for each other where they need
-// the same port: two ports, or two SRAM banks, or none to wait for.
+// Writing an entry takes four cycles. Splats that enter together wait for each other where they
+// need the same port: two ports, or two SRAM banks, or none to wait for.
 class FeatureFill : public ::testing::TestWithParam<std::tuple<int, int, Cycle>> {};
 
 TEST_P(FeatureFill, TakesAPort) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that draws ahead gives what drawing on demand gives, whatever the simulation takes and when.
+// A thread that draws ahead gives what drawing on demand gives, whatever the simulation takes and
+// when.
 #include "modules/degs/drawing/drawing_thread.hpp"
 
 #include <random>
@@ -44,8 +45,9 @@ struct Reader {
     std::uint32_t place = 0, end = 0; // `end`: where it is told that the tile has ended
 };
 
-/// Takes tiles as modules do that share them, several tiles at a time, in an order that `seed` decides. Each
-/// module stops some splats behind the one that ended its tile; `joining` tiles are in the job at first.
+/// Takes tiles as modules do that share them, several tiles at a time, in an order that `seed`
+/// decides. Each module stops some splats behind the one that ended its tile; `joining` tiles are
+/// in the job at first.
 class Simulation {
 public:
     Simulation(RenderJob& job, const DrawingOptions& options, std::uint32_t seed)

@@ -114,8 +114,8 @@ TEST(IssueBank, OtherDomainsFillTheGap) {
     EXPECT_EQ(bench.stats().hazards, 0U);
 }
 
-// Eight rows wait at the crossbar. The bank cuts four per cycle but takes only as many as the crossbar
-// is wide, and the array executes what it gets: a wire for two units halves their rate.
+// Eight rows wait at the crossbar. The bank cuts four per cycle but takes only as many as the
+// crossbar is wide, and the array executes what it gets: a wire for two units halves their rate.
 class CrossbarWidth : public ::testing::TestWithParam<std::pair<int, Cycle>> {};
 
 TEST_P(CrossbarWidth, LimitsTheSpansPerCycle) {
@@ -148,8 +148,8 @@ TEST(IssueBank, TheNextTileStartsWhenItsContextIsFree) {
     EXPECT_EQ(bench.accounted(), bench.window_slots());
 }
 
-// Room for two packets and a long way from issue to execution: packets in the pipeline take no room,
-// so five rows that wait from the start execute one after the other.
+// Room for two packets and a long way from issue to execution: packets in the pipeline take no
+// room, so five rows that wait from the start execute one after the other.
 class PackingLatency : public ::testing::TestWithParam<int> {};
 
 TEST_P(PackingLatency, TakesNoRoomOfThePackets) {
@@ -205,7 +205,8 @@ TEST(IssueBank, HazardsCountBySinglePixels) {
 }
 
 // Eight rows wait at the crossbar, packets take two of them, and the Packing Buffer's ports let so
-// many segments in and out per cycle: one takes twice as long as two. Two are what the array executes.
+// many segments in and out per cycle: one takes twice as long as two. Two are what the array
+// executes.
 class SegmentPorts : public ::testing::TestWithParam<std::pair<int, Cycle>> {};
 
 TEST_P(SegmentPorts, LimitTheSegmentsPerCycle) {
@@ -235,8 +236,8 @@ TEST(IssueBankPorts, AWaitForTheReadPortHasACauseOfItsOwn) {
     EXPECT_EQ(bench.accounted(), bench.window_slots());
 }
 
-// The first row of a splat waits until its parameters have been written, as far as the way from issue
-// to execution does not hide it; the second row of the splat follows at once.
+// The first row of a splat waits until its parameters have been written, as far as the way from
+// issue to execution does not hide it; the second row of the splat follows at once.
 class FeatureFillTime : public ::testing::TestWithParam<std::pair<int, Cycle>> {};
 
 TEST_P(FeatureFillTime, DelaysTheFirstRow) {

@@ -46,8 +46,8 @@ struct ReleaseBench {
     }
 };
 
-// The first chunk has three rows, solved at 12, 13 and 30; the second one none, but it comes after the
-// first; the third has its only row before it is reported. Each is released two wires later.
+// The first chunk has three rows, solved at 12, 13 and 30; the second one none, but it comes after
+// the first; the third has its only row before it is reported. Each is released two wires later.
 TEST(ParameterRelease, AChunkLeavesWhenItsLastRowHasBeenSolved) {
     ReleaseBench release;
     release.bench.script([&](Process& self) {

@@ -59,7 +59,8 @@ TEST(SpanUnit, ARowPerIntervalAndTheLatencyOfThePipeline) {
     EXPECT_EQ(unit.stats().busy, 9U);
 }
 
-/// A Tile Monitor of two slices and two tiles. Reports take 4 cycles to it, a cancellation 8 from it.
+/// A Tile Monitor of two slices and two tiles. Reports take 4 cycles to it, a cancellation 8 from
+/// it.
 struct MonitorBench {
     /// A slice reports a tile at `date`; `ended`: all its pixels have ended.
     struct Report {
@@ -240,9 +241,9 @@ TEST(SpanPool, StreamsTakeTurns) {
     EXPECT_FALSE(second.back().second.span);
 }
 
-// Queues of two cells, those of the pipeline included. Stream 0's is not read before 40, and its third
-// row waits for the cycle after, the end of the tile for one more. Stream 1's is read as soon as a
-// Span Vector has come, six cycles after its row; it goes on in the cycle after.
+// Queues of two cells, those of the pipeline included. Stream 0's is not read before 40, and its
+// third row waits for the cycle after, the end of the tile for one more. Stream 1's is read as soon
+// as a Span Vector has come, six cycles after its row; it goes on in the cycle after.
 TEST(SpanPool, AFullQueueHoldsUpItsStreamOnly) {
     SpanPool::Share share;
     share.streams = 2;

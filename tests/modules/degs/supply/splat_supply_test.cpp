@@ -101,8 +101,8 @@ SplatSupply::Config rate(int splats_per_cycle, int fifo_splats = 8) {
     return config;
 }
 
-// Chosen at 1 to 6 in turn, complete eleven cycles later and on the bus at once, in the FIFO and in the
-// buffer a cycle later each.
+// Chosen at 1 to 6 in turn, complete eleven cycles later and on the bus at once, in the FIFO and in
+// the buffer a cycle later each.
 TEST(SplatSupply, ClustersTakeTurnsOnTheBus) {
     SupplyBench bench("", tiles_alike(2, 12), rate(kChunk), clusters(2));
     for (const std::size_t f : {0U, 1U}) {
@@ -226,8 +226,8 @@ TEST(SplatSupply, TheCacheServesAllClusters) {
     EXPECT_EQ(bench.records().hits, 8U);
 }
 
-// Two chunks may be outstanding: the bus takes the first chunk at 12, its fetcher knows at 13, and the
-// reader at 14.
+// Two chunks may be outstanding: the bus takes the first chunk at 12, its fetcher knows at 13, and
+// the reader at 14.
 TEST(SplatSupply, RequestsOutstandingAreBounded) {
     SplatSupply::Shape shape = clusters(1);
     shape.fetching.chunks_in_flight = 2;

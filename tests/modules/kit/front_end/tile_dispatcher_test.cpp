@@ -120,7 +120,8 @@ TEST(TileDispatcher, WhoHasWaitedLongestComesFirstWhenAListIsLate) {
     EXPECT_EQ(bench.granted[0], (Grants{{52, 2}}));
 }
 
-// Else the engines that end a frame first would begin the next one, and its dates would be others than after a reset.
+// Else the engines that end a frame first would begin the next one, and its dates would be others
+// than after a reset.
 TEST(TileDispatcher, AFrameBeginsWithTheLowestIndexWhoeverHasWaited) {
     DispatcherBench bench(2, 2, 2);
     bench.sort_at({50, 20});

@@ -53,7 +53,8 @@ TEST(RecordPlaces, EverySplatHasAPlaceOfItsOwn) {
     }
 }
 
-// On a bus the order is nothing at all; on LPDDR5 it moves rows and dates, but no byte and no pixel.
+// On a bus the order is nothing at all; on LPDDR5 it moves rows and dates, but no byte and no
+// pixel.
 TEST(RecordPlaces, OnlyAddressesFollowTheOrder) {
     const FrameWorkload frame = test::random_frame(5, 200, 120, 16, 3000);
     std::vector<std::unique_ptr<DegsRun>> runs;
