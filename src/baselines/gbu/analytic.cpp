@@ -40,7 +40,8 @@ private:
     Config config_;
 };
 
-/// An engine: a splat enters its rows' queues in one cycle if all of them have room.
+/// An engine: rows of a splat enter their queues as fast as Row Generation solves them, each when
+/// its queue has room.
 class Clock : public TileClock {
 public:
     explicit Clock(const Analytic& model)
@@ -55,10 +56,15 @@ private:
         std::size_t next = 0;       ///< place in the queue
         std::vector<double> loaded; ///< by place: when the entry left it
     };
+    /// Cycles in which Row Generation solves `rows` of a splat.
+    double cycles_of(double rows) const {
+        return engines_.rows_per_cycle == 0 ? 1 : std::max(1.0, rows / engines_.rows_per_cycle);
+    }
+
     const Analytic& model_;
     const Config::Engines& engines_;
     std::vector<RowPe> pes_;
-    double generated_ = 0, slots_ = 0;
+    double generated_ = 0, slots_ = 0, busy_ = 0;
 };
 
 std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload&) const {
@@ -71,18 +77,19 @@ void Clock::begin(const CoarseTile&) {
         pe.next = 0;
         pe.loaded.assign(engines_.queue_depth, 0);
     }
-    generated_ = slots_ = 0;
+    generated_ = slots_ = busy_ = 0;
 }
 
 void Clock::splat(const CoarseTile& tile) {
-    double pushed = generated_;
+    double pushed = generated_, solved = 0;
     for (const CoarseSpan& span : tile.spans()) {
         if (!tile.cell_is_live(span.row, 0)) {
             continue;
         }
+        solved += tile.rows_per_drawn();
         RowPe& pe = pes_[span.row % pes_.size()];
         double& place = pe.loaded[pe.next];
-        const double at = std::max(generated_, place);
+        const double at = std::max(generated_ + cycles_of(solved) - 1, place);
         pe.next = pe.next + 1 == pe.loaded.size() ? 0 : pe.next + 1;
         const double taken = span.length() + (engines_.end_probe ? 1 : 0);
         place = std::max(pe.free, at + 1);
@@ -90,7 +97,8 @@ void Clock::splat(const CoarseTile& tile) {
         slots_ += taken;
         pushed = std::max(pushed, at);
     }
-    generated_ = pushed + 1;
+    busy_ += cycles_of(solved);
+    generated_ = std::max(pushed, generated_ + cycles_of(solved) - 1) + 1;
 }
 
 TileCycles Clock::end(const CoarseTile& tile) {
@@ -100,7 +108,7 @@ TileCycles Clock::end(const CoarseTile& tile) {
     }
     TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
     cycles.slots = slots_ * tile.rows_per_drawn();
-    cycles.busy[Analytic::kGeneration] = tile.walked() / model_.engines();
+    cycles.busy[Analytic::kGeneration] = busy_ / model_.engines();
     cycles.busy[Analytic::kBlending] = cycles.slots / model_.pes();
     cycles.time = std::max(last, cycles.time);
     return cycles;

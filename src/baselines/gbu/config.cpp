@@ -6,9 +6,6 @@ namespace degs::gbu {
 Config::Config() {
     name = "gbu-64";
     projection.latency_cycles = 128;
-    traffic.geometry_bytes = 44;
-    traffic.sh_value_bytes = 4;
-    traffic.sh = ShReads::All;
     pixel_buffer.bytes = 32 * 1024;
     pixel_buffer.state_bytes = 8;
 }
@@ -51,7 +48,8 @@ void Config::describe(ConfigVisitor& visitor) {
                     "px; grows with the PEs like the tiles of DeGS [assumed]");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
-    pipeline.require_records(visitor, traffic.sh_value_bytes, traffic.list_entry_bytes);
+    pipeline.require_records(visitor, traffic.geometry_bytes, traffic.sh_value_bytes,
+                             traffic.list_entry_bytes);
     visitor.section("projection", projection, "GSCore's culling and conversion units");
     visitor.section("binning", binning, "tile lists");
     visitor.section("sorting", sorting, "GSCore's hierarchical sorting units");

@@ -9,8 +9,10 @@ void CostRows::describe(cost::RowSection& section) {
                 "P & S: pairs of a culling and conversion unit and a sorting unit");
     section.share("sorting_share", sorting_share,
                   "share of P & S that sorts; 0.02 of 0.94 mm2 in DeGS [assumed]");
-    section.row("scheduler", scheduler,
-                "Row Generation and dispatch, which Table I does not shade: one for any array");
+    section.row(
+        "scheduler", scheduler,
+        "Row Generation and dispatch; units: rows per cycle. Table I does not shade it, so that it "
+        "is one block for any array");
     section.row("blending", blending, "Row PEs");
     section.row("sram", sram, "all buffers");
 }
@@ -31,7 +33,7 @@ cost::BillOfMaterials Config::bill() const {
     bill.add_units({"sorting", "Hierarchical sorting units.", true}, rows.preprocessing,
                    sorting.count, rows.sorting_share);
     bill.add_units({"row_generation", "Row Generation and dispatch of all engines."},
-                   rows.scheduler, rows.scheduler.units);
+                   rows.scheduler, rows_per_cycle());
     bill.add_units({"row_pes", "Row PEs of the tile engines."}, rows.blending, pes(), 1,
                    cost.pe_factors(pipeline.precision()));
     bill.add_sram({"list_buffer", "Lists of the Sorting Units."}, rows.sram, list_buffer.bytes,
@@ -42,6 +44,11 @@ cost::BillOfMaterials Config::bill() const {
                   queue_bytes(), kReadAndWritten * pes() * engines.entry_bytes);
     bill.add_sram({"reuse_cache", "Splat records that come again."}, rows.sram, reuse_cache.bytes,
                   engines.count * traffic.splat_bytes);
+    if (binning.sram_bytes() != 0) {
+        bill.add_sram({"binning_buffer", "List entries that wait, and the ends of the lists."},
+                      rows.sram, binning.sram_bytes(),
+                      kReadAndWritten * binning.pairs_per_cycle * traffic.list_entry_bytes);
+    }
     bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."}, rows.sram,
                   pixel_buffer.bytes, kReadAndWritten * pes() * pixel_bytes());
     return bill;

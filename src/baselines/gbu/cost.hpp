@@ -7,7 +7,7 @@ namespace degs::gbu {
 
 /// What the blocks of GBU take. docs/cost.md argues every value.
 struct CostRows {
-    cost::UnitRow preprocessing{0.89, 0.58, 4}, scheduler{0.24, 0.07, 1}, blending{2.88, 0.88, 64};
+    cost::UnitRow preprocessing{0.89, 0.58, 4}, scheduler{0.24, 0.07, 8}, blending{2.88, 0.88, 64};
     double sorting_share = 0.02; ///< of preprocessing
     cost::SramRow sram{0.43, 0.06, 91 * 1024, 2368};
     void describe(cost::RowSection& section);

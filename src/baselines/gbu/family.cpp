@@ -49,9 +49,12 @@ void Config::scale_to(int pes) {
     const bool first = above == kColumns.begin();
     const SharesOfSram& low = beyond || first || high.pes == pes ? high : *(above - 1);
     name = "gbu-" + std::to_string(pes);
+    pipeline.records = kSharedRecords;
     tile_size = family_tile(pes);
     engines.row_pes = tile_size;
     engines.count = pes / tile_size;
+    constexpr int kRowsPerCycle = 8; // of all engines: one Row Generation of Table I for any array
+    engines.rows_per_cycle = std::max(1, kRowsPerCycle / engines.count);
     reuse_cache.bytes = between(pes, low, high, &SharesOfSram::cache_bytes);
     const int chunks = sorting.count * sorting.chunk * traffic.list_entry_bytes;
     list_buffer.bytes = std::max(chunks, between(pes, low, high, &SharesOfSram::list_bytes));

@@ -8,6 +8,7 @@ std::vector<LossKey> Config::loss_keys() const {
     using Way = LossKey::Way;
     return with(
         {
+            {"row_generation", "engines.rows_per_cycle", Way::Raise, "1024"},
             {"row_generation", "engines.count", Way::Raise, kNoLimit},
             {"gaps", "engines.queue_depth", Way::Raise, "4096"},
             {"answers", "fetching.chunks_in_flight", Way::Raise, kNoLimit, "list_buffer.chunks"},

@@ -19,7 +19,7 @@ void Engine::collect_stages(AcceleratorResult& result) const {
         engine->stats().describe_row_pes(row_pes);
     }
     add_stage(result, {"row_generation", "Row Generation of the tile engines."}, engines_.size(),
-              sum_of(engines_, &TileEngine::Stats::splats), std::move(generation));
+              sum_of(engines_, &TileEngine::Stats::generating), std::move(generation));
     const SlotAccount& s = result.slots;
     add_stage(result, {"row_pes", "Row PEs of the tile engines.", true}, config_.pes(),
               s[Slot::Useful] + s[Slot::Boundary] + s[Slot::Terminated], std::move(row_pes));

@@ -22,6 +22,11 @@ void TileEngine::Config::describe(ConfigVisitor& visitor) {
                     "rows in the original, one per row in the scaled designs [assumed])");
     visitor.integer("queue_depth", queue_depth, 1, 4096,
                     "row entries waiting in front of a Row PE; GBU does not say [assumed]");
+    visitor.integer("rows_per_cycle", rows_per_cycle, 0, 1024,
+                    "rows of a splat that Row Generation of an engine solves per cycle, which its "
+                    "area follows; 0: all at once, for which it has a solver for every Row PE. 8 "
+                    "in all engines together, as DeGS has Span Units, for one block in Table I "
+                    "whatever the size of the array [assumed]");
     visitor.integer("generation_latency", generation_latency, 0, 4096,
                     "cycles from a splat's record to its row entries; 8 in an HLS rebuild");
     visitor.integer("row_pe_latency", row_pe_latency, 1, 4096,
@@ -142,9 +147,12 @@ void TileEngine::work() {
     }
 }
 
-// The date moves to the cycle after the one in which the last row was pushed.
+// The date moves to the cycle after the one in which the last row was pushed. A row that has ended
+// takes no time.
 void TileEngine::generate(std::uint32_t splat) {
-    const Cycle now = self_.local();
+    Cycle now = self_.local();
+    int left = config_.rows_per_cycle; // rows of this cycle
+    const Cycle began = now;
     const int x_end = tile_->x + tile_->width;
     const PixelRange rows = job_.path->tested_rows(splat, tile_->columns(), tile_->rows());
     Cycle pushed = now;
@@ -153,12 +161,18 @@ void TileEngine::generate(std::uint32_t splat) {
             stats_.rows_skipped++;
             continue;
         }
+        if (config_.rows_per_cycle != 0 && left-- == 0) {
+            ++now;
+            left = config_.rows_per_cycle - 1;
+        }
         const PixelRange pixels = job_.path->tested_columns(splat, y, tile_->x, x_end);
         if (!pixels.empty()) {
             const Entry entry{splat, y - tile_->y, pixels.first - tile_->x, pixels.size()};
             pushed = std::max(pushed, push(entry, now));
         }
     }
+    pushed = std::max(pushed, now);
+    stats_.generating += now + 1 - began;
     stats_.queue_wait += pushed - now;
     if (ended_ != kNever && !reported_) {
         report_tile(last_end_);

@@ -16,9 +16,10 @@
 namespace degs::gbu {
 
 /// One row-centric tile engine of GBU: Row Generation and a Row PE per tile row, each with a queue
-/// of row entries. Generation takes one listed splat per cycle, solves the interval of pixels with
-/// alpha >= 1/255 of every row and pushes an entry to the queue of each, per row as soon as there
-/// is room; the splat is finished when all its rows are pushed. A Row PE walks its interval a pixel
+/// of row entries. Generation takes one listed splat per cycle at most, solves the interval of
+/// pixels with alpha >= 1/255 of `rows_per_cycle` of its rows per cycle and pushes an entry to the
+/// queue of each, per row as soon as there is room; the splat is finished when all its rows are
+/// pushed. A Row PE walks its interval a pixel
 /// per cycle and finds its end by a failing check (`end_probe`). Rows are bound to PEs; a tile ends
 /// when generation has finished and all queues are empty.
 ///
@@ -36,6 +37,7 @@ public:
     struct Config {
         int row_pes = 32;           ///< Row PEs; PE k serves the tile rows k, k + row_pes, ...
         int queue_depth = 16;       ///< entries waiting in front of a Row PE
+        int rows_per_cycle = 4;     ///< of a splat, solved by Row Generation; 0: all of them
         int generation_latency = 8; ///< cycles from a splat's record to its entries
         int row_pe_latency = 10;    ///< cycles from a pixel's slot to its written-back state
         int termination_cycles = 1; ///< cycles from the slot that ends a row to Row Generation
@@ -47,11 +49,11 @@ public:
         ActiveWindow window; ///< first to last slot of a Row PE
         std::uint64_t tiles = 0;
         std::uint64_t splats = 0, splats_abandoned = 0, rows_skipped = 0;
-        Cycle queue_wait = 0, input_wait = 0;
+        Cycle generating = 0, queue_wait = 0, input_wait = 0;
         std::uint64_t entries = 0, entries_dropped = 0, pixels = 0, pixels_ended = 0;
         std::uint64_t drain_slots = 0;
         void describe_generation(StatsVisitor& v) const {
-            v.count("splats", splats, "splats", "Splats taken in, one in each busy cycle.");
+            v.count("splats", splats, "splats", "Splats taken in, at most one per cycle.");
             v.count("splats_abandoned", splats_abandoned, "splats",
                     "Splats that came when their tile had ended.");
             v.count("rows_skipped", rows_skipped, "rows",

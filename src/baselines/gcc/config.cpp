@@ -27,7 +27,8 @@ void Config::describe(ConfigVisitor& visitor) {
                     "[assumed]");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
-    pipeline.require_records(visitor, traffic.sh_value_bytes, traffic.list_entry_bytes);
+    pipeline.require_records(visitor, 0, traffic.sh_value_bytes, traffic.list_entry_bytes);
+    require_parts(visitor);
     visitor.section("grouping", grouping, "Stage I: depth groups");
     visitor.section("projection", projection, "Stage II: projection of groups");
     visitor.section("colour", colour, "Stage III: mask, SH, exact order");
@@ -37,6 +38,22 @@ void Config::describe(ConfigVisitor& visitor) {
     visitor.section("memory", memory, "off-chip memory");
     describe_cost(visitor);
     require_sizes(visitor);
+}
+
+/// Stages read parts of a Gaussian that hold its formats.
+void Config::require_parts(ConfigVisitor& visitor) const {
+    const ProjectionNumbers stored = pipeline.projection_numbers();
+    const auto require = [&](const char* key, const char* what, int bytes, int bits) {
+        const std::string least = std::to_string(ceil_div(bits, 8));
+        visitor.require(bytes == 0 || 8 * bytes >= bits,
+                        {key,
+                         std::string("must hold ") + what + ", " + least + " B",
+                         least + " or 0",
+                         {"pipeline.records", "pipeline.formats"}});
+    };
+    require("traffic.mean_bytes", "the mean of a Gaussian", traffic.mean_bytes, stored.mean_bits());
+    require("traffic.shape_bytes", "scale, rotation and opacity of a Gaussian", traffic.shape_bytes,
+            stored.shape_bits());
 }
 
 void Config::require_sizes(ConfigVisitor& visitor) const {

@@ -78,6 +78,7 @@ struct Config : AcceleratorConfig {
 private:
     void describe_rows(ConfigVisitor& visitor) override;
     PixelBuffer::TilePixels view_pixels() const { return {view_size, pipeline.pixel_bits()}; }
+    void require_parts(ConfigVisitor& visitor) const;
     void require_sizes(ConfigVisitor& visitor) const;
 };
 

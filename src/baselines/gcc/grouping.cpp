@@ -58,13 +58,13 @@ void Grouping::end_of_elaboration() {
 
 void Grouping::fetch() {
     const std::uint64_t chunk = config_.chunk;
-    const std::uint64_t record = traffic_.stage_one_bytes();
     for (std::uint32_t f = 0; job_.has_frame(fetcher_, f); ++f) {
         if (frames_in_flight_ != 0 && f >= frames_in_flight_) {
             frame_free[0]->get(fetcher_);
         }
         const FrameWorkload& frame = *job_.frames[f];
         const MemoryMap map(traffic_, job_, f);
+        const std::uint64_t record = traffic_.stage_one_bytes(frame);
         for (std::uint64_t first = 0; first < frame.gaussians; first += chunk) {
             const std::uint64_t count = std::min(chunk, frame.gaussians - first);
             fetched_.reserve(fetcher_);

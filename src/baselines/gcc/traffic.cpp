@@ -11,15 +11,17 @@ std::uint64_t aligned_64(std::uint64_t bytes) {
 } // namespace
 
 void Traffic::describe(ConfigVisitor& visitor) {
-    visitor.integer("mean_bytes", mean_bytes, 1, 1024,
-                    "bytes per Gaussian read by Stage I: 3 values of FP16 (12 for FP32)");
+    visitor.integer("mean_bytes", mean_bytes, 0, 1024,
+                    "bytes per Gaussian read by Stage I; 0: as the formats of pipeline.records "
+                    "need, 12 in FP32, 6 in FP16");
     visitor.integer("bound_bytes", bound_bytes, 0, 1024,
                     "bytes per Gaussian that tell Stage I its extent, without which it could not "
                     "know the views; a radius in FP16, computed offline [assumed]");
-    visitor.integer("shape_bytes", shape_bytes, 1, 1024,
-                    "bytes per Gaussian read by Stage II: scale, rotation, opacity, 8 values of "
-                    "FP16; the mean comes along in the same burst [assumed]");
-    visitor.integer("sh_value_bytes", sh_value_bytes, 1, 8, "bytes per SH value read by Stage III");
+    visitor.integer("shape_bytes", shape_bytes, 0, 1024,
+                    "bytes per Gaussian read by Stage II: scale, rotation, opacity; 0: as the "
+                    "formats need; the mean comes along in the same burst [assumed]");
+    visitor.integer("sh_value_bytes", sh_value_bytes, 0, 8,
+                    "bytes per SH value read by Stage III; 0: as the formats need");
     visitor.integer("list_entry_bytes", list_entry_bytes, 1, 64,
                     "bytes per entry of a group or view list; depth key 4 + index 4 [assumed]");
     visitor.integer("pixel_bytes", pixel_bytes, 4, 8,
@@ -30,7 +32,9 @@ void Traffic::describe(ConfigVisitor& visitor) {
 
 TrafficConfig Traffic::common() const {
     TrafficConfig common;
-    common.geometry_bytes = mean_bytes + bound_bytes + shape_bytes;
+    common.mean_bytes = mean_bytes;
+    common.bound_bytes = bound_bytes;
+    common.shape_bytes = shape_bytes;
     common.sh_value_bytes = sh_value_bytes;
     common.list_entry_bytes = list_entry_bytes;
     common.pixel_bytes = pixel_bytes;
@@ -39,24 +43,26 @@ TrafficConfig Traffic::common() const {
 }
 
 MemoryMap::MemoryMap(const Traffic& traffic, const RenderJob& job, std::uint32_t frame) {
+    const FrameWorkload& work = *job.frames[frame];
     const degs::MemoryMap common = job.map(frame, traffic.common());
     means = common.geometry;
     shapes = traffic.gaussian_bytes == 0
-                 ? means + aligned_64(job.frames[frame]->gaussians * traffic.stage_one_bytes())
+                 ? means + aligned_64(work.gaussians * traffic.stage_one_bytes(work))
                  : means + traffic.gaussian_bytes - traffic.shape_bytes;
     sh = common.sh;
     views = common.lists;
-    groups = views + aligned_64(job.frames[frame]->tile_pairs() * traffic.entry_bytes());
+    groups = views + aligned_64(work.tile_pairs() * traffic.entry_bytes());
 }
 
 ScatteredRecords shape_records(const Traffic& traffic, const RenderJob& job, std::uint32_t frame,
                                const std::uint32_t* gaussians, std::size_t count) {
+    const FrameWorkload& work = *job.frames[frame];
     ScatteredRecords records;
     records.base = MemoryMap(traffic, job, frame).shapes;
-    records.bytes = traffic.shape_bytes;
-    records.stride = traffic.gaussian_bytes == 0 ? traffic.shape_bytes : traffic.gaussian_bytes;
+    records.bytes = traffic.common().shape_bytes_of(work);
+    records.stride = traffic.gaussian_bytes == 0 ? records.bytes : traffic.gaussian_bytes;
     records.burst = traffic.burst_bytes;
-    const std::uint64_t before_last = (job.frames[frame]->gaussians - 1) * records.stride;
+    const std::uint64_t before_last = (work.gaussians - 1) * records.stride;
     records.array_bytes = traffic.gaussian_bytes == 0 ? aligned_64(before_last + records.bytes)
                                                       : before_last + records.bytes;
     records.numbers = gaussians;

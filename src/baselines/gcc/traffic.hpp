@@ -10,10 +10,10 @@ namespace degs::gcc {
 /// Record layouts of GCC's streams. A Gaussian is stored stage by stage, so that one that is
 /// dropped early costs only the stages that have read it.
 struct Traffic {
-    int mean_bytes = 6;       ///< per Gaussian, Stage I: 3 values of 2 B
+    int mean_bytes = 0;       ///< per Gaussian, Stage I; 0: as formats need
     int bound_bytes = 2;      ///< per Gaussian, Stage I: radius of a sphere around it
-    int shape_bytes = 16;     ///< per Gaussian and view, Stage II: scale 3, rotation 4, opacity 1
-    int sh_value_bytes = 2;   ///< per coefficient and channel, Stage III
+    int shape_bytes = 0;      ///< per Gaussian and view, Stage II: scale 3, rotation 4, opacity 1
+    int sh_value_bytes = 0;   ///< per coefficient and channel, Stage III
     int list_entry_bytes = 8; ///< depth key 4, index 4
     int pixel_bytes = 4;      ///< per frame-buffer pixel, RGBA8
     int burst_bytes = 64;     ///< scattered records are read in whole bursts
@@ -24,7 +24,9 @@ struct Traffic {
 
     /// The records that all accelerators have.
     TrafficConfig common() const;
-    std::uint64_t stage_one_bytes() const { return mean_bytes + bound_bytes; }
+    std::uint64_t stage_one_bytes(const FrameWorkload& frame) const {
+        return common().mean_bytes_of(frame) + bound_bytes;
+    }
     std::uint64_t entry_bytes() const { return list_entry_bytes; }
 };
 

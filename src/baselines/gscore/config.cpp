@@ -18,9 +18,6 @@ void Config::Buffer::describe(ConfigVisitor& visitor) {
 Config::Config() {
     name = "gscore-64";
     projection.latency_cycles = 128;
-    traffic.geometry_bytes = 44;
-    traffic.sh_value_bytes = 4;
-    traffic.sh = ShReads::All;
     pixel_buffer.bytes = 8 * 1024; // two tiles of 16 x 16 px
 }
 
@@ -32,7 +29,8 @@ void Config::describe(ConfigVisitor& visitor) {
         "end; beyond the paper");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
-    pipeline.require_records(visitor, traffic.sh_value_bytes, traffic.list_entry_bytes);
+    pipeline.require_records(visitor, traffic.geometry_bytes, traffic.sh_value_bytes,
+                             traffic.list_entry_bytes);
     visitor.section("projection", projection, "culling and conversion units");
     visitor.section("binning", binning, "tile lists");
     visitor.section("sorting", sorting, "hierarchical sorting units");

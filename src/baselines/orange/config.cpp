@@ -9,9 +9,6 @@ namespace degs::orange {
 Config::Config() {
     name = "orange-o4";
     projection.latency_cycles = 128;
-    traffic.geometry_bytes = 44;
-    traffic.sh_value_bytes = 4;
-    traffic.sh = ShReads::All;
     fetching.chunk = 256;
     fetching.chunks_in_flight = 2;
     pixel_buffer.bytes = 8 * 1024; // two tiles of 8 x 8 px for each core
@@ -57,7 +54,8 @@ void Config::describe(ConfigVisitor& visitor) {
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("gemm", gemm, "the product of matrices that forms exponents");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
-    pipeline.require_records(visitor, traffic.sh_value_bytes, traffic.list_entry_bytes);
+    pipeline.require_records(visitor, traffic.geometry_bytes, traffic.sh_value_bytes,
+                             traffic.list_entry_bytes);
     visitor.section("projection", projection,
                     "projection, at the rate of GSCore's units; it does not compete for the vector "
                     "units [assumed]");

@@ -51,7 +51,8 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
                     "binning and sorting, is that of one cluster (paper: 1)");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
-    pipeline.require_records(visitor, traffic.sh_value_bytes, traffic.list_entry_bytes);
+    pipeline.require_records(visitor, traffic.geometry_bytes, traffic.sh_value_bytes,
+                             traffic.list_entry_bytes);
     visitor.section("projection", projection, "Projection Units");
     visitor.section("binning", binning, "tile lists");
     visitor.section("sorting", sorting, "Sorting Units");

@@ -7,8 +7,8 @@
 #include <type_traits>
 
 #include "splat/frame/pixel_index.hpp"
+#include "splat/frame/stored_gaussians.hpp"
 #include "splat/model/spherical_harmonics.hpp"
-#include "splat/numbers/stored_sh.hpp"
 
 namespace degs {
 namespace {
@@ -59,11 +59,11 @@ class ProjectorIn final : public Projector {
 public:
     ProjectorIn(const GaussianCloud& cloud, const Camera& camera, const ProjectionOptions& options,
                 Numbers numbers)
-        : Projector(camera), cloud_(cloud), position_(camera.position), n_(std::move(numbers)),
-          k_(n_, camera, options), alpha_min_(options.alpha_min),
+        : Projector(camera), gaussians_(cloud, options.numbers), position_(camera.position),
+          n_(std::move(numbers)), k_(n_, camera, options), alpha_min_(options.alpha_min),
           cut_(options.cut < kNoCut ? value_of(n_(options.cut))
                                     : std::numeric_limits<double>::infinity()),
-          order_(options.order), compensated_(options.compensated), stored_sh_(options.numbers) {}
+          order_(options.order), compensated_(options.compensated) {}
 
     Cull project_anywhere(std::size_t index, ProjectedSplat& out) const override;
     Cull shade(std::size_t index, ProjectedSplat& out) const override;
@@ -75,7 +75,7 @@ private:
         Vector x, y, z;
     };
 
-    Matrix rotation_of(const glm::vec4& slots) const;
+    Matrix rotation_of(const glm::dvec4& slots) const;
     Scalar depth_of(const Scalar& x, const Scalar& y, const Scalar& z) const;
     void set_mean(const Scalar& x, const Scalar& y, const Scalar& z, ProjectedSplat& out) const;
     void set_opacity(const Scalar& opacity, ProjectedSplat& out) const;
@@ -94,22 +94,20 @@ private:
         return {dot(m.x, row), dot(m.y, row), dot(m.z, row)};
     }
 
-    const GaussianCloud& cloud_;
+    StoredGaussians gaussians_;
     glm::dvec3 position_;
     Numbers n_; // before what is made of it
     ViewConstants<Numbers> k_;
     double alpha_min_, cut_;
     SplatOrder order_;
     bool compensated_;
-    StoredSh stored_sh_;
 };
 
 /// Rotation matrix of a quaternion in slot order w, x, y, z. Dividing by |q|^2 makes it orthonormal
 /// in double although files store unit quaternions rounded to float; zero gives NaN.
 template <class Numbers>
-auto ProjectorIn<Numbers>::rotation_of(const glm::vec4& slots) const -> Matrix {
-    const Scalar w = n_(double{slots[0]}), x = n_(double{slots[1]});
-    const Scalar y = n_(double{slots[2]}), z = n_(double{slots[3]});
+auto ProjectorIn<Numbers>::rotation_of(const glm::dvec4& slots) const -> Matrix {
+    const Scalar w = n_(slots[0]), x = n_(slots[1]), y = n_(slots[2]), z = n_(slots[3]);
     const Scalar s = k_.two / (w * w + x * x + y * y + z * z);
     const Scalar one = k_.one;
     return {{one - s * (y * y + z * z), s * (x * y + w * z), s * (x * z - w * y)},
@@ -152,8 +150,8 @@ auto ProjectorIn<Numbers>::set_covariance(std::size_t index, const Scalar& x, co
     const Scalar slope_y = limited(y / z, k_.most_slope_y);
     const Vector row_x = (k_.right - k_.forward * slope_x) * (k_.fx / z); // rows of J Rv
     const Vector row_y = (k_.down - k_.forward * slope_y) * (k_.fy / z);
-    const Matrix rotation = rotation_of(cloud_.rotations[index]);
-    const Vector scale = vector_in(n_, glm::dvec3(cloud_.scales[index]));
+    const Matrix rotation = rotation_of(gaussians_.rotation(index));
+    const Vector scale = vector_in(n_, gaussians_.scale(index));
     const Vector u = times(row_x, rotation) * scale;
     const Vector v = times(row_y, rotation) * scale;
     const Scalar d = k_.dilation;
@@ -175,13 +173,15 @@ auto ProjectorIn<Numbers>::set_covariance(std::size_t index, const Scalar& x, co
 
 template <class Numbers>
 Cull ProjectorIn<Numbers>::project_anywhere(std::size_t index, ProjectedSplat& out) const {
-    const glm::dvec3 offset = cloud_.means[index] - position_;
+    const glm::dvec3 offset = gaussians_.mean(index) - position_;
     const Vector rounded = vector_in(n_, offset);
     const Scalar z = dot(k_.forward, rounded);
     if (!(z > k_.near_plane)) {
-        return !std::isfinite(value_of(z)) && is_finite(offset) ? Cull::Degenerate : Cull::Near;
+        return !std::isfinite(value_of(z)) && is_finite(gaussians_.given_mean(index) - position_)
+                   ? Cull::Degenerate
+                   : Cull::Near;
     }
-    const Scalar opacity = n_(double{cloud_.opacities[index]});
+    const Scalar opacity = n_(gaussians_.opacity(index));
     out.id = static_cast<std::uint32_t>(index);
     set_opacity(opacity, out);
     if (!(out.q_threshold >= 0)) {
@@ -210,14 +210,13 @@ Cull ProjectorIn<Numbers>::project_anywhere(std::size_t index, ProjectedSplat& o
 
 template <class Numbers>
 Cull ProjectorIn<Numbers>::shade(std::size_t index, ProjectedSplat& out) const {
-    Vector direction = vector_in(n_, cloud_.means[index] - position_);
-    if (cloud_.sh_degree > 0) { // without higher bands the colour has no direction
+    Vector direction = vector_in(n_, gaussians_.mean(index) - position_);
+    if (gaussians_.sh_degree() > 0) { // without higher bands the colour has no direction
         direction = direction * (k_.one / root_of(dot(direction, direction)));
     }
-    StoredSh::Values stored;
-    const float* const coefficients =
-        stored_sh_.read(cloud_.sh_of(index), cloud_.sh_degree, stored);
-    const Vector sum = evaluate_sh(n_, cloud_.sh_degree, coefficients, direction);
+    StoredGaussians::Sh room;
+    const float* const coefficients = gaussians_.sh(index, room);
+    const Vector sum = evaluate_sh(n_, gaussians_.sh_degree(), coefficients, direction);
     const double rgb[] = {value_of(k_.half + sum.x), value_of(k_.half + sum.y),
                           value_of(k_.half + sum.z)};
     const bool finite = std::isfinite(rgb[0] + rgb[1] + rgb[2]);

@@ -22,6 +22,12 @@ NumberSet uniform(const std::string& name, const std::string& format) {
     return set;
 }
 
+/// Records of 22 B and SH coefficients of 2 B.
+void set_half_gaussians(NumberSet& set) {
+    set.gaussian_mean = set.gaussian_scale = set.gaussian_rotation = set.gaussian_opacity =
+        set.sh_dc = set.sh_rest = parse_format("fp16");
+}
+
 NumberSet ideal_set() {
     NumberSet set = uniform("ideal", "fp64");
     set.meaning = "double precision, exact span ends";
@@ -44,6 +50,7 @@ NumberSet fp16_set() {
     set.vertical = Vertical::Squared;
     set.ends = SpanEnds::Outward;
     set.exp.reduction = Reduction::Binary; // FP16 units compute 2^x
+    set_half_gaussians(set);
     return set;
 }
 
@@ -63,7 +70,19 @@ NumberSet paper_set() {
     set.exp.interpolation = Interpolation::Linear;
     set.exp.reduction = Reduction::Binary;
     set.exp.entries = 16;
+    set_half_gaussians(set);
     return set;
+}
+
+/// Records of 27 B: words of 16 bits as in FP16, but for means, whose rounding moves splats against
+/// each other and changes their order: 24 bits cost 70 dB, 26 bits 79 dB (docs/numbers.md).
+void set_tuned_gaussians(NumberSet& set) {
+    set.gaussian_mean = parse_format("e5m22");
+    set.gaussian_scale = parse_format("ue5m11b18"); // 8 192 down to 2^-28 scene units
+    set.gaussian_rotation = parse_format("q1.15");
+    set.gaussian_opacity = parse_format("uq0.16");
+    set.sh_dc = parse_format("e4m11b11");  // up to 31
+    set.sh_rest = parse_format("e4m11b9"); // up to 64
 }
 
 void set_tuned_tables(NumberSet& set) {
@@ -100,6 +119,7 @@ NumberSet tuned_set() {
     // Finer than the sums: where T does not fall any more, colours must not be added any more.
     set.transmittance = parse_format("uq0.18");
     set.weight = set.sum = parse_format("uq6.16");
+    set_tuned_gaussians(set);
     set_tuned_tables(set);
     set.vertical = Vertical::FromRatio;
     set.base = Base::Vertex;

@@ -22,12 +22,23 @@ struct MemoryFormat {
     bool is_signed;
     const char* meaning;
 };
+/// All but the last are parts of a Gaussian.
 constexpr MemoryFormat kMemoryFormats[] = {
-    {"sh_dc", &S::sh_dc, kSigned, "SH coefficients of degree 0 in memory; fp64: as the scene has"},
+    {"gaussian_mean", &S::gaussian_mean, kSigned,
+     "means of Gaussians in memory, scene units; fp64: as the scene has them, in 32 bits"},
+    {"gaussian_scale", &S::gaussian_scale, kUnsigned,
+     "standard deviations of Gaussians in memory; fp64: as the scene has them"},
+    {"gaussian_rotation", &S::gaussian_rotation, kSigned,
+     "quaternions of Gaussians in memory; fp64: as the scene has them"},
+    {"gaussian_opacity", &S::gaussian_opacity, kUnsigned,
+     "opacities of Gaussians in memory; fp64: as the scene has them"},
+    {"sh_dc", &S::sh_dc, kSigned,
+     "SH coefficients of degree 0 in memory; fp64: as the scene has them"},
     {"sh_rest", &S::sh_rest, kSigned,
-     "SH coefficients of higher degrees in memory; fp64: likewise"},
+     "SH coefficients of higher degrees in memory; fp64: as the scene has them"},
     {"depth_key", &S::depth_key, kUnsigned,
      "depth by which lists are sorted; equal keys stay in the order of their indices"}};
+constexpr std::size_t kGaussianFormats = std::size(kMemoryFormats) - 1;
 
 NumberFormat with_sign(NumberFormat format) {
     format.has_sign = true;
@@ -39,9 +50,8 @@ void require_ranges(const NumberSet& set, ConfigVisitor& visitor) {
         const NumberFormat& format = set.*stored.format;
         visitor.require(!stored.is_signed || format.has_sign,
                         {stored.key, "must have a sign", with_sign(format).name()});
-        visitor.require(stored.is_signed || !format.is_fp64(),
-                        {stored.key, "must be no finer than fp32", "fp32"});
     }
+    visitor.require(!set.depth_key.is_fp64(), {"depth_key", "must be no finer than fp32", "fp32"});
     for (const NumberStage& stage : number_stages()) {
         const NumberFormat& format = set.*stage.format;
         visitor.require(!stage.is_signed || format.has_sign,
@@ -136,6 +146,15 @@ bool NumberSet::makes_splats(const std::string& key) {
     return key == "projection" ||
            std::any_of(std::begin(kMemoryFormats), std::end(kMemoryFormats),
                        [&key](const MemoryFormat& stored) { return key == stored.key; });
+}
+
+std::vector<std::string> NumberSet::gaussian_formats() const {
+    std::vector<std::string> assignments;
+    for (std::size_t i = 0; i < kGaussianFormats; ++i) {
+        const MemoryFormat& stored = kMemoryFormats[i];
+        assignments.push_back(std::string(stored.key) + "=" + (this->*stored.format).name());
+    }
+    return assignments;
 }
 
 double NumberSet::q_limit() const {

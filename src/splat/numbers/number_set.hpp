@@ -44,6 +44,7 @@ struct NumberSet {
     std::string meaning; ///< a sentence for people
 
     // What projection and sorting read from memory (ProjectionNumbers).
+    NumberFormat gaussian_mean, gaussian_scale, gaussian_rotation, gaussian_opacity;
     NumberFormat sh_dc, sh_rest;
     NumberFormat depth_key = ProjectionNumbers().depth_key;
 
@@ -92,9 +93,14 @@ struct NumberSet {
     /// q' at which alpha is 1/255: 2 ln 255 or log2 255.
     double q_limit() const;
     /// The formats that make and order splats.
-    ProjectionNumbers projection_numbers() const { return {projection, sh_dc, sh_rest, depth_key}; }
+    ProjectionNumbers projection_numbers() const {
+        return {projection,       gaussian_mean, gaussian_scale, gaussian_rotation,
+                gaussian_opacity, sh_dc,         sh_rest,        depth_key};
+    }
     /// Does a key of describe() choose one of them, and nothing in the data path?
     static bool makes_splats(const std::string& key);
+    /// The formats of a Gaussian's values in memory, as "key=value" of describe().
+    std::vector<std::string> gaussian_formats() const;
     /// Every part that a configuration may change: stages, orders of operations, tables; `ends` and
     /// `delta` are for a run to choose. Also makes the function of `exp` that of `exponent`.
     void describe(ConfigVisitor& visitor);

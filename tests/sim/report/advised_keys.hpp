@@ -179,7 +179,7 @@ inline std::vector<AdvisedKeys> advised_keys() {
            "sorting.count=16", "list_buffer.bytes=65536"},
           60,
           "synthetic:object,gaussians=20000"},
-         {{"row_generation", "engines.count"}}},
+         {{"row_generation", "engines.count"}, {"row_generation", "engines.rows_per_cycle"}}},
         {{"gbu-64",
           {"memory.bandwidth_gb_per_s=5000", "projection.count=1",
            "projection.cycles_per_gaussian=1", "binning.pairs_per_cycle=3", "memory.latency_ns=0"}},

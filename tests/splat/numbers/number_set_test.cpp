@@ -101,7 +101,7 @@ TEST(NumberSets, EveryStageIsInEveryUse) {
         EXPECT_NE(cost_keys(changed), cost_keys(half));
     }
     EXPECT_EQ(stages, 22);
-    EXPECT_EQ(stored, 3);
+    EXPECT_EQ(stored, 7);
     for (const char* table : {"sqrt.values", "exp.values"}) {
         EXPECT_NE(cost_keys(number_set("fp16", {std::string(table) + "=e7m12"})), cost_keys(half));
     }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// SH coefficients and depth keys in formats of their own.
+// Gaussians and depth keys in formats of their own.
 #include "splat/numbers/projection_numbers.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <set>
 
-#include "splat/numbers/stored_sh.hpp"
+#include "splat/frame/stored_gaussians.hpp"
 #include "tests/splat/frame/brute_force.hpp"
 
 namespace degs {
@@ -44,11 +44,57 @@ TEST(ProjectionNumbers, HaveDifferentNames) {
               "fp64, SH q3.5 and q1.7, depth keys ue4m12b3");
 }
 
-TEST(StoredShCoefficients, AreRoundedByDegree) {
-    const StoredSh stored(stored_in("q3.5", "q1.7", "fp32"));
+/// A format of its own for every part.
+ProjectionNumbers narrow_records() {
+    ProjectionNumbers numbers = stored_in("q3.5", "q1.7", "fp32");
+    numbers.mean = parse_format("fp16");
+    numbers.scale = parse_format("ue4m6b12");
+    numbers.rotation = parse_format("q1.7");
+    numbers.opacity = parse_format("uq0.8");
+    return numbers;
+}
+
+GaussianCloud rounded(const GaussianCloud& cloud, const ProjectionNumbers& numbers) {
+    const StoredGaussians stored(cloud, numbers);
+    GaussianCloud copy = cloud;
+    const std::size_t values = 3 * cloud.sh_coefficients();
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        copy.means[i] = stored.mean(i);
+        copy.scales[i] = glm::vec3(stored.scale(i));
+        copy.rotations[i] = glm::vec4(stored.rotation(i));
+        copy.opacities[i] = static_cast<float>(stored.opacity(i));
+        StoredGaussians::Sh room{};
+        const float* const read = stored.sh(i, room);
+        std::copy(read, read + values, &copy.sh[values * i]);
+    }
+    return copy;
+}
+
+TEST(StoredGaussians, HaveTheirBits) {
+    const ProjectionNumbers reference;
+    EXPECT_EQ(reference.mean_bits(), 96);
+    EXPECT_EQ(reference.shape_bits(), 256);
+    EXPECT_EQ(reference.sh_bits(0), 96);
+    EXPECT_EQ(reference.sh_bits(3), 48 * 32);
+    const ProjectionNumbers narrow = narrow_records();
+    EXPECT_EQ(narrow.mean_bits(), 48);
+    EXPECT_EQ(narrow.shape_bits(), 3 * 10 + 4 * 8 + 8);
+    EXPECT_EQ(narrow.sh_bits(1), 12 * 8);
+    EXPECT_TRUE(reference.keeps_gaussians());
+    EXPECT_FALSE(narrow.keeps_gaussians());
+}
+
+TEST(StoredGaussians, AreRoundedPartByPart) {
+    GaussianCloud cloud = test::random_cloud(200, 5, 1);
     const float given[12] = {5, 0.51F, -0.1F, 0.004F, 0.0038F, -3, 2, 0.5F, 0, 1e-9F, -0.3F, 0.1F};
-    StoredSh::Values room{};
-    const float* const read = stored.read(given, 1, room);
+    std::copy(given, given + 12, cloud.sh.begin());
+    cloud.opacities[0] = 0.5034F;
+    cloud.rotations[0] = {0.5F, -0.5F, 0.7F, 0.104F};
+    cloud.scales[0] = {1.0F, 0.011F, 3.03F};
+    cloud.means[0] = {1.0003, -2.0004, 5};
+    const StoredGaussians stored(cloud, narrow_records());
+    StoredGaussians::Sh room{};
+    const float* const read = stored.sh(0, room);
     EXPECT_EQ(read[0], 127.0F / 32); // saturates
     EXPECT_EQ(read[1], 0.5F);
     EXPECT_EQ(read[2], -3.0F / 32);
@@ -56,39 +102,67 @@ TEST(StoredShCoefficients, AreRoundedByDegree) {
     EXPECT_EQ(read[4], 0.0F);       // 0.486 units
     EXPECT_EQ(read[5], -127.0F / 128);
     EXPECT_EQ(read[6], 127.0F / 128);
-    const StoredSh untouched{ProjectionNumbers()};
-    EXPECT_EQ(untouched.read(given, 1, room), given);
+    EXPECT_EQ(stored.opacity(0), 129.0 / 256);
+    EXPECT_EQ(stored.rotation(0), glm::dvec4(0.5, -0.5, 90.0 / 128, 13.0 / 128));
+    EXPECT_EQ(stored.scale(0), glm::dvec3(1, 90.0 / 8192, 97.0 / 32));
+    EXPECT_EQ(stored.mean(0).x, 1.0);
+    EXPECT_EQ(stored.mean(0).y, -2.0);
+    const StoredGaussians untouched(cloud, ProjectionNumbers());
+    EXPECT_EQ(untouched.sh(0, room), cloud.sh_of(0));
+    EXPECT_EQ(untouched.mean(0), cloud.means[0]);
+    EXPECT_EQ(untouched.opacity(0), static_cast<double>(cloud.opacities[0]));
 }
 
-// The colours are those of a scene whose file holds the rounded coefficients, and nothing else
-// changes.
-TEST(StoredShCoefficients, MakeTheColoursOfARoundedScene) {
-    const GaussianCloud cloud = test::random_cloud(800, 5, 2);
-    const ProjectionNumbers numbers = stored_in("q3.5", "q1.7", "fp32");
-    GaussianCloud rounded = cloud;
-    const StoredSh stored(numbers);
-    for (std::size_t i = 0; i < cloud.size(); ++i) {
-        StoredSh::Values room{};
-        const float* const read = stored.read(cloud.sh_of(i), 2, room);
-        std::copy(read, read + 27, rounded.sh.begin() + static_cast<std::ptrdiff_t>(27 * i));
+// Rounding happens in the scene's own frame, where it surrounds the origin, else about its middle.
+TEST(StoredGaussians, KeepScenesThatLieFarAway) {
+    const GaussianCloud near = test::random_cloud(500, 4);
+    GaussianCloud far = near;
+    const glm::dvec3 shift(1e6, 0, -3e5);
+    for (glm::dvec3& mean : far.means) {
+        mean += shift;
     }
-    const FrameWorkload found = frame_in(cloud, numbers);
-    const FrameWorkload wanted = frame_in(rounded, {});
+    const StoredGaussians at_home(near, narrow_records()), abroad(far, narrow_records());
+    double worst = 0;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        const glm::dvec3 error = abroad.mean(i) - far.means[i];
+        worst = std::max({worst, std::abs(error.x), std::abs(error.y), std::abs(error.z)});
+        EXPECT_EQ(abroad.mean(i).y, at_home.mean(i).y);
+    }
+    double reach = 0;
+    for (const glm::dvec3& mean : near.means) {
+        reach = std::max({reach, std::abs(mean.x), std::abs(mean.z)});
+    }
+    EXPECT_LE(worst, 2 * reach / 2048); // half a unit of FP16 at twice the reach
+    EXPECT_GT(worst, 0.0);
+}
+
+// The splats are those of a scene whose file holds the rounded values.
+TEST(StoredGaussians, MakeTheSplatsOfARoundedScene) {
+    const GaussianCloud cloud = test::random_cloud(800, 5, 2);
+    const FrameWorkload found = frame_in(cloud, narrow_records());
+    const FrameWorkload wanted = frame_in(rounded(cloud, narrow_records()), {});
     const FrameWorkload exact = frame_in(cloud, {});
     ASSERT_EQ(found.splats.size(), wanted.splats.size());
     ASSERT_GT(found.splats.size(), 100U);
-    EXPECT_EQ(found.tile_splats, exact.tile_splats);
-    std::size_t changed = 0;
+    EXPECT_EQ(found.tile_splats, wanted.tile_splats);
+    std::size_t moved = 0;
     for (std::size_t i = 0; i < found.splats.size(); ++i) {
-        for (int channel = 0; channel < 3; ++channel) {
-            const double colour = found.splats[i].colour[channel];
-            EXPECT_EQ(colour, wanted.splats[i].colour[channel]);
-            changed += colour != exact.splats[i].colour[channel] ? 1 : 0;
-        }
-        EXPECT_EQ(found.splats[i].mu_x, exact.splats[i].mu_x);
-        EXPECT_EQ(found.splats[i].q_threshold, exact.splats[i].q_threshold);
+        const ProjectedSplat& splat = found.splats[i];
+        EXPECT_EQ(splat.id, wanted.splats[i].id);
+        EXPECT_EQ(splat.mu_x, wanted.splats[i].mu_x);
+        EXPECT_EQ(splat.cov_b, wanted.splats[i].cov_b);
+        EXPECT_EQ(splat.q_threshold, wanted.splats[i].q_threshold);
+        EXPECT_EQ(splat.colour[1], wanted.splats[i].colour[1]);
+        moved += i < exact.splats.size() && splat.mu_x != exact.splats[i].mu_x ? 1 : 0;
     }
-    EXPECT_GT(changed, 100U);
+    EXPECT_GT(moved, 100U);
+}
+
+TEST(StoredGaussians, ThatDoNotFitTheFormatAreCounted) {
+    GaussianCloud cloud = test::random_cloud(100, 4);
+    cloud.means[7] = {0, 0, 1e6}; // FP16 ends at 65 504
+    const FrameWorkload found = frame_in(cloud, narrow_records());
+    EXPECT_EQ(found.culled.degenerate, 1U);
 }
 
 class DepthKeys : public testing::TestWithParam<const char*> {};

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "modules/kit/front_end/list_writes.hpp"
+#include "tlm/ceil_div.hpp"
+
 namespace degs {
 namespace {
 
@@ -36,21 +39,48 @@ double scattered_bytes(int record, int burst) {
     return record - std::gcd(record, burst) + burst;
 }
 
+ListWritingLoad list_writing(const FrameWorkload& frame, const TrafficConfig& traffic,
+                             const TileBinner::Config& binning) {
+    ListWritingLoad load;
+    if (binning.entries == ListWriting::Stream) {
+        load.bytes = as_real(frame.tile_pairs()) * traffic.list_entry_bytes;
+        return load;
+    }
+    ListWrites writes(traffic, binning.entries);
+    writes.begin(frame, std::vector<bool>(frame.tile_pairs(), true));
+    const std::uint64_t room = std::max(1, binning.buffer_bytes / 2 / traffic.list_entry_bytes);
+    const std::uint32_t near_heads = binning.head_bytes / kListHeadBytes;
+    double bursts = 0, far_heads = 0;
+    for (std::uint64_t done = 0; done < writes.entries(); done += room) {
+        const ListWrites::Batch& batch = writes.next(std::min(room, writes.entries() - done));
+        bursts += as_real(batch.bursts.size());
+        for (const std::uint32_t tile : batch.tiles) {
+            far_heads += tile >= near_heads ? 1 : 0;
+        }
+    }
+    load.bytes = (bursts + 2 * far_heads) * traffic.burst_bytes;
+    load.cycles =
+        bursts * ceil_div(traffic.burst_bytes, traffic.list_entry_bytes) / binning.pairs_per_cycle;
+    return load;
+}
+
 PreparationCycles FrontEndLoad::preparation(const FrameWorkload& frame,
                                             std::size_t memory_unit) const {
     const double gaussians = as_real(frame.gaussians), visible = as_real(frame.splats.size());
     const double pairs = as_real(frame.tile_pairs()), chunk = projection.chunk;
-    const double sh = as_real(traffic.sh_bytes(frame.sh_degree));
+    const double sh = as_real(traffic.sh_bytes_of(frame));
     const double alone =
-        scattered_bytes(static_cast<int>(traffic.sh_bytes(frame.sh_degree)), traffic.burst_bytes);
+        scattered_bytes(static_cast<int>(traffic.sh_bytes_of(frame)), traffic.burst_bytes);
+    const ListWritingLoad lists = list_writing(frame, traffic, binning);
     PreparationCycles result;
     result.bytes =
-        gaussians * traffic.geometry_bytes +
+        gaussians * as_real(traffic.geometry_bytes_of(frame)) +
         (traffic.sh == ShReads::All ? gaussians * sh : std::min(visible * alone, gaussians * sh)) +
-        visible * traffic.splat_bytes + pairs * traffic.list_entry_bytes;
+        visible * traffic.splat_bytes + lists.bytes;
     const double project = gaussians * projection.cycles_per_gaussian / projection.count;
     const double shade = visible * projection.cycles_per_colour / projection.count;
-    const double bin = std::max(std::ceil(gaussians / chunk), pairs / binning.pairs_per_cycle);
+    const double bin =
+        std::max({std::ceil(gaussians / chunk), pairs / binning.pairs_per_cycle, lists.cycles});
     // A chunk's write waits for the acknowledgement of one some writes earlier.
     const double write = gaussians / chunk * memory.latency / binning.writes_in_flight;
     const double moved = memory.cycles(result.bytes);
@@ -70,7 +100,7 @@ double FrontEndLoad::fetch_cycles(double walked) const {
 
 double FrontEndLoad::tile_bytes(double entries, double walked, double pixels) const {
     const double fetched = std::min(entries, walked + as_real(places) / 2);
-    return entries * traffic.list_entry_bytes +
+    return (1 + 2 * list_passes) * entries * traffic.list_entry_bytes +
            fetched * scattered_bytes(traffic.splat_bytes, traffic.burst_bytes) +
            pixels * traffic.pixel_bytes;
 }
@@ -79,8 +109,9 @@ AnalyticModel::SortCycles sort_cycles(const SortingUnit::Config& config, double 
                                       std::uint64_t capacity) {
     const double room = as_real(capacity);
     const double passes = passes_of(std::min(entries, room), config.merge_ways);
-    const double outside =
+    const double needed =
         entries > room ? passes_of(std::ceil(entries / room), config.merge_ways) : 0;
+    const double outside = std::max<double>(needed, config.memory_passes);
     const double all = entries * (passes + outside) / config.keys_per_cycle;
     return {all, all};
 }

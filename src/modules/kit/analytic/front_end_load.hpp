@@ -40,6 +40,21 @@ double scattered_bytes(int record, int burst);
 /// Kinds of units of the front end; those of an array follow.
 enum FrontEndUnit : std::size_t { kProjectionUnits, kSortingUnits, kArrayUnits };
 
+/// Bytes of list entries and of ends of lists, and cycles of the binner for them.
+struct ListWritingLoad {
+    double bytes = 0, cycles = 0;
+};
+ListWritingLoad list_writing(const FrameWorkload& frame, const TrafficConfig& traffic,
+                             const TileBinner::Config& binning);
+
+/// Passes of every list through memory, at least.
+inline int passes_through_memory(const SortingUnit::Config& config) {
+    return config.memory_passes;
+}
+inline int passes_through_memory(const HierarchicalSorter::Config& config) {
+    return config.memory_levels;
+}
+
 class FrontEndLoad {
 public:
     TrafficConfig traffic;
@@ -52,6 +67,7 @@ public:
 
     explicit FrontEndLoad(const MemoryRate& rate) : memory(rate) {}
 
+    int list_passes = 0; ///< of every list through memory
     PreparationCycles preparation(const FrameWorkload& frame, std::size_t memory_unit) const;
     /// Cycles in which a fetcher has the first `walked` splats of a list come from memory.
     double fetch_cycles(double walked) const;
@@ -95,6 +111,7 @@ protected:
         front_.fetching = config.fetching;
         front_.places = std::uint64_t{1} * chunks * config.fetching.chunk;
         front_.sort_capacity = config.sort_capacity();
+        front_.list_passes = passes_through_memory(config.sorting);
     }
 
 private:

@@ -1,7 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/kit/config/pipeline_config.hpp"
 
+#include <algorithm>
+
+#include "tlm/ceil_div.hpp"
+
 namespace degs {
+namespace {
+
+/// In the order of Records.
+const std::vector<const char*>& record_names() {
+    static const std::vector<const char*> names{"numbers", "fp32", "fp16", "paper", "tuned"};
+    return names;
+}
+
+} // namespace
 
 void PipelineConfig::describe(ConfigVisitor& visitor) {
     visitor.choice("numbers", numbers, arithmetic_names(),
@@ -20,39 +33,56 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
     visitor.section("rules", rules,
                     "what renderers of the same Gaussians disagree about; the defaults are those "
                     "of the reference code");
-    NumberSet set = set_of(numbers);
+    visitor.choice("records", records, record_names(),
+                   "formats of the values of Gaussians in memory, to which projection rounds them: "
+                   "those of the number set of that name; numbers: of `numbers` itself; "
+                   "traffic.geometry_bytes and sh_value_bytes follow");
+    NumberSet set = number_set(set_of(numbers).name, record_formats());
     visitor.begin_section("formats",
                           "single parts of `numbers` in other formats; set: as they are there");
     formats.describe(visitor, set);
     visitor.end_section();
 }
 
-void PipelineConfig::require_records(ConfigVisitor& visitor, int sh_value_bytes,
+void PipelineConfig::require_records(ConfigVisitor& visitor, int geometry_bytes, int sh_value_bytes,
                                      int list_entry_bytes) const {
-    const ProjectionNumbers stored = formats.applied_to(set_of(numbers)).projection_numbers();
-    const ProjectionNumbers untouched;
-    const auto require_sh = [&](const NumberFormat& format, const char* key) {
-        const int bytes = (format.storage_bits() + 7) / 8;
-        visitor.require(format == untouched.sh_dc || bytes <= sh_value_bytes,
-                        {"traffic.sh_value_bytes",
-                         "must hold an SH coefficient of " + format.name(),
-                         std::to_string(bytes),
-                         {key}});
-    };
-    require_sh(stored.sh_dc, "pipeline.formats.sh_dc");
-    require_sh(stored.sh_rest, "pipeline.formats.sh_rest");
+    const ProjectionNumbers stored = projection_numbers();
+    const int geometry = ceil_div(stored.mean_bits() + stored.shape_bits(), 8);
+    visitor.require(geometry_bytes == 0 || geometry <= geometry_bytes,
+                    {"traffic.geometry_bytes",
+                     "must hold mean, scale, rotation and opacity of a Gaussian, " +
+                         std::to_string(geometry) + " B",
+                     std::to_string(geometry) + " or 0",
+                     {"pipeline.records", "pipeline.formats"}});
+    const int sh = std::max(ceil_div(stored.sh_bits(0), 3 * 8),
+                            ceil_div(stored.sh_bits(1) - stored.sh_bits(0), 9 * 8));
+    visitor.require(sh_value_bytes == 0 || sh <= sh_value_bytes,
+                    {"traffic.sh_value_bytes",
+                     "must hold an SH coefficient, " + std::to_string(sh) + " B",
+                     std::to_string(sh) + " or 0",
+                     {"pipeline.records", "pipeline.formats"}});
     constexpr int kLeastIndexBits = 16;
     const NumberFormat& key = stored.depth_key;
-    const int bytes = (key.storage_bits() + kLeastIndexBits + 7) / 8;
-    visitor.require(key == untouched.depth_key || bytes <= list_entry_bytes,
+    const int bytes = ceil_div(key.storage_bits() + kLeastIndexBits, 8);
+    visitor.require(key == ProjectionNumbers().depth_key || bytes <= list_entry_bytes,
                     {"traffic.list_entry_bytes",
                      "must hold a depth key of " + key.name() + " and an index of 16 bits at least",
                      std::to_string(bytes),
                      {"pipeline.formats.depth_key"}});
 }
 
+std::vector<std::string> PipelineConfig::record_formats() const {
+    const std::string name = record_names()[static_cast<std::size_t>(records)];
+    return records == Records::Numbers ? std::vector<std::string>()
+                                       : number_set(name).gaussian_formats();
+}
+
+NumberSet PipelineConfig::changed_set() const {
+    return formats.applied_to(number_set(set_of(numbers).name, record_formats()));
+}
+
 int PipelineConfig::pixel_bits() const {
-    return degs::pixel_bits(formats.applied_to(set_of(numbers)));
+    return degs::pixel_bits(changed_set());
 }
 
 cost::Precision PipelineConfig::precision() const {
@@ -68,7 +98,10 @@ cost::Precision PipelineConfig::precision() const {
 }
 
 DataPathOptions PipelineConfig::options(SpanEnds ends, int delta) const {
-    const DataPathOptions named = named_numbers(name_of(numbers), formats.assignments());
+    std::vector<std::string> changes = record_formats();
+    const std::vector<std::string> more = formats.assignments();
+    changes.insert(changes.end(), more.begin(), more.end());
+    const DataPathOptions named = named_numbers(name_of(numbers), changes);
     return {numbers, ends, delta, stop_rule, named.set, named.projection, rules};
 }
 

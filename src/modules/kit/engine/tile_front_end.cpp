@@ -31,9 +31,10 @@ void TileFrontEnd::build_sources(const Timebase& time, const RenderJob& job) {
 void TileFrontEnd::build_units(const Config& config, const Timebase& time, const RenderJob& job) {
     const std::size_t sorters = sorted.size();
     const int waits_for = frame_free.size() == 0 ? 0 : config.frames_in_flight;
+    changes_ = std::make_unique<ListChanges>(job, config.binning.keep_lists);
     binner_ = std::make_unique<TileBinner>("binner", config.binning, config.traffic, time, job,
-                                           config.projection.chunk, config.projection.count,
-                                           sorters + listed.size());
+                                           *changes_, config.projection.chunk,
+                                           config.projection.count, sorters + listed.size());
     for (std::size_t i = 0; i < listed.size(); ++i) {
         binner_->out[sorters + i].bind(listed[i]);
     }
@@ -59,15 +60,16 @@ void TileFrontEnd::build_sorter(TileNumber index, const Config& config, const Ti
                                 const RenderJob& job, DatedFifo<std::uint32_t>& frames) {
     const std::string name = numbered("sorting", index);
     if (config.on_demand) {
-        hierarchical_.push_back(
-            std::make_unique<HierarchicalSorter>(name.c_str(), config.hierarchical, config.traffic,
-                                                 time, job, index, config.sort_capacity));
+        hierarchical_.push_back(std::make_unique<HierarchicalSorter>(
+            name.c_str(), config.hierarchical, config.traffic, time, job, *changes_, index,
+            config.sort_capacity));
         hierarchical_.back()->start.bind(frames);
         hierarchical_.back()->cancel.bind(cancel[index]);
         hierarchical_.back()->sorted.bind(sorted[index]);
     } else {
-        sorting_.push_back(std::make_unique<SortingUnit>(
-            name.c_str(), config.sorting, config.traffic, time, job, index, config.sort_capacity));
+        sorting_.push_back(std::make_unique<SortingUnit>(name.c_str(), config.sorting,
+                                                         config.traffic, time, job, *changes_,
+                                                         index, config.sort_capacity));
         sorting_.back()->start.bind(frames);
         sorting_.back()->sorted.bind(sorted[index]);
     }
@@ -96,6 +98,9 @@ void TileFrontEnd::connect_memory(MemoryStreams& streams,
         if (i < fetchers.size()) {
             streams.connect_urgent(fetchers[i]->records, stream_kinds::kSplatsRead);
         }
+    }
+    if (binner_ && binner_->heads) {
+        streams.connect(*binner_->heads, stream_kinds::kListHeads);
     }
 }
 
@@ -126,6 +131,13 @@ void TileFrontEnd::collect(AcceleratorResult& result) const {
     add_stage(result,
               {"sorting", "Hierarchical Sorters; the two steps overlap, the busier counts."},
               hierarchical_.size(), hierarchical, Counters().add(hierarchical_));
+    if (binner_->config().sram_bytes() != 0) {
+        BufferUse& buffer =
+            add_buffer(result, {"binning_buffer", "List entries that wait, and ends of lists."},
+                       binner_->config().sram_bytes());
+        binner_->stats().describe(buffer.counters);
+        add_activity(result, "binning_buffer", binner_->sram_bytes_moved());
+    }
     add_activity(result, "projection", projecting);
     add_activity(result, "sorting",
                  sum_of(sorting_, &SortingUnit::Stats::sort_busy) + hierarchical);

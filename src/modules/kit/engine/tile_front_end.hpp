@@ -77,6 +77,7 @@ private:
 
     std::vector<std::unique_ptr<ListSource>> sources_;
     std::vector<std::unique_ptr<ProjectionUnit>> projection_;
+    std::unique_ptr<ListChanges> changes_;
     std::unique_ptr<TileBinner> binner_;
     std::vector<std::unique_ptr<SortingUnit>> sorting_;
     std::vector<std::unique_ptr<HierarchicalSorter>> hierarchical_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "tlm/ceil_div.hpp"
 #include "tlm/has_process.hpp"
 
 namespace degs {
@@ -29,6 +30,9 @@ void HierarchicalSorter::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("keys_per_cycle", keys_per_cycle, 1, 1024,
                     "keys per cycle, unit and coarse level; two quick-sort units per sorting core "
                     "move a key each [assumed]");
+    visitor.integer("memory_levels", memory_levels, 0, 16,
+                    "coarse levels of every list that go through memory at least, written and read "
+                    "once each; 0: of those that do not fit the buffer only [assumed]");
     visitor.integer("fine_cycles_per_key", fine_cycles_per_key, 1, 1024,
                     "cycles per key and unit of the exact step; log2(16) / 2 for a 16-wide bitonic "
                     "unit, 512 per full chunk, one every 128 cycles over four units [assumed]");
@@ -36,13 +40,13 @@ void HierarchicalSorter::Config::describe(ConfigVisitor& visitor) {
 
 HierarchicalSorter::HierarchicalSorter(const sc_core::sc_module_name& name, const Config& config,
                                        const TrafficConfig& traffic, const Timebase& time,
-                                       const RenderJob& job, TileNumber index,
+                                       const RenderJob& job, ListChanges& changes, TileNumber index,
                                        std::uint64_t capacity)
     : sc_core::sc_module(name), start("start"), cancel("cancel"), sorted("sorted"),
       loader("loader", traffic, time, job, index, config.count), lists("lists", time),
-      chunks("chunks", time), config_(config), traffic_(traffic), job_(job), index_(index),
-      capacity_(capacity), partitioner_(time), sorter_(time), loaded_("loaded", time, 1),
-      partitioned_("partitioned", time, 1) {
+      chunks("chunks", time), config_(config), traffic_(traffic), job_(job), changes_(changes),
+      index_(index), capacity_(capacity), partitioner_(time), sorter_(time),
+      loaded_("loaded", time, 1), partitioned_("partitioned", time, 1) {
     loader.start.bind(start);
     loader.out.bind(loaded_);
     DEGS_HAS_PROCESS(HierarchicalSorter);
@@ -60,6 +64,11 @@ void HierarchicalSorter::end_of_elaboration() {
     sorted->connect_writer(sorter_);
 }
 
+std::uint64_t HierarchicalSorter::levels_outside(const JobTile& tile) const {
+    return std::max(levels(tile.count, capacity_),
+                    static_cast<std::uint64_t>(config_.memory_levels));
+}
+
 void HierarchicalSorter::coarse() {
     const std::uint64_t entry = traffic_.list_entry_bytes;
     const std::uint64_t rate = config_.keys_per_cycle;
@@ -67,8 +76,8 @@ void HierarchicalSorter::coarse() {
         const TileNumber number = loaded_.get(partitioner_);
         const JobTile& tile = job_.tiles[number];
         const MemoryMap map = job_.map(tile.frame, traffic_);
-        const Cycle level = (tile.count + rate - 1) / rate;
-        const std::uint64_t outside = levels(tile.count, capacity_);
+        const Cycle level = ceil_div(changes_.written(tile), rate); // what is kept has its place
+        const std::uint64_t outside = levels_outside(tile);
         const std::uint64_t address = map.lists + tile.first * entry;
         // The loader has read the list for the first level.
         for (std::uint64_t i = 0; i < outside; ++i) {
@@ -77,6 +86,9 @@ void HierarchicalSorter::coarse() {
             }
             partitioner_.work(level, stats_.coarse_busy);
             partitioner_.wait_for_memory(lists.write(partitioner_, address, tile.count * entry));
+        }
+        if (changes_.lists_are_kept() && outside == 0) {
+            lists.write(partitioner_, address, tile.count * entry);
         }
         const std::uint64_t all = levels(tile.count, config_.chunk);
         partitioner_.work((all - std::min(all, outside)) * level, stats_.coarse_busy);

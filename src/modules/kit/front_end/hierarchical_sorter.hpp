@@ -4,6 +4,7 @@
 #include <systemc>
 
 #include "config/config.hpp"
+#include "modules/kit/front_end/list_changes.hpp"
 #include "modules/kit/front_end/list_loader.hpp"
 #include "stats/statistics.hpp"
 
@@ -24,6 +25,7 @@ public:
         int chunk = 256;             ///< keys that are sorted exactly at a time
         int keys_per_cycle = 2;      ///< moved per cycle and coarse level
         int fine_cycles_per_key = 2; ///< of the exact step
+        int memory_levels = 0;       ///< coarse levels through memory, at least
         void describe(ConfigVisitor& visitor);
     };
     struct Stats {
@@ -52,7 +54,7 @@ public:
     /// `capacity`: keys that fit the unit's share of the buffer.
     HierarchicalSorter(const sc_core::sc_module_name& name, const Config& config,
                        const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
-                       TileNumber index, std::uint64_t capacity);
+                       ListChanges& changes, TileNumber index, std::uint64_t capacity);
 
     const Stats& stats() const { return stats_; }
 
@@ -62,11 +64,14 @@ private:
     void fine();
     void sort_chunks(TileNumber number);
     bool cancelled(TileNumber number);
-    bool through_memory(const JobTile& tile) const { return tile.count > capacity_; }
+    /// Coarse levels of a list that go through memory.
+    std::uint64_t levels_outside(const JobTile& tile) const;
+    bool through_memory(const JobTile& tile) const { return levels_outside(tile) != 0; }
 
     Config config_;
     TrafficConfig traffic_;
     const RenderJob& job_;
+    ListChanges& changes_;
     TileNumber index_;
     std::uint64_t capacity_;
     Process partitioner_, sorter_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "tlm/ceil_div.hpp"
 #include "tlm/has_process.hpp"
 
 namespace degs {
@@ -14,15 +15,18 @@ void SortingUnit::Config::describe(ConfigVisitor& visitor) {
         "keys per cycle and pass; 4 keeps sorting limited by bandwidth, as the paper says "
         "(Sec. V-E) [assumed]");
     visitor.integer("merge_ways", merge_ways, 2, 1024, "fan-in of a merge pass [assumed]");
+    visitor.integer("memory_passes", memory_passes, 0, 16,
+                    "passes through memory of every list at least, written and read once each; 0: "
+                    "of those that do not fit the buffer only [assumed]");
 }
 
 SortingUnit::SortingUnit(const sc_core::sc_module_name& name, const Config& config,
                          const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
-                         TileNumber index, std::uint64_t sort_capacity)
+                         ListChanges& changes, TileNumber index, std::uint64_t sort_capacity)
     : sc_core::sc_module(name), start("start"), sorted("sorted"),
       loader("loader", traffic, time, job, index, config.count), lists("lists", time),
-      config_(config), traffic_(traffic), job_(job), index_(index), sort_capacity_(sort_capacity),
-      sorter_(time), loaded_("loaded", time, 1) {
+      config_(config), traffic_(traffic), job_(job), changes_(changes), index_(index),
+      sort_capacity_(sort_capacity), sorter_(time), loaded_("loaded", time, 1) {
     loader.start.bind(start);
     loader.out.bind(loaded_);
     DEGS_HAS_PROCESS(SortingUnit);
@@ -43,6 +47,14 @@ std::uint64_t SortingUnit::passes(std::uint64_t keys) const {
     return std::max<std::uint64_t>(count, 1);
 }
 
+std::uint64_t SortingUnit::keys_moved(const JobTile& tile) {
+    const auto sorting = [this](std::uint64_t keys) {
+        return keys * passes(std::min(keys, sort_capacity_));
+    };
+    const std::uint64_t fresh = changes_.written(tile);
+    return fresh == tile.count ? sorting(fresh) : sorting(fresh) + tile.count; // and one merge
+}
+
 void SortingUnit::sort() {
     const std::uint64_t entry = traffic_.list_entry_bytes;
     const std::uint64_t rate = config_.keys_per_cycle;
@@ -51,17 +63,22 @@ void SortingUnit::sort() {
         const JobTile& tile = job_.tiles[number];
         const MemoryMap map = job_.map(tile.frame, traffic_);
         const std::uint64_t runs = (tile.count + sort_capacity_ - 1) / sort_capacity_;
-        const Cycle busy =
-            (tile.count * passes(std::min(tile.count, sort_capacity_)) + rate - 1) / rate;
+        const Cycle busy = ceil_div(keys_moved(tile), rate);
         sorter_.work(busy, stats_.sort_busy);
         // Runs that do not fit the buffer together go out and come back once per extra merge pass.
-        for (std::uint64_t pass = 0; runs > 1 && pass < passes(runs); ++pass) {
+        const std::uint64_t needed = runs > 1 ? passes(runs) : 0;
+        const std::uint64_t outside =
+            std::max(needed, static_cast<std::uint64_t>(config_.memory_passes));
+        for (std::uint64_t pass = 0; pass < outside; ++pass) {
             const std::uint64_t bytes = tile.count * entry;
             sorter_.wait_for_memory(lists.write(sorter_, map.lists + tile.first * entry, bytes));
             sorter_.wait_for_memory(lists.read(sorter_, map.lists + tile.first * entry, bytes));
             const Cycle merge = (tile.count + rate - 1) / rate;
             sorter_.work(merge, stats_.sort_busy);
             stats_.memory_passes++;
+        }
+        if (changes_.lists_are_kept()) {
+            lists.write(sorter_, map.lists + tile.first * entry, tile.count * entry);
         }
         stats_.keys += tile.count;
         sorted->put(sorter_, {number, tile.count});

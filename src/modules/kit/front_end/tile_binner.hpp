@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include <systemc>
 
+#include "modules/kit/front_end/list_changes.hpp"
+#include "modules/kit/front_end/list_writes.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/traffic.hpp"
+#include "stats/statistics.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/memory_port.hpp"
 
@@ -12,16 +18,33 @@ namespace degs {
 
 /// Collects the Projection Units' results in scene order, writes splat records and tile-list
 /// entries to memory, and lets sorting start when the frame's lists are complete. The paper does
-/// not name this block, but some unit has to write the lists.
+/// not name this block, but some unit has to write the lists. Where they are not a stream, entries
+/// wait in half of a buffer until it is full, and go to the ends of their lists while the other
+/// half fills; ends of lists that do not fit the chip are read from memory before and written back.
 class TileBinner : public sc_core::sc_module {
 public:
     struct Config {
         int pairs_per_cycle = 8;  ///< tile-list entries written per cycle
         int writes_in_flight = 8; ///< chunk writes not yet acknowledged
+        ListWriting entries = ListWriting::Stream;
+        int buffer_bytes = 8192; ///< entries that wait to be combined
+        int head_bytes = 16384;  ///< ends of lists on the chip, those of the first tiles
+        bool keep_lists = false; ///< only what is new in a frame is written
         void describe(ConfigVisitor& visitor);
+        /// Bytes of SRAM: none for a stream.
+        int sram_bytes() const;
     };
     struct Stats {
         Cycle busy = 0;
+        // Written, unless entries are a stream.
+        std::uint64_t entries = 0, groups = 0, bursts = 0, far_heads = 0;
+        void describe(StatsVisitor& v) const {
+            v.count("entries", entries, "entries", "List entries that were written.");
+            v.count("groups", groups, "groups", "Groups of entries of one tile in the buffer.");
+            v.count("bursts", bursts, "bursts", "Bursts that they were written in.");
+            v.count("far_heads", far_heads, "words",
+                    "Ends of lists read from memory and written back.");
+        }
         Cycle frame_binned = 0; ///< date at which the last frame's lists were complete
     };
 
@@ -29,12 +52,16 @@ public:
     sc_core::sc_vector<FifoPort<std::uint32_t>> out; ///< frames whose lists are complete
     MemoryPort splats;
     MemoryPort lists;
+    std::unique_ptr<MemoryPort> heads; ///< null where entries are a stream
 
     TileBinner(const sc_core::sc_module_name& name, const Config& config,
-               const TrafficConfig& traffic, const Timebase& time, const RenderJob& job, int chunk,
-               std::size_t inputs, std::size_t outputs);
+               const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
+               ListChanges& changes, int chunk, std::size_t inputs, std::size_t outputs);
 
     const Stats& stats() const { return stats_; }
+    const Config& config() const { return config_; }
+    /// Bytes read from and written to its SRAM: entries, and the ends of the lists of groups.
+    std::uint64_t sram_bytes_moved() const;
     /// Dates at which the lists of each frame were complete.
     const std::vector<Cycle>& frames_binned() const { return frames_binned_; }
 
@@ -42,11 +69,28 @@ private:
     void end_of_elaboration() override;
     void run();
     void bin(const ProjectedChunk& chunk, const MemoryMap& map);
+    Completion write_splats(const ProjectedChunk& chunk, const MemoryMap& map);
+    /// Takes the entries of a chunk, and writes what the buffer does not hold.
+    void take_entries(const ProjectedChunk& chunk, const MemoryMap& map);
+    void flush(std::uint64_t entries, const MemoryMap& map);
+    /// Entries that chunks of the frame write before a visible Gaussian.
+    std::uint64_t entries_before(std::uint32_t frame, std::uint32_t visible) const {
+        return follows_entries_ ? list_writes_.entries_before(visible)
+                                : job_.pairs_before(frame, visible);
+    }
+    void acknowledge(const Completion& write);
 
     Config config_;
     TrafficConfig traffic_;
     const RenderJob& job_;
-    std::uint64_t chunk_; // Gaussians per chunk
+    ListChanges& changes_;
+    ListWrites list_writes_;
+    bool follows_entries_;                 // other than that all are written, as a stream
+    std::vector<bool> written_;            // of the frame's entries
+    std::uint64_t waiting_ = 0;            // entries in the buffer
+    Cycle drained_ = 0;                    // when the other half of the buffer is empty
+    std::vector<std::uint32_t> far_heads_; // tiles of a flush whose heads are in memory
+    std::uint64_t chunk_;                  // Gaussians per chunk
     Process self_;
     std::vector<Completion> acknowledged_; // ring of completion dates of the latest writes
     std::uint64_t writes_ = 0;

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/kit/job/traffic.hpp"
 
+#include <algorithm>
+
 #include "degs/error.hpp"
+#include "tlm/ceil_div.hpp"
 
 namespace degs {
 
 void TrafficConfig::describe(ConfigVisitor& visitor) {
-    visitor.integer("geometry_bytes", geometry_bytes, 1, 1024,
-                    "bytes per Gaussian read by projection; 11 values of FP16 (44 for FP32)");
-    visitor.integer("sh_value_bytes", sh_value_bytes, 1, 8,
-                    "bytes per SH value; a second array, so that culled Gaussians cost no colour");
+    visitor.integer("geometry_bytes", geometry_bytes, 0, 1024,
+                    "bytes per Gaussian read by projection; 0: as the formats of pipeline.records "
+                    "need, 44 in FP32, 22 in FP16");
+    visitor.integer("sh_value_bytes", sh_value_bytes, 0, 8,
+                    "bytes per SH value, 0: as the formats need; a second array, so that culled "
+                    "Gaussians cost no colour");
     visitor.choice("sh", sh, {"visible", "all"},
                    "whose SH coefficients are read; all: with the geometry, before culling");
     visitor.integer("splat_bytes", splat_bytes, 1, 1024, "bytes per projected splat record");
@@ -19,6 +24,25 @@ void TrafficConfig::describe(ConfigVisitor& visitor) {
                     "bytes per frame-buffer pixel; 4 is RGBA8, 8 is RGBA16F");
     visitor.integer("burst_bytes", burst_bytes, 1, 4096,
                     "bytes; scattered records are read in whole bursts of this size");
+}
+
+std::uint64_t TrafficConfig::geometry_bytes_of(const FrameWorkload& frame) const {
+    return geometry_bytes != 0 ? geometry_bytes
+                               : mean_bytes_of(frame) + shape_bytes_of(frame) + bound_bytes;
+}
+
+std::uint64_t TrafficConfig::mean_bytes_of(const FrameWorkload& frame) const {
+    return mean_bytes != 0 ? mean_bytes : ceil_div(frame.projection.numbers.mean_bits(), 8);
+}
+
+std::uint64_t TrafficConfig::shape_bytes_of(const FrameWorkload& frame) const {
+    return shape_bytes != 0 ? shape_bytes : ceil_div(frame.projection.numbers.shape_bits(), 8);
+}
+
+std::uint64_t TrafficConfig::sh_bytes_of(const FrameWorkload& frame) const {
+    const int degree = frame.sh_degree;
+    return sh_value_bytes != 0 ? 3 * (degree + 1) * (degree + 1) * sh_value_bytes
+                               : ceil_div(frame.projection.numbers.sh_bits(degree), 8);
 }
 
 namespace {
@@ -53,16 +77,19 @@ MemoryMap::MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame,
       frame_buffer(bases.frame_buffer) {
     require_indices(traffic, frame);
     if (!bases.given) {
-        sh = geometry + aligned(times(frame.gaussians, traffic.geometry_bytes));
-        splats = sh + aligned(frame.gaussians * traffic.sh_bytes(frame.sh_degree));
+        sh = geometry + aligned(frame.gaussians * traffic.geometry_bytes_of(frame));
+        splats = sh + aligned(frame.gaussians * traffic.sh_bytes_of(frame));
         frame_buffer = splats + workspace_bytes(traffic, frame);
     }
     lists = splats + aligned(times(frame.gaussians, traffic.splat_bytes));
+    list_heads = lists + aligned(times(frame.tile_pairs(), traffic.list_entry_bytes));
 }
 
 std::uint64_t MemoryMap::workspace_bytes(const TrafficConfig& traffic, const FrameWorkload& frame) {
-    return aligned(times(frame.gaussians, traffic.splat_bytes)) +
-           2 * aligned(times(frame.tile_pairs(), traffic.list_entry_bytes));
+    // Behind the lists is room for a second copy of them (the groups of GCC), or for their heads.
+    const std::uint64_t lists = times(frame.tile_pairs(), traffic.list_entry_bytes);
+    return aligned(times(frame.gaussians, traffic.splat_bytes)) + aligned(lists) +
+           aligned(std::max(lists, times(frame.tiles(), kListHeadBytes)));
 }
 
 } // namespace degs

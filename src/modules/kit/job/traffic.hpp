@@ -13,19 +13,29 @@ enum class ShReads { Visible, All };
 
 /// Record layouts of the streams between accelerator and memory [assumed]; see docs/memory.md.
 struct TrafficConfig {
-    int geometry_bytes = 22; ///< per Gaussian: 11 values of 2 B
-    int sh_value_bytes = 2;  ///< per coefficient and channel
+    int geometry_bytes = 0; ///< per Gaussian: mean, scale, rotation, opacity; 0: as formats need
+    int sh_value_bytes = 0; ///< per coefficient and channel; 0: as formats need
     ShReads sh = ShReads::Visible;
     int splat_bytes = 32;     ///< per projected splat
     int list_entry_bytes = 8; ///< per tile pair: depth key 4, index 4
     int pixel_bytes = 4;      ///< per frame-buffer pixel, RGBA8
     int burst_bytes = 64;     ///< gathers are rounded up to this
+    /// Parts of the geometry, for accelerators that read it in stages and have keys of their own
+    /// for it: mean, and scale, rotation and opacity (0: as formats need), and what such a stage
+    /// needs beside them.
+    int mean_bytes = 0, shape_bytes = 0, bound_bytes = 0;
     void describe(ConfigVisitor& visitor);
 
-    std::uint64_t sh_bytes(int degree) const {
-        return 3 * (degree + 1) * (degree + 1) * sh_value_bytes;
-    }
+    /// Bytes of a Gaussian's geometry, of its parts, and of its SH coefficients: as the keys say,
+    /// else whole bytes of the formats to which the frame's Gaussians were rounded.
+    std::uint64_t geometry_bytes_of(const FrameWorkload& frame) const;
+    std::uint64_t mean_bytes_of(const FrameWorkload& frame) const;
+    std::uint64_t shape_bytes_of(const FrameWorkload& frame) const;
+    std::uint64_t sh_bytes_of(const FrameWorkload& frame) const;
 };
+
+/// Bytes of the word that says where a list ends.
+constexpr int kListHeadBytes = 4;
 
 /// A scene of single-precision values: mean 3, scale 3, rotation 4, opacity 1, and the SH apart.
 constexpr int kFloatBytes = 4;
@@ -44,10 +54,11 @@ struct MemoryBases {
 /// The addresses of the streams in memory; regions are aligned to 4 KiB.
 struct MemoryMap {
     std::uint64_t geometry = 0, sh = 0, splats = 0, lists = 0, frame_buffer = 0;
+    std::uint64_t list_heads = 0; ///< a word for each tile: where its list ends
     MemoryMap() = default;
     MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame,
               const MemoryBases& bases = {});
-    /// Bytes from the first splat record to the end of the lists.
+    /// Bytes from the first splat record to the end of the lists and their heads.
     static std::uint64_t workspace_bytes(const TrafficConfig& traffic, const FrameWorkload& frame);
 };
 

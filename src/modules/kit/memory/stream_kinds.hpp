@@ -17,6 +17,11 @@ inline constexpr StreamKind kSplatsWritten{"splats_written", StreamData::Own,
 inline constexpr StreamKind kTileListsWritten{
     "tile_lists_written", StreamData::Own,
     "Entries of the tile lists, written when splats are assigned to tiles.", true};
+inline constexpr StreamKind kListHeads{
+    "list_heads", StreamData::Own,
+    "Words that say where the lists of tiles end, read and written for every group of entries; "
+    "only those that do not fit the chip.",
+    true};
 inline constexpr StreamKind kTileListsSorted{
     "tile_lists_sorted", StreamData::Own,
     "Entries of the tile lists, read by sorting; written and read again for every further pass."};

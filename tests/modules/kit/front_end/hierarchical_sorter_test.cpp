@@ -13,6 +13,7 @@ using test::UnitBench;
 
 struct SorterBench {
     UnitBench bench;
+    ListChanges changes;
     HierarchicalSorter sorter;
     DatedFifo<std::uint32_t> start;
     DatedFifo<SortedRun> sorted;
@@ -20,8 +21,8 @@ struct SorterBench {
 
     SorterBench(int keys, const HierarchicalSorter::Config& config, std::uint64_t capacity,
                 std::size_t depth = 64, Cycle cancelled = kNever)
-        : bench(one_pixel_splats(keys)),
-          sorter("sorter", config, {}, bench.time, bench.job, 0, capacity),
+        : bench(one_pixel_splats(keys)), changes(bench.job, false),
+          sorter("sorter", config, {}, bench.time, bench.job, changes, 0, capacity),
           start("start", bench.time, 1), sorted("sorted", bench.time, depth),
           cancel("cancel", bench.time, 4) {
         sorter.start.bind(start);

@@ -46,7 +46,8 @@ TEST(TileBinner, AFrameIsBinnedWhenItsListsAreInMemory) {
     UnitBench bench(one_pixel_splats(50));
     TileBinner::Config config;
     config.pairs_per_cycle = 4;
-    TileBinner unit("unit", config, {}, bench.time, bench.job, 10, 1, 1);
+    ListChanges changes(bench.job, false);
+    TileBinner unit("unit", config, {}, bench.time, bench.job, changes, 10, 1, 1);
     DatedFifo<ProjectedChunk> in("in", bench.time, 8);
     DatedFifo<std::uint32_t> out("out", bench.time, 8);
     unit.in[0].bind(in);
@@ -76,6 +77,7 @@ TEST(TileBinner, AFrameIsBinnedWhenItsListsAreInMemory) {
 
 /// A Sorting Unit with the Splat Fetcher behind it.
 struct SortAndFetch {
+    ListChanges changes;
     SortingUnit sorter;
     SplatFetcher fetcher;
     DatedFifo<std::uint32_t> start;
@@ -84,7 +86,8 @@ struct SortAndFetch {
     DatedFifo<SplatChunk> out;
 
     SortAndFetch(UnitBench& bench, const SortingUnit::Config& config, std::uint64_t capacity)
-        : sorter("sorter", config, {}, bench.time, bench.job, 0, capacity),
+        : changes(bench.job, false),
+          sorter("sorter", config, {}, bench.time, bench.job, changes, 0, capacity),
           fetcher("fetcher", {}, {}, bench.time, bench.job, 1, false),
           start("start", bench.time, 1), sorted("sorted", bench.time, 1),
           cancel("cancel", bench.time, 4, 8), out("out", bench.time, 64) {
@@ -157,6 +160,21 @@ TEST(SortingUnit, LongListsTakeExtraPassesThroughMemory) {
     EXPECT_EQ(bench.memory->stats(0).bytes_read, 200U * 8);
     EXPECT_EQ(bench.memory->stats(1).bytes_read, 2U * 200 * 8);
     EXPECT_EQ(bench.memory->stats(1).bytes_written, 2U * 200 * 8);
+}
+
+// Two passes of every list, although it fits.
+TEST(SortingUnit, ListsTakeTheirLeastPassesThroughMemory) {
+    UnitBench bench(one_pixel_splats(40));
+    SortingUnit::Config config;
+    config.count = 1;
+    config.memory_passes = 2;
+    SortAndFetch units(bench, config, 1000);
+    bench.drain(units.out);
+    sc_core::sc_start();
+    EXPECT_EQ(units.sorter.stats().memory_passes, 2U);
+    EXPECT_EQ(units.sorter.stats().sort_busy, 40U * 2 / 4 + 2 * 40 / 4);
+    EXPECT_EQ(bench.memory->stats(1).bytes_read, 2U * 40 * 8);
+    EXPECT_EQ(bench.memory->stats(1).bytes_written, 2U * 40 * 8);
 }
 
 } // namespace

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "modules/kit/front_end/list_changes.hpp"
+
+namespace degs {
+
+bool ListChanges::keeps(std::uint32_t frame) const {
+    if (!lists_are_kept_ || frame == 0) {
+        return false;
+    }
+    const FrameWorkload& before = *job_.frames[frame - 1];
+    const FrameWorkload& now = *job_.frames[frame];
+    return before.gaussians == now.gaussians && before.tiles_x == now.tiles_x &&
+           before.tiles_y == now.tiles_y;
+}
+
+std::size_t ListChanges::grid_index(const JobTile& tile) const {
+    const FrameWorkload& frame = job_.frame_of(tile);
+    return tile.y / frame.tile_size * frame.tiles_x + tile.x / frame.tile_size;
+}
+
+void ListChanges::mark(std::uint32_t frame, std::vector<bool>& written) {
+    const FrameWorkload& now = *job_.frames[frame];
+    written.assign(now.tile_pairs(), true);
+    if (!keeps(frame)) {
+        return;
+    }
+    const FrameWorkload& before = *job_.frames[frame - 1];
+    std::vector<std::uint32_t> listed_in(now.gaussians, 0); // the last tile, counted from 1
+    for (int tile = 0; tile < now.tiles(); ++tile) {
+        const std::uint32_t mark = tile + 1;
+        for (std::uint64_t i = before.tile_begin[tile]; i < before.tile_begin[tile + 1]; ++i) {
+            listed_in[before.splats[before.tile_splats[i]].id] = mark;
+        }
+        for (std::uint64_t i = now.tile_begin[tile]; i < now.tile_begin[tile + 1]; ++i) {
+            written[i] = listed_in[now.splats[now.tile_splats[i]].id] != mark;
+        }
+    }
+}
+
+const ListChanges::Frame& ListChanges::of_frame(std::uint32_t frame) {
+    std::vector<bool> written;
+    while (frames_.size() <= frame) {
+        const FrameWorkload& work = *job_.frames[frames_.size()];
+        mark(static_cast<std::uint32_t>(frames_.size()), written);
+        Frame counts;
+        for (int tile = 0; tile < work.tiles(); ++tile) {
+            std::uint32_t count = 0;
+            for (std::uint64_t i = work.tile_begin[tile]; i < work.tile_begin[tile + 1]; ++i) {
+                count += written[i] ? 1 : 0;
+            }
+            counts.per_tile.push_back(count);
+        }
+        frames_.push_back(std::move(counts));
+    }
+    return frames_[frame];
+}
+
+} // namespace degs
