@@ -65,8 +65,8 @@ TEST(Designs, TheDefaultsAreTheDesignOfThePaperInSinglePrecision) {
             different.push_back(defaults[i].path);
         }
     }
-    EXPECT_THAT(different, ::testing::ElementsAre("pipeline.numbers", "pipeline.records",
-                                                  "pipeline.span_ends", "pixel_buffer.state_bytes"));
+    EXPECT_THAT(different, ::testing::ElementsAre("pipeline.numbers", "pipeline.span_ends",
+                                                  "pixel_buffer.state_bytes"));
     EXPECT_EQ(DegsConfig().pipeline.numbers, Arithmetic::Fp32);
 }
 

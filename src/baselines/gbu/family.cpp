@@ -49,7 +49,6 @@ void Config::scale_to(int pes) {
     const bool first = above == kColumns.begin();
     const SharesOfSram& low = beyond || first || high.pes == pes ? high : *(above - 1);
     name = "gbu-" + std::to_string(pes);
-    pipeline.records = kSharedRecords;
     tile_size = family_tile(pes);
     engines.row_pes = tile_size;
     engines.count = pes / tile_size;

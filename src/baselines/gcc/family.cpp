@@ -17,7 +17,6 @@ void Config::scale_to(int pes) {
                             return side * side == number;
                         });
     name = "gcc-" + std::to_string(pes);
-    pipeline.records = kSharedRecords;
     array.window = whole_root(pes);
     view_size = std::max(4, kWindowsPerSide * array.window);
     group_buffer_bytes = per_pe(group_buffer_bytes, pes);

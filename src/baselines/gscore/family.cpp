@@ -12,7 +12,6 @@ void Config::scale_to(int pes) {
             return side * side == number && side >= 4 && power_of_two_below(side) == side;
         });
     name = "gscore-" + std::to_string(pes);
-    pipeline.records = kSharedRecords;
     array.lanes = pes;
     buffer.bytes = per_pe(buffer.bytes, pes);
     constexpr int kTiles = 2;

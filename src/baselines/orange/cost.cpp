@@ -48,11 +48,7 @@ cost::BillOfMaterials Config::bill() const {
                   std::int64_t{cores.count} * scratchpad.bytes,
                   cores.count * scratchpad.value_bytes *
                       (array.rows + kReadAndWritten * array.columns));
-    if (binning.sram_bytes() != 0) {
-        bill.add_sram({"binning_buffer", "List entries that wait, and the ends of the lists."},
-                      rows.sram, binning.sram_bytes(),
-                      kReadAndWritten * binning.pairs_per_cycle * traffic.list_entry_bytes);
-    }
+    add_binning_buffer(bill, rows.sram);
     bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."}, rows.sram,
                   pixel_buffer.bytes,
                   kReadAndWritten * cores.count * pixel_bytes() * cores.vector.lanes /

@@ -17,7 +17,6 @@ void Config::scale_to(int pes) {
         });
     const int side = whole_root(pes);
     name = "orange-" + std::to_string(pes);
-    pipeline.records = kSharedRecords;
     cores.count = 1;
     cores.array.rows = cores.array.columns = side;
     cores.vector.lanes = std::max(1, cores.vector.lanes * side / 32);

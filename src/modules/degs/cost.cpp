@@ -53,11 +53,7 @@ cost::BillOfMaterials DegsConfig::bill() const {
                   kReadAndWritten * (clusters * slicing.count * traffic.splat_bytes +
                                      sorting.count * traffic.list_entry_bytes),
                   shape(gaussian_buffer.ports));
-    if (binning.sram_bytes() != 0) {
-        bill.add_sram({"binning_buffer", "List entries that wait, and the ends of the lists."},
-                      rows.gaussian_buffer, binning.sram_bytes(),
-                      kReadAndWritten * binning.pairs_per_cycle * traffic.list_entry_bytes, {});
-    }
+    add_binning_buffer(bill, rows.gaussian_buffer, cost::SramShape{});
     if (front.built()) {
         const int moved = front.splats_per_cycle != 0 ? front.splats_per_cycle
                                                       : clusters * fetchers() * fetching.chunk;

@@ -33,7 +33,6 @@ void DegsConfig::scale_to(int pes) {
     name = "degs-" + std::to_string(pes);
     tile_size = std::max(4, family_tile(pes));
     pipeline.numbers = Arithmetic::Paper;
-    pipeline.records = kSharedRecords;
     pipeline.span_ends = SpanEnds::Slope;
     slicing.count = std::max(1, banks / kBanksPerSlicer);
     span.count = banks;

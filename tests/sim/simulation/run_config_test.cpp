@@ -247,9 +247,7 @@ TEST(Configs, GbuHasTheMemoryOfTableI) {
         const RunConfig loaded = load("gbu-" + std::to_string(pes));
         const auto& config = dynamic_cast<const gbu::Config&>(loaded.accelerator());
         if (pes == 64) {
-            gbu::Config defaults;
-            defaults.pipeline.records = kSharedRecords;
-            EXPECT_EQ(resolved(config).dump(2), resolved(defaults).dump(2));
+            EXPECT_EQ(resolved(config).dump(2), resolved(gbu::Config{}).dump(2));
         }
         EXPECT_EQ(config.pes(), pes);
         EXPECT_EQ(config.engines.row_pes, config.tile_size);

@@ -11,14 +11,13 @@ namespace degs {
 
 /// Whose formats the values of Gaussians have in memory: those of `numbers`, or of a named set.
 enum class Records { Numbers, Fp32, Fp16, Paper, Tuned };
-/// Those of all shipped designs and of their families, so that they are compared with equal
-/// records; docs/numbers.md says why these.
-constexpr Records kSharedRecords = Records::Tuned;
 
 /// The choices of every data path, whichever accelerator uses it.
 struct PipelineConfig {
     Arithmetic numbers = Arithmetic::Fp32;
-    Records records = Records::Numbers;
+    /// The same for all accelerators, so that they are compared with equal records; docs/numbers.md
+    /// says why these.
+    Records records = Records::Tuned;
     StopRule stop_rule = StopRule::Refuse;
     TileMode tiles = TileMode::Exact;
     RenderingRules rules;

@@ -45,6 +45,19 @@ struct TiledConfig : AcceleratorConfig {
     double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
 
 protected:
+    /// Adds the SRAM of the Tile Binner, if it has any, to a bill; `row` and what may follow it are
+    /// those of the other buffers (cost::BillOfMaterials::add_sram).
+    template <class Row, class... Shape>
+    void add_binning_buffer(cost::BillOfMaterials& bill, const Row& row,
+                            const Shape&... shape) const {
+        constexpr int kReadAndWritten = 2;
+        if (binning.sram_bytes() != 0) {
+            bill.add_sram({"binning_buffer", "List entries that wait, and the ends of the lists."},
+                          row, binning.sram_bytes(),
+                          kReadAndWritten * binning.pairs_per_cycle * traffic.list_entry_bytes,
+                          shape...);
+        }
+    }
     PixelBuffer::TilePixels tile_pixels() const { return {tile_size_px(), pipeline.pixel_bits()}; }
 };
 
