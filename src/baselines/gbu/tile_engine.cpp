@@ -163,7 +163,9 @@ void TileEngine::generate(std::uint32_t splat) {
         }
         if (config_.rows_per_cycle != 0 && left-- == 0) {
             ++now;
-            left = config_.rows_per_cycle - 1;
+            left = config_.rows_per_cycle;
+            --y; // once more, because it may have ended in the meantime
+            continue;
         }
         const PixelRange pixels = job_.path->tested_columns(splat, y, tile_->x, x_end);
         if (!pixels.empty()) {

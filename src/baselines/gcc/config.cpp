@@ -48,7 +48,7 @@ void Config::require_parts(ConfigVisitor& visitor) const {
         visitor.require(bytes == 0 || 8 * bytes >= bits,
                         {key,
                          std::string("must hold ") + what + ", " + least + " B",
-                         least + " or 0",
+                         least,
                          {"pipeline.records", "pipeline.formats"}});
     };
     require("traffic.mean_bytes", "the mean of a Gaussian", traffic.mean_bytes, stored.mean_bits());

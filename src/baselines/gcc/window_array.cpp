@@ -22,6 +22,9 @@ void WindowArray::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("skip_cycles", skip_cycles, 0, 64,
                     "cycles for a window whose pixels have all ended; 0: found from the mask while "
                     "another window is evaluated [assumed]");
+    visitor.integer("seed_cycles", seed_cycles, 0, 256,
+                    "cycles to find a further part of a splat, which is not connected with those "
+                    "that have been visited; no paper says how it is found [assumed]");
     visitor.integer(
         "discovery_cycles", discovery_cycles, 1, 256,
         "cycles from a slot to the windows it leads to; 1: splats are interleaved so that nobody "
@@ -231,7 +234,10 @@ void WindowArray::traverse(const ProjectedSplat& splat) {
 
 std::optional<Traversal::Window> WindowArray::missed() {
     const std::optional<Traversal::Window> found = traversal_.find_missed();
-    stats_.extra_seeds += found ? 1 : 0;
+    if (found) {
+        stats_.extra_seeds++;
+        wait_until(self_.local() + config_.seed_cycles);
+    }
     return found;
 }
 

@@ -36,6 +36,7 @@ public:
         int window = 8;           ///< side of the window, px; its square is the number of PEs
         int skip_cycles = 0;      ///< for a window whose pixels have all ended
         int discovery_cycles = 1; ///< from a slot to the slots that it leads to
+        int seed_cycles = 0;      ///< to find where another part of a splat begins
         int writeback_cycles = 4; ///< from a slot to pixel state and reports
         void describe(ConfigVisitor& visitor);
         int pes() const { return window * window; }

@@ -15,6 +15,13 @@ void LockstepArray::Config::describe(ConfigVisitor& visitor) {
     visitor.choice("subtile_skip", subtile_skip, {"obb", "exact", "none"},
                    "which sub-tiles a splat's bitmap names: those its oriented box meets (GSCore), "
                    "those with a pixel that passes the lanes' check, or all");
+    visitor.integer("subtiles", subtiles, 1, 4,
+                    "side of a tile in sub-tiles, but never less than 16 px; 2, because GSCore has "
+                    "tiles of 16 px and sub-tiles of 8 px");
+    visitor.require(subtiles != 3, {"subtiles", "must be a power of two", "1, 2 or 4"});
+    visitor.integer("skips_per_cycle", skips_per_cycle, 0, 1024,
+                    "splats of which no sub-tile is left that are passed per cycle; 0: any number, "
+                    "which favours the design [assumed]");
     visitor.integer("clusters", clusters, 1, 4,
                     "groups of lanes with a place in the list of their own; a group owns the "
                     "sub-tiles s = c mod clusters and takes `clusters` cycles for one; 1 keeps one "
@@ -37,7 +44,7 @@ int LockstepArray::Config::side() const {
 }
 
 int LockstepArray::Config::tile_size() const {
-    return std::max(16, 2 * side());
+    return std::max(16, subtiles * side());
 }
 
 LockstepArray::LockstepArray(const sc_core::sc_module_name& name, const Config& config,
@@ -97,6 +104,7 @@ void LockstepArray::render_tile(TileNumber number) {
         for (const Cluster& cluster : clusters_) {
             self_.advance_to(cluster.free);
         }
+        self_.advance_to(scanned_);
         source.drop(self_);
     }
     if (!last) {
@@ -168,16 +176,32 @@ void LockstepArray::work(const SplatChunk& chunk, Cycle begin) {
     const std::uint32_t first_splat = job_.first_splat[tile_->frame];
     const std::uint32_t* list = frame.tile_splats.data() + chunk.first;
     for (std::uint32_t i = 0; i < chunk.count; ++i) {
-        if (live_subtiles_ == 0 && all_done(begin)) {
+        if (live_subtiles_ == 0 && all_done(std::max(begin, scanned_))) {
             stats_.splats_discarded += chunk.count - i;
             return;
         }
         stats_.splats++;
         const std::uint32_t splat = first_splat + list[i];
-        if (!issue(splat, bitmap(splat), begin)) {
+        if (issue(splat, bitmap(splat), std::max(begin, scanned_))) {
+            passed_over_ = 0;
+        } else {
             stats_.splats_skipped++;
+            pass_over(begin);
         }
     }
+}
+
+/// The next splats are looked at a cycle later once as many as a cycle takes are passed.
+void LockstepArray::pass_over(Cycle begin) {
+    if (config_.skips_per_cycle == 0 || ++passed_over_ < config_.skips_per_cycle) {
+        return;
+    }
+    passed_over_ = 0;
+    Cycle last = std::max(begin, scanned_);
+    for (const Cluster& cluster : clusters_) {
+        last = std::max(last, cluster.free);
+    }
+    scanned_ = last + 1;
 }
 
 SubtileMask LockstepArray::bitmap(std::uint32_t splat) const {

@@ -26,19 +26,21 @@ namespace degs::gscore {
 ///
 /// Updates of a pixel in neighbouring cycles are forwarded (initiation interval 1), tiles follow
 /// each other without a bubble while a context is free, and a splat whose bits are all clear or
-/// done costs no cycle. All of this favours the design.
+/// done costs no cycle unless `skips_per_cycle` says so. All of this favours the design.
 class LockstepArray : public sc_core::sc_module {
 public:
     struct Config {
         int lanes = 64; ///< pixels evaluated per cycle: a square of 4, 8, 16 or 32 px
         SubtileTest subtile_skip = SubtileTest::Obb;
+        int subtiles = 2;           ///< side of a tile in sub-tiles
+        int skips_per_cycle = 0;    ///< splats without a slot that are passed per cycle; 0: any
         int clusters = 1;           ///< groups of lanes that work through the list on their own
         int termination_cycles = 1; ///< from the slot that ends a sub-tile to the first that skips
         int pipeline_cycles = 4;    ///< last slot of a tile to its pixels written back
         void describe(ConfigVisitor& visitor);
         /// Side of the square of lanes and of a sub-tile, px.
         int side() const;
-        /// Tiles are 2 x 2 sub-tiles and never smaller than 16 x 16 px.
+        /// px; never smaller than 16.
         int tile_size() const;
     };
     struct Stats {
@@ -75,6 +77,7 @@ public:
     const Stats& stats() const { return stats_; }
 
 private:
+    void pass_over(Cycle begin);
     /// Lanes that share one place in the list. One cluster: the whole array.
     struct Cluster {
         Cycle first = kNever;     ///< first cycle of work
@@ -127,6 +130,8 @@ private:
     Cycle blocked_ = 0;          // cycles spent waiting for contexts so far
     bool recorded_ = false;      // slots, with their dates
     TimeSeries* busy_ = nullptr; // cycles of the clusters, in the timeline
+    Cycle scanned_ = 0;          // before it no splat is looked at
+    int passed_over_ = 0;        // splats without a slot since the last slot or cycle of passing
     Stats stats_;
 };
 

@@ -33,7 +33,8 @@ StoredGaussians::StoredGaussians(const GaussianCloud& cloud, const ProjectionNum
       rounds_means_(!numbers.mean.is_fp64()),
       rounds_sh_(!numbers.sh_dc.is_fp64() || !numbers.sh_rest.is_fp64()), mean_(numbers.mean),
       scale_(numbers.scale), rotation_(numbers.rotation), opacity_(numbers.opacity),
-      sh_dc_(numbers.sh_dc), sh_rest_(numbers.sh_rest) {
+      sh_dc_(numbers.sh_dc), sh_rest_(numbers.sh_rest), most_scale_(numbers.scale.max()),
+      most_sh_dc_(numbers.sh_dc.max()), most_sh_rest_(numbers.sh_rest.max()) {
     if (rounds_means_) {
         origin_ = {origin_on(cloud, 0), origin_on(cloud, 1), origin_on(cloud, 2)};
     }
@@ -51,7 +52,9 @@ const float* StoredGaussians::sh(std::size_t index, Sh& room) const {
     }
     const int count = 3 * cloud_.sh_coefficients();
     for (int i = 0; i < count; ++i) {
-        room[i] = static_cast<float>(i < 3 ? sh_dc_(given[i]) : sh_rest_(given[i]));
+        const double rounded = i < 3 ? sh_dc_(given[i]) : sh_rest_(given[i]);
+        const double most = i < 3 ? most_sh_dc_ : most_sh_rest_;
+        room[i] = static_cast<float>(std::clamp(rounded, -most, most));
     }
     return room.data();
 }

@@ -14,7 +14,8 @@ namespace degs {
 ///
 /// Means are rounded relative to an origin. On each axis it is that of the scene, unless 98 % of
 /// the coordinates lie on one side of it; then it is their median (of 4096 of them). A scene in map
-/// coordinates of 10^6 m would have no digits left otherwise.
+/// coordinates of 10^6 m would have no digits left otherwise. Scales and coefficients beyond their
+/// format saturate, a mean does not: it is infinite, and the Gaussian degenerate.
 class StoredGaussians {
 public:
     /// Coefficients of degree 3, three channels each.
@@ -30,7 +31,10 @@ public:
     const glm::dvec3& given_mean(std::size_t index) const { return cloud_.means[index]; }
     glm::dvec3 scale(std::size_t index) const {
         const glm::dvec3 given(cloud_.scales[index]);
-        return as_they_are_ ? given : glm::dvec3(scale_(given.x), scale_(given.y), scale_(given.z));
+        return as_they_are_
+                   ? given
+                   : glm::min(glm::dvec3(scale_(given.x), scale_(given.y), scale_(given.z)),
+                              most_scale_);
     }
     /// A quaternion in slot order w, x, y, z; rounding leaves its length at about 1.
     glm::dvec4 rotation(std::size_t index) const {
@@ -54,6 +58,7 @@ private:
     const GaussianCloud& cloud_;
     bool as_they_are_, rounds_means_, rounds_sh_;
     Rounder mean_, scale_, rotation_, opacity_, sh_dc_, sh_rest_;
+    double most_scale_, most_sh_dc_, most_sh_rest_;
     glm::dvec3 origin_{0.0};
 };
 

@@ -78,7 +78,7 @@ NumberSet paper_set() {
 /// each other and changes their order: 24 bits cost 70 dB, 26 bits 79 dB (docs/numbers.md).
 void set_tuned_gaussians(NumberSet& set) {
     set.gaussian_mean = parse_format("e5m22");
-    set.gaussian_scale = parse_format("ue5m11b18"); // 8 192 down to 2^-28 scene units
+    set.gaussian_scale = parse_format("ue5m11b14"); // 131 000 down to 2^-24 scene units
     set.gaussian_rotation = parse_format("q1.15");
     set.gaussian_opacity = parse_format("uq0.16");
     set.sh_dc = parse_format("e4m11b11");  // up to 31

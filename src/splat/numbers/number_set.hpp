@@ -87,6 +87,7 @@ struct NumberSet {
     double guard = 0; ///< px by which exact ends are moved outwards before ceil and floor
     Base base = Base::Start;
     IntegerMultiplier multiplier = IntegerMultiplier::Whole;
+    int lookup_bits = 4; ///< of the lower half of an integer, with HalfLookup
     Exponent exponent = Exponent::Natural;
     bool q_mask = false; ///< PEs drop pixels with q above that of alpha = 1/255
 

@@ -200,6 +200,7 @@ LaneNumbers::LaneNumbers(const NumberSet& set)
     family = family_of(set);
     from_start = set.base == Base::Start;
     half_lookup = set.multiplier == IntegerMultiplier::HalfLookup;
+    low_mask = (1 << set.lookup_bits) - 1;
     cells_per_unit =
         static_cast<float>(reduced ? set.exp.entries : set.exp.entries / set.exp.range);
     last_cell = set.exp.entries - 1;

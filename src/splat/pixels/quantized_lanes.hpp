@@ -32,6 +32,7 @@ struct LaneNumbers {
     bool reduced = false;          ///< Reduction::Binary
     bool from_start = true;        ///< Base::Start: g0 + n d0 first
     bool half_lookup = false;
+    std::int32_t low_mask = 15; ///< of the bits of the lower half
     float cells_per_unit = 1;
     std::int32_t last_cell = 0;
     std::vector<float> values, falls; ///< of the table's cells

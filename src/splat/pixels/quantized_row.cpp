@@ -173,7 +173,7 @@ double QuantizedRow::times(double value, int integer) const {
     if (set_.multiplier == IntegerMultiplier::Whole) {
         return term_(value * integer);
     }
-    const int low = integer % 16; // of the magnitude, with the integer's sign
+    const int low = integer % (1 << set_.lookup_bits); // of the magnitude, with the sign
     return term_(term_(value * low) + term_(value * (integer - low)));
 }
 

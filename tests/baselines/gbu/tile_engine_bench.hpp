@@ -21,6 +21,7 @@ namespace degs::test {
 inline gbu::TileEngine::Config small_engine(int row_pes = 16) {
     gbu::TileEngine::Config c;
     c.row_pes = row_pes;
+    c.rows_per_cycle = 0;
     c.generation_latency = 3;
     c.row_pe_latency = 5;
     return c;

@@ -109,6 +109,7 @@ private:
             return end_tile();
         }
         if (waiting_) {
+            solve();
             push();
             return false;
         }
@@ -168,15 +169,27 @@ private:
         stats.splats++;
         waiting_ = true;
         pending_.clear();
+        splat_ = splat;
+        unsolved_ = job_.path->tested_rows(splat, tile_->columns(), tile_->rows());
+    }
+    // The rows of this cycle; those that have ended take no solver.
+    void solve() {
         const int x_end = tile_->x + tile_->width;
-        const PixelRange rows = job_.path->tested_rows(splat, tile_->columns(), tile_->rows());
-        for (int y = rows.first; y <= rows.last; ++y) {
-            const PixelRange pixels = job_.path->tested_columns(splat, y, tile_->x, x_end);
+        for (int solved = 0; !unsolved_.empty();) {
+            const int y = unsolved_.first;
             if (rows_[static_cast<std::size_t>(y - tile_->y)].ended <= now_) {
                 stats.rows_skipped++;
-            } else if (!pixels.empty()) {
-                pending_.push_back({splat, y - tile_->y, pixels.first - tile_->x, pixels.size()});
+            } else if (config_.rows_per_cycle != 0 && solved == config_.rows_per_cycle) {
+                return;
+            } else {
+                const PixelRange pixels = job_.path->tested_columns(splat_, y, tile_->x, x_end);
+                if (!pixels.empty()) {
+                    pending_.push_back(
+                        {splat_, y - tile_->y, pixels.first - tile_->x, pixels.size()});
+                }
+                ++solved;
             }
+            ++unsolved_.first;
         }
     }
     void push() {
@@ -192,8 +205,8 @@ private:
             }
         }
         pending_ = left;
-        waiting_ = !pending_.empty();
-        stats.queue_wait += waiting_ ? 1 : 0;
+        stats.queue_wait += unsolved_.empty() && !pending_.empty() ? 1 : 0;
+        waiting_ = !pending_.empty() || !unsolved_.empty();
     }
 
     gbu::TileEngine::Config config_;
@@ -208,6 +221,8 @@ private:
     std::size_t chunk_ = 0;
     std::uint32_t taken_ = 0;
     bool loaded_ = false, generated_ = false, waiting_ = false;
+    std::uint32_t splat_ = 0;
+    PixelRange unsolved_;
     std::vector<Interval> pending_;
     // The tile
     const JobTile* tile_ = nullptr;
@@ -223,6 +238,7 @@ TEST_P(SmallRunTileEngineCycles, AgreeWithTheClosedForm) {
     gbu::TileEngine::Config config;
     const int tile = upto(4) == 0 ? 40 : 16; // 40: intervals longer than one call takes
     config.row_pes = upto(3) == 0 ? 1 + upto(tile) : tile;
+    config.rows_per_cycle = upto(2) == 0 ? 0 : 1 + upto(9);
     config.queue_depth = 1 + upto(upto(2) == 0 ? 3 : 20);
     config.generation_latency = upto(10);
     config.row_pe_latency = 1 + upto(12);

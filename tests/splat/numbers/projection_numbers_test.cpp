@@ -160,7 +160,10 @@ TEST(StoredGaussians, MakeTheSplatsOfARoundedScene) {
 
 TEST(StoredGaussians, ThatDoNotFitTheFormatAreCounted) {
     GaussianCloud cloud = test::random_cloud(100, 4);
-    cloud.means[7] = {0, 0, 1e6}; // FP16 ends at 65 504
+    cloud.scales[5] = {1e6F, 1, 1};
+    EXPECT_EQ(StoredGaussians(cloud, narrow_records()).scale(5).x,
+              narrow_records().scale.max()); // a scale saturates
+    cloud.means[7] = {0, 0, 1e6};            // FP16 ends at 65 504
     const FrameWorkload found = frame_in(cloud, narrow_records());
     EXPECT_EQ(found.culled.degenerate, 1U);
 }

@@ -52,14 +52,14 @@ void PipelineConfig::require_records(ConfigVisitor& visitor, int geometry_bytes,
                     {"traffic.geometry_bytes",
                      "must hold mean, scale, rotation and opacity of a Gaussian, " +
                          std::to_string(geometry) + " B",
-                     std::to_string(geometry) + " or 0",
+                     std::to_string(geometry),
                      {"pipeline.records", "pipeline.formats"}});
     const int sh = std::max(ceil_div(stored.sh_bits(0), 3 * 8),
                             ceil_div(stored.sh_bits(1) - stored.sh_bits(0), 9 * 8));
     visitor.require(sh_value_bytes == 0 || sh <= sh_value_bytes,
                     {"traffic.sh_value_bytes",
                      "must hold an SH coefficient, " + std::to_string(sh) + " B",
-                     std::to_string(sh) + " or 0",
+                     std::to_string(sh),
                      {"pipeline.records", "pipeline.formats"}});
     constexpr int kLeastIndexBits = 16;
     const NumberFormat& key = stored.depth_key;

@@ -42,7 +42,7 @@ void TileFrontEnd::build_units(const Config& config, const Timebase& time, const
         projection_.push_back(std::make_unique<ProjectionUnit>(numbered("projection", i).c_str(),
                                                                config.projection, config.traffic,
                                                                time, job, i, waits_for));
-        auto& chunks = add_ring(projected_, "projected", time, 4, 1);
+        auto& chunks = add_ring(projected_, "projected", time, config.projection.chunks_ahead, 1);
         projection_.back()->out.bind(chunks);
         binner_->in[i].bind(chunks);
         if (waits_for != 0) {

@@ -38,6 +38,7 @@ struct TiledConfig : AcceleratorConfig {
     TrafficConfig records() const override { return traffic; }
     RecordOrder record_order() const override { return memory.layout; }
     void read_floats() override {
+        pipeline.records = Records::Fp32;
         traffic.geometry_bytes = kFloatGeometryBytes;
         traffic.sh_value_bytes = kFloatBytes;
     }

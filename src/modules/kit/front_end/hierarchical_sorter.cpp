@@ -30,6 +30,8 @@ void HierarchicalSorter::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("keys_per_cycle", keys_per_cycle, 1, 1024,
                     "keys per cycle, unit and coarse level; two quick-sort units per sorting core "
                     "move a key each [assumed]");
+    visitor.integer("lists_ahead", lists_ahead, 1, 64,
+                    "lists that wait for each step, loaded or partitioned [assumed]");
     visitor.integer("memory_levels", memory_levels, 0, 16,
                     "coarse levels of every list that go through memory at least, written and read "
                     "once each; 0: of those that do not fit the buffer only [assumed]");
@@ -46,7 +48,8 @@ HierarchicalSorter::HierarchicalSorter(const sc_core::sc_module_name& name, cons
       loader("loader", traffic, time, job, index, config.count), lists("lists", time),
       chunks("chunks", time), config_(config), traffic_(traffic), job_(job), changes_(changes),
       index_(index), capacity_(capacity), partitioner_(time), sorter_(time),
-      loaded_("loaded", time, 1), partitioned_("partitioned", time, 1) {
+      loaded_("loaded", time, config.lists_ahead),
+      partitioned_("partitioned", time, config.lists_ahead) {
     loader.start.bind(start);
     loader.out.bind(loaded_);
     DEGS_HAS_PROCESS(HierarchicalSorter);

@@ -25,6 +25,7 @@ public:
         int chunk = 256;             ///< keys that are sorted exactly at a time
         int keys_per_cycle = 2;      ///< moved per cycle and coarse level
         int fine_cycles_per_key = 2; ///< of the exact step
+        int lists_ahead = 1;         ///< of each step
         int memory_levels = 0;       ///< coarse levels through memory, at least
         void describe(ConfigVisitor& visitor);
     };

@@ -13,6 +13,8 @@ void ProjectionUnit::Config::describe(ConfigVisitor& visitor) {
                     "Gaussians per geometry request; 64 x 22 B keeps bursts long [assumed]");
     visitor.integer("chunks_in_flight", chunks_in_flight, 1, 256,
                     "geometry requests outstanding per unit; 4 cover a 100 ns memory [assumed]");
+    visitor.integer("chunks_ahead", chunks_ahead, 1, 256,
+                    "projected chunks of a unit that wait for the binner [assumed]");
     visitor.integer("cycles_per_gaussian", cycles_per_gaussian, 1, 1024,
                     "cycles; one Gaussian per cycle and unit, so that bandwidth limits [assumed]");
     visitor.integer("cycles_per_colour", cycles_per_colour, 1, 1024,

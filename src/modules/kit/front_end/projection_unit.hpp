@@ -24,6 +24,7 @@ public:
         int count = 4;               ///< units
         int chunk = 64;              ///< Gaussians per request and hand-over
         int chunks_in_flight = 4;    ///< geometry requests outstanding per unit
+        int chunks_ahead = 4;        ///< of the binner
         int cycles_per_gaussian = 1; ///< projection initiation interval
         int cycles_per_colour = 1;   ///< SH evaluation initiation interval
         int latency_cycles = 32;     ///< projection pipeline

@@ -15,6 +15,8 @@ void SortingUnit::Config::describe(ConfigVisitor& visitor) {
         "keys per cycle and pass; 4 keeps sorting limited by bandwidth, as the paper says "
         "(Sec. V-E) [assumed]");
     visitor.integer("merge_ways", merge_ways, 2, 1024, "fan-in of a merge pass [assumed]");
+    visitor.integer("lists_ahead", lists_ahead, 1, 64,
+                    "lists that wait, loaded, for the sorter of a unit [assumed]");
     visitor.integer("memory_passes", memory_passes, 0, 16,
                     "passes through memory of every list at least, written and read once each; 0: "
                     "of those that do not fit the buffer only [assumed]");
@@ -26,7 +28,7 @@ SortingUnit::SortingUnit(const sc_core::sc_module_name& name, const Config& conf
     : sc_core::sc_module(name), start("start"), sorted("sorted"),
       loader("loader", traffic, time, job, index, config.count), lists("lists", time),
       config_(config), traffic_(traffic), job_(job), changes_(changes), index_(index),
-      sort_capacity_(sort_capacity), sorter_(time), loaded_("loaded", time, 1) {
+      sort_capacity_(sort_capacity), sorter_(time), loaded_("loaded", time, config.lists_ahead) {
     loader.start.bind(start);
     loader.out.bind(loaded_);
     DEGS_HAS_PROCESS(SortingUnit);

@@ -22,6 +22,7 @@ public:
         int count = 4;          ///< units
         int keys_per_cycle = 4; ///< keys moved per cycle and pass
         int merge_ways = 16;    ///< fan-in of a pass: n keys take ceil(log_ways n) passes
+        int lists_ahead = 1;    ///< loaded while one is sorted
         int memory_passes = 0;  ///< of every list, at least
         void describe(ConfigVisitor& visitor);
     };

@@ -49,6 +49,9 @@ void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
     visitor.choice("release", release, {"tile", "bank"},
                    "when a context may hold the next tile: once all slices have finished, or each "
                    "bank's rows on their own [assumed]");
+    visitor.integer("rows_per_cycle", rows_per_cycle, 1, 2,
+                    "rows of pixels of a tile that leave for memory per cycle; the memory takes no "
+                    "more than two requests of a port in a cycle [assumed]");
     visitor.integer("writes_in_flight", writes_in_flight, 1, 1024,
                     "tile writes not yet acknowledged by memory; 4 hide its latency behind short "
                     "tiles [assumed]");
@@ -189,10 +192,10 @@ void PixelBuffer::finish_tile(TileNumber number) {
     }
 }
 
-// One posted write per row, as the rows are read out, at most kRowsPerCycle in a cycle: an access
+// One posted write per row, as the rows are read out, at most rows_per_cycle in a cycle: an access
 // takes the kernel half a cycle on, see Memory. Returns the completion of the last one.
 Completion PixelBuffer::write_rows(TileNumber number) {
-    constexpr int kRowsPerCycle = 2;
+    const int rows_per_cycle = config_.rows_per_cycle;
     const JobTile& tile = job_.tiles[number];
     const MemoryMap map = job_.map(tile.frame, traffic_);
     const std::uint64_t pixel_bytes = job_.pixel_bytes(tile.frame, traffic_);
@@ -204,7 +207,7 @@ Completion PixelBuffer::write_rows(TileNumber number) {
     int row = 0;
     for (int y = share_.first_row; y < tile.height; y += share_.row_stride, ++row) {
         if (!instant_) {
-            self_.advance_to(start + std::max(read / per_cycle, row / kRowsPerCycle));
+            self_.advance_to(start + std::max(read / per_cycle, row / rows_per_cycle));
         }
         const std::uint64_t image_row = tile.y + y;
         const std::uint64_t address =
@@ -221,7 +224,7 @@ Completion PixelBuffer::write_rows(TileNumber number) {
         return done;
     }
     self_.advance_to(start + std::max((read + per_cycle - 1) / per_cycle,
-                                      (row + kRowsPerCycle - 1) / kRowsPerCycle));
+                                      (row + rows_per_cycle - 1) / rows_per_cycle));
     return done;
 }
 

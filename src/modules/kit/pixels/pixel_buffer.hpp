@@ -38,6 +38,7 @@ public:
         int state_bytes = 16;     ///< per pixel: T and three colours; 0: what the numbers need
         int readout_pixels = 64;  ///< read out per cycle
         int writes_in_flight = 4; ///< tile writes not yet acknowledged
+        int rows_per_cycle = 2;   ///< of pixels that leave for memory
         ContextRelease release = ContextRelease::Tile;
         void describe(ConfigVisitor& visitor);
         /// Requires room for `tiles` contexts, and for no more than `most`; `section` is where
