@@ -115,6 +115,13 @@ std::string statistics(const RunConfig& config, const ConfigOptions& options) {
                                         : statistics_text(list);
 }
 
+/// Similar keys and costs have tables with the values of all accelerators beside each other.
+std::string keys_markdown(const RunConfig& config, const std::string& part) {
+    return part == "similar" ? similar_keys_markdown()
+           : part == "cost"  ? cost_keys_markdown()
+                             : markdown_table(keys_of_part(document(config), part));
+}
+
 std::string costs(const RunConfig& config, const ConfigOptions& options) {
     if (options.format == "yaml") {
         throw InputError(
@@ -142,7 +149,7 @@ void run(const ConfigOptions& options) {
     } else if (options.stats) {
         print(statistics(config, options));
     } else if (options.format == "markdown") {
-        print(markdown_table(keys_of_part(document(config), options.keys)));
+        print(keys_markdown(config, options.keys));
     } else if (options.format == "text") {
         print(text(keys_of_part(document(config), options.keys)));
     } else if (options.keys != "all") {
@@ -176,7 +183,9 @@ CLI::Option* add_keys_option(CLI::App* command, ConfigOptions& options) {
     return command
         ->add_option("--keys", options.keys,
                      "which keys are listed; shared: those that all accelerators have with the "
-                     "same default, range and meaning; own: all others of the accelerator")
+                     "same default, range and meaning; similar: those that several have with the "
+                     "same range and meaning; own: all others of the accelerator; cost: "
+                     "its areas and powers")
         ->check(CLI::IsMember(key_parts()))
         ->capture_default_str();
 }

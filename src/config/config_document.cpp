@@ -129,12 +129,23 @@ std::vector<KeyDoc> document_keys(const Describe& describe) {
     return std::move(lister.keys);
 }
 
+std::string markdown_allowed(const KeyDoc& key) {
+    const std::string bounds = " to ";
+    std::string allowed = key.allowed;
+    const std::size_t at = allowed.find(bounds);
+    if ((key.type == "integer" || key.type == "real") && at != std::string::npos) {
+        allowed.replace(at, bounds.size(), "..");
+    }
+    return key.type == "text"   ? key.type
+           : key.type == "real" ? key.type + " " + allowed
+                                : config_words::markdown_cell(allowed);
+}
+
 std::string markdown_table(const std::vector<KeyDoc>& keys) {
-    std::string table = "| Key | Type | Default | Allowed | Meaning |\n|---|---|---|---|---|\n";
+    std::string table = "| Key | Default | Allowed | Meaning |\n|---|---|---|---|\n";
     for (const KeyDoc& key : keys) {
-        table += "| " + code(key.path) + " | " + key.type + " | " + code(key.default_value) +
-                 " | " + config_words::markdown_cell(key.allowed) + " | " +
-                 config_words::markdown_cell(key.doc) + " |\n";
+        table += "| " + code(key.path) + " | " + code(key.default_value) + " | " +
+                 markdown_allowed(key) + " | " + config_words::markdown_cell(key.doc) + " |\n";
     }
     return table;
 }

@@ -46,7 +46,10 @@ std::vector<KeyDoc> document(Config config) {
     return document_keys([&](ConfigVisitor& visitor) { config.describe(visitor); });
 }
 
-/// Returns a Markdown table with the columns key, type, default, allowed and meaning.
+/// The cell "allowed" of a Markdown table: 1..64 of integers, "real 0..10", "text", or the choices.
+std::string markdown_allowed(const KeyDoc& key);
+
+/// Returns a Markdown table with the columns key, default, allowed and meaning.
 std::string markdown_table(const std::vector<KeyDoc>& keys);
 
 } // namespace degs

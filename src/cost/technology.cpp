@@ -40,27 +40,20 @@ void RowSection::end() {
 
 void UnitRow::describe(ConfigVisitor& visitor) {
     describe_row(*this, visitor);
-    visitor.integer("units", units, 1, 1 << 20,
-                    "units that the row stands for (its column Config)");
+    visitor.integer("units", units, 1, 1 << 20, "units of the row");
 }
 
 void SramRow::describe(ConfigVisitor& visitor) {
     describe_row(*this, visitor);
-    visitor.integer("bytes", bytes, 1, 1 << 30,
-                    "bytes that the row stands for (its column Config)");
+    visitor.integer("bytes", bytes, 1, 1 << 30, "bytes of the row");
     visitor.integer("bytes_per_cycle", bytes_per_cycle, 1, 1 << 20,
-                    "bytes read and written per cycle while every user works, in the shipped "
-                    "design of 64 PEs [assumed]");
+                    "bytes moved while every user works [assumed]");
 }
 
 void PortedSramRow::describe(ConfigVisitor& visitor) {
     SramRow::describe(visitor);
-    visitor.integer("ports", ports, 1, 64,
-                    "ports of an SRAM bank that the area contains; as many as the shipped design "
-                    "of 64 PEs needs [assumed]");
-    visitor.integer("sram_banks", sram_banks, 1, 4096,
-                    "SRAM banks of a part that the area contains; the default of the buffer's key "
-                    "[assumed]");
+    visitor.integer("ports", ports, 1, 64, "of an SRAM bank, within the area [assumed]");
+    visitor.integer("sram_banks", sram_banks, 1, 4096, "of a part, within the area [assumed]");
 }
 
 void Technology::Sram::describe(ConfigVisitor& visitor) {
@@ -73,9 +66,9 @@ void Technology::Sram::describe(ConfigVisitor& visitor) {
 }
 
 void Technology::Pe::describe(ConfigVisitor& visitor) {
-    visitor.choice("numbers", numbers, {"table", "run"},
-                   "format that PEs are built for; table: that of their row in Table I, so that "
-                   "fp32 in a run stands for the row's arithmetic; run: that of pipeline.numbers");
+    visitor.choice(
+        "numbers", numbers, {"table", "run"},
+        "format that PEs are built for: that of their row in Table I, or that of pipeline.numbers");
     visitor.real("fp32_area", fp32.area, 0, 1000,
                  "area of a PE in fp32 / FP16: multiplier and adder, 11884 / 3000 um2 (Horowitz, "
                  "ISSCC 2014, at 45 nm)");

@@ -59,9 +59,9 @@ TEST(ConfigDocument, MarkdownEscapesItsSeparator) {
     std::vector<KeyDoc> keys = document(Keys());
     keys.erase(keys.begin() + 1, keys.end() - 1);
     EXPECT_EQ(markdown_table(keys),
-              "| Key | Type | Default | Allowed | Meaning |\n|---|---|---|---|---|\n"
-              "| `banks` | integer | `8` | 1 to 64 | Issue Banks |\n"
-              "| `memory.refresh` | boolean | `true` | true, false | whether \\| rows are "
+              "| Key | Default | Allowed | Meaning |\n|---|---|---|---|\n"
+              "| `banks` | `8` | 1..64 | Issue Banks |\n"
+              "| `memory.refresh` | `true` | true, false | whether \\| rows are "
               "refreshed |\n");
 }
 

@@ -22,8 +22,7 @@ void Grouping::Config::describe(ConfigVisitor& visitor) {
                     "chunk writes not yet acknowledged by memory [assumed]");
     visitor.choice("lists", lists, {"direct", "regrouped"},
                    "image of several views: entries go to the lists of the views at once, or "
-                   "groups of the image are written first and dealt out in a second pass "
-                   "[assumed]");
+                   "through groups of the image in a second pass [assumed]");
 }
 
 Grouping::Grouping(const sc_core::sc_module_name& name, const Config& config,

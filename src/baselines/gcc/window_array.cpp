@@ -25,10 +25,9 @@ void WindowArray::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("seed_cycles", seed_cycles, 0, 256,
                     "cycles to find a further part of a splat, which is not connected with those "
                     "that have been visited; no paper says how it is found [assumed]");
-    visitor.integer(
-        "discovery_cycles", discovery_cycles, 1, 256,
-        "cycles from a slot to the windows it leads to; 1: splats are interleaved so that nobody "
-        "waits, 4..8: depth of the alpha pipeline with one splat in flight [assumed]");
+    visitor.integer("discovery_cycles", discovery_cycles, 1, 256,
+                    "cycles from a slot to the windows it leads to; 1: interleaved splats hide the "
+                    "pipeline; 4..8: its depth with one splat in flight [assumed]");
     visitor.integer("writeback_cycles", writeback_cycles, 1, 4096,
                     "cycles from a slot to pixel state and reports written [assumed]");
 }

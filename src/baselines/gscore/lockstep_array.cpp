@@ -22,17 +22,16 @@ void LockstepArray::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("skips_per_cycle", skips_per_cycle, 0, 1024,
                     "splats of which no sub-tile is left that are passed per cycle; 0: any number, "
                     "which favours the design [assumed]");
-    visitor.integer("clusters", clusters, 1, 4,
-                    "groups of lanes with a place in the list of their own; a group owns the "
-                    "sub-tiles s = c mod clusters and takes `clusters` cycles for one; 1 keeps one "
-                    "region per cycle, as the paper says (Sec. II-B)");
+    visitor.integer(
+        "clusters", clusters, 1, 4,
+        "groups of lanes with their own place in the list; group c owns the sub-tiles s = c mod "
+        "clusters and takes `clusters` cycles for one; 1: a region per cycle (paper, Sec. II-B)");
     visitor.require(clusters != 3, {"clusters", "must divide the lanes", "1, 2 or 4"});
     visitor.integer("termination_cycles", termination_cycles, 1, 1024,
                     "cycles; 1: the check of cycle T guides cycle T + 1 (paper, Sec. II-B)");
     visitor.integer("pipeline_cycles", pipeline_cycles, 1, 4096,
-                    "cycles from the last slot of a tile to its pixels written back; as in the "
-                    "DeGS array, so that the comparison is of dataflows; an HLS rebuild of the "
-                    "lanes has 192 [assumed]");
+                    "cycles from the last slot of a tile to its pixels written back; as in DeGS, "
+                    "to compare dataflows; an HLS rebuild of the lanes has 192 [assumed]");
 }
 
 int LockstepArray::Config::side() const {

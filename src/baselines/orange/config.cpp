@@ -18,11 +18,10 @@ Config::Config() {
 Config::Gemm::Gemm() : ExponentGemm(half_precision_gemm(GemmOrigin::Tile)) {}
 
 void Config::Gemm::describe(ConfigVisitor& visitor) {
-    visitor.choice(
-        "origin", origin, {"tile", "image"},
-        "where the monomials of the pixels have their origin; tile: in the middle of each "
-        "tile, for which a splat's coefficients are formed anew; image: at its first "
-        "pixel, with coefficients that serve all tiles and cancel far from it");
+    visitor.choice("origin", origin, {"tile", "image"},
+                   "origin of the pixels' monomials; tile: the middle of each tile, for which "
+                   "coefficients are formed anew; image: its first pixel, with coefficients that "
+                   "serve all tiles and cancel far from it");
     describe_format(visitor, "operands", operands,
                     "coefficients and monomials; of number sets, fp32 and fp64 multiply their own");
     describe_format(visitor, "sums", sums, "products and their sums, likewise");

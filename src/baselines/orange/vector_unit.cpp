@@ -18,11 +18,9 @@ void VectorUnit::Config::describe(ConfigVisitor& visitor) {
     visitor.integer(
         "latency_cycles", latency_cycles, 0, 4096,
         "cycles from the last operation of a tile to its pixels written back [assumed]");
-    visitor.choice(
-        "termination", termination, {"batch", "none"},
-        "batch: a tile whose pixels have all ended is left after the batch in which they "
-        "did; none: lists are blended to their end (ORANGE skips a share of the list that "
-        "it estimates from sampled tiles)");
+    visitor.choice("termination", termination, {"batch", "none"},
+                   "batch: a tile is left after the batch in which its last pixel ends; none: "
+                   "lists are blended to their end (ORANGE skips an estimated share of the list)");
 }
 
 Cycle VectorUnit::Config::coefficient_cycles(std::uint64_t splats) const {

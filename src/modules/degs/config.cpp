@@ -20,11 +20,10 @@ int divisor_below(int most, int number) {
 
 void SpanPipelineConfig::describe(ConfigVisitor& visitor) {
     PipelineConfig::describe(visitor);
-    visitor.choice(
-        "span_ends", span_ends, {"exact", "outward", "slope"},
-        "exact: ceil/floor, the pixels inside the ellipse; outward: floor/ceil (paper, Eq. 15); "
-        "slope: outward, and where |dw/dy| times half a unit of the mean makes it a px more (0 in "
-        "fp32 and fp64); a number set's own ends do not count");
+    visitor.choice("span_ends", span_ends, {"exact", "outward", "slope"},
+                   "exact: ceil/floor, the pixels inside the ellipse; outward: floor/ceil (paper, "
+                   "Eq. 15); slope: outward, plus |dw/dy| times half a unit of the mean (0 in fp32 "
+                   "and fp64); a number set's own ends do not count");
     visitor.integer(
         "span_delta", span_delta, 0, 16,
         "px added at both ends unless they are exact; the paper gives no value, 0 is the minimum");
@@ -46,9 +45,8 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
     describe_common(visitor);
     visitor.integer("tile_size", tile_size, 4, 1024, "px (paper Table II: 16, 32, 64, 128)");
     visitor.integer("clusters", clusters, 1, 64,
-                    "back ends that share preprocessing, sorting and memory, each on tiles of its "
-                    "own; what the sections from fetching to monitor say, without projection, "
-                    "binning and sorting, is that of one cluster (paper: 1)");
+                    "back ends on tiles of their own that share preprocessing, sorting and memory; "
+                    "the sections from fetching to monitor are those of one (paper: 1)");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
     pipeline.require_records(visitor, traffic.geometry_bytes, traffic.sh_value_bytes,

@@ -51,8 +51,7 @@ void RenderingRules::describe(ConfigVisitor& visitor) {
         "Sec. II-A); distance: Euclidean distance to the camera (KHR_gaussian_splatting)");
     visitor.choice("antialiasing", antialiasing, antialiasing_names(),
                    "opacity times sqrt(det before / det after the low-pass filter), as "
-                   "Mip-Splatting trains; scene: if the scene file says that it was trained so, "
-                   "because images of either kind of scene are wrong with the other rule");
+                   "Mip-Splatting trains; scene: if the scene file says that it was trained so");
     visitor.real(
         "low_pass", low_pass, 0, 10,
         "px^2 added to both variances of a splat; 0.3: reference code and gsplat; files of "

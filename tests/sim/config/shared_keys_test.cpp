@@ -31,21 +31,49 @@ TEST(SharedKeys, AreTheSameTableForEveryAccelerator) {
 
 TEST(SharedKeys, MakeUpAllKeysWithThoseOfAnAccelerator) {
     for (const std::string& name : sim::accelerator_names()) {
-        std::set<std::string> both = paths(keys(name, "shared"));
-        const std::set<std::string> own = paths(keys(name, "own"));
-        const std::size_t size = both.size() + own.size();
-        both.insert(own.begin(), own.end());
-        EXPECT_EQ(both.size(), size) << name << ": a key stands in both parts";
-        EXPECT_EQ(both, paths(keys(name, "all"))) << name;
+        std::set<std::string> together;
+        std::size_t size = 0;
+        for (const char* part : {"shared", "similar", "own", "cost"}) {
+            const std::set<std::string> found = paths(keys(name, part));
+            size += found.size();
+            together.insert(found.begin(), found.end());
+        }
+        EXPECT_EQ(together.size(), size) << name << ": a key stands in two parts";
+        EXPECT_EQ(together, paths(keys(name, "all"))) << name;
     }
 }
 
-TEST(SharedKeys, ADefaultOfItsOwnMakesAKeyTheAccelerators) {
+TEST(SharedKeys, ADefaultOfItsOwnMakesAKeySimilar) {
     EXPECT_EQ(paths(keys("gbu", "shared")).count("memory.bandwidth_gb_per_s"), 1U);
     EXPECT_EQ(paths(keys("gbu", "shared")).count("projection.latency_cycles"), 0U);
     for (const std::string& name : sim::accelerator_names()) {
-        EXPECT_EQ(paths(keys(name, "own")).count("projection.latency_cycles"), 1U) << name;
+        EXPECT_EQ(paths(keys(name, "similar")).count("projection.latency_cycles"), 1U) << name;
     }
+}
+
+TEST(SharedKeys, SimilarOnesHaveADefaultForEachAcceleratorThatHasThem) {
+    const std::string table = sim::similar_keys_markdown();
+    EXPECT_EQ(table.rfind("| Key | degs | gscore | gbu | gcc | orange | Allowed | Meaning |\n", 0),
+              0U);
+    EXPECT_NE(table.find("\n| `projection.latency_cycles` | `32` | `128` | `128` | `32` | `128` | "
+                         "1..4096 |"),
+              std::string::npos)
+        << table;
+    EXPECT_EQ(table.find("| `span.count`"), std::string::npos) << "DeGS alone has it";
+    EXPECT_EQ(table.find("| `memory.bandwidth_gb_per_s`"), std::string::npos) << "it is shared";
+}
+
+TEST(SharedKeys, CostsAreARowForEachBlock) {
+    const std::string table = sim::cost_keys_markdown();
+    EXPECT_NE(table.find("\n| `cost.degs.span_engine` | 0.17 | 0.09 | 10 | | | | | "),
+              std::string::npos)
+        << table;
+    EXPECT_NE(
+        table.find("\n| `cost.degs.packing_buffer` | 0.16 | 0.02 | | 32768 | 2240 | 2 | 1 | "),
+        std::string::npos)
+        << table;
+    EXPECT_EQ(paths(keys("degs", "own")).count("cost.degs.span_engine.area_mm2"), 0U);
+    EXPECT_EQ(paths(keys("degs", "own")).count("cost.degs.scheduler_width_share"), 1U);
 }
 
 TEST(SharedKeys, OfAFileHaveItsValues) {

@@ -29,10 +29,10 @@ void GaussianSlicingUnit::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("splats_per_cycle", splats_per_cycle, 1, 16,
                     "splats that a unit takes per cycle at most; they share its rows_per_cycle "
                     "[assumed]");
-    visitor.choice("distribution", distribution, {"broadcast", "broadcast_skip", "splats"},
-                   "what the units share: the rows of every splat, each unit spending a cycle on "
-                   "every splat; the same, splats without a row of the unit costing nothing; or "
-                   "the splats of a tile, so that n units take n splats per cycle [assumed]");
+    visitor.choice(
+        "distribution", distribution, {"broadcast", "broadcast_skip", "splats"},
+        "what units share: the rows of every splat, each unit spending a cycle on it; the same, "
+        "without a cycle where it has no row; or the splats of a tile [assumed]");
     visitor.choice(
         "rows", rows, {"splat", "tile"},
         "scanlines of a splat: all that its ellipse meets (paper: y_min..y_max), or those "

@@ -12,10 +12,10 @@ void GaussianBufferConfig::describe(ConfigVisitor& visitor) {
                    "splats written by a fetcher, and read by the Slicing Units that share a part, "
                    "per cycle and SRAM bank; 0: unlimited [assumed]",
                    "SRAM banks of such a part; splats are dealt to them in turn [assumed]");
-    visitor.choice("temporary", temporary, {"sliced", "spans"},
-                   "how long a chunk of splats keeps its place: until a Slicing Unit has taken the "
-                   "last one [assumed: rows carry what Span Units need], or until the spans of all "
-                   "of them have been made (paper, Sec. IV-A)");
+    visitor.choice(
+        "temporary", temporary, {"sliced", "spans"},
+        "how long a chunk of splats keeps its place: until the last is sliced [assumed: rows carry "
+        "what Span Units need], or until all spans are made (paper, Sec. IV-A)");
 }
 
 } // namespace degs

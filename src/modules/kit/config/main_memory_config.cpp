@@ -9,20 +9,15 @@ void MainMemoryConfig::describe(ConfigVisitor& visitor) {
         "bus: one data bus with latency, bandwidth_gb_per_s and latency_ns count; lpddr5: "
         "channels, banks and rows, the section of that name counts");
     Memory::Config::describe(visitor);
-    visitor.choice(
-        "layout", layout, {"index", "morton"},
-        "order of the splat records in memory, if there are any: that of the Gaussians, or "
-        "that of the Morton code of their positions; only addresses depend on it");
-    visitor.choice(
-        "priority", priority, {"age", "blending"},
-        "which reads wait for room in the queues of a channel first: the older ones, or "
-        "those of the frame that is blended before those of the next one's preprocessing; a "
-        "bus has no queues");
-    visitor.real(
-        "urgent_share", urgent_share, 0.0, 1.0,
-        "share of a channel's read queue that is kept free for the frame that is blended; a "
-        "read waits for at most as many of the others as there may be in the queue "
-        "[assumed]");
+    visitor.choice("layout", layout, {"index", "morton"},
+                   "order of splat records in memory: that of the Gaussians, or of the Morton code "
+                   "of their positions; only addresses depend on it");
+    visitor.choice("priority", priority, {"age", "blending"},
+                   "which reads enter the queues of a channel first: the older, or those of the "
+                   "frame that is blended; a bus has no queues");
+    visitor.real("urgent_share", urgent_share, 0.0, 1.0,
+                 "share of a channel's read queue that priority: blending keeps free for the frame "
+                 "that is blended [assumed]");
     visitor.section("lpddr5", lpddr5, "the keys of configs/memory/*.yaml");
     if (priority == ReadPriority::Age) {
         visitor.unused("urgent_share", "priority", "memory.priority is age");

@@ -18,18 +18,17 @@ const std::vector<const char*>& record_names() {
 
 void PipelineConfig::describe(ConfigVisitor& visitor) {
     visitor.choice("numbers", numbers, arithmetic_names(),
-                   "arithmetic of spans, alpha and blending: the machine's fp32 or fp64 (ideal is "
-                   "fp64), or the formats of a number set; fp32 is the yardstick of scheduling, "
-                   "configs/degs-*.yaml say paper or tuned");
+                   "arithmetic of spans, alpha and blending: the machine's fp32 or fp64 (also "
+                   "ideal), or a number set; configs/degs-*.yaml say paper or tuned");
     visitor.choice(
         "stop_rule", stop_rule, {"refuse", "after"},
         "refuse: the splat that would push T under 1e-4 is not blended (reference code); "
         "after: it is, then the pixel ends (paper, Sec. II-A)");
-    visitor.choice("tiles", tiles, {"exact", "reference"},
-                   "tile lists; exact: tiles that the ellipse touches; reference: those of the "
-                   "3-sigma square (paper, Sec. II-A), radius ceil(3 sqrt(lambda_max)), as the "
-                   "reference code; exact by default, because preprocessing has the ellipse's "
-                   "rows and columns for span parsing anyway [assumed]");
+    visitor.choice(
+        "tiles", tiles, {"exact", "reference"},
+        "tiles that list a splat; exact: those that the ellipse touches, whose rows and columns "
+        "preprocessing knows for span parsing [assumed]; reference: those of the 3-sigma square, "
+        "radius ceil(3 sqrt(lambda_max)) (paper, Sec. II-A; reference code)");
     visitor.section("rules", rules,
                     "what renderers of the same Gaussians disagree about; the defaults are those "
                     "of the reference code");

@@ -37,7 +37,7 @@ void HierarchicalSorter::Config::describe(ConfigVisitor& visitor) {
                     "once each; 0: of those that do not fit the buffer only [assumed]");
     visitor.integer("fine_cycles_per_key", fine_cycles_per_key, 1, 1024,
                     "cycles per key and unit of the exact step; log2(16) / 2 for a 16-wide bitonic "
-                    "unit, 512 per full chunk, one every 128 cycles over four units [assumed]");
+                    "unit [assumed]");
 }
 
 HierarchicalSorter::HierarchicalSorter(const sc_core::sc_module_name& name, const Config& config,
