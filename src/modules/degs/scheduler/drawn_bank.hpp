@@ -32,6 +32,7 @@ public:
         IssueBank::Stats& stats;
         int contexts, tiles_in_flight, spans_per_cycle;
         Slot width_cause;
+        IssueTrace* trace; ///< may be null
     };
 
     /// True if packets need only be counted, and if the domains of all tiles in flight take little
@@ -220,6 +221,7 @@ private:
     bool contexts_owed_ = false; // a stream has fewer contexts than it may have
     // Tasks taken in, and of the segments dropped.
     std::uint64_t segments_in_ = 0, inside_ = 0, useful_ = 0;
+    IssueTrace* trace_;
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
 };
 

@@ -202,6 +202,9 @@ inline __attribute__((always_inline)) bool DrawnBank::issue_one(Tile& tile, int 
         last += reuse_;
         tile.lanes.set_date(number, last);
     }
+    if (trace_ != nullptr) {
+        trace_->add(now_, slot, tile.context, number, last, count);
+    }
     if (tasks != segment.mask) {
         drop(segment, segment.mask ^ tasks);
     }

@@ -77,9 +77,9 @@ void IssueBank::end_of_elaboration() {
 
 void IssueBank::start_of_simulation() {
     const DrawnBank::Parts parts{
-        *this,       config_, job_,  packing_, *terminations_, streams_,         segmenter_,
-        features_,   tiles_,  self_, stats_,   contexts_,      tiles_in_flight_, spans_per_cycle_,
-        width_cause_};
+        *this,        config_, job_,  packing_, *terminations_, streams_,         segmenter_,
+        features_,    tiles_,  self_, stats_,   contexts_,      tiles_in_flight_, spans_per_cycle_,
+        width_cause_, trace_};
     if (!DrawnBank::can_run(parts)) {
         return;
     }
