@@ -10,6 +10,32 @@ inline std::uint32_t bits_between(int begin, int end) {
     return static_cast<std::uint32_t>((std::uint64_t{1} << end) - (std::uint64_t{1} << begin));
 }
 
+/// A bit for each of up to 128 neighbouring pixels.
+struct RowMask {
+    static constexpr int kHalf = 64;
+    std::uint64_t low = 0, high = 0;
+
+    /// Sets bit `column` if bit 0 of `bits` is set, and so on.
+    void put(std::uint64_t bits, int column) {
+        if (column < kHalf) {
+            low |= bits << column;
+            high |= bits >> 1 >> (kHalf - 1 - column);
+        } else {
+            high |= bits << (column - kHalf);
+        }
+    }
+    /// Bits column .. column + 31; those beyond the last one are 0.
+    std::uint32_t from(int column) const {
+        return static_cast<std::uint32_t>(column < kHalf
+                                              ? low >> column | high << 1 << (kHalf - 1 - column)
+                                              : high >> (column - kHalf));
+    }
+    int count() const { return __builtin_popcountll(low) + __builtin_popcountll(high); }
+};
+inline bool operator==(const RowMask& a, const RowMask& b) {
+    return a.low == b.low && a.high == b.high;
+}
+
 /// The lowest `count` set bits of `mask`, which has more than that; 0 < count < 32.
 inline std::uint32_t lowest_bits(std::uint32_t mask, int count) {
     const std::uint32_t lowest = mask & (0U - mask);

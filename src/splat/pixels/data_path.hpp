@@ -9,6 +9,7 @@
 
 #include "splat/frame/frame_workload.hpp"
 #include "splat/frame/pixel_index.hpp"
+#include "splat/frame/pixel_mask.hpp"
 #include "splat/frame/rendering_rules.hpp"
 #include "splat/numbers/number_set.hpp"
 #include "splat/pixels/exponent_gemm.hpp"
@@ -110,9 +111,11 @@ struct PixelValue {
 };
 
 /// The widest tile whose rows are drawn whole: a bit per column.
-constexpr int kMostDrawnColumns = 64;
+constexpr int kMostDrawnColumns = 128;
+/// The most rows that are drawn at a time.
+constexpr int kMostDrawnRows = 64;
 
-/// Rows of one splat inside one tile of at most kMostDrawnColumns columns.
+/// Up to kMostDrawnRows rows of one splat inside one tile of at most kMostDrawnColumns columns.
 struct TileRows {
     std::uint32_t splat = 0;
     int context = 0;                    ///< tile context of the pixels
@@ -122,14 +125,14 @@ struct TileRows {
     bool tests = false; ///< rows are as wide as the splat's box, and every pixel tests itself
 };
 
-/// What becomes of the pixels of a row. Bit i of a mask is column i of the tile. It is 32 bytes
-/// without a gap, so that a copy of what was just written need not wait for the write.
+/// What becomes of the pixels of a row. Bit i of a mask is column i of the tile. There is no gap,
+/// so that a copy of what was just written need not wait for the write.
 struct DrawnRow {
-    std::uint64_t inside = 0; ///< tasks inside the ellipse; all others of the span are outside
-    std::uint64_t useful = 0; ///< of these, blended; the others have ended or refuse the splat
-    std::uint64_t ended = 0;  ///< pixels that end with this splat
-    std::int32_t x0 = 0;      ///< first pixel of the span, inside the tile
-    std::int32_t length = 0;  ///< pixels; 0: the row covers no pixel of the tile
+    RowMask inside;          ///< tasks inside the ellipse; all others of the span are outside
+    RowMask useful;          ///< of these, blended; the others have ended or refuse the splat
+    RowMask ended;           ///< pixels that end with this splat
+    std::int32_t x0 = 0;     ///< first pixel of the span, inside the tile
+    std::int32_t length = 0; ///< pixels; 0: the row covers no pixel of the tile
 };
 
 /// The arithmetic that the modules call: row spans, closed-form q_n, alpha, transmittance and

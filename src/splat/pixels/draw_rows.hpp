@@ -42,9 +42,9 @@ void draw_row_by_row(Path& path, const TileRows& rows, const Solved& solved, Dra
             task.offset = inside_tile(column - span.base);
             const BlendOutcome outcome =
                 rows.tests ? path.test(test_of(task, rows.x_begin, rows.tile_y)) : path.blend(task);
-            drawn->inside |= std::uint64_t{outcome.useful | outcome.terminated} << column;
-            drawn->useful |= std::uint64_t{outcome.useful} << column;
-            drawn->ended |= std::uint64_t{outcome.ended} << column;
+            drawn->inside.put(outcome.useful | outcome.terminated, column);
+            drawn->useful.put(outcome.useful, column);
+            drawn->ended.put(outcome.ended, column);
         }
     }
 }

@@ -203,8 +203,6 @@ public:
     }
 
 private:
-    static constexpr int kMostRows = kMostDrawnColumns; // tiles are square
-
     void solve_rows(const TileRows& rows) {
         RowsToSolve wanted;
         wanted.y = rows.tile_y + rows.first;
@@ -232,7 +230,7 @@ private:
     QuantizedGemm gemm_;
     RowNumbers numbers_;
     SolveRowsFunction solve_ = solve_rows_function();
-    std::array<RowSpan, kMostRows> solved_; // of the splat that is drawn
+    std::array<RowSpan, kMostDrawnRows> solved_; // of the splat that is drawn
     QuantizedSlack slack_;
     bool refuse_;
     PixelRows rows_;

@@ -34,7 +34,7 @@ public:
         }
     }
 
-    /// Designs whose banks are DrawnBanks in exact mode.
+    /// Designs whose banks are DrawnBanks, of one tile stream, in exact mode.
     DegsConfig plain(unsigned index) {
         for (;;) {
             DegsConfig c = candidate(index);
@@ -196,13 +196,31 @@ std::vector<const FrameWorkload*> pointers_to(const std::vector<FrameWorkload>& 
     return list;
 }
 
+/// What each bank of a run issues.
+std::vector<IssueTrace> trace(const DegsRun& run) {
+    std::vector<IssueTrace> traces(run.degs().banks().size());
+    for (std::size_t b = 0; b < traces.size(); ++b) {
+        run.degs().banks()[b]->trace_to(traces[b]);
+    }
+    return traces;
+}
+
+void expect_same_issues(const std::vector<IssueTrace>& a, const std::vector<IssueTrace>& b) {
+    for (std::size_t bank = 0; bank < a.size(); ++bank) {
+        EXPECT_EQ(a[bank].segments(), b[bank].segments()) << "bank " << bank;
+        EXPECT_EQ(a[bank].digest(), b[bank].digest()) << "bank " << bank;
+    }
+}
+
 void expect_exact_is_strict(unsigned index, Draw& draw, const DegsConfig& config) {
     SCOPED_TRACE(describe(config));
     const std::vector<FrameWorkload> frames = draw_frames(index, draw, config);
     const std::vector<const FrameWorkload*> list = pointers_to(frames);
     const DegsRun exact("exact", config, list, Fidelity::Exact);
     const DegsRun strict("strict", config, list, Fidelity::Strict);
+    const std::vector<IssueTrace> exact_issues = trace(exact), strict_issues = trace(strict);
     sc_core::sc_start();
+    expect_same_issues(exact_issues, strict_issues);
     test::expect_sound(exact);
     EXPECT_EQ(exact.degs().finished(), strict.degs().finished());
     test::expect_same_statistics(exact, strict);

@@ -71,11 +71,8 @@ public:
     inline void execute(const TaskRun& run, std::uint32_t mask, Cycle first, Cycle last);
     /// Counts tasks by class; see DrawnTasks.
     inline void count_drawn(std::uint32_t mask, std::uint32_t inside, std::uint32_t useful);
-    /// `tasks` tasks execute so many cycles after the latest ones of their segment.
-    void check_drawn(std::int32_t distance, int tasks) {
-        stats_.hazards += distance < config_.writeback_cycles ? tasks : 0; // 0 with a scoreboard
-    }
-    Cycle writeback() const { return config_.writeback_cycles; }
+    /// Counts tasks by class that execute() has not counted.
+    void count_drawn(const SlotAccount& tasks) { stats_.slots += tasks; }
     /// The pixels `ended` of these tasks end at `date`.
     void end_drawn(const TaskRun& run, std::uint32_t ended, Cycle date);
     /// All tasks of the cycle `date` have been told.

@@ -34,18 +34,6 @@ FeatureBuffer::FeatureBuffer(int entries, int open_splats, int streams, const Fi
     }
 }
 
-// One of the stream's open splats beside the current one.
-bool FeatureBuffer::find(std::uint64_t splat, std::size_t stream) {
-    for (const Open& open : streams_[stream].open) {
-        if (open.key == splat) {
-            current_key_ = splat;
-            current_ = open.entry;
-            return true;
-        }
-    }
-    return false;
-}
-
 void FeatureBuffer::close(Cycle now, std::size_t stream) {
     Stream& own = streams_[stream];
     while (own.count != 0) {

@@ -53,7 +53,8 @@ public:
 
     /// Makes (tile, splat) the splat that enters; `stream` works on the tile. False if no entry is
     /// free at `now`.
-    bool admit(TileNumber tile, std::uint32_t splat, Cycle now, std::size_t stream = 0) {
+    __attribute__((always_inline)) bool admit(TileNumber tile, std::uint32_t splat, Cycle now,
+                                              std::size_t stream = 0) {
         const std::uint64_t wanted = key(tile, splat);
         return wanted == current_key_ || (several_open_ && find(wanted, stream)) ||
                enter(wanted, now, stream);
@@ -68,7 +69,7 @@ public:
     }
     void hold(std::uint16_t entry) { entries_[entry].held++; }
     /// One held task group is done; the entry is needed until `date`.
-    void release(std::uint16_t entry, Cycle date) {
+    __attribute__((always_inline)) void release(std::uint16_t entry, Cycle date) {
         Entry& e = entries_[entry];
         e.needed_until = std::max(e.needed_until, date);
         if (--e.held == 0) {
@@ -105,7 +106,7 @@ private:
         std::size_t oldest = 0, count = 0;
         bool waiting = false; // a splat has found no entry
     };
-    bool find(std::uint64_t splat, std::size_t stream);
+    inline bool find(std::uint64_t splat, std::size_t stream);
     bool enter(std::uint64_t splat, Cycle now, std::size_t stream);
     void close_oldest(Stream& own, Cycle now);
     void retire(std::uint16_t entry, Cycle date);
@@ -126,6 +127,19 @@ private:
     std::uint16_t current_ = 0;
     Stats stats_;
 };
+
+// One of the stream's open splats beside the current one.
+inline __attribute__((always_inline)) bool FeatureBuffer::find(std::uint64_t splat,
+                                                               std::size_t stream) {
+    for (const Open& open : streams_[stream].open) {
+        if (open.key == splat) {
+            current_key_ = splat;
+            current_ = open.entry;
+            return true;
+        }
+    }
+    return false;
+}
 
 // What follows is inlined in the hot loops of banks: most splats that enter close another one.
 inline __attribute__((always_inline)) void FeatureBuffer::close_oldest(Stream& own, Cycle now) {

@@ -291,7 +291,7 @@ void DrawingThread::draw_sheet(Tile& tile) {
     }
     sheet.takes = count * options_.modules;
     for (const DrawnRow& row : sheet.drawn) {
-        tile.live -= __builtin_popcountll(row.ended);
+        tile.live -= row.ended.count();
     }
     tile.sheets_after_end += tile.live == 0 ? 1 : 0;
     bytes_ += sheet.bytes();

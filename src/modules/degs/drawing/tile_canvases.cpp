@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/degs/drawing/tile_canvases.hpp"
 
+#include <algorithm>
+
 namespace degs {
 
 int TileCanvases::open() {
@@ -21,11 +23,14 @@ void TileCanvases::draw(int canvas, const JobTile& tile, std::uint32_t splat,
     wanted.x_begin = tile.x;
     wanted.x_end = tile.x + tile.width;
     wanted.tile_y = tile.y;
-    wanted.first = range.first;
-    wanted.last = range.last;
     wanted.step = step;
     wanted.tests = tests_;
-    job_.path->draw_rows(wanted, rows);
+    for (int first = range.first; first <= range.last; first += kMostDrawnRows * step) {
+        wanted.first = first;
+        wanted.last = std::min(range.last, first + (kMostDrawnRows - 1) * step);
+        job_.path->draw_rows(wanted, rows);
+        rows += kMostDrawnRows;
+    }
 }
 
 } // namespace degs

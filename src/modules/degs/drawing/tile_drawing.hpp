@@ -36,7 +36,7 @@ public:
     std::uint64_t fragments() const { return fragments_; }
 
 protected:
-    void count(const DrawnRow& row) { fragments_ += __builtin_popcountll(row.useful); }
+    void count(const DrawnRow& row) { fragments_ += row.useful.count(); }
 
 private:
     std::uint64_t fragments_ = 0;

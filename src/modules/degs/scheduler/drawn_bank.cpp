@@ -1,13 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "modules/degs/scheduler/drawn_bank.hpp"
+// The cycle of a bank of drawn tasks, and its intake.
+#include "modules/degs/scheduler/drawn_bank_issue.hpp"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 namespace degs {
 
 void DrawnBank::run() {
+    const bool in_turn = scan_ == DomainScan::RoundRobin;
+    if (spans_ != nullptr) {
+        in_turn ? run_cycles<true, true>() : run_cycles<true, false>();
+    } else {
+        in_turn ? run_cycles<false, true>() : run_cycles<false, false>();
+    }
+    finish();
+}
+
+template <bool single, bool in_turn>
+void DrawnBank::run_cycles() {
     for (bool over = this->over(); !over;) {
         now_ = self_.local();
         if (!terminations_.empty() && terminations_.head_date() <= now_) {
@@ -16,8 +26,8 @@ void DrawnBank::run() {
         if (contexts_owed_) {
             see_contexts();
         }
-        accept();
-        const int issued = issue();
+        accept<single, in_turn>();
+        const int issued = issue<single, in_turn>();
         if (closing_ != 0) {
             finish_tiles();
         }
@@ -38,75 +48,144 @@ void DrawnBank::run() {
         }
         self_.advance_to(next);
     }
-    now_ = self_.local();
-    if (packet_.open()) {
-        send_part(Slot::Starved);
-    }
-    if (config_.granted) {
-        packing_.end_tile(self_, kNoTile, 0);
-    }
-    self_.finish();
 }
 
 // Intake.
 
+template <bool single, bool in_turn>
 inline __attribute__((always_inline)) void DrawnBank::accept() {
-    spans_left_ = spans_per_cycle_;
     features_full_ = false;
+    int spans = spans_per_cycle_;
     for (int budget = segments_per_cycle_; budget > 0; --budget) {
-        if (left_ <= 0 && !open_span()) {
+        if (left_ <= 0 && (spans-- == 0 || !open_span<single>())) {
             break;
         }
-        if (!cut_segment()) {
+        if (!cut_segment<in_turn>()) {
             break;
         }
     }
 }
 
-// Ends of tiles on the way cost nothing.
+// Takes a span of the next stream that has one, in turn; a span cut halfway is finished first.
+template <bool single>
 inline __attribute__((always_inline)) bool DrawnBank::open_span() {
-    if (spans_left_ == 0) {
-        return false;
+    if constexpr (single) {
+        return take_from<single>(streams_.front());
     }
-    while (takes() && arrived()) {
-        const DrawnSpans::Span& span = spans_.front();
-        const bool row = !span.end;
-        if (row && !features_.admit(span.tile, span.splat, now_)) {
-            features_full_ = true;
-            return false;
-        }
-        const TileNumber number = span.tile;
-        if (!stream_.entered && number != kNoTile) {
-            enter_tile(number);
-        }
-        if (row) {
-            const int domain = segmenter_.domain_of(span.row, span.drawn.x0);
-            cut_ = tile_at(stream_.entering).first + domain;
-            column_ = segmenter_.domains()[domain].column;
-            low_ = std::uint64_t{1} << (span.drawn.x0 - column_);
-            left_ = span.drawn.x0 + span.drawn.length - column_;
-            drawn_ = span.drawn;
-            stats_.spans++;
-            stats_.tasks_in += span.drawn.length;
-            --spans_left_;
-        }
-        spans_.drop(now_);
-        if (row) {
+    BankStream* const first = next_stream_;
+    do {
+        BankStream& stream = *next_stream_;
+        next_stream_ = stream.next;
+        if (take_from<single>(stream)) {
             return true;
         }
-        ++input_.turn;
-        take_end(number);
-    }
+    } while (next_stream_ != first);
     return false;
 }
 
+// The one whose item has arrived first, ties by input; nullptr: none may be taken.
+template <bool single>
+inline __attribute__((always_inline)) BankStream::Input*
+DrawnBank::earliest_input(BankStream& stream) {
+    if constexpr (single) {
+        BankStream::Input& only = stream.inputs.front();
+        return takes(stream, only) && arrived(*spans_) ? &only : nullptr;
+    }
+    if (!stream.enterable) {
+        return nullptr;
+    }
+    BankStream::Input* source = nullptr;
+    Cycle earliest = kNever;
+    for (BankStream::Input& input : stream.inputs) {
+        if (input.turn == stream.entering && arrived(*input.ring) &&
+            input.ring->head_date() < earliest) {
+            earliest = input.ring->head_date();
+            source = &input;
+        }
+    }
+    return source;
+}
+
+// False if the span has to wait for the parameters of its splat.
+inline __attribute__((always_inline)) bool
+DrawnBank::admits(const BankStream& stream, TileNumber number, std::uint32_t splat) {
+    if (!features_.admit(number, splat, now_, stream.index)) {
+        features_full_ = true;
+        return false;
+    }
+    return !fills_ || features_.filled_by(packet_.next_execution(now_));
+}
+
+inline __attribute__((always_inline)) void DrawnBank::start(const BankStream& stream, int row,
+                                                            const DrawnRow& drawn) {
+    cut_tile_ = own_[stream.index].entering;
+    cut_ = segmenter_.domain_of(row, drawn.x0);
+    column_ = segmenter_.domains()[cut_].column;
+    low_ = std::uint64_t{1} << (drawn.x0 - column_);
+    left_ = drawn.x0 + drawn.length - column_;
+    drawn_ = drawn;
+    stats_.spans++;
+    stats_.tasks_in += drawn.length;
+    inside_ += drawn.inside.count();
+    useful_ += drawn.useful.count();
+}
+
+// False if no span of the stream may be taken. Ends of tiles on the way cost nothing.
+template <bool single>
+inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stream) {
+    for (;;) {
+        BankStream::Input* const source = earliest_input<single>(stream);
+        if (source == nullptr) {
+            return false;
+        }
+        TileNumber number = kNoTile;
+        bool row = false;
+        if constexpr (single) {
+            const DrawnSpans::Span& span = spans_->front();
+            number = span.tile;
+            row = !span.end;
+            if (row && !admits(stream, number, span.splat)) {
+                return false;
+            }
+            if (!stream.entered && number != kNoTile) {
+                enter_tile(stream, number);
+            }
+            if (row) {
+                start(stream, span.row, span.drawn);
+            }
+            spans_->drop(now_);
+        } else {
+            const SpanItem& item = source->ring->front();
+            number = item.tile;
+            row = item.span.has_value();
+            if (row && !admits(stream, number, item.span->splat)) {
+                return false;
+            }
+            if (!stream.entered && number != kNoTile) {
+                enter_tile(stream, number);
+            }
+            if (row) {
+                start(stream, item.span->y, item.drawn);
+            }
+            source->ring->drop(self_);
+        }
+        if (row) {
+            return true;
+        }
+        ++source->turn;
+        take_end(stream, number);
+    }
+}
+
 // False if the queue has no room; the segment is then cut later.
+template <bool in_turn>
 inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
-    Place& place = places_[cut_];
+    Domain& domain = cut_tile_->domains[cut_];
     const std::uint64_t high = std::uint64_t{1} << std::min(left_, segment_length_);
     const auto mask = static_cast<std::uint32_t>(high - low_);
-    if ((mask & place.live) == 0) {
+    if ((mask & domain.live) == 0) {
         stats_.drop(mask);
+        inside_ -= __builtin_popcount(mask & drawn_.inside.from(column_));
     } else {
         Waiting* const segment = free_;
         if (segment == nullptr) {
@@ -114,19 +193,34 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
         }
         free_ = segment->next;
         segment->mask = mask;
-        segment->inside = static_cast<std::uint32_t>(drawn_.inside >> column_);
-        segment->useful = static_cast<std::uint32_t>(drawn_.useful >> column_);
-        segment->ended = static_cast<std::uint32_t>(drawn_.ended >> column_);
+        segment->inside = drawn_.inside.from(column_);
+        segment->ended = drawn_.ended.from(column_);
+        segment->key = next_key_ | static_cast<std::uint32_t>(cut_);
         segment->next = nullptr;
         segment->feature = features_.current();
         features_.hold(segment->feature);
-        *place.end = segment;
-        place.end = &segment->next;
-        occupied_ |= std::uint64_t{1} << cut_;
+        *domain.end = segment;
+        domain.end = &segment->next;
+        DomainLanes& lanes = cut_tile_->lanes;
+        lanes.set_key(cut_, in_turn
+                                ? segment->key
+                                : std::min(lanes.key(cut_), segment->key)); // an older one stays
+        if (!in_turn && scan_ == DomainScan::Deepest) {
+            lanes.set_length(cut_, ++domain.length);
+        }
+        ++cut_tile_->waiting;
+        issuable_ += cut_tile_->started ? 1 : 0;
         if (++size_ > stats_.queue_high_water) {
             stats_.queue_high_water = size_;
         }
+        if (!in_turn) {
+            next_key_ += key_step_;
+            if (next_key_ >= DomainLanes::kTop) {
+                renumber();
+            }
+        }
     }
+    ++segments_in_;
     column_ += segment_length_;
     left_ -= segment_length_;
     low_ = 1;
@@ -134,106 +228,10 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
     return true;
 }
 
-// Issue.
-
-// The older tile goes first, and in it the first place behind the one that issued last. Returns the
-// number of segments issued.
-inline __attribute__((always_inline)) int DrawnBank::issue() {
-    no_room_ = false;
-    int issued = 0;
-    for (Tile* const tile : started_) {
-        while ((occupied_ & tile->places) != 0) {
-            const Cycle slot = packet_.next_execution(now_);
-            const std::uint64_t ready = occupied_ & tile->places & ~cooling_.at(slot);
-            if (ready == 0) {
-                break;
-            }
-            const std::uint64_t later = ready & tile->later;
-            const int number = __builtin_ctzll(later != 0 ? later : ready);
-            tile->later = ~std::uint64_t{1} << number;
-            if (!issue_one(number, slot)) {
-                break;
-            }
-            if (++issued == issue_width_) {
-                width_limited_ = true;
-                stats_.busy++;
-                return issued;
-            }
-        }
-    }
-    width_limited_ = false;
-    stats_.busy += issued != 0 ? 1 : 0;
-    return issued;
-}
-
-/// Counts tasks. Which of them go into a packet matters only if a pixel ends with one: `ends`.
-template <bool ends>
-class DrawnBank::Sink {
-public:
-    Sink(DrawnBank& bank, int place, std::uint32_t ended)
-        : bank_(bank), place_(place), ended_(ended) {}
-    void end_idle() {
-        if (bank_.idle_pending_) {
-            bank_.idle_pending_ = false;
-            bank_.packing_.settle_idle();
-        }
-    }
-    void begin() {}
-    int take(std::uint32_t& left, int count, int room, Cycle slot) {
-        if constexpr (ends) {
-            const std::uint32_t ended = take_lowest(left, count, room) & ended_;
-            if (ended != 0) {
-                bank_.end_drawn(place_, ended, slot);
-            }
-        }
-        return std::min(count, room);
-    }
-    void send(Slot /*none: the packet is full*/) { bank_.send(); }
-
-private:
-    DrawnBank& bank_;
-    int place_;
-    std::uint32_t ended_;
-};
-
-Cycle DrawnBank::pack_ends(int number, std::uint32_t tasks, std::uint32_t ended) {
-    Sink<true> sink(*this, number, ended);
+// Packs a segment with whose tasks pixels end.
+Cycle DrawnBank::pack_ends(const Tile& tile, int number, std::uint32_t tasks, std::uint32_t ended) {
+    Sink<true> sink(*this, tile, number, ended);
     return packet_.pack(now_, tasks, __builtin_popcount(tasks), sink);
-}
-
-// False if the Packing Buffer has no room.
-inline __attribute__((always_inline)) bool DrawnBank::issue_one(int number, Cycle slot) {
-    Place& place = places_[number];
-    const Waiting& segment = *place.head;
-    std::uint32_t tasks = segment.mask;
-    if ((tasks & ~place.live) != 0) {
-        tasks = tasks_of(segment, place.live);
-    }
-    const int count = __builtin_popcount(tasks);
-    if (!packet_.fits(now_, slot, count)) {
-        no_room_ = true;
-        return false;
-    }
-    Cycle last = now_;
-    if (count != 0) {
-        slice_.count_drawn(tasks, segment.inside, segment.useful);
-        if (const std::uint32_t ended = tasks & segment.ended; ended != 0) {
-            last = pack_ends(number, tasks, ended);
-        } else {
-            Sink<false> sink(*this, number, 0);
-            last = packet_.pack(now_, tasks, count, sink);
-        }
-        slice_.check_drawn(static_cast<std::int32_t>(slot) - place.executed, count);
-        place.executed = static_cast<std::int32_t>(last);
-        last += reuse_;
-        cooling_.cool(number, last);
-    }
-    stats_.segments_issued++;
-    stats_.tasks_issued += count;
-    stats_.tasks_dropped += __builtin_popcount(segment.mask ^ tasks);
-    features_.release(segment.feature, last);
-    pop(number);
-    return true;
 }
 
 } // namespace degs

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "modules/degs/scheduler/cooling_places.hpp"
+#include "modules/degs/scheduler/domain_lanes.hpp"
 #include "modules/degs/scheduler/issue_bank.hpp"
 #include "modules/degs/scheduler/open_packet.hpp"
 
 namespace degs {
 
-/// The cycles of an Issue Bank with its Packing Unit where tasks are drawn (TileDrawing) and
-/// nothing limits them but the queue, the scoreboard and the Packing Buffer: in one loop over
-/// little data, because these cycles are half of a run. Segments carry masks, and packets are
-/// counted, not made. Every decision and date is that of IssueBank and PackingUnit, which do the
-/// same for all other designs and in strict mode.
+/// The cycles of an Issue Bank with its Packing Unit where tasks are drawn (TileDrawing), for every
+/// design whose packets need only be counted: in one loop over little data, because these cycles
+/// are half of a run. Segments carry masks, packets are not made, and what follows from totals is
+/// counted at the end. Every decision and date is that of IssueBank and PackingUnit, which do the
+/// same in strict mode, with limited ports, and where tasks are recorded.
 class DrawnBank {
 public:
     /// What an Issue Bank has, for its DrawnBank.
@@ -25,7 +24,7 @@ public:
         const RenderJob& job;
         PackingUnit& packing;
         DatedFifo<Termination>& terminations;
-        BankStream& stream; ///< the first one
+        std::vector<BankStream>& streams;
         const Segmenter& segmenter;
         FeatureBuffer& features;
         TileEnd& tiles;
@@ -33,143 +32,217 @@ public:
         IssueBank::Stats& stats;
         int contexts, tiles_in_flight, spans_per_cycle;
         Slot width_cause;
+        IssueTrace* trace; ///< may be null
     };
 
-    /// True if the bank has one tile stream from one Span Unit, goes round robin, compacts, and has
-    /// no limited ports and no filling of Feature Buffer entries, if the domains of all tiles in
-    /// flight fit in a word, and if nobody records its tasks. The unit must hand its rows over,
-    /// too; see DrawnSpans.
+    /// True if packets need only be counted, and if the domains of all tiles in flight take little
+    /// room.
     static bool can_run(const Parts& parts);
 
-    /// Before the simulation starts; `spans` and all parts must exist until the bank has finished.
-    DrawnBank(const Parts& parts, DrawnSpans& spans);
+    /// Before the simulation starts; all parts must exist until the bank has finished. `spans`
+    /// passes the only input in place of its ring, unless it is null.
+    DrawnBank(const Parts& parts, DrawnSpans* spans);
     DrawnBank(const DrawnBank&) = delete; // entries point at each other
     DrawnBank& operator=(const DrawnBank&) = delete;
     /// Runs the bank until the job is over.
     void run();
 
 private:
-    static constexpr int kPlaces = 64;
+    /// `single`: one tile stream, through DrawnSpans. `in_turn`: DomainScan::RoundRobin. The loop
+    /// then asks for nothing else.
+    template <bool single, bool in_turn>
+    void run_cycles();
+
     static constexpr std::uint32_t kAllPixels = ~0U;
+    static constexpr std::uint64_t kNothing = ~std::uint64_t{0}; // no domain is ready
 
     struct Waiting {
-        std::uint32_t mask, inside, useful, ended; // see DrawnTasks
+        std::uint32_t mask, inside, ended; // see DrawnTasks
+        std::uint32_t key;                 // see next_key_
         Waiting* next;
         std::uint16_t feature;
     };
     /// A conflict domain of a tile in flight.
-    struct alignas(32) Place {
+    struct alignas(32) Domain {
         Waiting* head = nullptr;
         Waiting** end = nullptr; // where the next one is linked
         std::uint32_t live = 0, ended = 0;
-        std::int32_t executed = 0; // low bits of the date at which its latest task executes
+        std::uint32_t length = 0; // segments; for DomainScan::Deepest alone
     };
+    /// The bank's part of a tile in flight.
     struct Tile {
-        std::uint64_t places = 0; // a bit each
-        std::uint64_t later = 0;  // places behind the one that issued last
-        int first = 0;            // place
+        Tile(int count, Domain* first) : lanes(count), domains(first) {}
+        DomainLanes lanes;
+        Domain* domains;
+        bool started = false;     // may issue
+        std::size_t waiting = 0;  // segments
+        std::uint32_t cursor = 0; // behind the domain that issued last
         TileNumber number = kNoTile;
         std::int16_t context = 0;
     };
+    /// A tile stream: its tile that enters, and what a cycle finds ready.
+    struct Stream {
+        Tile* entering = nullptr;
+        Tile* tile = nullptr;
+        std::uint64_t rank = kNothing; // see find()
+    };
 
     // Intake.
+    template <bool single, bool in_turn>
     inline void accept();
+    template <bool single>
     inline bool open_span();
-    void take_end(TileNumber number);
+    template <bool single>
+    inline bool take_from(BankStream& stream);
+    template <bool single>
+    inline BankStream::Input* earliest_input(BankStream& stream);
+    inline bool admits(const BankStream& stream, TileNumber number, std::uint32_t splat);
+    inline void start(const BankStream& stream, int row, const DrawnRow& drawn);
+    [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number);
+    template <bool in_turn>
     inline bool cut_segment();
-    [[gnu::noinline]] void enter_tile(TileNumber number);
+    [[gnu::noinline]] void enter_tile(BankStream& stream, TileNumber number);
+    [[gnu::noinline]] void renumber();
     [[gnu::noinline]] void end_pixels();
+    void end_pixels(const Termination& message);
     [[gnu::noinline]] void see_contexts();
-    void end_pixels(Place& place, std::uint32_t mask) const;
+    void end_pixels(Domain& domain, std::uint32_t mask) const;
     void list_started();
-    // A span that is there needs no proof.
-    bool arrived() const {
-        return spans_.empty() ? self_.arrived(spans_) : spans_.head_date() <= now_;
+    // An item that is there needs no proof.
+    bool arrived(FifoBase& fifo) const {
+        return fifo.empty() ? self_.arrived(fifo) : fifo.head_date() <= now_;
     }
-    bool takes() const { return input_.turn == stream_.entering && stream_.enterable; }
+    static bool takes(const BankStream& stream, const BankStream::Input& input) {
+        return input.turn == stream.entering && stream.enterable;
+    }
+    std::size_t end_of_intake(const BankStream& stream) const {
+        return single_stream_ ? stream.oldest + tiles_in_flight_ : stream.startable;
+    }
 
     // Issue.
+    template <bool single, bool in_turn>
     inline int issue();
-    inline bool issue_one(int number, Cycle slot);
+    template <bool in_turn>
+    inline int issue_in_order();
+    template <bool in_turn>
+    inline int issue_from_all();
+    template <bool in_turn>
+    inline std::uint64_t find(const Tile& tile, Cycle slot) const;
+    template <bool in_turn>
+    inline bool find_ready(const BankStream& stream, Cycle slot);
+    template <bool in_turn>
+    std::size_t first_ready(Cycle slot, bool last);
+    template <bool in_turn>
+    inline std::size_t least_ready(Cycle slot);
+    template <bool in_turn>
+    inline bool issue_one(Tile& tile, int number, Cycle slot);
     [[gnu::noinline]] std::uint32_t tasks_of(const Waiting& segment, std::uint32_t live);
+    void drop(const Waiting& segment, std::uint32_t tasks);
     template <bool ends>
     class Sink;
-    [[gnu::noinline]] Cycle pack_ends(int number, std::uint32_t tasks, std::uint32_t ended);
+    [[gnu::noinline]] Cycle pack_ends(const Tile& tile, int number, std::uint32_t tasks,
+                                      std::uint32_t ended);
     inline void send();
     [[gnu::noinline]] void send_part(Slot cause);
-    [[gnu::noinline]] void end_drawn(int number, std::uint32_t tasks, Cycle date);
+    [[gnu::noinline]] void end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cycle date);
     void end_tile(const Tile& tile);
-    inline void pop(int number);
+    template <bool in_turn>
+    inline void pop(Tile& tile, int number);
     [[gnu::noinline]] void finish_tiles();
+    void finish_tiles(BankStream& stream);
+    void finish();
+
+    std::uint32_t after(int number) const { return number + 1 < domain_count_ ? number + 1 : 0; }
 
     // Dates.
     bool over() const { return tile_end_.over() && closing_ == 0; }
-    bool enterable() const { return stream_.entering < stream_.oldest + tiles_in_flight_; }
-    bool owed_contexts() const { return stream_.startable < stream_.oldest + contexts_; }
+    bool owes_contexts(const BankStream& stream) const {
+        return stream.startable < stream.oldest + contexts_;
+    }
     Slot idle_cause() const;
-    std::uint64_t issuable() const { return occupied_ & startable_; }
+    Cycle next_ready() const;
+    bool watch_inputs();
     [[gnu::noinline]] Cycle next_date();
 
-    Tile& tile_at(std::size_t turn) { return tiles_[turn & tile_mask_]; }
-    Tile& tile_of(int place) { return tiles_[place / domains_]; }
+    Tile& tile_at(const BankStream& stream, std::size_t turn) {
+        return tiles_[stream.index * (tile_mask_ + 1) + (turn & tile_mask_)];
+    }
 
     const sc_core::sc_object& bank_;
     const IssueBank::Config& config_;
     const RenderJob& job_;
     PackingUnit& packing_;
     ArraySlice& slice_;
-    BankStream& stream_;
-    BankStream::Input& input_;
-    DrawnSpans& spans_;
+    std::vector<BankStream>& streams_;
+    DrawnSpans* spans_;
     DatedFifo<Termination>& terminations_;
     const Segmenter& segmenter_;
     FeatureBuffer& features_;
     TileEnd& tile_end_;
     Process& self_;
     IssueBank::Stats& stats_;
-    int domains_, segment_length_, segments_per_cycle_, spans_per_cycle_, issue_width_;
+    bool single_stream_;
+    int domain_count_; // of a tile
+    int segment_length_, segments_per_cycle_, spans_per_cycle_, issue_width_;
     Cycle reuse_;
     int contexts_, tiles_in_flight_;
+    DomainScan scan_;
     bool by_task_, sees_pixels_; // see TerminationGrain
+    bool fills_;                 // filling a Feature Buffer entry takes time
     Slot width_cause_;           // what limits the issue width
 
     std::vector<Waiting> pool_;
     Waiting* free_ = nullptr;
-    std::size_t size_ = 0;              // segments that wait
-    std::array<Place, kPlaces> places_; // tile by tile
-    std::uint64_t occupied_ = 0;        // places that have segments
-    std::uint64_t startable_ = 0;       // places of tiles that may issue
-    CoolingPlaces cooling_;
-    std::vector<Tile> tiles_;
+    std::size_t size_ = 0;     // segments that wait
+    std::size_t issuable_ = 0; // of these, in tiles that may issue
+    // The smallest key of the ready domains is the one to issue. It is the number of the domain,
+    // below the order of arrival unless domains go round robin.
+    std::uint32_t next_key_ = 0, key_step_ = 0;
+    std::vector<Domain> domains_; // tile by tile
+    std::vector<Tile> tiles_;     // stream by stream, by their turn modulo a power of two
     std::size_t tile_mask_ = 0;
-    std::vector<Tile*> started_; // that may issue, oldest first
+    std::vector<Tile*> started_; // that may issue: stream by stream, oldest first
+    std::vector<Stream> own_;    // by stream
+    std::size_t issued_stream_ = 0;
 
     Cycle now_ = 0;
     // The span that is cut: what is left of it from `column_` on.
     int left_ = 0, column_ = 0;
-    int cut_ = 0;           // place of the span's next segment
+    Tile* cut_tile_ = nullptr;
+    int cut_ = 0;           // domain of the span's next segment
     std::uint64_t low_ = 1; // bit of the segment's first pixel
     DrawnRow drawn_;
-    int spans_left_ = 0;
+    BankStream* next_stream_; // whose span is taken next
     bool features_full_ = false, no_room_ = false, width_limited_ = false;
     OpenPacket packet_;
     bool ends_tile_ = false;     // it carries the end of a tile
     bool idle_pending_ = false;  // slots without a packet, which count once another one comes
     std::size_t closing_ = 0;    // tiles of which nothing more will be taken
-    bool contexts_owed_ = false; // the stream has fewer contexts than it may have
+    bool contexts_owed_ = false; // a stream has fewer contexts than it may have
+    // Tasks taken in, and of the segments dropped.
+    std::uint64_t segments_in_ = 0, inside_ = 0, useful_ = 0;
+    IssueTrace* trace_;
+    std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
 };
 
-inline __attribute__((always_inline)) void DrawnBank::pop(int number) {
-    Place& place = places_[number];
-    Waiting& segment = *place.head;
+template <bool in_turn>
+inline __attribute__((always_inline)) void DrawnBank::pop(Tile& tile, int number) {
+    Domain& domain = tile.domains[number];
+    Waiting& segment = *domain.head;
     Waiting* const next = segment.next;
     segment.next = free_;
     free_ = &segment;
     --size_;
-    place.head = next;
-    if (next == nullptr) {
-        place.end = &place.head;
-        occupied_ ^= std::uint64_t{1} << number;
+    --issuable_;
+    --tile.waiting;
+    domain.head = next;
+    // There is no branch, because both outcomes are equally likely.
+    const bool last = next == nullptr;
+    const Waiting& head = last ? segment : *next;
+    domain.end = last ? &domain.head : domain.end;
+    tile.lanes.set_key(number, last ? DomainLanes::kTop : head.key);
+    if (!in_turn && scan_ == DomainScan::Deepest) {
+        tile.lanes.set_length(number, --domain.length);
     }
 }
 

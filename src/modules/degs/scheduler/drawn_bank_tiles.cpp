@@ -5,128 +5,187 @@
 #include <string>
 
 #include "modules/degs/scheduler/drawn_bank.hpp"
-#include "tlm/ceil_div.hpp"
 
 namespace degs {
 namespace {
 
+// More domains than these would take much of the host's memory in each bank.
+constexpr std::size_t kMostDomains = 4096;
+// Keys of waiting segments have a number each, above that of their domain.
+constexpr int kMostSegments = 65535;
+
 // Tiles in flight find theirs by their turn modulo a power of two.
-int places_of(int tiles) {
-    int places = 1;
-    while (places < tiles) {
+std::size_t places_of(const DrawnBank::Parts& parts) {
+    const int tiles = parts.streams.size() == 1 ? parts.tiles_in_flight : parts.contexts;
+    std::size_t places = 1;
+    while (places < static_cast<std::size_t>(tiles)) {
         places *= 2;
     }
     return places;
 }
 
+int domains_of(const DrawnBank::Parts& parts) {
+    return Segmenter::domains_per_tile(parts.job.tile_size, parts.config.segment_length,
+                                       parts.config.banks);
+}
+
 } // namespace
 
 bool DrawnBank::can_run(const Parts& parts) {
-    const IssueBank::Config& config = parts.config;
-    const int domains =
-        Segmenter::domains_per_tile(parts.job.tile_size, config.segment_length, config.banks);
-    const Cycle cooled = ceil_div(config.segment_length, parts.packing.config().width) + 1 +
-                         static_cast<Cycle>(config.reuse_cycles);
-    return parts.packing.counts() && config.streams == 1 && parts.stream.inputs.size() == 1 &&
-           config.scan == DomainScan::RoundRobin && config.scoreboard && config.fill.cycles == 0 &&
-           places_of(parts.tiles_in_flight) * domains <= kPlaces && cooled < CoolingPlaces::kDates;
+    return parts.packing.counts() && parts.config.scoreboard &&
+           parts.config.queue_depth <= kMostSegments &&
+           parts.streams.size() * places_of(parts) * domains_of(parts) <= kMostDomains;
 }
 
-DrawnBank::DrawnBank(const Parts& parts, DrawnSpans& spans)
+DrawnBank::DrawnBank(const Parts& parts, DrawnSpans* spans)
     : bank_(parts.bank), config_(parts.config), job_(parts.job), packing_(parts.packing),
-      slice_(*parts.packing.slice()), stream_(parts.stream), input_(stream_.inputs[0]),
-      spans_(spans), terminations_(parts.terminations), segmenter_(parts.segmenter),
-      features_(parts.features), tile_end_(parts.tiles), self_(parts.self), stats_(parts.stats),
-      domains_(Segmenter::domains_per_tile(job_.tile_size, config_.segment_length, config_.banks)),
+      slice_(*parts.packing.slice()), streams_(parts.streams), spans_(spans),
+      terminations_(parts.terminations), segmenter_(parts.segmenter), features_(parts.features),
+      tile_end_(parts.tiles), self_(parts.self), stats_(parts.stats),
+      single_stream_(streams_.size() == 1), domain_count_(domains_of(parts)),
       segment_length_(config_.segment_length), segments_per_cycle_(config_.segments_per_cycle),
       spans_per_cycle_(parts.spans_per_cycle), issue_width_(config_.issue_width),
       reuse_(config_.reuse_cycles), contexts_(parts.contexts),
-      tiles_in_flight_(parts.tiles_in_flight),
+      tiles_in_flight_(parts.tiles_in_flight), scan_(config_.scan),
       by_task_(config_.termination == TerminationGrain::Task),
       sees_pixels_(config_.termination != TerminationGrain::Segment),
-      width_cause_(parts.width_cause), pool_(config_.queue_depth),
-      packet_(packing_.config().width, packing_.config().latency_cycles, packing_.config().depth) {
+      fills_(config_.fill.cycles != 0), width_cause_(parts.width_cause), pool_(config_.queue_depth),
+      tile_mask_(places_of(parts) - 1), own_(streams_.size()), next_stream_(&streams_.front()),
+      packet_(packing_.config().width, packing_.config().latency_cycles, packing_.config().depth),
+      trace_(parts.trace) {
     for (Waiting& place : pool_) {
         place.next = free_;
         free_ = &place;
     }
-    tiles_.resize(places_of(tiles_in_flight_));
-    tile_mask_ = tiles_.size() - 1;
-    for (Tile& tile : tiles_) {
-        tile.first = static_cast<int>(&tile - tiles_.data()) * domains_;
-        for (int domain = 0; domain < domains_; ++domain) {
-            tile.places |= std::uint64_t{1} << (tile.first + domain);
-        }
+    const std::size_t tiles = streams_.size() * places_of(parts);
+    domains_.resize(tiles * domain_count_);
+    for (Domain& domain : domains_) {
+        domain.end = &domain.head;
     }
-    for (Place& place : places_) {
-        place.end = &place.head;
+    for (std::size_t i = 0; i < tiles; ++i) {
+        tiles_.emplace_back(domain_count_, &domains_[i * domain_count_]);
     }
+    if (scan_ != DomainScan::RoundRobin) {
+        key_step_ = tiles_.front().lanes.mask() + 1;
+    }
+    watched_.reserve(streams_.size() * (streams_.front().inputs.size() + 1));
 }
 
-void DrawnBank::enter_tile(TileNumber number) {
-    Tile& tile = tile_at(stream_.entering);
+void DrawnBank::enter_tile(BankStream& stream, TileNumber number) {
+    Tile& tile = tile_at(stream, stream.entering);
+    own_[stream.index].entering = &tile;
+    const int first_context = config_.first_context + static_cast<int>(stream.index) * contexts_;
     tile.number = number;
-    tile.context = context_in_turn(stream_.entering, contexts_, config_.first_context);
-    tile.later = 0;
-    cooling_.forget(tile.places);
+    tile.context = context_in_turn(stream.entering, contexts_, first_context);
+    tile.cursor = 0;
+    tile.lanes.set_dates(now_);
     const int width = job_.tiles[number].width;
-    Place* place = &places_[tile.first];
-    for (const Segmenter::Domain& domain : segmenter_.domains()) {
-        place->executed = static_cast<std::int32_t>(now_ - slice_.writeback());
-        place->ended = 0;
-        place->live = kAllPixels;
-        end_pixels(*place++,
-                   ~bits_between(0, std::clamp(width - domain.column, 0, segment_length_)));
+    Domain* domain = tile.domains;
+    for (const Segmenter::Domain& place : segmenter_.domains()) {
+        domain->ended = 0;
+        domain->live = kAllPixels;
+        end_pixels(*domain++,
+                   ~bits_between(0, std::clamp(width - place.column, 0, segment_length_)));
     }
-    stream_.entered = true;
+    stream.entered = true;
     list_started();
 }
 
-void DrawnBank::end_pixels(Place& place, std::uint32_t mask) const {
-    place.ended |= mask;
-    place.live = sees_pixels_ || place.ended == kAllPixels ? ~place.ended : kAllPixels;
+// The keys have come to their end: the segments that wait get the lowest ones, in their order.
+void DrawnBank::renumber() {
+    std::vector<Waiting*> waiting;
+    for (const Domain& domain : domains_) {
+        for (Waiting* segment = domain.head; segment != nullptr; segment = segment->next) {
+            waiting.push_back(segment);
+        }
+    }
+    std::sort(waiting.begin(), waiting.end(),
+              [](const Waiting* a, const Waiting* b) { return a->key < b->key; });
+    next_key_ = 0;
+    for (Waiting* const segment : waiting) {
+        segment->key = next_key_ | (segment->key & (key_step_ - 1));
+        next_key_ += key_step_;
+    }
+    for (Tile& tile : tiles_) {
+        for (int i = 0; i < domain_count_; ++i) {
+            if (tile.domains[i].head != nullptr) {
+                tile.lanes.set_key(i, tile.domains[i].head->key);
+            }
+        }
+    }
+}
+
+void DrawnBank::end_pixels(Domain& domain, std::uint32_t mask) const {
+    domain.ended |= mask;
+    domain.live = sees_pixels_ || domain.ended == kAllPixels ? ~domain.ended : kAllPixels;
 }
 
 void DrawnBank::end_pixels() {
     while (!terminations_.empty() && terminations_.head_date() <= now_) {
-        const Termination message = terminations_.take(self_);
-        const std::size_t turn =
-            stream_.turn_of(message.context - config_.first_context, contexts_);
-        Tile& tile = tile_at(turn);
-        if (turn >= stream_.first_unstarted() || tile.number != message.tile) {
-            continue; // the tile is over for this bank
-        }
-        const int number = tile.first + segmenter_.domain_of(message.row, message.column);
-        Place& place = places_[number];
-        end_pixels(place, message.mask);
-        while (place.ended == kAllPixels && place.head != nullptr) {
-            features_.release(place.head->feature, now_);
-            stats_.drop(place.head->mask);
-            pop(number);
-        }
+        end_pixels(terminations_.take(self_));
     }
 }
 
-void DrawnBank::see_contexts() {
-    const std::size_t before = stream_.startable;
-    while (owed_contexts() && self_.arrived(*stream_.contexts_freed)) {
-        stream_.contexts_freed->drop(self_);
-        ++stream_.startable;
+void DrawnBank::end_pixels(const Termination& message) {
+    const int context = message.context - config_.first_context;
+    const BankStream& stream = streams_[context / contexts_];
+    const std::size_t turn = stream.turn_of(context % contexts_, contexts_);
+    Tile& tile = tile_at(stream, turn);
+    if (turn >= stream.first_unstarted() || tile.number != message.tile) {
+        return; // the tile is over for this bank
     }
-    contexts_owed_ = owed_contexts();
-    if (stream_.startable != before) {
+    const int number = segmenter_.domain_of(message.row, message.column);
+    Domain& domain = tile.domains[number];
+    end_pixels(domain, message.mask);
+    while (domain.ended == kAllPixels && domain.head != nullptr) {
+        features_.release(domain.head->feature, now_);
+        drop(*domain.head, domain.head->mask);
+        stats_.segments_dropped++;
+        pop<false>(tile, number);
+    }
+}
+
+// Tasks of a segment go nowhere.
+void DrawnBank::drop(const Waiting& segment, std::uint32_t tasks) {
+    stats_.tasks_dropped += __builtin_popcount(tasks);
+    inside_ -= __builtin_popcount(tasks & segment.inside);
+}
+
+// A context comes back only after this bank, too, has ended the tile that holds it.
+void DrawnBank::see_contexts() {
+    contexts_owed_ = false;
+    bool gained = false;
+    for (BankStream& stream : streams_) {
+        while (owes_contexts(stream) && self_.arrived(*stream.contexts_freed)) {
+            stream.contexts_freed->drop(self_);
+            ++stream.startable;
+            gained = true;
+        }
+        contexts_owed_ = contexts_owed_ || owes_contexts(stream);
+    }
+    if (gained) {
         list_started();
     }
 }
 
+// Called when a tile has begun, got a context, or ended.
 void DrawnBank::list_started() {
-    started_.clear();
-    startable_ = 0;
-    for (std::size_t turn = stream_.oldest; turn < stream_.first_unstarted(); ++turn) {
-        started_.push_back(&tile_at(turn));
-        startable_ |= tile_at(turn).places;
+    for (Tile* const tile : started_) {
+        tile->started = false;
     }
-    stream_.enterable = enterable();
+    started_.clear();
+    issuable_ = 0;
+    for (BankStream& stream : streams_) {
+        stream.first_started = started_.size();
+        for (std::size_t turn = stream.oldest; turn < stream.first_unstarted(); ++turn) {
+            Tile& tile = tile_at(stream, turn);
+            tile.started = true;
+            issuable_ += tile.waiting;
+            started_.push_back(&tile);
+        }
+        stream.end_started = started_.size();
+        stream.enterable = stream.entering < end_of_intake(stream);
+    }
 }
 
 // The tasks of a segment with ended pixels that are issued.
@@ -135,14 +194,12 @@ std::uint32_t DrawnBank::tasks_of(const Waiting& segment, std::uint32_t live) {
     return by_task_ && wanted != 0 ? segment.mask : wanted; // one live task takes the others along
 }
 
-// Pixels of a place end with these tasks of a packet.
-void DrawnBank::end_drawn(int number, std::uint32_t tasks, Cycle date) {
-    const Tile& tile = tile_of(number);
-    const int domain = number - tile.first;
-    const Segmenter::Domain& place = segmenter_.domains()[domain];
+// Pixels of a domain end with these tasks of a packet.
+void DrawnBank::end_drawn(const Tile& tile, int number, std::uint32_t tasks, Cycle date) {
+    const Segmenter::Domain& place = segmenter_.domains()[number];
     TaskRun run;
     run.tile = tile.number;
-    run.domain = domain;
+    run.domain = number;
     run.task.row = inside_tile(place.row);
     run.task.column = inside_tile(place.column);
     run.task.context = tile.context;
@@ -168,65 +225,126 @@ void DrawnBank::end_tile(const Tile& tile) {
 }
 
 void DrawnBank::finish_tiles() {
-    const std::size_t before = stream_.oldest;
-    while (stream_.oldest < stream_.entering && stream_.oldest < stream_.startable) {
-        const Tile& tile = tile_at(stream_.oldest);
-        if ((occupied_ & tile.places) != 0 || (left_ > 0 && &tile_of(cut_) == &tile)) {
-            break;
-        }
-        end_tile(tile);
-        ++stream_.oldest;
-        tile_end_.count(tile.number);
-        --closing_;
-        contexts_owed_ = true;
+    const std::size_t before = closing_;
+    for (BankStream& stream : streams_) {
+        finish_tiles(stream);
     }
-    if (stream_.oldest != before) {
+    if (closing_ != before) {
         list_started();
     }
 }
 
+void DrawnBank::finish_tiles(BankStream& stream) {
+    while (stream.oldest < stream.entering && stream.oldest < stream.startable) {
+        const Tile& tile = tile_at(stream, stream.oldest);
+        if (tile.waiting != 0 || (left_ > 0 && cut_tile_ == &tile)) {
+            break;
+        }
+        end_tile(tile);
+        tile_end_.count(tile.number);
+        ++stream.oldest;
+        --closing_;
+        contexts_owed_ = true;
+    }
+}
+
 // See IssueBank::take_end().
-void DrawnBank::take_end(TileNumber number) {
+void DrawnBank::take_end(BankStream& stream, TileNumber number) {
+    if (++stream.ends_seen != stream.inputs.size()) {
+        return;
+    }
     if (number == kNoTile) {
         tile_end_.count(number);
         return;
     }
-    features_.close(now_);
-    ++stream_.entering;
+    features_.close(now_, stream.index);
+    stream.ends_seen = 0;
+    ++stream.entering;
     ++closing_;
-    stream_.enterable = enterable();
-    stream_.entered = false;
+    stream.enterable = stream.entering < end_of_intake(stream);
+    stream.entered = false;
+}
+
+// All tasks that came in have been issued or dropped. A useful task is never dropped.
+void DrawnBank::finish() {
+    now_ = self_.local();
+    if (packet_.open()) {
+        send_part(Slot::Starved);
+    }
+    if (config_.granted) {
+        packing_.end_tile(self_, kNoTile, 0);
+    }
+    stats_.segments_issued = segments_in_ - stats_.segments_dropped;
+    stats_.tasks_issued = stats_.tasks_in - stats_.tasks_dropped;
+    SlotAccount executed;
+    executed[Slot::Useful] = useful_;
+    executed[Slot::Boundary] = stats_.tasks_issued - inside_;
+    executed[Slot::Terminated] = inside_ - useful_;
+    slice_.count_drawn(executed);
+    self_.finish();
 }
 
 Slot DrawnBank::idle_cause() const {
     if (size_ == 0) {
         return Slot::Starved;
     }
-    return issuable() == 0  ? Slot::Blocked
+    return issuable_ == 0   ? Slot::Blocked
            : width_limited_ ? width_cause_
            : no_room_       ? Slot::Blocked
                             : Slot::Conflict;
 }
 
+// The cycles after the next execution date until waiting segments may go, if none went at `now`;
+// kNever if none waits.
+Cycle DrawnBank::next_ready() const {
+    const Cycle slot = packet_.next_execution(now_);
+    Cycle earliest = kNever;
+    for (const Tile* const tile : started_) {
+        if (tile->waiting != 0) {
+            earliest = std::min(earliest, tile->lanes.until_next(slot));
+        }
+    }
+    return earliest;
+}
+
+// See IssueBank::watch_inputs().
+bool DrawnBank::watch_inputs() {
+    bool waiting = false;
+    for (const BankStream& stream : streams_) {
+        for (const BankStream::Input& input : stream.inputs) {
+            FifoBase& ring = spans_ != nullptr ? static_cast<FifoBase&>(*spans_) : *input.ring;
+            if (ring.empty()) {
+                watched_.push_back(&ring);
+            } else if (takes(stream, input)) {
+                if (ring.head_date() > now_) {
+                    watched_.push_back(&ring);
+                } else {
+                    waiting = true;
+                }
+            }
+        }
+    }
+    return waiting;
+}
+
 // See IssueBank::next_date(). All ends of pixels that are due are in their ring.
 Cycle DrawnBank::next_date() {
     const Cycle next = now_ + 1;
-    Cycle limit = packet_.open_until();
-    const Cycle latency = packet_.next_execution(now_) - now_;
-    const Cycle ready = no_room_ ? next : cooling_.next_end(issuable());
-    if (ready != kNever) {
-        limit = std::min(limit, std::max(next, ready > latency ? ready - latency : 0));
-    }
-    if (limit == next) {
+    if (no_room_) {
         return next;
     }
-    std::array<FifoBase*, 2> watched{};
-    std::size_t count = 0;
-    const bool hungry = free_ != nullptr && left_ <= 0;
-    if (hungry && (spans_.empty() || (takes() && spans_.head_date() > now_))) {
-        watched[count++] = &spans_;
-    } else if (hungry && takes()) {
-        limit = std::min(limit, features_full_ ? std::max(next, features_.next_free()) : next);
+    Cycle limit = packet_.open_until();
+    if (const Cycle ready = next_ready(); ready != kNever) {
+        limit = std::min(limit, now_ + ready);
+    }
+    if (limit <= next) {
+        return next;
+    }
+    watched_.clear();
+    if (free_ != nullptr && left_ <= 0 && watch_inputs()) {
+        // More than a cycle's worth, or no Feature Buffer entry.
+        const bool entries_only = features_full_ && single_stream_;
+        limit = std::min(limit, entries_only ? std::max(next, features_.next_free()) : next);
         if (limit == next) {
             return next;
         }
@@ -234,10 +352,14 @@ Cycle DrawnBank::next_date() {
     if (!terminations_.empty()) {
         limit = std::min(limit, std::max(next, terminations_.head_date()));
     }
-    if (contexts_owed_ && owed_contexts()) {
-        watched[count++] = stream_.contexts_freed;
+    if (contexts_owed_) {
+        for (const BankStream& stream : streams_) {
+            if (owes_contexts(stream)) {
+                watched_.push_back(stream.contexts_freed);
+            }
+        }
     }
-    limit = self_.next_arrival(watched.data(), count, next, std::max(next, limit));
+    limit = self_.next_arrival(watched_.data(), watched_.size(), next, std::max(next, limit));
     if (limit >= kNever) {
         throw std::logic_error(std::string(bank_.name()) +
                                ": nothing left to wait for, but after " +

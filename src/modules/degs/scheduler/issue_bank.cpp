@@ -77,15 +77,16 @@ void IssueBank::end_of_elaboration() {
 
 void IssueBank::start_of_simulation() {
     const DrawnBank::Parts parts{
-        *this,       config_, job_,  packing_, *terminations_, streams_[0],      segmenter_,
-        features_,   tiles_,  self_, stats_,   contexts_,      tiles_in_flight_, spans_per_cycle_,
-        width_cause_};
-    if (unit_ != nullptr && DrawnBank::can_run(parts)) {
+        *this,        config_, job_,  packing_, *terminations_, streams_,         segmenter_,
+        features_,    tiles_,  self_, stats_,   contexts_,      tiles_in_flight_, spans_per_cycle_,
+        width_cause_, trace_};
+    if (!DrawnBank::can_run(parts)) {
+        return;
+    }
+    if (unit_ != nullptr && streams_.size() == 1) {
         drawn_spans_ = unit_->hand_over(self_);
     }
-    if (drawn_spans_ != nullptr) {
-        drawn_bank_ = std::make_unique<DrawnBank>(parts, *drawn_spans_);
-    }
+    drawn_bank_ = std::make_unique<DrawnBank>(parts, drawn_spans_.get());
 }
 
 void IssueBank::run() {

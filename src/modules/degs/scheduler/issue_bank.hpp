@@ -10,6 +10,7 @@
 #include "modules/degs/array/feature_buffer.hpp"
 #include "modules/degs/array/termination_grain.hpp"
 #include "modules/degs/scheduler/bank_stream.hpp"
+#include "modules/degs/scheduler/issue_trace.hpp"
 #include "modules/degs/scheduler/packing_unit.hpp"
 #include "modules/degs/scheduler/segment_queue.hpp"
 #include "modules/degs/scheduler/segmenter.hpp"
@@ -101,6 +102,8 @@ public:
 
     /// The only Span Unit that reaches the bank; before the simulation starts.
     void read_from(SpanUnit& unit) { unit_ = &unit; }
+    /// Writes what is issued into `trace`; before the simulation starts.
+    void trace_to(IssueTrace& trace) { trace_ = &trace; }
     const Stats& stats() const { return stats_; }
     /// What passes the only input in place of its ring; nullptr if nothing does.
     const DrawnSpans* drawn_spans() const { return drawn_spans_.get(); }
@@ -196,6 +199,7 @@ private:
     bool features_full_ = false;     // a span waits for a Feature Buffer entry
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
     Stats stats_;
+    IssueTrace* trace_ = nullptr;
     SpanUnit* unit_ = nullptr;
     // Where a DrawnBank runs, the bank and what passes its input.
     std::unique_ptr<DrawnSpans> drawn_spans_;

@@ -23,12 +23,16 @@ inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, Segme
         no_room_ = true;
         return false;
     }
+    const Cycle slot = packing_.next_execution(now);
     Cycle last = now;
     if (tasks != 0) {
         last = packing_.add(self_, segment.run, wanted, segment.feature) + config_.reuse_cycles;
         if (config_.scoreboard) {
             queue_.set_ready_at(tile, domain, last);
         }
+    }
+    if (trace_ != nullptr) {
+        trace_->add(now, slot, tile.context(), domain, last, tasks);
     }
     stats_.segments_issued++;
     stats_.tasks_issued += tasks;

@@ -72,9 +72,9 @@ public:
     }
     /// What becomes of the tasks of the next segment, if they are drawn.
     void fill(DrawnTasks& drawn) const {
-        drawn.inside = static_cast<std::uint32_t>(drawn_.inside >> column_);
-        drawn.useful = static_cast<std::uint32_t>(drawn_.useful >> column_);
-        drawn.ended = static_cast<std::uint32_t>(drawn_.ended >> column_);
+        drawn.inside = drawn_.inside.from(column_);
+        drawn.useful = drawn_.useful.from(column_);
+        drawn.ended = drawn_.ended.from(column_);
     }
     /// Puts the tasks `mask` of the next segment together. It writes field by field, because a copy
     /// of data that was just written would wait for the write.

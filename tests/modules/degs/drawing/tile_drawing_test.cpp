@@ -122,7 +122,7 @@ private:
         rows.resize(before + (own.empty() ? 0 : (own.last - own.first) / step + 1));
         drawing.take(reader.tile, reader.place, own, step, rows.data() + before);
         for (std::size_t i = before; i < rows.size(); ++i) {
-            live -= __builtin_popcountll(rows[i].ended);
+            live -= rows[i].ended.count();
         }
         ++reader.place;
     }

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "tlm/clock_domain.hpp"
+
+namespace degs {
+
+/// The conflict domains of a tile in flight, as the choice among them sees them: a key and a date
+/// for each, which the host compares four at a time. A date says from when the array may touch the
+/// domain again; low bits are enough, because it lies near the date that is asked about.
+class DomainLanes {
+public:
+    /// Keys lie below. It is the key of a domain without segments.
+    static constexpr std::uint32_t kTop = std::uint32_t{1} << 31U;
+
+    explicit DomainLanes(int domains)
+        : size_((domains + kStep - 1) / kStep * kStep), numbers_(3 * std::size_t{size_}, ~0U),
+          keys_(numbers_.data()), dates_(keys_ + size_), lengths_(dates_ + size_) {
+        std::fill_n(keys_, size_, kTop);
+        present_ = size_ < kBits ? (std::uint64_t{1} << size_) - 1 : ~std::uint64_t{0};
+        while (mask_ + 1 < static_cast<std::uint32_t>(domains)) {
+            mask_ = 2 * mask_ + 1;
+        }
+    }
+    /// At least the bits of the highest domain.
+    std::uint32_t mask() const { return mask_; }
+    std::uint32_t key(int domain) const { return keys_[domain]; }
+    void set_key(int domain, std::uint32_t key) { keys_[domain] = key; }
+    /// Segments that wait; for longest() alone.
+    void set_length(int domain, std::uint32_t length) { lengths_[domain] = ~length; }
+    /// The domain may be touched from `date` on.
+    void set_date(int domain, Cycle date) { dates_[domain] = static_cast<std::uint32_t>(date); }
+    /// All domains may be touched from `date` on.
+    void set_dates(Cycle date) { std::fill_n(dates_, size_, static_cast<std::uint32_t>(date)); }
+
+    /// The smallest key of the domains that may be touched at `date`; not below kTop if there is
+    /// none.
+    __attribute__((always_inline)) std::uint32_t least(Cycle date) const {
+        return least_of(date, [&](std::uint32_t i) { return load(keys_ + i); });
+    }
+    /// Where keys are the numbers of the domains: the next one from `first` on, in a circle; not
+    /// below kTop if there is none.
+    __attribute__((always_inline)) std::uint32_t next_from(std::uint32_t first, Cycle date) const {
+        if (size_ > kBits) {
+            return far_next_from(first, date);
+        }
+        const Lanes now = all(static_cast<std::uint32_t>(date));
+        const auto signs_from = [&](std::uint32_t i) {
+            return signs(load(keys_ + i) | (now - load(dates_ + i)));
+        };
+        std::uint64_t missing = signs_from(0) | signs_from(kLanes) << kLanes;
+        for (std::uint32_t i = kStep; i < size_; i += kStep) {
+            missing |= std::uint64_t{signs_from(i) | signs_from(i + kLanes) << kLanes} << i;
+        }
+        const std::uint64_t ready = ~missing & present_;
+        const std::uint64_t later = ready & ~std::uint64_t{0} << first;
+        return ready == 0 ? kTop
+                          : static_cast<std::uint32_t>(__builtin_ctzll(later != 0 ? later : ready));
+    }
+    /// The inverse of the greatest length in its upper half, below it the smallest key of those
+    /// domains that have it; all bits if there is none.
+    std::uint64_t longest(Cycle date) const {
+        const std::uint32_t length =
+            least_of(date, [&](std::uint32_t i) { return load(lengths_ + i); });
+        if (length == ~0U) {
+            return ~std::uint64_t{0};
+        }
+        const std::uint32_t key = least_of(date, [&](std::uint32_t i) {
+            return load(keys_ + i) | Lanes(load(lengths_ + i) != all(length));
+        });
+        return std::uint64_t{length} << 32U | key;
+    }
+    /// Cycles after `date` until one of the domains with segments may be touched, if none may at
+    /// that date; kNever if none has segments.
+    __attribute__((always_inline)) Cycle until_next(Cycle date) const {
+        const Lanes now = all(static_cast<std::uint32_t>(date));
+        const auto cycles = [&](std::uint32_t i) {
+            return (load(dates_ + i) - now) | Lanes(Differences(load(keys_ + i)) < 0);
+        };
+        const std::uint32_t least = least_lane(smallest(cycles));
+        return least >= kTop ? kNever : least;
+    }
+
+private:
+    static constexpr std::uint32_t kLanes = 4;
+    static constexpr std::uint32_t kBits = 64;
+    static constexpr std::uint32_t kStep = 2 * kLanes; // domains that a turn of a loop looks at
+    using Lanes = std::uint32_t __attribute__((vector_size(kLanes * sizeof(std::uint32_t))));
+    using Differences = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+
+    static Lanes load(const std::uint32_t* from) {
+        Lanes lanes;
+        std::memcpy(&lanes, from, sizeof lanes);
+        return lanes;
+    }
+    static Lanes all(std::uint32_t value) { return Lanes{value, value, value, value}; }
+    /// The highest bit of each lane.
+    static std::uint32_t signs(Lanes lanes) {
+#ifdef __SSE2__
+        return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
+#else
+        lanes >>= 31;
+        return lanes[0] | lanes[1] << 1U | lanes[2] << 2U | lanes[3] << 3U;
+#endif
+    }
+    std::uint32_t far_next_from(std::uint32_t first, Cycle date) const {
+        for (std::uint32_t i = 0; i < size_; ++i) {
+            const std::uint32_t domain = first + i < size_ ? first + i : first + i - size_;
+            const auto left =
+                static_cast<std::int32_t>(dates_[domain] - static_cast<std::uint32_t>(date));
+            if (keys_[domain] < kTop && left <= 0) {
+                return domain;
+            }
+        }
+        return kTop;
+    }
+    static Lanes smaller(Lanes a, Lanes b) {
+        return a < b ? a : b;
+    }
+    static std::uint32_t least_lane(Lanes lanes) {
+#if defined(__clang__) || __GNUC__ >= 12
+        lanes = smaller(lanes, __builtin_shufflevector(lanes, lanes, 2, 3, 0, 1));
+        lanes = smaller(lanes, __builtin_shufflevector(lanes, lanes, 1, 0, 3, 2));
+        return lanes[0];
+#else
+        return std::min(std::min(lanes[0], lanes[1]), std::min(lanes[2], lanes[3]));
+#endif
+    }
+    /// The least of the numbers that `numbers` gives for the lanes from a domain on.
+    template <class Numbers>
+    __attribute__((always_inline)) Lanes smallest(const Numbers& numbers) const {
+        Lanes best = smaller(numbers(0), numbers(kLanes));
+        for (std::uint32_t i = kStep; i < size_; i += kStep) {
+            best = smaller(best, smaller(numbers(i), numbers(i + kLanes)));
+        }
+        return best;
+    }
+    /// The least of the numbers of the domains that may be touched at `date`; all bits if there is
+    /// none.
+    template <class Numbers>
+    __attribute__((always_inline)) std::uint32_t least_of(Cycle date,
+                                                          const Numbers& numbers) const {
+        const Lanes now = all(static_cast<std::uint32_t>(date));
+        return least_lane(smallest([&](std::uint32_t i) {
+            return numbers(i) | Lanes(Differences(now - load(dates_ + i)) < 0);
+        }));
+    }
+
+    std::uint32_t size_; // domains, up to a multiple of kLanes; those in excess stay empty
+    std::vector<std::uint32_t> numbers_;
+    std::uint32_t *keys_, *dates_, *lengths_; // in numbers_
+    std::uint32_t mask_ = 0;
+    std::uint64_t present_; // a bit for each number of `size_` ones, up to kBits
+};
+
+} // namespace degs

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a bank of drawn tasks issues into packets. It is inlined in the loop over cycles, so that
+// only drawn_bank.cpp includes it.
+#pragma once
+
+#include <algorithm>
+
+#include "modules/degs/scheduler/drawn_bank.hpp"
+
+namespace degs {
+
+// Issue. Returns the number of segments issued.
+
+template <bool single, bool in_turn>
+inline __attribute__((always_inline)) int DrawnBank::issue() {
+    no_room_ = false;
+    if (issuable_ == 0) {
+        width_limited_ = false;
+        return 0;
+    }
+    const int issued =
+        single || single_stream_ ? issue_in_order<in_turn>() : issue_from_all<in_turn>();
+    width_limited_ = issued == issue_width_;
+    stats_.busy += issued != 0 ? 1 : 0;
+    return issued;
+}
+
+// A domain of the tile that may execute at `slot`, chosen by the scan rule: its number below what
+// makes one of two domains go first; kNothing if there is none.
+template <bool in_turn>
+inline __attribute__((always_inline)) std::uint64_t DrawnBank::find(const Tile& tile,
+                                                                    Cycle slot) const {
+    if (!in_turn && scan_ == DomainScan::Deepest) {
+        return tile.lanes.longest(slot);
+    }
+    const std::uint32_t found =
+        in_turn ? tile.lanes.next_from(tile.cursor, slot) : tile.lanes.least(slot);
+    return found >= DomainLanes::kTop ? kNothing : found;
+}
+
+// The older tile goes first.
+template <bool in_turn>
+inline __attribute__((always_inline)) int DrawnBank::issue_in_order() {
+    int issued = 0;
+    for (Tile* const tile : started_) {
+        while (tile->waiting != 0) {
+            const Cycle slot = packet_.next_execution(now_);
+            const std::uint64_t found = find<in_turn>(*tile, slot);
+            if (found == kNothing) {
+                break;
+            }
+            const auto number = static_cast<int>(found & tile->lanes.mask());
+            tile->cursor = after(number);
+            if (!issue_one<in_turn>(*tile, number, slot)) {
+                break;
+            }
+            if (++issued == issue_width_) {
+                return issued;
+            }
+        }
+    }
+    return issued;
+}
+
+// Looks for a domain of the stream that may issue, in its oldest tile that has one. False if there
+// is none.
+template <bool in_turn>
+inline __attribute__((always_inline)) bool DrawnBank::find_ready(const BankStream& stream,
+                                                                 Cycle slot) {
+    Stream& ready = own_[stream.index];
+    if (ready.rank != kNothing) {
+        return true;
+    }
+    Tile* const* const end = started_.data() + stream.end_started;
+    for (Tile* const* place = started_.data() + stream.first_started; place != end; ++place) {
+        Tile& tile = **place;
+        if (tile.waiting == 0) {
+            continue;
+        }
+        const std::uint64_t rank = find<in_turn>(tile, slot);
+        if (rank != kNothing) {
+            ready.tile = &tile;
+            ready.rank = rank;
+            return true;
+        }
+    }
+    return false;
+}
+
+// The next stream that has a ready domain, that which issued last at the end; if there is none,
+// their number. All streams are searched, because what they have at this date counts for later
+// issues of the cycle; for the `last` one only as far as needed.
+template <bool in_turn>
+std::size_t DrawnBank::first_ready(Cycle slot, bool last) {
+    std::size_t first = streams_.size();
+    std::size_t stream = issued_stream_;
+    do {
+        stream = streams_[stream].next->index;
+        if (find_ready<in_turn>(streams_[stream], slot) && first == streams_.size()) {
+            first = stream;
+        }
+    } while (stream != issued_stream_ && (first == streams_.size() || !last));
+    return first;
+}
+
+// The stream whose ready domain goes first; if there is none, their number.
+template <bool in_turn>
+inline __attribute__((always_inline)) std::size_t DrawnBank::least_ready(Cycle slot) {
+    std::size_t chosen = streams_.size();
+    std::uint64_t least = kNothing;
+    for (const BankStream& stream : streams_) {
+        find_ready<in_turn>(stream, slot);
+        const std::uint64_t rank = own_[stream.index].rank;
+        chosen = rank < least ? stream.index : chosen;
+        least = std::min(rank, least);
+    }
+    return chosen;
+}
+
+// One of the streams after the other; a domain that was found stays ready until it is issued.
+template <bool in_turn>
+inline __attribute__((always_inline)) int DrawnBank::issue_from_all() {
+    for (Stream& ready : own_) {
+        ready.rank = kNothing;
+    }
+    int issued = 0;
+    while (issued < issue_width_) {
+        const Cycle slot = packet_.next_execution(now_);
+        const bool last = issued + 1 == issue_width_;
+        const std::size_t chosen =
+            in_turn ? first_ready<in_turn>(slot, last) : least_ready<in_turn>(slot);
+        if (chosen == streams_.size()) {
+            break;
+        }
+        Stream& ready = own_[chosen];
+        const auto number = static_cast<int>(ready.rank & ready.tile->lanes.mask());
+        if (!issue_one<in_turn>(*ready.tile, number, slot)) {
+            break; // nothing overtakes what waits for room
+        }
+        ready.tile->cursor = after(number);
+        ready.rank = kNothing;
+        issued_stream_ = chosen;
+        ++issued;
+    }
+    return issued;
+}
+
+/// Counts tasks. Which of them go into a packet matters only if a pixel ends with one: `ends`.
+template <bool ends>
+class DrawnBank::Sink {
+public:
+    Sink(DrawnBank& bank, const Tile& tile, int number, std::uint32_t ended)
+        : bank_(bank), tile_(tile), number_(number), ended_(ended) {}
+    void end_idle() {
+        if (bank_.idle_pending_) {
+            bank_.idle_pending_ = false;
+            bank_.packing_.settle_idle();
+        }
+    }
+    void begin() {}
+    int take(std::uint32_t& left, int count, int room, Cycle slot) {
+        if constexpr (ends) {
+            const std::uint32_t ended = take_lowest(left, count, room) & ended_;
+            if (ended != 0) {
+                bank_.end_drawn(tile_, number_, ended, slot);
+            }
+        }
+        return std::min(count, room);
+    }
+    __attribute__((always_inline)) void send(Slot /*none: the packet is full*/) { bank_.send(); }
+
+private:
+    DrawnBank& bank_;
+    const Tile& tile_;
+    int number_;
+    std::uint32_t ended_;
+};
+
+// False if the Packing Buffer has no room.
+template <bool in_turn>
+inline __attribute__((always_inline)) bool DrawnBank::issue_one(Tile& tile, int number,
+                                                                Cycle slot) {
+    Domain& domain = tile.domains[number];
+    const Waiting& segment = *domain.head;
+    std::uint32_t tasks = segment.mask;
+    if ((tasks & ~domain.live) != 0) {
+        tasks = tasks_of(segment, domain.live);
+    }
+    const int count = __builtin_popcount(tasks);
+    if (!packet_.fits(now_, slot, count)) {
+        no_room_ = true;
+        return false;
+    }
+    Cycle last = now_;
+    if (count != 0) {
+        if (const std::uint32_t ended = tasks & segment.ended; ended != 0) {
+            last = pack_ends(tile, number, tasks, ended);
+        } else {
+            Sink<false> sink(*this, tile, number, 0);
+            last = packet_.pack(now_, tasks, count, sink);
+        }
+        last += reuse_;
+        tile.lanes.set_date(number, last);
+    }
+    if (trace_ != nullptr) {
+        trace_->add(now_, slot, tile.context, number, last, count);
+    }
+    if (tasks != segment.mask) {
+        drop(segment, segment.mask ^ tasks);
+    }
+    features_.release(segment.feature, last);
+    pop<in_turn>(tile, number);
+    return true;
+}
+
+} // namespace degs
