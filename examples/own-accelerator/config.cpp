@@ -22,8 +22,7 @@ void Config::describe(ConfigVisitor& visitor) {
     visitor.integer("tile_size", tile_size, 4, 32, "px, and PEs of an array");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
-    pipeline.require_records(visitor, traffic.geometry_bytes, traffic.sh_value_bytes,
-                             traffic.list_entry_bytes);
+    pipeline.describe_records(visitor, traffic);
     visitor.section("projection", projection, "projection units");
     visitor.section("binning", binning, "tile lists");
     visitor.section("sorting", sorting, "hierarchical sorting units");

@@ -5,6 +5,7 @@ namespace degs::gbu {
 
 Config::Config() {
     name = "gbu-64";
+    use_float_records();
     projection.latency_cycles = 128;
     pixel_buffer.bytes = 32 * 1024;
     pixel_buffer.state_bytes = 8;
@@ -48,8 +49,7 @@ void Config::describe(ConfigVisitor& visitor) {
                     "px; grows with the PEs like the tiles of DeGS [assumed]");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
-    pipeline.require_records(visitor, traffic.geometry_bytes, traffic.sh_value_bytes,
-                             traffic.list_entry_bytes);
+    pipeline.describe_records(visitor, traffic);
     visitor.section("projection", projection, "GSCore's culling and conversion units");
     visitor.section("binning", binning, "tile lists");
     visitor.section("sorting", sorting, "GSCore's hierarchical sorting units");

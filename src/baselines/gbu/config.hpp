@@ -60,10 +60,10 @@ struct Config : TiledConfig<Config> {
     }
     /// Records in the reuse cache of one engine.
     int cache_records() const { return reuse_cache.bytes / engines.count / traffic.splat_bytes; }
-    /// Rows that Row Generation of all engines solves per cycle.
-    int rows_per_cycle() const {
-        return engines.count *
-               (engines.rows_per_cycle == 0 ? engines.row_pes : engines.rows_per_cycle);
+    /// Rows per cycle that Row Generation of all engines is paid for.
+    double rows_per_cycle() const {
+        return engines.rows_per_cycle == 0 ? cost_rows.scheduler.units
+                                           : engines.count * engines.rows_per_cycle;
     }
     std::int64_t queue_bytes() const {
         return std::int64_t{pes()} * engines.queue_depth * engines.entry_bytes;

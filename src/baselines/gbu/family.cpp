@@ -52,8 +52,6 @@ void Config::scale_to(int pes) {
     tile_size = family_tile(pes);
     engines.row_pes = tile_size;
     engines.count = pes / tile_size;
-    constexpr int kRowsPerCycle = 8; // of all engines: one Row Generation of Table I for any array
-    engines.rows_per_cycle = std::max(1, kRowsPerCycle / engines.count);
     reuse_cache.bytes = between(pes, low, high, &SharesOfSram::cache_bytes);
     const int chunks = sorting.count * sorting.chunk * traffic.list_entry_bytes;
     list_buffer.bytes = std::max(chunks, between(pes, low, high, &SharesOfSram::list_bytes));

@@ -23,10 +23,9 @@ void TileEngine::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("queue_depth", queue_depth, 1, 4096,
                     "row entries waiting in front of a Row PE; GBU does not say [assumed]");
     visitor.integer("rows_per_cycle", rows_per_cycle, 0, 1024,
-                    "rows of a splat that Row Generation of an engine solves per cycle, which its "
-                    "area follows; 0: all at once, for which it has a solver for every Row PE. 8 "
-                    "in all engines together, as DeGS has Span Units, for one block in Table I "
-                    "whatever the size of the array [assumed]");
+                    "rows of a splat that Row Generation of an engine solves per cycle, and that "
+                    "its area counts; 0: all at once, in the block of Table I, which is too good: "
+                    "DeGS has Span Units for 8 rows at 64 PEs (docs/readings.md) [assumed]");
     visitor.integer("generation_latency", generation_latency, 0, 4096,
                     "cycles from a splat's record to its row entries; 8 in an HLS rebuild");
     visitor.integer("row_pe_latency", row_pe_latency, 1, 4096,

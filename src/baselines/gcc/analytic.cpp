@@ -78,7 +78,7 @@ PreparationCycles Analytic::preparation(const FrameWorkload& frame) const {
     const double entries = static_cast<double>(frame.tile_pairs());
     const Grouping::Config& grouping = config_.grouping;
     PreparationCycles result;
-    result.bytes = gaussians * static_cast<double>(config_.traffic.stage_one_bytes(frame)) +
+    result.bytes = gaussians * static_cast<double>(config_.traffic.stage_one_bytes()) +
                    entries * config_.traffic.list_entry_bytes;
     const double group =
         std::max(gaussians / grouping.means_per_cycle, entries / grouping.entries_per_cycle);
@@ -146,9 +146,8 @@ TileCycles Clock::end(const CoarseTile& tile) {
         return scattered_bytes(static_cast<int>(record), config.traffic.burst_bytes);
     };
     const TrafficConfig records = config.traffic.common();
-    const double gaussian = config.traffic.list_entry_bytes +
-                            alone(records.shape_bytes_of(frame_)) +
-                            alone(records.sh_bytes_of(frame_));
+    const double gaussian = config.traffic.list_entry_bytes + alone(records.shape_size()) +
+                            alone(records.sh_size(frame_.sh_degree));
     TileCycles cycles;
     cycles.slots = windows_ * tile.blocks_per_drawn() * config.array.pes();
     cycles.fragments = tile.fragments();

@@ -27,7 +27,10 @@ void Config::describe(ConfigVisitor& visitor) {
                     "[assumed]");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
-    pipeline.require_records(visitor, 0, traffic.sh_value_bytes, traffic.list_entry_bytes);
+    TrafficConfig records = traffic.common();
+    records.geometry_bytes = 0;
+    pipeline.describe_records(visitor, records);
+    traffic.formats.set_formats(pipeline.stored_numbers());
     require_parts(visitor);
     visitor.section("grouping", grouping, "Stage I: depth groups");
     visitor.section("projection", projection, "Stage II: projection of groups");
@@ -42,7 +45,7 @@ void Config::describe(ConfigVisitor& visitor) {
 
 /// Stages read parts of a Gaussian that hold its formats.
 void Config::require_parts(ConfigVisitor& visitor) const {
-    const ProjectionNumbers stored = pipeline.projection_numbers();
+    const ProjectionNumbers stored = pipeline.stored_numbers();
     const auto require = [&](const char* key, const char* what, int bytes, int bits) {
         const std::string least = std::to_string(ceil_div(bits, 8));
         visitor.require(bytes == 0 || 8 * bytes >= bits,

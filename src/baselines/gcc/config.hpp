@@ -52,7 +52,6 @@ struct Config : AcceleratorConfig {
     TrafficConfig records() const override { return traffic.common(); }
     cost::BillOfMaterials bill() const override;
     void read_floats() override {
-        pipeline.records = Records::Fp32;
         traffic.mean_bytes = 3 * kFloatBytes;
         traffic.bound_bytes = kFloatBytes;
         traffic.shape_bytes = 8 * kFloatBytes;

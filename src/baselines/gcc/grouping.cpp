@@ -63,7 +63,7 @@ void Grouping::fetch() {
         }
         const FrameWorkload& frame = *job_.frames[f];
         const MemoryMap map(traffic_, job_, f);
-        const std::uint64_t record = traffic_.stage_one_bytes(frame);
+        const std::uint64_t record = traffic_.stage_one_bytes();
         for (std::uint64_t first = 0; first < frame.gaussians; first += chunk) {
             const std::uint64_t count = std::min(chunk, frame.gaussians - first);
             fetched_.reserve(fetcher_);

@@ -31,7 +31,7 @@ void Traffic::describe(ConfigVisitor& visitor) {
 }
 
 TrafficConfig Traffic::common() const {
-    TrafficConfig common;
+    TrafficConfig common = formats;
     common.mean_bytes = mean_bytes;
     common.bound_bytes = bound_bytes;
     common.shape_bytes = shape_bytes;
@@ -47,7 +47,7 @@ MemoryMap::MemoryMap(const Traffic& traffic, const RenderJob& job, std::uint32_t
     const degs::MemoryMap common = job.map(frame, traffic.common());
     means = common.geometry;
     shapes = traffic.gaussian_bytes == 0
-                 ? means + aligned_64(work.gaussians * traffic.stage_one_bytes(work))
+                 ? means + aligned_64(work.gaussians * traffic.stage_one_bytes())
                  : means + traffic.gaussian_bytes - traffic.shape_bytes;
     sh = common.sh;
     views = common.lists;
@@ -59,7 +59,7 @@ ScatteredRecords shape_records(const Traffic& traffic, const RenderJob& job, std
     const FrameWorkload& work = *job.frames[frame];
     ScatteredRecords records;
     records.base = MemoryMap(traffic, job, frame).shapes;
-    records.bytes = traffic.common().shape_bytes_of(work);
+    records.bytes = traffic.shape_size();
     records.stride = traffic.gaussian_bytes == 0 ? records.bytes : traffic.gaussian_bytes;
     records.burst = traffic.burst_bytes;
     const std::uint64_t before_last = (work.gaussians - 1) * records.stride;

@@ -22,11 +22,11 @@ struct Traffic {
     int gaussian_bytes = 0;
     void describe(ConfigVisitor& visitor);
 
+    TrafficConfig formats; ///< whose sizes follow from those of the pipeline
     /// The records that all accelerators have.
     TrafficConfig common() const;
-    std::uint64_t stage_one_bytes(const FrameWorkload& frame) const {
-        return common().mean_bytes_of(frame) + bound_bytes;
-    }
+    std::uint64_t stage_one_bytes() const { return common().mean_size() + bound_bytes; }
+    int shape_size() const { return common().shape_size(); }
     std::uint64_t entry_bytes() const { return list_entry_bytes; }
 };
 

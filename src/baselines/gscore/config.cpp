@@ -17,6 +17,7 @@ void Config::Buffer::describe(ConfigVisitor& visitor) {
 
 Config::Config() {
     name = "gscore-64";
+    use_float_records();
     projection.latency_cycles = 128;
     pixel_buffer.bytes = 8 * 1024; // two tiles of 16 x 16 px
 }
@@ -29,8 +30,7 @@ void Config::describe(ConfigVisitor& visitor) {
         "end; beyond the paper");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
-    pipeline.require_records(visitor, traffic.geometry_bytes, traffic.sh_value_bytes,
-                             traffic.list_entry_bytes);
+    pipeline.describe_records(visitor, traffic);
     visitor.section("projection", projection, "culling and conversion units");
     visitor.section("binning", binning, "tile lists");
     visitor.section("sorting", sorting, "hierarchical sorting units");

@@ -8,6 +8,7 @@ namespace degs::orange {
 
 Config::Config() {
     name = "orange-o4";
+    use_float_records();
     projection.latency_cycles = 128;
     fetching.chunk = 256;
     fetching.chunks_in_flight = 2;
@@ -53,8 +54,7 @@ void Config::describe(ConfigVisitor& visitor) {
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("gemm", gemm, "the product of matrices that forms exponents");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
-    pipeline.require_records(visitor, traffic.geometry_bytes, traffic.sh_value_bytes,
-                             traffic.list_entry_bytes);
+    pipeline.describe_records(visitor, traffic);
     visitor.section("projection", projection,
                     "projection, at the rate of GSCore's units; it does not compete for the vector "
                     "units [assumed]");

@@ -49,8 +49,7 @@ void DegsConfig::describe(ConfigVisitor& visitor) {
                     "the sections from fetching to monitor are those of one (paper: 1)");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
-    pipeline.require_records(visitor, traffic.geometry_bytes, traffic.sh_value_bytes,
-                             traffic.list_entry_bytes);
+    pipeline.describe_records(visitor, traffic);
     visitor.section("projection", projection, "Projection Units");
     visitor.section("binning", binning, "tile lists");
     visitor.section("sorting", sorting, "Sorting Units");

@@ -22,12 +22,6 @@ NumberSet uniform(const std::string& name, const std::string& format) {
     return set;
 }
 
-/// Records of 22 B and SH coefficients of 2 B.
-void set_half_gaussians(NumberSet& set) {
-    set.gaussian_mean = set.gaussian_scale = set.gaussian_rotation = set.gaussian_opacity =
-        set.sh_dc = set.sh_rest = parse_format("fp16");
-}
-
 NumberSet ideal_set() {
     NumberSet set = uniform("ideal", "fp64");
     set.meaning = "double precision, exact span ends";
@@ -50,7 +44,6 @@ NumberSet fp16_set() {
     set.vertical = Vertical::Squared;
     set.ends = SpanEnds::Outward;
     set.exp.reduction = Reduction::Binary; // FP16 units compute 2^x
-    set_half_gaussians(set);
     return set;
 }
 
@@ -70,19 +63,7 @@ NumberSet paper_set() {
     set.exp.interpolation = Interpolation::Linear;
     set.exp.reduction = Reduction::Binary;
     set.exp.entries = 16;
-    set_half_gaussians(set);
     return set;
-}
-
-/// Records of 27 B: words of 16 bits as in FP16, but for means, whose rounding moves splats against
-/// each other and changes their order: 24 bits cost 70 dB, 26 bits 79 dB (docs/numbers.md).
-void set_tuned_gaussians(NumberSet& set) {
-    set.gaussian_mean = parse_format("e5m22");
-    set.gaussian_scale = parse_format("ue5m11b14"); // 131 000 down to 2^-24 scene units
-    set.gaussian_rotation = parse_format("q1.15");
-    set.gaussian_opacity = parse_format("uq0.16");
-    set.sh_dc = parse_format("e4m11b11");  // up to 31
-    set.sh_rest = parse_format("e4m11b9"); // up to 64
 }
 
 void set_tuned_tables(NumberSet& set) {
@@ -119,13 +100,30 @@ NumberSet tuned_set() {
     // Finer than the sums: where T does not fall any more, colours must not be added any more.
     set.transmittance = parse_format("uq0.18");
     set.weight = set.sum = parse_format("uq6.16");
-    set_tuned_gaussians(set);
     set_tuned_tables(set);
     set.vertical = Vertical::FromRatio;
     set.base = Base::Vertex;
     set.multiplier = IntegerMultiplier::HalfLookup;
     set.exponent = Exponent::Binary;
     return set;
+}
+
+struct RecordSet {
+    const char* name;
+    std::vector<std::string> formats;
+};
+const std::vector<RecordSet>& record_sets() {
+    static const std::vector<RecordSet> sets{
+        {"fp32", {}}, // 44 B, as the scene has them
+        {"fp16",      // 22 B
+         {"gaussian_mean=fp16", "gaussian_scale=fp16", "gaussian_rotation=fp16",
+          "gaussian_opacity=fp16", "sh_dc=fp16", "sh_rest=fp16"}},
+        // 27 B: words of 16 bits but for means, whose rounding moves splats against each other and
+        // changes their order (docs/numbers.md).
+        {"tuned",
+         {"gaussian_mean=e5m22", "gaussian_scale=ue5m11b14", "gaussian_rotation=q1.15",
+          "gaussian_opacity=uq0.16", "sh_dc=e4m11b8", "sh_rest=e4m11b9"}}};
+    return sets;
 }
 
 struct NamedSet {
@@ -165,6 +163,21 @@ NumberSet number_set(const std::string& name, const std::vector<std::string>& as
         set.name += " " + assignment;
     }
     return set;
+}
+
+const std::vector<const char*>& record_set_names() {
+    static const std::vector<const char*> names = [] {
+        std::vector<const char*> all;
+        for (const RecordSet& set : record_sets()) {
+            all.push_back(set.name);
+        }
+        return all;
+    }();
+    return names;
+}
+
+const std::vector<std::string>& record_formats(std::size_t set) {
+    return record_sets().at(set).formats;
 }
 
 } // namespace degs

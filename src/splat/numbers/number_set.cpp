@@ -22,7 +22,6 @@ struct MemoryFormat {
     bool is_signed;
     const char* meaning;
 };
-/// All but the last are parts of a Gaussian.
 constexpr MemoryFormat kMemoryFormats[] = {
     {"gaussian_mean", &S::gaussian_mean, kSigned,
      "means of Gaussians in memory, scene units; fp64: as the scene has them, in 32 bits"},
@@ -38,7 +37,6 @@ constexpr MemoryFormat kMemoryFormats[] = {
      "SH coefficients of higher degrees in memory; fp64: as the scene has them"},
     {"depth_key", &S::depth_key, kUnsigned,
      "depth by which lists are sorted; equal keys stay in the order of their indices"}};
-constexpr std::size_t kGaussianFormats = std::size(kMemoryFormats) - 1;
 
 NumberFormat with_sign(NumberFormat format) {
     format.has_sign = true;
@@ -149,15 +147,6 @@ bool NumberSet::makes_splats(const std::string& key) {
     return key == "projection" ||
            std::any_of(std::begin(kMemoryFormats), std::end(kMemoryFormats),
                        [&key](const MemoryFormat& stored) { return key == stored.key; });
-}
-
-std::vector<std::string> NumberSet::gaussian_formats() const {
-    std::vector<std::string> assignments;
-    for (std::size_t i = 0; i < kGaussianFormats; ++i) {
-        const MemoryFormat& stored = kMemoryFormats[i];
-        assignments.push_back(std::string(stored.key) + "=" + (this->*stored.format).name());
-    }
-    return assignments;
 }
 
 double NumberSet::q_limit() const {

@@ -100,8 +100,6 @@ struct NumberSet {
     }
     /// Does a key of describe() choose one of them, and nothing in the data path?
     static bool makes_splats(const std::string& key);
-    /// The formats of a Gaussian's values in memory, as "key=value" of describe().
-    std::vector<std::string> gaussian_formats() const;
     /// Every part that a configuration may change: stages, orders of operations, tables; `ends` and
     /// `delta` are for a run to choose. Also makes the function of `exp` that of `exponent`.
     void describe(ConfigVisitor& visitor);
@@ -136,6 +134,11 @@ int pixel_bits(const NumberSet& set);
 
 /// The cost of each unit, for a cost model, as unit and key, e.g. {"pe.q", "add.uq3.13"}.
 std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set);
+
+/// Named formats of a Gaussian's values in memory: "fp32", "fp16", "tuned"; and those of one of
+/// them, as "key=value" of NumberSet::describe.
+const std::vector<const char*>& record_set_names();
+const std::vector<std::string>& record_formats(std::size_t set);
 
 /// "ideal", "fp32", "fp16", "paper", "tuned".
 std::vector<std::string> number_set_names();

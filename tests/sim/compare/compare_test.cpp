@@ -107,7 +107,7 @@ TEST(CompareRuns, ProjectionsShareTheReference) {
     const auto design = [&folder](const std::string& numbers) {
         const std::string path = folder / (numbers + ".yaml");
         std::ofstream(path) << "include: " << config("degs-64") << "\nname: " << numbers
-                            << "\npipeline:\n  numbers: " << numbers << "\n  records: fp32\n";
+                            << "\npipeline:\n  numbers: " << numbers << "\n";
         return path;
     };
     const std::string fp32 = design("fp32"); // projects in double

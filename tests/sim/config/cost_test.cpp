@@ -170,7 +170,8 @@ TEST(Area, FollowsTheKeysOfUnitsAndBytesAndNoOthers) {
          {"projection.count", "sorting.count", "engines.count", "engines.row_pes",
           "engines.queue_depth", "engines.rows_per_cycle", "engines.entry_bytes",
           "list_buffer.bytes", "list_buffer.chunks", "fetching.chunk", "traffic.splat_bytes",
-          "reuse_cache.bytes", "pixel_buffer.bytes"}},
+          "reuse_cache.bytes", "pixel_buffer.bytes"},
+         {"engines.rows_per_cycle=4"}},
         {"gcc-64",
          {"clusters", "grouping.means_per_cycle", "projection.units", "colour.units",
           "array.window", "group_buffer_bytes", "image_buffer.bytes"}}};

@@ -17,16 +17,9 @@ struct AdvisedKeys {
     std::vector<Entry> entries;
 };
 
-/// The records with which the situations were found: what moves a loss depends on what is read.
-inline std::vector<std::string> records_of_situations(const std::string& design) {
-    const bool half = design.rfind("degs", 0) == 0 || design.rfind("gcc", 0) == 0;
-    return half ? std::vector<std::string>{"pipeline.records=fp16"}
-                : std::vector<std::string>{"pipeline.records=fp32", "traffic.sh=all"};
-}
-
 /// Situations in which, together, every entry of every accelerator is named.
 inline std::vector<AdvisedKeys> advised_keys() {
-    std::vector<AdvisedKeys> all{
+    return {
         {{"degs-256",
           {"memory.bandwidth_gb_per_s=5000", "memory.latency_ns=0", "binning.pairs_per_cycle=64",
            "fetching.chunk=1", "sorting.count=1", "sorting.keys_per_cycle=64"}},
@@ -326,11 +319,6 @@ inline std::vector<AdvisedKeys> advised_keys() {
          {{"gaps", "cores.vector.lanes"},
           {"memory and binning", "memory.bandwidth_gb_per_s and binning.pairs_per_cycle"}}},
     };
-    for (AdvisedKeys& advised : all) {
-        const std::vector<std::string> records = records_of_situations(advised.view.design);
-        advised.view.settings.insert(advised.view.settings.end(), records.begin(), records.end());
-    }
-    return all;
 }
 
 } // namespace degs::sim_test

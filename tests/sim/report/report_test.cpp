@@ -169,8 +169,7 @@ TEST(SmallRunReport, DoublePrecisionCountsAndPaintsLikeTheReference) {
     for (const char* scene : {"synthetic:object,gaussians=2000", "synthetic:needles,gaussians=300",
                               "synthetic:dense,gaussians=2000"}) {
         const json report =
-            reported_run({"--set", "pipeline.numbers=fp64", "--set", "pipeline.span_ends=exact",
-                          "--set", "pipeline.records=numbers"},
+            reported_run({"--set", "pipeline.numbers=fp64", "--set", "pipeline.span_ends=exact"},
                          "degs-64", scene)
                 .report;
         EXPECT_EQ(report["slots"]["useful"], report["workload"]["fragments"]) << scene;
@@ -250,8 +249,7 @@ TEST(TrainedScene, DoublePrecisionCountsLikeTheReference) {
         GTEST_SKIP() << "There is no trained scene " << scene << "; set DEGS_SCENES to their "
                      << "folder.";
     }
-    const json report = reported_run({"--camera", "1", "--set", "pipeline.numbers=fp64", "--set",
-                                      "pipeline.records=numbers"},
+    const json report = reported_run({"--camera", "1", "--set", "pipeline.numbers=fp64"},
                                      "degs-64-tuned", scene.string(), "1280")
                             .report;
     expect_laws(report);

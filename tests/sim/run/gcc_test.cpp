@@ -70,9 +70,8 @@ TEST_P(SceneGcc, MatchesTheReference) {
     }
     for (const char* camera : {"1", "2"}) {
         const Folder folder;
-        const Outcome outcome =
-            degs({"run", config("gcc-64"), "--scene", scene.string(), "--camera", camera, "--out",
-                  folder / "out", "--set", "pipeline.records=numbers"});
+        const Outcome outcome = degs({"run", config("gcc-64"), "--scene", scene.string(),
+                                      "--camera", camera, "--out", folder / "out"});
         expect_success(outcome);
         const json report = report_in(folder / "out");
         EXPECT_GE(report["image"]["psnr_db"].get<double>(), 90.0) << camera;

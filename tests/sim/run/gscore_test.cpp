@@ -90,9 +90,9 @@ TEST_P(SceneOnGscore, MatchesTheReference) {
         GTEST_SKIP() << file << " is not there; set DEGS_SCENES";
     }
     const Folder folder;
-    const Outcome outcome = run_gscore(
-        view.configuration, {"--scene", file.string(), "--camera", std::to_string(view.camera),
-                             "--out", folder / "out", "--set", "pipeline.records=numbers"});
+    const Outcome outcome =
+        run_gscore(view.configuration, {"--scene", file.string(), "--camera",
+                                        std::to_string(view.camera), "--out", folder / "out"});
     expect_success(outcome);
     const json report = report_in(folder / "out");
     EXPECT_GE(report["image"]["psnr_db"].get<double>(), 90.0);

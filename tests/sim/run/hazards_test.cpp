@@ -19,7 +19,6 @@ HazardRun run_in_fp64(const std::vector<std::string>& more) {
                                        "--width", "120",
                                        "--out",   folder / "out",
                                        "--set",   "pipeline.numbers=fp64",
-                                       "--set",   "pipeline.records=numbers",
                                        "--set",   "pipeline.span_ends=exact"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = degs(arguments);

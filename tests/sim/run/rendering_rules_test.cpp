@@ -18,8 +18,7 @@ nlohmann::json run_in(const std::string& out, const std::string& design, const W
                     "--width",  "160",
                     "--camera", "1",
                     "--out",    out,
-                    "--set",    "pipeline.numbers=fp64",
-                    "--set",    "pipeline.records=numbers"};
+                    "--set",    "pipeline.numbers=fp64"};
     for (const std::string& rule : rules) {
         arguments.insert(arguments.end(), {"--set", "pipeline.rules." + rule});
     }
@@ -89,16 +88,11 @@ TEST(RulesOfEstimates, SampledAndAnalyticSeeThem) {
 TEST(RulesOfComparison, EachDesignHasItsReference) {
     const Folder folder;
     const std::string file = config("degs-16");
-    const Outcome outcome = degs({"compare",     "plain=" + file,
-                                  "far=" + file, "short=" + file,
-                                  "--scene",     kRuledScene,
-                                  "--width",     "160",
-                                  "--set",       "pipeline.numbers=fp64",
-                                  "--set",       "pipeline.records=numbers",
-                                  "--set",       "pipeline.span_ends=exact",
-                                  "--set",       "far:pipeline.rules.order=distance",
-                                  "--set",       "short:pipeline.rules.cut=4",
-                                  "--out",       folder / "o"});
+    const Outcome outcome =
+        degs({"compare", "plain=" + file, "far=" + file, "short=" + file, "--scene", kRuledScene,
+              "--width", "160", "--set", "pipeline.numbers=fp64", "--set",
+              "pipeline.span_ends=exact", "--set", "far:pipeline.rules.order=distance", "--set",
+              "short:pipeline.rules.cut=4", "--out", folder / "o"});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     int reports = 0;
     for (const auto& entry : fs::recursive_directory_iterator(folder / "o/reports")) {

@@ -13,8 +13,7 @@ json run_with_tiles(const std::string& design, const std::string& tiles) {
         "run",     config(design), "--scene", "synthetic:object,gaussians=2000",
         "--width", "200",          "--out",   folder / "out"};
     for (const std::string& set :
-         {std::string("pipeline.numbers=fp64"), std::string("pipeline.records=numbers"),
-          "pipeline.tiles=" + tiles}) {
+         {std::string("pipeline.numbers=fp64"), "pipeline.tiles=" + tiles}) {
         arguments.insert(arguments.end(), {"--set", set});
     }
     if (design.rfind("degs", 0) == 0) {

@@ -22,8 +22,7 @@ std::string scene_with_a_giant(const Folder& folder) {
 
 Outcome run(const Folder& folder, const std::string& numbers) {
     return degs({"run", config("degs-64-tuned"), "--scene", scene_with_a_giant(folder), "--width",
-                 "64", "--set", "pipeline.numbers=" + numbers, "--set", "pipeline.records=fp32",
-                 "--out", folder / "out"});
+                 "64", "--set", "pipeline.numbers=" + numbers, "--out", folder / "out"});
 }
 
 TEST(SmallRunWarnings, NameTheFormatThatSaturates) {

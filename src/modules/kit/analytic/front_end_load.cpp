@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "modules/kit/front_end/list_writes.hpp"
-#include "tlm/ceil_div.hpp"
 
 namespace degs {
 namespace {
@@ -59,8 +58,8 @@ ListWritingLoad list_writing(const FrameWorkload& frame, const TrafficConfig& tr
         }
     }
     load.bytes = (bursts + 2 * far_heads) * traffic.burst_bytes;
-    load.cycles =
-        bursts * ceil_div(traffic.burst_bytes, traffic.list_entry_bytes) / binning.pairs_per_cycle;
+    load.cycles = bursts * std::ceil(1.0 * traffic.burst_bytes / traffic.list_entry_bytes) /
+                  binning.pairs_per_cycle;
     return load;
 }
 
@@ -68,13 +67,12 @@ PreparationCycles FrontEndLoad::preparation(const FrameWorkload& frame,
                                             std::size_t memory_unit) const {
     const double gaussians = as_real(frame.gaussians), visible = as_real(frame.splats.size());
     const double pairs = as_real(frame.tile_pairs()), chunk = projection.chunk;
-    const double sh = as_real(traffic.sh_bytes_of(frame));
-    const double alone =
-        scattered_bytes(static_cast<int>(traffic.sh_bytes_of(frame)), traffic.burst_bytes);
+    const double sh = traffic.sh_size(frame.sh_degree);
+    const double alone = scattered_bytes(traffic.sh_size(frame.sh_degree), traffic.burst_bytes);
     const ListWritingLoad lists = list_writing(frame, traffic, binning);
     PreparationCycles result;
     result.bytes =
-        gaussians * as_real(traffic.geometry_bytes_of(frame)) +
+        gaussians * traffic.geometry_size() +
         (traffic.sh == ShReads::All ? gaussians * sh : std::min(visible * alone, gaussians * sh)) +
         visible * traffic.splat_bytes + lists.bytes;
     const double project = gaussians * projection.cycles_per_gaussian / projection.count;

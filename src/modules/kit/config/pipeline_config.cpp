@@ -8,10 +8,8 @@
 namespace degs {
 namespace {
 
-/// In the order of Records.
-const std::vector<const char*>& record_names() {
-    static const std::vector<const char*> names{"numbers", "fp32", "fp16", "paper", "tuned"};
-    return names;
+const std::vector<std::string>& record_formats_of(Records records) {
+    return record_formats(static_cast<std::size_t>(records));
 }
 
 } // namespace
@@ -32,56 +30,63 @@ void PipelineConfig::describe(ConfigVisitor& visitor) {
     visitor.section("rules", rules,
                     "what renderers of the same Gaussians disagree about; the defaults are those "
                     "of the reference code");
-    visitor.choice("records", records, record_names(),
-                   "formats of the values of Gaussians in memory, to which projection rounds them: "
-                   "those of the number set of that name; numbers: of `numbers` itself; "
-                   "traffic.geometry_bytes and sh_value_bytes follow");
-    NumberSet set = number_set(set_of(numbers).name, record_formats());
+    visitor.choice(
+        "records", records, record_set_names(),
+        "formats of a Gaussian's values in memory, from which traffic.geometry_bytes and "
+        "sh_value_bytes follow: 44 B and 4 B per SH value, 22 B and 2 B, 27 B and 2 B");
+    visitor.boolean("round_records", round_records,
+                    "are Gaussians rounded to these formats before projection? With means in FP16 "
+                    "images reach 45 dB (docs/numbers.md); no paper says that it rounds, so that "
+                    "records only count as bytes [assumed]");
+    NumberSet set = round_records ? number_set(set_of(numbers).name, record_formats_of(records))
+                                  : set_of(numbers);
     visitor.begin_section("formats",
                           "single parts of `numbers` in other formats; set: as they are there");
     formats.describe(visitor, set);
     visitor.end_section();
 }
 
-void PipelineConfig::require_records(ConfigVisitor& visitor, int geometry_bytes, int sh_value_bytes,
-                                     int list_entry_bytes) const {
-    const ProjectionNumbers stored = projection_numbers();
-    const int geometry = ceil_div(stored.mean_bits() + stored.shape_bits(), 8);
-    visitor.require(geometry_bytes == 0 || geometry <= geometry_bytes,
-                    {"traffic.geometry_bytes",
-                     "must hold mean, scale, rotation and opacity of a Gaussian, " +
-                         std::to_string(geometry) + " B",
-                     std::to_string(geometry),
-                     {"pipeline.records", "pipeline.formats"}});
-    const int sh = std::max(ceil_div(stored.sh_bits(0), 3 * 8),
-                            ceil_div(stored.sh_bits(1) - stored.sh_bits(0), 9 * 8));
-    visitor.require(sh_value_bytes == 0 || sh <= sh_value_bytes,
-                    {"traffic.sh_value_bytes",
-                     "must hold an SH coefficient, " + std::to_string(sh) + " B",
-                     std::to_string(sh),
-                     {"pipeline.records", "pipeline.formats"}});
+void PipelineConfig::describe_records(ConfigVisitor& visitor, TrafficConfig& traffic) const {
+    const ProjectionNumbers stored = stored_numbers();
+    traffic.set_formats(stored);
+    const auto require = [&](const char* key, const char* what, int bytes, int least) {
+        visitor.require(bytes == 0 || least <= bytes,
+                        {key,
+                         std::string("must hold ") + what + ", " + std::to_string(least) + " B",
+                         std::to_string(least),
+                         {"pipeline.records", "pipeline.formats"}});
+    };
+    const int bits = std::max(stored.sh_bits(0), (stored.sh_bits(1) - stored.sh_bits(0)) / 3);
+    require("traffic.geometry_bytes", "mean, scale, rotation and opacity of a Gaussian",
+            traffic.geometry_bytes, ceil_div(stored.mean_bits() + stored.shape_bits(), 8));
+    require("traffic.sh_value_bytes", "an SH coefficient", traffic.sh_value_bytes,
+            ceil_div(bits, 3 * 8));
     constexpr int kLeastIndexBits = 16;
     const NumberFormat& key = stored.depth_key;
-    const int bytes = ceil_div(key.storage_bits() + kLeastIndexBits, 8);
-    visitor.require(key == ProjectionNumbers().depth_key || bytes <= list_entry_bytes,
+    const int entry = ceil_div(key.storage_bits() + kLeastIndexBits, 8);
+    visitor.require(key == ProjectionNumbers().depth_key || entry <= traffic.list_entry_bytes,
                     {"traffic.list_entry_bytes",
                      "must hold a depth key of " + key.name() + " and an index of 16 bits at least",
-                     std::to_string(bytes),
+                     std::to_string(entry),
                      {"pipeline.formats.depth_key"}});
 }
 
-std::vector<std::string> PipelineConfig::record_formats() const {
-    const std::string name = record_names()[static_cast<std::size_t>(records)];
-    return records == Records::Numbers ? std::vector<std::string>()
-                                       : number_set(name).gaussian_formats();
+std::vector<std::string> PipelineConfig::changes(bool with_records) const {
+    std::vector<std::string> all =
+        with_records ? record_formats_of(records) : std::vector<std::string>();
+    const std::vector<std::string> more = formats.assignments();
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
 }
 
-NumberSet PipelineConfig::changed_set() const {
-    return formats.applied_to(number_set(set_of(numbers).name, record_formats()));
+NumberSet PipelineConfig::changed_set(bool with_records) const {
+    const NumberSet base = set_of(numbers);
+    return formats.applied_to(with_records ? number_set(base.name, record_formats_of(records))
+                                           : base);
 }
 
 int PipelineConfig::pixel_bits() const {
-    return degs::pixel_bits(changed_set());
+    return degs::pixel_bits(changed_set(false));
 }
 
 cost::Precision PipelineConfig::precision() const {
@@ -97,10 +102,7 @@ cost::Precision PipelineConfig::precision() const {
 }
 
 DataPathOptions PipelineConfig::options(SpanEnds ends, int delta) const {
-    std::vector<std::string> changes = record_formats();
-    const std::vector<std::string> more = formats.assignments();
-    changes.insert(changes.end(), more.begin(), more.end());
-    const DataPathOptions named = named_numbers(name_of(numbers), changes);
+    const DataPathOptions named = named_numbers(name_of(numbers), changes(round_records));
     return {numbers, ends, delta, stop_rule, named.set, named.projection, rules};
 }
 

@@ -4,33 +4,31 @@
 #include "config/config.hpp"
 #include "config/config_changes.hpp"
 #include "cost/technology.hpp"
+#include "modules/kit/job/traffic.hpp"
 #include "splat/frame/frame_workload.hpp"
 #include "splat/pixels/data_path.hpp"
 
 namespace degs {
 
-/// Whose formats the values of Gaussians have in memory: those of `numbers`, or of a named set.
-enum class Records { Numbers, Fp32, Fp16, Paper, Tuned };
+/// Formats of the values of Gaussians in memory, in the order of record_set_names().
+enum class Records { Fp32, Fp16, Tuned };
 
 /// The choices of every data path, whichever accelerator uses it.
 struct PipelineConfig {
     Arithmetic numbers = Arithmetic::Fp32;
-    /// The same for all accelerators, so that they are compared with equal records; docs/numbers.md
-    /// says why these.
-    Records records = Records::Tuned;
+    Records records = Records::Fp16; ///< how many bytes a Gaussian takes in memory
+    bool round_records = false;      ///< are Gaussians rounded to these formats before projection?
     StopRule stop_rule = StopRule::Refuse;
     TileMode tiles = TileMode::Exact;
     RenderingRules rules;
     ConfigChanges formats; ///< of the number set that `numbers` names
     void describe(ConfigVisitor& visitor);
-    /// Records of `geometry_bytes`, SH values of `sh_value_bytes` (0: as the formats need) and list
-    /// entries hold the formats of `records` and `formats`; an entry also holds an index of 16 bits
-    /// at least (MemoryMap checks that of a frame). Keys of the records are in section `traffic` of
-    /// `visitor`.
-    void require_records(ConfigVisitor& visitor, int geometry_bytes, int sh_value_bytes,
-                         int list_entry_bytes) const;
-    /// Formats of Gaussians in memory, of depth keys and of the projection.
-    ProjectionNumbers projection_numbers() const { return changed_set().projection_numbers(); }
+    /// Sets the sizes of Gaussians in `traffic`, whose keys are in section `traffic` of `visitor`,
+    /// and requires what the keys give to hold the formats; a list entry also holds an index of 16
+    /// bits at least (MemoryMap checks that of a frame).
+    void describe_records(ConfigVisitor& visitor, TrafficConfig& traffic) const;
+    /// Formats of Gaussians in memory, rounded to or not, and of depth keys.
+    ProjectionNumbers stored_numbers() const { return changed_set(true).projection_numbers(); }
     /// Bits of a pixel's transmittance and colour in the formats of `numbers` and `formats`.
     int pixel_bits() const;
     /// Width of `numbers`; single parts in other formats do not count.
@@ -43,9 +41,9 @@ protected:
     DataPathOptions options(SpanEnds ends, int delta) const;
 
 private:
-    /// "key=value" for the formats of `records`.
-    std::vector<std::string> record_formats() const;
-    NumberSet changed_set() const;
+    /// "key=value" for the formats of `records` and the changes of `formats`.
+    std::vector<std::string> changes(bool with_records) const;
+    NumberSet changed_set(bool with_records) const;
 };
 
 } // namespace degs

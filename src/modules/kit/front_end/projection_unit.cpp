@@ -60,7 +60,7 @@ void ProjectionUnit::fetch() {
         }
         const MemoryMap map = job_.map(f, traffic_);
         const std::uint64_t total = job_.frames[f]->gaussians;
-        const std::uint64_t bytes = traffic_.geometry_bytes_of(*job_.frames[f]);
+        const std::uint64_t bytes = traffic_.geometry_size();
         for (std::uint64_t first = chunk * index_; first < total; first += stride) {
             const std::uint64_t count = std::min(chunk, total - first);
             fetched_.reserve(fetcher_);
@@ -100,7 +100,7 @@ Completion ProjectionUnit::read_sh(std::uint32_t f, const Chunk& chunk,
                                    const ProjectedChunk& visible) {
     const FrameWorkload& frame = *job_.frames[f];
     if (traffic_.sh == ShReads::All) {
-        const std::uint64_t record = traffic_.sh_bytes_of(frame);
+        const std::uint64_t record = traffic_.sh_size(frame.sh_degree);
         const std::uint64_t array = job_.map(f, traffic_).sh;
         return sh.read(projector_, array + chunk.first * record, chunk.count * record);
     }

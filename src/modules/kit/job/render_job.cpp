@@ -89,7 +89,7 @@ ScatteredRecords RenderJob::sh_records(std::uint32_t frame, const TrafficConfig&
     const MemoryMap at = map(frame, traffic);
     ScatteredRecords records;
     records.base = at.sh;
-    records.stride = records.bytes = traffic.sh_bytes_of(work);
+    records.stride = records.bytes = traffic.sh_size(work.sh_degree);
     records.burst = traffic.burst_bytes;
     records.array_bytes = bases[frame].given ? work.gaussians * records.bytes : at.splats - at.sh;
     records.numbers = gaussians;

@@ -11,7 +11,7 @@ namespace degs {
 void TrafficConfig::describe(ConfigVisitor& visitor) {
     visitor.integer("geometry_bytes", geometry_bytes, 0, 1024,
                     "bytes per Gaussian read by projection; 0: as the formats of pipeline.records "
-                    "need, 44 in FP32, 22 in FP16");
+                    "need");
     visitor.integer("sh_value_bytes", sh_value_bytes, 0, 8,
                     "bytes per SH value, 0: as the formats need; a second array, so that culled "
                     "Gaussians cost no colour");
@@ -26,23 +26,29 @@ void TrafficConfig::describe(ConfigVisitor& visitor) {
                     "bytes; scattered records are read in whole bursts of this size");
 }
 
-std::uint64_t TrafficConfig::geometry_bytes_of(const FrameWorkload& frame) const {
-    return geometry_bytes != 0 ? geometry_bytes
-                               : mean_bytes_of(frame) + shape_bytes_of(frame) + bound_bytes;
+void TrafficConfig::set_formats(const ProjectionNumbers& stored) {
+    mean_bits_ = stored.mean_bits();
+    shape_bits_ = stored.shape_bits();
+    sh_dc_bits_ = stored.sh_bits(0);
+    sh_rest_bits_ = (stored.sh_bits(1) - sh_dc_bits_) / 3; // of the three channels of a coefficient
 }
 
-std::uint64_t TrafficConfig::mean_bytes_of(const FrameWorkload& frame) const {
-    return mean_bytes != 0 ? mean_bytes : ceil_div(frame.projection.numbers.mean_bits(), 8);
+int TrafficConfig::geometry_size() const {
+    return geometry_bytes != 0 ? geometry_bytes : mean_size() + shape_size() + bound_bytes;
 }
 
-std::uint64_t TrafficConfig::shape_bytes_of(const FrameWorkload& frame) const {
-    return shape_bytes != 0 ? shape_bytes : ceil_div(frame.projection.numbers.shape_bits(), 8);
+int TrafficConfig::mean_size() const {
+    return mean_bytes != 0 ? mean_bytes : ceil_div(mean_bits_, 8);
 }
 
-std::uint64_t TrafficConfig::sh_bytes_of(const FrameWorkload& frame) const {
-    const int degree = frame.sh_degree;
-    return sh_value_bytes != 0 ? 3 * (degree + 1) * (degree + 1) * sh_value_bytes
-                               : ceil_div(frame.projection.numbers.sh_bits(degree), 8);
+int TrafficConfig::shape_size() const {
+    return shape_bytes != 0 ? shape_bytes : ceil_div(shape_bits_, 8);
+}
+
+int TrafficConfig::sh_size(int degree) const {
+    const int coefficients = (degree + 1) * (degree + 1);
+    return sh_value_bytes != 0 ? 3 * coefficients * sh_value_bytes
+                               : ceil_div(sh_dc_bits_ + (coefficients - 1) * sh_rest_bits_, 8);
 }
 
 namespace {
@@ -77,8 +83,8 @@ MemoryMap::MemoryMap(const TrafficConfig& traffic, const FrameWorkload& frame,
       frame_buffer(bases.frame_buffer) {
     require_indices(traffic, frame);
     if (!bases.given) {
-        sh = geometry + aligned(frame.gaussians * traffic.geometry_bytes_of(frame));
-        splats = sh + aligned(frame.gaussians * traffic.sh_bytes_of(frame));
+        sh = geometry + aligned(times(frame.gaussians, traffic.geometry_size()));
+        splats = sh + aligned(times(frame.gaussians, traffic.sh_size(frame.sh_degree)));
         frame_buffer = splats + workspace_bytes(traffic, frame);
     }
     lists = splats + aligned(times(frame.gaussians, traffic.splat_bytes));

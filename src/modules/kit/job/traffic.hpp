@@ -26,12 +26,17 @@ struct TrafficConfig {
     int mean_bytes = 0, shape_bytes = 0, bound_bytes = 0;
     void describe(ConfigVisitor& visitor);
 
+    /// The formats from which sizes follow; those of FP16 until it is called.
+    void set_formats(const ProjectionNumbers& stored);
     /// Bytes of a Gaussian's geometry, of its parts, and of its SH coefficients: as the keys say,
-    /// else whole bytes of the formats to which the frame's Gaussians were rounded.
-    std::uint64_t geometry_bytes_of(const FrameWorkload& frame) const;
-    std::uint64_t mean_bytes_of(const FrameWorkload& frame) const;
-    std::uint64_t shape_bytes_of(const FrameWorkload& frame) const;
-    std::uint64_t sh_bytes_of(const FrameWorkload& frame) const;
+    /// else whole bytes of the formats.
+    int geometry_size() const;
+    int mean_size() const;
+    int shape_size() const;
+    int sh_size(int degree) const;
+
+private:
+    int mean_bits_ = 3 * 16, shape_bits_ = 8 * 16, sh_dc_bits_ = 3 * 16, sh_rest_bits_ = 3 * 16;
 };
 
 /// Bytes of the word that says where a list ends.
