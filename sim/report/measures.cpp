@@ -36,7 +36,7 @@ constexpr std::array<MeasureRule, 5> kBeforeSlots{{
     {"fps", "timing.fps", true, kMost},
     {"throughput_fps", "timing.throughput_fps", true, kMost},
 }};
-constexpr std::array<MeasureRule, 19> kBehindSlots{{
+constexpr std::array<MeasureRule, 20> kBehindSlots{{
     {"slots.utilization", "slots.utilization", true, kMost},
     {"slots.frame_utilization", "slots.frame_utilization", true, kMost},
     {"dram.bytes_read", "dram.bytes_read", false, kLeast},
@@ -58,6 +58,7 @@ constexpr std::array<MeasureRule, 19> kBehindSlots{{
     {"image.psnr_db", "image.psnr_db", false, kMost},
     {"image.ssim", "image.ssim", false, kMost},
     {"image.max_abs_error", "image.max_abs_error", false, kLeast},
+    {"workload.fragments_per_splat", "workload.fragments_per_splat", false, kNone},
     {"host.sim_s", "host.sim_s", false, kNone},
 }};
 

@@ -39,7 +39,8 @@ enum class Measure {
     PsnrDb,
     Ssim,
     MaxAbsError,
-    SimS, ///< host seconds of the run of one frame
+    FragmentsPerSplat, ///< of the reference, of the view
+    SimS,              ///< host seconds of the run of one frame
     Count
 };
 

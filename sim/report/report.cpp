@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/ratio.hpp"
 #include "config/config_document.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/report/losses.hpp"
@@ -27,6 +28,13 @@ void describe_culled(const CullCounts& culled, StatsVisitor& v) {
             "No finite projection or colour in the format of the projection.");
     v.count("off_screen", culled.off_screen, "Gaussians", "No pixel touched.");
     v.end_section();
+}
+
+std::optional<double> fragments_per_splat(const WorkloadFacts& workload) {
+    if (!workload.reference || workload.visible == 0) {
+        return {};
+    }
+    return ratio_of(workload.reference->fragments, workload.visible);
 }
 
 void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, StatsVisitor& v) {
@@ -57,6 +65,9 @@ void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, S
     v.count("tile_pairs", workload.tile_pairs, "entries", "Entries of all tile lists.");
     v.count("fragments", of_reference(&ReferenceCounts::fragments), "pixels",
             "Pixel updates of the reference renderer; null with --no-reference.");
+    v.real("fragments_per_splat", fragments_per_splat(workload), "pixels",
+           "fragments / visible, which orders scenes by how well arrays of PEs are used; null "
+           "likewise, and if nothing is visible.");
     v.count("terminated_pixels", of_reference(&ReferenceCounts::terminated), "pixels",
             "Pixels of the reference that stopped before the end of their list; null likewise.");
     v.end_section();

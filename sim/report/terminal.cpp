@@ -37,10 +37,15 @@ std::string scene_line(const RunResult& result) {
     // The reference shows the first frame, and the accelerator counts those of all frames.
     const std::size_t frames = reference ? 1 : result.accelerator.frames.size();
     const std::uint64_t pixels = result.camera.pixels() * std::max<std::size_t>(frames, 1);
-    return scene_words(result.scene) + kDot + grouped(result.workload.visible) + " visible" + kDot +
+    const std::uint64_t visible = result.workload.visible; // in the first frame alone
+    return scene_words(result.scene) + kDot + grouped(visible) + " visible" + kDot +
            scaled(fragments) + " fragments " +
            (frames > 1 ? "in " + std::to_string(frames) + " frames " : "") + "(" +
-           three_digits(ratio_of(fragments, pixels)) + " per pixel)";
+           three_digits(ratio_of(fragments, pixels)) + " per pixel" +
+           (frames <= 1 && visible > 0
+                ? ", " + three_digits(ratio_of(fragments, visible)) + " per visible splat"
+                : "") +
+           ")";
 }
 
 std::string design_line(const RunResult& result) {

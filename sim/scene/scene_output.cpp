@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/ratio.hpp"
 #include "base/visible_text.hpp"
 #include "config/input_files.hpp"
 #include "degs/error.hpp"
@@ -167,6 +168,8 @@ SceneJson view_info_json(const ViewStatistics& v, const Camera& camera) {
             {"fragments", v.fragments},
             {"candidates", v.candidates},
             {"fragments_per_pixel", v.fragments_per_pixel},
+            {"fragments_per_splat",
+             v.visible > 0 ? SceneJson(ratio_of(v.fragments, v.visible)) : SceneJson(nullptr)},
             {"candidates_per_pixel", v.candidates_per_pixel},
             {"terminated_share", v.terminated_share},
             {"covered_share", v.covered_share},

@@ -21,7 +21,7 @@ struct Profile {
     std::uint64_t most;
     void (*make)(const SyntheticSpec& spec, SyntheticScene& scene);
 };
-constexpr std::array<Profile, 9> kProfiles{{
+constexpr std::array<Profile, 11> kProfiles{{
     {"object", "a captured object, surface covered with discs, few floaters, empty background",
      100000, kMostGaussians, make_object},
     {"outdoor", "ground with grass, objects in the middle, haze of big splats around", 150000,
@@ -30,6 +30,10 @@ constexpr std::array<Profile, 9> kProfiles{{
      kMostGaussians, make_landscape},
     {"lighthouse", "a picture: a lighthouse on a headland, house, fence, trees, sea and sky",
      300000, kMostGaussians, make_lighthouse},
+    {"interior", "a capture of a whole flat: a furnished room, and what lies behind its walls",
+     3000000, kMostGaussians, make_interior},
+    {"garden", "a capture of a courtyard: lawn, trees, a basin, and the houses around", 3400000,
+     kMostGaussians, make_garden},
     {"dense", "a volume of faint splats: long lists, late termination", 100000, kMostGaussians,
      make_dense},
     {"uniform", "round blobs spread evenly in a box", 10000, kMostGaussians, make_uniform},
@@ -64,6 +68,17 @@ std::uint64_t parse_count(const std::string& key, const std::string& text, std::
     return value;
 }
 
+double parse_sky(const std::string& text) {
+    double share = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, share);
+    if (error != std::errc() || stop != end || !(share >= 0 && share <= 0.5)) {
+        throw InputError("Key 'sky' of a synthetic scene is '" + text +
+                         "'; allowed are numbers from 0 to 0.5.");
+    }
+    return share;
+}
+
 void parse_setting(const std::string& setting, const Profile& profile, SyntheticSpec& spec) {
     const std::size_t equals = std::min(setting.find('='), setting.size());
     const std::string key = setting.substr(0, equals);
@@ -80,10 +95,13 @@ void parse_setting(const std::string& setting, const Profile& profile, Synthetic
         }
     } else if (key == "frames" && spec.profile == "dynamic") {
         spec.frames = static_cast<int>(parse_count(key, value, 1, kMostSceneFrames));
+    } else if (key == "sky" && (spec.profile == "interior" || spec.profile == "garden")) {
+        spec.sky = parse_sky(value);
     } else {
         throw InputError("'" + setting +
                          "' is no setting of a synthetic scene; allowed are "
-                         "gaussians=N and seed=N, and time=T and frames=N of 'dynamic'.");
+                         "gaussians=N and seed=N, time=T and frames=N of 'dynamic', and sky=S of "
+                         "'interior' and 'garden'.");
     }
 }
 

@@ -18,11 +18,14 @@ struct SyntheticSpec {
     std::uint64_t seed = 1;
     std::optional<double> time{}; ///< 0..1, of the profile that changes over time
     std::optional<int> frames{};  ///< per length of that profile
+    double sky = 0;               ///< share of very large faint splats, of `interior` and `garden`
 };
 
 struct SyntheticScene {
     GaussianCloud cloud;
-    std::vector<Camera> cameras; ///< overview 640x480, near 1280x720, closeup 1920x1080
+    /// overview 640x480, near 1280x720, closeup 1920x1080; of `interior` and `garden` 1440x1080 and
+    /// twice 1920x1080.
+    std::vector<Camera> cameras;
 };
 
 /// One row of the table of profiles.
@@ -41,8 +44,8 @@ constexpr int kMostSceneFrames = 10000;
 /// A number of frames, an integer from 1 to kMostSceneFrames; nothing for any other text.
 std::optional<int> parse_scene_frames(const std::string& text);
 
-/// Parses "NAME[,gaussians=N][,seed=N][,time=T][,frames=N]". InputError names the profiles, keys
-/// and ranges.
+/// Parses "NAME[,gaussians=N][,seed=N][,time=T][,frames=N][,sky=S]". InputError names the profiles,
+/// keys and ranges.
 SyntheticSpec parse_synthetic(const std::string& text);
 
 /// Makes a scene. The same spec gives the same bytes on every platform with IEEE arithmetic

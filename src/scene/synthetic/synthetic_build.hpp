@@ -54,6 +54,8 @@ void make_object(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_outdoor(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_landscape(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_lighthouse(const SyntheticSpec& spec, SyntheticScene& scene);
+void make_interior(const SyntheticSpec& spec, SyntheticScene& scene);
+void make_garden(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_dense(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_uniform(const SyntheticSpec& spec, SyntheticScene& scene);
 void make_single(const SyntheticSpec& spec, SyntheticScene& scene);

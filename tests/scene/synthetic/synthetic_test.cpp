@@ -180,6 +180,7 @@ TEST(SyntheticScenes, AreTheSameBytesEverywhereForTheSameSeed) {
         {"dense", 4119865183429384593U},    {"uniform", 12115836439097393135U},
         {"single", 7600221013485271156U},   {"lighthouse", 493963313419857757U},
         {"needles", 16138066585785423009U}, {"landscape", 10835531268469331271U},
+        {"interior", 8715946450787741652U}, {"garden", 3152752477242530239U},
     };
     for (const auto& [profile, hash] : cases) {
         const SyntheticSpec spec = parse_synthetic(profile);
@@ -228,8 +229,9 @@ TEST(SyntheticScenes, HaveTheViewsOfTheTrainedOnesAndNothingInTheLens) {
     for (const SyntheticProfile& profile : synthetic_profiles()) {
         const SyntheticScene scene = make_synthetic(parse_synthetic(profile.name));
         ASSERT_EQ(scene.cameras.size(), 3U);
-        EXPECT_EQ(scene.cameras[0].width, 640);
-        EXPECT_EQ(scene.cameras[1].height, 720);
+        const bool whole = profile.name == "interior" || profile.name == "garden";
+        EXPECT_EQ(scene.cameras[0].width, whole ? 1440 : 640);
+        EXPECT_EQ(scene.cameras[1].height, whole ? 1080 : 720);
         EXPECT_EQ(scene.cameras[2].name, "closeup");
         for (const Camera& camera : scene.cameras) {
             double nearest = 1e9;

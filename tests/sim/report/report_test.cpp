@@ -202,10 +202,14 @@ TEST(SmallRunReport, WithoutReferenceItsNumbersAreNull) {
     const json with = reported_run({}).report;
     const json without = reported_run({"--no-reference"}).report;
     EXPECT_TRUE(without["workload"]["fragments"].is_null());
+    EXPECT_TRUE(without["workload"]["fragments_per_splat"].is_null());
     EXPECT_TRUE(without["image"]["psnr_db"].is_null());
     EXPECT_TRUE(without["host"]["render_s"].is_null());
     EXPECT_TRUE(without["host"]["sim_over_render"].is_null());
     EXPECT_GT(with["workload"]["fragments"], 0);
+    EXPECT_DOUBLE_EQ(with["workload"]["fragments_per_splat"].get<double>(),
+                     with["workload"]["fragments"].get<double>() /
+                         with["workload"]["visible"].get<double>());
     EXPECT_EQ(with["slots"], without["slots"]);
 }
 

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""regime.py: prints the counts of real whole scenes beside those of the synthetic scenes that stand for them.
+
+docs/regime.csv has the real ones. Without an option the views are measured with `degs scene info`; --utilization runs
+three designs on each view. --only TEXT takes the rows whose first word contains TEXT, --gaussians N draws every scene
+with that many Gaussians at most. Runs DEGS_PROGRAM (default: degs of the search path, else
+build/release/sim/degs)."""
+import argparse
+import csv
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRAM = os.environ.get("DEGS_PROGRAM") or shutil.which("degs") or str(ROOT / "build/release/sim/degs")
+DESIGNS = ["degs-64", "degs-1024", "gscore-64"]
+COUNTS = ["visible", "pairs_per_tile", "fragments_per_pixel", "fragments_per_splat", "footprint_p50", "ended",
+          "covered"]
+
+
+def call(*arguments):
+    """What the program prints."""
+    return subprocess.run([PROGRAM, *arguments], check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                          text=True).stdout
+
+
+def scene_of(row, most):
+    gaussians = min(int(row["gaussians"]), most) if most else int(row["gaussians"])
+    return f"synthetic:{row['synthetic']},gaussians={gaussians}", gaussians
+
+
+def size_of(row):
+    width = row["pixels"].split("x")[0]
+    return ["--camera", row["camera"], "--width", width]
+
+
+def counts_of(row, most):
+    """The counts of the synthetic view; visible splats as a share, because --gaussians changes their number."""
+    scene, gaussians = scene_of(row, most)
+    view = json.loads(call("scene", "info", scene, *size_of(row), "--json"))["view"]
+    width, height = (int(side) for side in row["pixels"].split("x"))
+    tiles = -(-width // 16) * -(-height // 16)
+    return {"visible": 100 * view["visible"] / gaussians, "pairs_per_tile": view["tile_pairs"] / tiles,
+            "fragments_per_pixel": view["fragments_per_pixel"], "fragments_per_splat": view["fragments_per_splat"],
+            "footprint_p50": view["footprint_px"]["p50"], "ended": 100 * view["terminated_share"],
+            "covered": 100 * view["covered_share"]}
+
+
+def utilizations_of(row, most):
+    """Useful PE cycles of the frame in percent, of the array alone."""
+    result = {}
+    for design in DESIGNS:
+        with tempfile.TemporaryDirectory() as folder:
+            call("run", str(ROOT / f"configs/{design}.yaml"), "--scene", scene_of(row, most)[0], *size_of(row),
+                 "--array-only", "--no-reference", "--no-cache", "--out", folder + "/out")
+            report = json.loads(pathlib.Path(folder, "out/report.json").read_text(encoding="utf-8"))
+        result[design] = 100 * report["slots"]["frame_utilization"]
+    return result
+
+
+def cell(measured, made, relative):
+    """measured | synthetic | difference, in percent or points."""
+    difference = 100 * (made / measured - 1) if relative else made - measured
+    return f"{measured:.3g} / {made:.3g} / {difference:+.0f}"
+
+
+def print_table(rows, names, measure, relative):
+    print("| measured / synthetic / difference | " + " | ".join(names) + " |")
+    print("| --- |" + " ---: |" * len(names))
+    for row in rows:
+        made = measure(row)
+        measured = {name: float(row[name]) for name in names}
+        if "visible" in measured:
+            measured["visible"] *= 100 / int(row["gaussians"])
+        cells = [cell(measured[name], made[name], relative) for name in names]
+        print(f"| {row['measured']} {row['view']} {row['pixels']} | " + " | ".join(cells) + " |", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("--utilization", action="store_true")
+    parser.add_argument("--only", default="")
+    parser.add_argument("--gaussians", type=int, default=0)
+    options = parser.parse_args()
+    with open(ROOT / "docs/regime.csv", encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if options.only in row["measured"]]
+    if not rows:
+        sys.exit(f"regime.py: no row of docs/regime.csv is called '{options.only}'.")
+    if options.utilization:
+        print_table(rows, DESIGNS, lambda row: utilizations_of(row, options.gaussians), False)
+    else:
+        print_table(rows, COUNTS, lambda row: counts_of(row, options.gaussians), True)
+
+
+if __name__ == "__main__":
+    main()
