@@ -136,7 +136,7 @@ END
     echo "degs-1024-tuned | degs-1024-tuned | against | degs-1024-tuned"
 }
 
-readings_small-tiles() { # the paper's Table III: tiles of 16 px, 64 PEs
+readings_small-tiles() { # the paper's Table II: tiles of 16 px, 64 PEs
     local design m class=open
     for design in degs-64 degs-64-tuned; do
         for m in 1 2 4 8; do

@@ -33,7 +33,7 @@ def paper():
     rows = {}
     with (ROOT / "docs/published.csv").open(newline="") as file:
         for row in csv.DictReader(file):
-            if row["figure"] == "Table I":
+            if row["figure"] == "Table I" and row["unit"] in ("mm2", "W"):
                 rows.setdefault((row["design"], row["quantity"]), {})[row["unit"]] = row["value"]
     return rows
 

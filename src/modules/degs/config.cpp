@@ -43,7 +43,7 @@ void PortedPixelBufferConfig::describe(ConfigVisitor& visitor) {
 
 void DegsConfig::describe(ConfigVisitor& visitor) {
     describe_common(visitor);
-    visitor.integer("tile_size", tile_size, 4, 1024, "px (paper Table II: 16, 32, 64, 128)");
+    visitor.integer("tile_size", tile_size, 4, 1024, "px (paper Table III: 16, 32, 64, 128)");
     visitor.integer("clusters", clusters, 1, 64,
                     "back ends on tiles of their own that share preprocessing, sorting and memory; "
                     "the sections from fetching to monitor are those of one (paper: 1)");

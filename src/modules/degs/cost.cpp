@@ -12,7 +12,7 @@ void DegsCostRows::describe(cost::RowSection& section) {
     section.row("packing_scheduler", packing_scheduler, "Issue Banks with Packing Units");
     section.share("scheduler_width_share", scheduler_width_share,
                   "share of an Issue Bank that follows array.pes_per_bank, which is 8 in its row; "
-                  "0: Table II widens the packets and Table I counts banks [assumed]");
+                  "0: Table III widens the packets and Table I counts banks [assumed]");
     section.row("blending", blending, "Blending Array");
     section.row("gaussian_buffer", gaussian_buffer, "Gaussian Buffer");
     section.row("feature_buffer", feature_buffer, "Feature Buffer");

@@ -10,7 +10,7 @@ using test::DegsRun;
 using test::Shape;
 
 constexpr Shape kShapes[] = {
-    {16, 1, 4, 4, 4}, {32, 2, 8, 8, 8}, {64, 4, 16, 16, 16}, // paper, Table II
+    {16, 1, 4, 4, 4}, {32, 2, 8, 8, 8}, {64, 4, 16, 16, 16}, // paper, Table III
     {16, 1, 4, 8, 4}, {16, 1, 8, 4, 4}, {32, 2, 6, 4, 4},    // Span Units and banks differ
     {16, 3, 9, 5, 3}, {8, 1, 1, 1, 2},  {32, 1, 2, 8, 1},    {8, 1, 3, 2, 8}, {128, 8, 32, 32, 32},
 };

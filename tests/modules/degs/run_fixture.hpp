@@ -15,7 +15,7 @@ inline DegsConfig exact_arithmetic(DegsConfig config = {}) {
     return config;
 }
 
-/// One of the paper's scaling points (Table II).
+/// One of the paper's scaling points (Table III).
 struct Shape {
     int tile, slicers, spans, banks, pes_per_bank;
 };

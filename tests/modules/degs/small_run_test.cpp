@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(OnAndOff, SmallRunCancel, ::testing::Bool());
 
 class SmallRunShapes : public ::testing::TestWithParam<Shape> {};
 
-// The paper's four scaling points (Table II) and crossbars whose two sides differ.
+// The paper's four scaling points (Table III) and crossbars whose two sides differ.
 TEST_P(SmallRunShapes, RenderTheReference) {
     const FrameWorkload frame = random_frame(3, 200, 140, GetParam().tile, 250);
     run(test::shaped(exact_arithmetic(), GetParam()), frame);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Area and power of the shipped designs against Tables I and II, and how they follow the keys.
+// Area and power of the shipped designs against Tables I and III, and how they follow the keys.
 #include <cmath>
 #include <set>
 
@@ -93,7 +93,7 @@ TEST(TableOne, TheTotalsAreThoseOfThePaperToRounding) {
     EXPECT_EQ(bill_of("degs-64").sram_bytes(), 130 * 1024);
 }
 
-// The sums of docs/cost.md: shaded rows by their own column of Table II, buffers by their bytes.
+// The sums of docs/cost.md: shaded rows by their own column of Table III, buffers by their bytes.
 TEST(TableTwo, AreaFollowsItsColumns) {
     EXPECT_NEAR(bill_of("degs-16").area_mm2(), 1.695, 1e-9);
     EXPECT_NEAR(bill_of("degs-256").area_mm2(), 6.51, 1e-9);

@@ -160,7 +160,7 @@ TEST(Configs, SixtyFourPesHaveTheMemoryOfTableI) {
     EXPECT_EQ(load_degs("degs-64-tuned").contexts(), 2);
 }
 
-// Table II, and two tile contexts as the Pixel Buffer scales with the PEs.
+// Table III, and two tile contexts as the Pixel Buffer scales with the PEs.
 TEST(Configs, ScalingPointsAreThoseOfThePaper) {
     struct Row {
         int pes, tile, slicing, spans, banks, width;

@@ -12,7 +12,7 @@ namespace degs {
 
 void ArraySlice::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("pes_per_bank", pes_per_bank, 1, TaskPacket::kMaxRuns,
-                    "PEs per array slice (paper Table II)");
+                    "PEs per array slice (paper Table III)");
     visitor.integer("writeback_cycles", writeback_cycles, 1, 64,
                     "cycles from execution to written-back pixel state and feedback (paper: 4)");
 }

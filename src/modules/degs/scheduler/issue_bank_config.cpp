@@ -5,7 +5,7 @@ namespace degs {
 
 void IssueBank::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("banks", banks, 1, 64,
-                    "Issue Banks, Packing Units and array slices (paper Table II)");
+                    "Issue Banks, Packing Units and array slices (paper Table III)");
     visitor.integer(
         "queue_segments_per_pe", queue_segments_per_pe, 0, kMostSegmentsPerPe,
         "segments waiting per bank and PE of its slice; a fixed 32 starves wide banks; 0: what "

@@ -18,7 +18,7 @@ constexpr int kUnlimited = std::numeric_limits<int>::max();
 void GaussianSlicingUnit::Config::describe(ConfigVisitor& visitor) {
     visitor.integer(
         "count", count, 1, 64,
-        "units (paper Table II: 1, 2, 4, 8); divides the Span Units unless they share out the "
+        "units (paper Table III: 1, 2, 4, 8); divides the Span Units unless they share out the "
         "splats");
     visitor.integer("interleave", interleave, 1, 16,
                     "tile streams: tiles that are sliced and blended at once, each with as many of "

@@ -4,7 +4,7 @@
 namespace degs {
 
 void SpanStage::Config::describe(ConfigVisitor& visitor) {
-    visitor.integer("count", count, 1, 256, "units (paper Table II: 4, 8, 16, 32)");
+    visitor.integer("count", count, 1, 256, "units (paper Table III: 4, 8, 16, 32)");
     visitor.boolean("parsing", parsing,
                     "solve rows (paper, Sec. III-A); false, for ablations: a row is as wide as the "
                     "splat's bounding box, and the PEs test every pixel (paper, Sec. II-B)");
