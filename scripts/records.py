@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""records.py records|lists|rows|rounding [FOLDER]: tables of docs/readings.md and docs/numbers.md
+"""records.py records|lists|rows|joint|rounding [FOLDER]: tables of docs/readings.md and docs/numbers.md
 as Markdown, on what records, tile lists and Row Generation are worth; measured with
 build/release/sim/degs.
 
   records   latency per mm2 over DeGS with the records of the shipped files, and with equal ones
   lists     cycles of DeGS and GSCore by how list entries reach memory
   rows      utilisation of the arrays of GBU by the rows that an engine solves per cycle, at 2K
+  joint     latency per mm2 over DeGS with the files of configs/readings, and DeGS by single keys
   rounding  PSNR of images whose Gaussians are rounded to their records, at 720p and 8K
 
 Reports stay in FOLDER, and what is there already is not run again. Environment variables:
@@ -104,6 +105,31 @@ def rows(out):
               f" | {areas} |", flush=True)
 
 
+JOINT = ("slicing.rows=tile", "slicing.interleave=2", "span.rows=pool", "pixel_buffer.release=bank",
+         "pipeline.span_ends=exact", "scheduler.termination=pixel")
+
+
+def joint(out):
+    """The joint reading, and how many cycles DeGS takes less by each of its keys alone."""
+    print("| scene | useful share of DeGS-64, % | GSCore | GBU | GCC |\n|---|--:|--:|--:|--:|")
+    for scene in SCENES:
+        cost = {}
+        for design in ("degs-64", "gscore-64", "gbu-64", "gcc-64"):
+            found = report(out, f"readings/{design}-joint", scene, ())
+            cost[design] = found["timing"]["latency_ms"] * found["area"]["mm2"]
+            if design == "degs-64":
+                useful = 100 * found["slots"]["utilization"]
+        ratios = " | ".join(f"{cost[d] / cost['degs-64']:.2f}" for d in ("gscore-64", "gbu-64", "gcc-64"))
+        print(f"| {scene} | {useful:.1f} | {ratios} |", flush=True)
+    print("\n| key alone | " + " | ".join(SCENES) + " |\n|---|" + "--:|" * len(SCENES))
+    for key in JOINT:
+        cells = []
+        for scene in SCENES:
+            base, found = (report(out, "degs-64", scene, keys)["timing"]["cycles"] for keys in ((), (key,)))
+            cells.append(f"{100 * (base / found - 1):+.1f}")
+        print(f"| `{key}` | {' | '.join(cells)} |", flush=True)
+
+
 def rounding(out):
     """PSNR by records: arithmetic in double, and that of `tuned` and `paper`."""
     formats = {
@@ -128,7 +154,7 @@ def rounding(out):
 
 
 def main():
-    tables = {"records": records, "lists": lists, "rows": rows, "rounding": rounding}
+    tables = {"records": records, "lists": lists, "rows": rows, "joint": joint, "rounding": rounding}
     if len(sys.argv) not in (2, 3) or sys.argv[1] not in tables:
         sys.exit(__doc__)
     tables[sys.argv[1]](Path(sys.argv[2] if len(sys.argv) == 3 else tempfile.mkdtemp()))
