@@ -88,7 +88,8 @@ TEST(HostileScene, EveryMistakeHasItsSentence) {
         {"", "there is no such file"},
         {"synthetic:", "There is no synthetic scene ''"},
         {"synthetic:moon",
-         "there are object, outdoor, landscape, lighthouse, dense, uniform, single, needles"},
+         "there are object, outdoor, landscape, lighthouse, interior, garden, dense, uniform, "
+         "single, needles"},
         {"synthetic:object,gaussians=0", "allowed are integers from 1 to"},
         {"synthetic:object,gaussians=99999999999", "allowed are integers from 1 to"},
         {"synthetic:object,gaussians=1e5", "Key 'gaussians'"},
