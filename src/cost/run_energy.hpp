@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The energy of a run, from what its blocks have done.
+// The energy of a run, from the activity of its blocks.
 #pragma once
 
 #include <cstdint>

@@ -31,7 +31,8 @@ public:
     /// Calls chooser.update() for this policy.
     virtual void update(Chooser& chooser, unsigned bank, const ChannelState& state) const = 0;
 
-    /// name() stands in configurations; doc() says in the manual what the policy does.
+    /// name() is the value of the key in configurations; doc() is the sentence of the manual that
+    /// explains it.
     virtual const char* name() const = 0;
     virtual const char* doc() const = 0;
     /// A policy with keys describes them; they stand in a section of its name.

@@ -19,9 +19,9 @@ namespace degs::gbu {
 /// of row entries. Generation takes one listed splat per cycle at most, solves the interval of
 /// pixels with alpha >= 1/255 of `rows_per_cycle` of its rows per cycle and pushes an entry to the
 /// queue of each, per row as soon as there is room; the splat is finished when all its rows are
-/// pushed. A Row PE walks its interval a pixel
-/// per cycle and finds its end by a failing check (`end_probe`). Rows are bound to PEs; a tile ends
-/// when generation has finished and all queues are empty.
+/// pushed. A Row PE walks its interval a pixel per cycle and finds its end by a failing check
+/// (`end_probe`). Rows are bound to PEs; a tile ends when generation has finished and all queues
+/// are empty.
 ///
 /// GBU makes the conic a circle and turns it so that a row is parallel to an axis, which leaves
 /// x''^2 <= threshold - y''^2 per pixel. That is the completed square of DataPath::test, so an

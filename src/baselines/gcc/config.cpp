@@ -28,7 +28,6 @@ void Config::describe(ConfigVisitor& visitor) {
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
     TrafficConfig records = traffic.common();
-    records.geometry_bytes = 0;
     pipeline.describe_records(visitor, records);
     traffic.formats.set_formats(pipeline.stored_numbers());
     require_parts(visitor);

@@ -30,7 +30,7 @@ enum class SpanEnds { Exact, Outward, Slope };
 /// to x_c; all terms of q_n have one sign there, so nothing cancels.
 enum class Base { Start, Vertex };
 /// Products with the integers n and n(n-1). `Whole`: one multiplier. `HalfLookup`: the
-/// integer is cut into its low 4 bits and the rest, each product is looked up and
+/// integer is cut into its low `lookup_bits` bits and the rest, each product is looked up and
 /// rounded, then they are added.
 enum class IntegerMultiplier { Whole, HalfLookup };
 /// q counts nats of exp(-q/2), as in the paper, or binary orders of alpha = 2^-q: A, C' and Q_th

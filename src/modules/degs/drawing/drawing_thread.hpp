@@ -19,12 +19,12 @@ namespace degs {
 
 /// Draws tile after tile on a thread of its own, some tiles ahead of the simulation. A tile is
 /// drawn until all its pixels have ended, and a little further, because its slicing goes on until
-/// it hears of that; what the simulation asks for beyond is drawn then. The results wait in memory,
-/// of which the thread takes a bounded amount.
+/// it hears of that. If the simulation asks for rows beyond that, the thread draws them on demand.
+/// The results wait in memory, of which the thread takes a bounded amount.
 ///
-/// The thread owns the pixels of the data path. The simulation reads only what the thread has
-/// published: sheets, which hold the rows of some neighbouring splats of a list, and the pixels of
-/// tiles that will not change.
+/// The thread owns the pixels of the data path. It publishes sheets, which hold the rows of some
+/// neighbouring splats of a list, and the pixels of tiles that will not change; the simulation
+/// reads nothing else.
 class DrawingThread final : public TileDrawing {
 public:
     /// Tiles may join the job, frames may not: their splats would move under the thread.

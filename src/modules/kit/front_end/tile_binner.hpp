@@ -70,7 +70,7 @@ private:
     void run();
     void bin(const ProjectedChunk& chunk, const MemoryMap& map);
     Completion write_splats(const ProjectedChunk& chunk, const MemoryMap& map);
-    /// Takes the entries of a chunk, and writes what the buffer does not hold.
+    /// Takes the entries of a chunk, and flushes the buffer as often as it becomes full.
     void take_entries(const ProjectedChunk& chunk, const MemoryMap& map);
     void flush(std::uint64_t entries, const MemoryMap& map);
     /// Entries that chunks of the frame write before a visible Gaussian.
