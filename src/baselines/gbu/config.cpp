@@ -5,7 +5,6 @@ namespace degs::gbu {
 
 Config::Config() {
     name = "gbu-64";
-    use_float_records();
     projection.latency_cycles = 128;
     pixel_buffer.bytes = 32 * 1024;
     pixel_buffer.state_bytes = 8;

@@ -22,10 +22,12 @@ void TileEngine::Config::describe(ConfigVisitor& visitor) {
                     "rows in the original, one per row in the scaled designs [assumed])");
     visitor.integer("queue_depth", queue_depth, 1, 4096,
                     "row entries waiting in front of a Row PE; GBU does not say [assumed]");
-    visitor.integer("rows_per_cycle", rows_per_cycle, 0, 1024,
-                    "rows of a splat that Row Generation of an engine solves per cycle, and that "
-                    "its area counts; 0: all at once, in the block of Table I, which is too good: "
-                    "DeGS has Span Units for 8 rows at 64 PEs (docs/readings.md) [assumed]");
+    visitor.integer(
+        "rows_per_cycle", rows_per_cycle, 0, 1024,
+        "rows of a splat that Row Generation of an engine solves per cycle, and that "
+        "its area counts. Table I has one scheduler at every size; it solves 8 rows for "
+        "all engines, as the Span Units of DeGS with 64 PEs do [assumed]. 0: all at "
+        "once, in the area of Table I (docs/readings.md)");
     visitor.integer("generation_latency", generation_latency, 0, 4096,
                     "cycles from a splat's record to its row entries; 8 in an HLS rebuild");
     visitor.integer("row_pe_latency", row_pe_latency, 1, 4096,

@@ -37,7 +37,7 @@ public:
     struct Config {
         int row_pes = 32;           ///< Row PEs; PE k serves the tile rows k, k + row_pes, ...
         int queue_depth = 16;       ///< entries waiting in front of a Row PE
-        int rows_per_cycle = 0;     ///< of a splat, solved by Row Generation; 0: all of them
+        int rows_per_cycle = 4;     ///< of a splat, solved by Row Generation; 0: all of them
         int generation_latency = 8; ///< cycles from a splat's record to its entries
         int row_pe_latency = 10;    ///< cycles from a pixel's slot to its written-back state
         int termination_cycles = 1; ///< cycles from the slot that ends a row to Row Generation

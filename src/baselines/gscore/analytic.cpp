@@ -49,7 +49,8 @@ public:
     Clock(const Analytic& model, const FrameWorkload& frame)
         : model_(model), frame_(frame), grid_(frame.tile_size, model.config().array.side()) {}
     void begin(const CoarseTile& tile) override {
-        passes_ = 0;
+        passes_ = scans_ = 0;
+        passed_over_ = 0;
         inside_ = grid_.inside(tile.width(), tile.height());
     }
     void splat(const CoarseTile& tile) override;
@@ -63,7 +64,9 @@ private:
     const FrameWorkload& frame_;
     SubtileGrid grid_;
     SubtileMask inside_ = 0;
-    double passes_ = 0;
+    double passes_ = 0; ///< cycles with a slot
+    double scans_ = 0;  ///< cycles that only pass over splats without one
+    int passed_over_ = 0;
 };
 
 std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload& frame) const {
@@ -101,14 +104,21 @@ SubtileMask Clock::named(const CoarseTile& tile, SubtileMask among) const {
 }
 
 void Clock::splat(const CoarseTile& tile) {
-    passes_ += __builtin_popcount(named(tile, live(tile)));
+    const int subtiles = __builtin_popcount(named(tile, live(tile)));
+    passes_ += subtiles;
+    const int rate = model_.config().array.skips_per_cycle;
+    passed_over_ = subtiles != 0 ? 0 : passed_over_ + 1;
+    if (rate != 0 && passed_over_ == rate) {
+        passed_over_ = 0;
+        scans_ += 1;
+    }
 }
 
 TileCycles Clock::end(const CoarseTile& tile) {
     TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
     cycles.slots = passes_ * model_.config().array.lanes;
-    cycles.busy[Analytic::kBlending] = passes_ / model_.engines();
-    cycles.time = std::max(passes_, cycles.time);
+    cycles.busy[Analytic::kBlending] = (passes_ + scans_) / model_.engines();
+    cycles.time = std::max(passes_ + scans_, cycles.time);
     return cycles;
 }
 

@@ -17,7 +17,6 @@ void Config::Buffer::describe(ConfigVisitor& visitor) {
 
 Config::Config() {
     name = "gscore-64";
-    use_float_records();
     projection.latency_cycles = 128;
     pixel_buffer.bytes = 8 * 1024; // two tiles of 16 x 16 px
 }

@@ -8,7 +8,6 @@ namespace degs::orange {
 
 Config::Config() {
     name = "orange-o4";
-    use_float_records();
     projection.latency_cycles = 128;
     fetching.chunk = 256;
     fetching.chunks_in_flight = 2;

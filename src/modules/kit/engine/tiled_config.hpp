@@ -45,12 +45,6 @@ struct TiledConfig : AcceleratorConfig {
     double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
 
 protected:
-    /// 236 B of every Gaussian, culled ones too: what GSCore's published input traffic amounts to.
-    void use_float_records() {
-        pipeline.records = Records::Fp32;
-        traffic.set_formats(pipeline.stored_numbers());
-        traffic.sh = ShReads::All;
-    }
     /// Adds the SRAM of the Tile Binner, if it has any, to a bill; `row` and what may follow it are
     /// those of the other buffers (cost::BillOfMaterials::add_sram).
     template <class Row, class... Shape>
