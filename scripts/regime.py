@@ -4,7 +4,8 @@
 
 docs/regime.csv has the real ones. Without an option the views are measured with `degs scene info`; --utilization runs
 three designs on each view. --only TEXT takes the rows whose first word contains TEXT, --gaussians N draws every scene
-with that many Gaussians at most. Runs DEGS_PROGRAM (default: degs of the search path, else
+with that many Gaussians at most. --large measures cameras 1 and 2 of the trained scenes in DEGS_SCENES_LARGE (default
+../shared/scenes-large) at 1080p instead. Runs DEGS_PROGRAM (default: degs of the search path, else
 build/release/sim/degs)."""
 import argparse
 import csv
@@ -16,8 +17,11 @@ import subprocess
 import sys
 import tempfile
 
+from join_sog import join
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = os.environ.get("DEGS_PROGRAM") or shutil.which("degs") or str(ROOT / "build/release/sim/degs")
+LARGE = pathlib.Path(os.environ.get("DEGS_SCENES_LARGE", ROOT / "../shared/scenes-large"))
 DESIGNS = ["degs-64", "degs-1024", "gscore-64"]
 COUNTS = ["visible", "pairs_per_tile", "fragments_per_pixel", "fragments_per_splat", "footprint_p50", "ended",
           "covered"]
@@ -81,12 +85,34 @@ def print_table(rows, names, measure, relative):
         print(f"| {row['measured']} {row['view']} {row['pixels']} | " + " | ".join(cells) + " |", flush=True)
 
 
+def print_large(only):
+    """Views of the large trained scenes; those that came in parts are joined first."""
+    folders = [folder for folder in sorted(LARGE.glob("*")) if folder.is_dir() and only in folder.name]
+    if not folders:
+        print(f"regime.py: no large scene is in {LARGE}; DEGS_SCENES_LARGE names another folder.", file=sys.stderr)
+        return
+    print("| scene | camera | Gaussians | visible | fragments per pixel | fragments per visible splat |")
+    print("| --- |" + " ---: |" * 5)
+    for folder in folders:
+        with tempfile.TemporaryDirectory() as made:
+            scene = join(folder, made + "/" + folder.name) if list(folder.glob("*.sog")) else str(folder)
+            for camera in ("1", "2"):
+                info = json.loads(call("scene", "info", scene, "--camera", camera, "--resolution", "1080p", "--json"))
+                view = info["view"]
+                print(f"| {folder.name} | {camera} | {info['scene']['gaussians']} | {view['visible']} | "
+                      f"{view['fragments_per_pixel']:.1f} | {view['fragments_per_splat']:.1f} |", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--utilization", action="store_true")
+    parser.add_argument("--large", action="store_true")
     parser.add_argument("--only", default="")
     parser.add_argument("--gaussians", type=int, default=0)
     options = parser.parse_args()
+    if options.large:
+        print_large(options.only)
+        return
     with open(ROOT / "docs/regime.csv", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if options.only in row["measured"]]
     if not rows:

@@ -67,7 +67,7 @@ void Digest::add_scene(const std::string& name) {
     for (const std::string& file : files) {
         add(file);
         add_file(file);
-        for (const std::string& part : scene_external_files(file)) {
+        for (const std::string& part : scene_external_files(file, spec.detail)) {
             add_file(part);
         }
     }

@@ -112,14 +112,6 @@ bool matches_pattern(std::string_view name, std::string_view pattern) {
     return pattern.find_first_not_of('*', in) == kNone;
 }
 
-bool has_scene_extension(const fs::path& file) {
-    const std::vector<std::string> all = scene_extensions();
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::find(all.begin(), all.end(), extension) != all.end();
-}
-
 } // namespace
 
 std::vector<std::string> sequence_files(const std::string& path) {
@@ -135,7 +127,7 @@ std::vector<std::string> sequence_files(const std::string& path) {
          fs::directory_iterator(home.empty() ? fs::path(".") : home, error)) {
         const std::string name = entry.path().filename().string();
         if (entry.is_regular_file(error) &&
-            (folder ? has_scene_extension(entry.path()) : matches_pattern(name, pattern))) {
+            (folder ? has_scene_extension(name) : matches_pattern(name, pattern))) {
             files.push_back((home / name).string());
         }
     }

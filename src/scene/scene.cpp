@@ -30,7 +30,8 @@ std::string name_of(const fs::path& file) {
     if (is_training_output(absolute.string())) {
         return absolute.parent_path().parent_path().parent_path().filename().string();
     }
-    return file.stem() == "scene" || file.filename() == "meta.json"
+    return file.stem() == "scene" || file.filename() == "meta.json" ||
+                   file.filename() == "lod-meta.json"
                ? absolute.parent_path().filename().string()
                : file.stem().string();
 }
@@ -108,7 +109,10 @@ SceneContent content_of(const SceneSpec& spec) {
                                      (spec.time ? "time" : "frames") +
                                      "=' is for files of SpacetimeGaussians.");
         }
-        return read_scene_file(file);
+        return read_scene_file(file, spec.detail);
+    }
+    if (spec.detail.asked()) {
+        return read_scene_file(file, spec.detail); // says that it has no levels
     }
     SpacetimeCloud scene = read_spacetime_ply(file);
     SceneContent content;

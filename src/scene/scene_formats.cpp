@@ -15,6 +15,7 @@
 #include "scene/ply/ply_camera.hpp"
 #include "scene/sog/sog.hpp"
 #include "scene/sog/sog_files.hpp"
+#include "scene/sog/streamed_sog.hpp"
 #include "scene/splat_file/splat_file.hpp"
 #include "scene/spz/spz.hpp"
 #include "scene/spz/spz_write.hpp"
@@ -68,10 +69,11 @@ std::string head_of(const std::string& path) {
     return head;
 }
 
-/// The JSON texts of unbundled SOG scenes begin like a glTF.
-bool is_json_of_sog(std::string_view head, const std::string& path) {
-    return is_gltf(head) && !starts_with(head, "glTF") && extension_of(path) != ".gltf" &&
-           kind_of_json(path) != SceneJson::Other;
+/// The JSON texts of unbundled and of streamed SOG scenes begin like a glTF.
+SceneJson kind_of_text(std::string_view head, const std::string& path) {
+    return is_gltf(head) && !starts_with(head, "glTF") && extension_of(path) != ".gltf"
+               ? kind_of_json(path)
+               : SceneJson::Other;
 }
 
 /// InputError for a file of no format.
@@ -81,9 +83,10 @@ const SceneFormat& format_of(const std::string& path) {
     const std::vector<SceneFormat>& formats = scene_formats();
     auto format = std::find_if(formats.begin(), formats.end(),
                                [&](const SceneFormat& f) { return f.matches(head); });
-    if (is_json_of_sog(head, path)) {
-        format = std::find_if(formats.begin(), formats.end(),
-                              [](const SceneFormat& f) { return f.read == read_sog; });
+    if (const SceneJson kind = kind_of_text(head, path); kind != SceneJson::Other) {
+        format = std::find_if(formats.begin(), formats.end(), [kind](const SceneFormat& f) {
+            return kind == SceneJson::Sog ? f.read == read_sog : f.read_detail != nullptr;
+        });
     }
     if (format == formats.end()) {
         format = std::find_if(formats.begin(), formats.end(),
@@ -152,6 +155,15 @@ const std::vector<SceneFormat>& scene_formats() {
          read_sog,
          nullptr,
          sog_external_files},
+        {"streamed SOG",
+         {},
+         [](std::string_view) { return false; },
+         [](const std::string& path) { return read_streamed_sog(path, {}); },
+         nullptr,
+         nullptr,
+         nullptr,
+         read_streamed_sog,
+         streamed_sog_files},
         {"NPZ",
          {".npz"},
          [](std::string_view head) { return is_zip_of(head, ".npy", ".npy"); },
@@ -170,6 +182,13 @@ std::vector<std::string> scene_extensions() {
     return extensions;
 }
 
+bool has_scene_extension(const std::string& path) {
+    const std::vector<SceneFormat>& formats = scene_formats();
+    return std::any_of(formats.begin(), formats.end(), [&](const SceneFormat& format) {
+        return has_extension(format, extension_of(path));
+    });
+}
+
 namespace {
 
 /// nullptr if no format of the extension is written.
@@ -185,8 +204,17 @@ const SceneFormat* writer_of(const std::string& path) {
 
 } // namespace
 
-SceneContent read_scene_file(const std::string& path) {
-    return format_of(path).read(path);
+SceneContent read_scene_file(const std::string& path, const SceneDetail& detail) {
+    const SceneFormat& format = format_of(path);
+    if (!detail.asked()) {
+        return format.read(path);
+    }
+    if (format.read_detail == nullptr) {
+        fail_file(path, std::string("this scene has no levels of detail; '?") +
+                            (detail.level ? "lod" : "budget") +
+                            "=' is for the lod-meta.json of a streamed SOG scene.");
+    }
+    return format.read_detail(path, detail);
 }
 
 std::vector<Camera> read_scene_cameras(const std::string& path) {
@@ -194,9 +222,12 @@ std::vector<Camera> read_scene_cameras(const std::string& path) {
     return format.read_cameras == nullptr ? std::vector<Camera>{} : format.read_cameras(path);
 }
 
-std::vector<std::string> scene_external_files(const std::string& path) {
+std::vector<std::string> scene_external_files(const std::string& path, const SceneDetail& detail) {
     try {
         const SceneFormat& format = format_of(path);
+        if (format.detail_files != nullptr) {
+            return format.detail_files(path, detail);
+        }
         return format.external_files == nullptr ? std::vector<std::string>{}
                                                 : format.external_files(path);
     } catch (const InputError&) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/files/scene_content.hpp"
+#include "scene/files/scene_detail.hpp"
 
 namespace degs {
 
@@ -24,6 +25,11 @@ struct SceneFormat {
     std::vector<std::string> (*write)(const GaussianCloud& cloud,
                                       const std::vector<Camera>& cameras, const SceneTraits& traits,
                                       const std::string& path) = nullptr;
+    /// `read` and `external_files` with the levels of detail that were asked for; nullptr: the
+    /// format has no levels.
+    SceneContent (*read_detail)(const std::string& path, const SceneDetail& detail) = nullptr;
+    std::vector<std::string> (*detail_files)(const std::string& path,
+                                             const SceneDetail& detail) = nullptr;
 };
 
 /// Bytes of a file that decide about its format (fewer if the file is shorter).
@@ -34,15 +40,20 @@ const std::vector<SceneFormat>& scene_formats();
 /// File name extensions of all formats, e.g. ".ply".
 std::vector<std::string> scene_extensions();
 
+/// Whether the name of a file ends in one of scene_extensions(), in either case.
+bool has_scene_extension(const std::string& path);
+
 /// Reads a scene file. Its first bytes choose the format, because files are renamed; formats
-/// without a signature are known by the extension. InputError for a file of no format.
-SceneContent read_scene_file(const std::string& path);
+/// without a signature are known by the extension. InputError for a file of no format, and for a
+/// detail of a scene that has no levels.
+SceneContent read_scene_file(const std::string& path, const SceneDetail& detail = {});
 
 /// The cameras that read_scene_file() would return, at less cost. InputError as there.
 std::vector<Camera> read_scene_cameras(const std::string& path);
 
 /// Files that read_scene_file() reads in addition to `path`; none if it would fail.
-std::vector<std::string> scene_external_files(const std::string& path);
+std::vector<std::string> scene_external_files(const std::string& path,
+                                              const SceneDetail& detail = {});
 
 /// ".ply, .glb" and so on: the files that write_scene_file() writes.
 std::string writable_scene_extensions();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene_spec.hpp"
 
+#include <charconv>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -8,12 +9,14 @@
 #include <vector>
 
 #include "degs/error.hpp"
+#include "scene/scene_formats.hpp"
 #include "scene/synthetic/synthetic.hpp"
 
 namespace degs {
 namespace {
 
 constexpr const char* kSyntheticPrefix = "synthetic:";
+constexpr const char* kEitherDetail = "lod and budget exclude each other; allowed is one of them.";
 
 [[noreturn]] void fail_spec(const std::string& text, const std::string& sentence) {
     throw InputError("Scene '" + text + "': " + sentence);
@@ -46,9 +49,41 @@ std::string take_frames(SceneSpec& spec, const std::string& value) {
                              std::to_string(kMostSceneFrames) + ".";
 }
 
+std::optional<std::uint64_t> whole_number(const std::string& text, std::uint64_t most) {
+    std::uint64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    const bool good = error == std::errc() && stop == end && value <= most;
+    return good ? std::optional<std::uint64_t>(value) : std::nullopt;
+}
+
+std::string take_level(SceneSpec& spec, const std::string& value) {
+    constexpr std::uint64_t kMostLevel = 99;
+    const std::optional<std::uint64_t> level = whole_number(value, kMostLevel);
+    if (!level) {
+        return "lod is '" + value + "', but must be an integer from 0, the finest, to " +
+               std::to_string(kMostLevel) + ".";
+    }
+    spec.detail.level = static_cast<int>(*level);
+    return spec.detail.budget ? kEitherDetail : "";
+}
+
+std::string take_budget(SceneSpec& spec, const std::string& value) {
+    constexpr std::uint64_t kMostGaussians = 0xFFFFFFFF;
+    spec.detail.budget = whole_number(value, kMostGaussians);
+    if (!spec.detail.budget || *spec.detail.budget == 0) {
+        return "budget is '" + value + "', but must be a number of Gaussians from 1 to " +
+               std::to_string(kMostGaussians) + ".";
+    }
+    return spec.detail.level ? kEitherDetail : "";
+}
+
 const std::vector<SpecKey>& spec_keys() {
-    static const std::vector<SpecKey> keys{
-        {"axes", take_axes}, {"time", take_time}, {"frames", take_frames}};
+    static const std::vector<SpecKey> keys{{"axes", take_axes},
+                                           {"time", take_time},
+                                           {"frames", take_frames},
+                                           {"lod", take_level},
+                                           {"budget", take_budget}};
     return keys;
 }
 
@@ -72,7 +107,9 @@ void take_option(const std::string& text, const std::string& option, SceneSpec& 
 
 } // namespace
 
-SceneSpec parse_scene_spec(const std::string& text) {
+namespace {
+
+SceneSpec spec_of(const std::string& text) {
     SceneSpec spec;
     spec.path = text;
     spec.synthetic = text.rfind(kSyntheticPrefix, 0) == 0;
@@ -92,6 +129,36 @@ SceneSpec parse_scene_spec(const std::string& text) {
         }
         take_option(text, option, spec);
         begin = end + 1;
+    }
+    return spec;
+}
+
+/// The index of the scene in a folder; `path` itself if it is none, or holds frames of a sequence.
+std::string index_in(const std::string& path) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
+        return path;
+    }
+    for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
+        if (has_scene_extension(entry.path().string())) {
+            return path;
+        }
+    }
+    for (const char* const name : {"lod-meta.json", "meta.json"}) {
+        if (fs::is_regular_file(fs::path(path) / name, error)) {
+            return (fs::path(path) / name).string();
+        }
+    }
+    return path;
+}
+
+} // namespace
+
+SceneSpec parse_scene_spec(const std::string& text) {
+    SceneSpec spec = spec_of(text);
+    if (!spec.synthetic) {
+        spec.path = index_in(spec.path);
     }
     return spec;
 }

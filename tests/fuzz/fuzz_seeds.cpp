@@ -185,9 +185,19 @@ void add_sog(Seeds& seeds) {
         "\"dtype\":\"uint8\",\"encoding\":\"quaternion_packed\",\"files\":[\"a\"]},\"sh0\":{" +
         "\"shape\":[3,1,4],\"dtype\":\"float32\",\"mins\":[-1,-1,-1,-1],\"maxs\":[1,1,1,1]," +
         "\"files\":[\"a\"]}}";
+    const std::string levels =
+        R"({"version":1,"lodLevels":2,"counts":[3,2],"filenames":["m","n"],"environment":null,)"
+        R"("tree":{"children":[{"lods":{"0":{"file":0,"offset":0,"count":2},)"
+        R"("1":{"file":1,"offset":2,"count":1}}},{"lods":{"0":{"file":0,"offset":2,"count":1},)"
+        R"("1":{"file":1,"offset":0,"count":1}}}]}})";
     for (const std::string& meta : {version_2, version_1}) {
         seeds.add("sog", listed({{"meta.json", meta}, {"a", image}}, '\1'));
         seeds.add("sog", listed({{"meta.json", meta}, {"a", image}}, '\x80'));
+        for (const char kind : {'\xc0', '\xc1', '\xc3', '\xd2'}) { // finest, levels, a budget
+            seeds.add(
+                "sog",
+                listed({{"lod-meta.json", levels}, {"m", meta}, {"n", meta}, {"a", image}}, kind));
+        }
     }
 }
 

@@ -240,6 +240,10 @@ SceneContent read_sog(const std::string& path) {
     return SogReader(path).read();
 }
 
+std::uint64_t sog_count(const std::string& path) {
+    return parse_sog_meta(path, open_sog_files(path)->meta()).count;
+}
+
 std::vector<std::string> sog_external_files(const std::string& path) {
     std::vector<std::string> files;
     if (kind_of_json(path) == SceneJson::Sog) {

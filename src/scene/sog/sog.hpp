@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,11 @@ namespace degs {
 /// Axes are those of PLY, as splat-transform reads them, although the published specification says
 /// otherwise. Images may not have more than 16 pixels per byte of these files (and 65,536), nor
 /// palettes more than 65,536 entries, so that memory stays below 4,000 times the size of the file.
-/// InputError for anything that is not such a file.
+/// InputError for anything that is not such a file, also for a streamed scene of many levels.
 SceneContent read_sog(const std::string& path);
+
+/// How many Gaussians read_sog() would return, from meta.json alone. InputError as there.
+std::uint64_t sog_count(const std::string& path);
 
 /// The images of a scene whose meta.json is `path`; none if it is an archive. InputError as
 /// read_sog().

@@ -18,17 +18,12 @@ constexpr std::uint64_t kMaxMetaBytes = 1 << 20;
 constexpr const char* kMetaName = "meta.json";
 constexpr const char* kLevelsName = "lod-meta.json";
 
-[[noreturn]] void refuse_levels(const std::string& path) {
-    fail_file(path, "this is a streamed SOG scene (lod-meta.json), whose levels of detail are many "
-                    "scenes and are not read; allowed is one of them, a .sog file or the meta.json "
-                    "of its folder.");
-}
-
 class SogArchive : public SogFiles {
 public:
     explicit SogArchive(const std::string& path) : archive_(path) {
         if (!archive_.has(kMetaName) && archive_.has(kLevelsName)) {
-            refuse_levels(path);
+            fail_file(path, "the archive holds a streamed SOG scene (lod-meta.json), which is read "
+                            "from a folder only; unpack it and name the lod-meta.json.");
         }
     }
     std::string meta() const override { return archive_.read(kMetaName, kMaxMetaBytes); }
@@ -129,7 +124,8 @@ std::unique_ptr<SogFiles> open_sog_files(const std::string& path) {
         return std::make_unique<SogArchive>(path);
     }
     if (kind_of_json(path) == SceneJson::SogLevels) {
-        refuse_levels(path);
+        fail_file(path, "this is the index of a streamed SOG scene (lod-meta.json), and one SOG "
+                        "scene is needed: a .sog file or a meta.json.");
     }
     return std::make_unique<SogFolder>(path);
 }

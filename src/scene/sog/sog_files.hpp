@@ -21,7 +21,7 @@ public:
 };
 
 /// `path` is an archive, or a JSON text with its images in the same folder. InputError if it is a
-/// streamed scene of many levels.
+/// streamed scene of many levels, which streamed_sog.hpp reads.
 std::unique_ptr<SogFiles> open_sog_files(const std::string& path);
 
 enum class SceneJson { Other, Sog, SogLevels };
