@@ -17,10 +17,10 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
 endif()
 target_compile_options(degs_flags INTERFACE -ffp-contract=off -fno-tree-slp-vectorize
                        -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-                       -Wnon-virtual-dtor -Wno-psabi
+                       -Wnon-virtual-dtor $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>
                        $<$<BOOL:${DEGS_WARNINGS_AS_ERRORS}>:-Werror>)
 # The same for the link-time half of whole-program optimisation.
-target_link_options(degs_flags INTERFACE -Wno-psabi)
+target_link_options(degs_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
 target_include_directories(degs_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
 
 # The program takes 3 % less time with whole-program optimisation. Objects carry machine code as

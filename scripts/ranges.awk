@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # ranges.awk: Markdown tables of scripts/ranges.sh. Input lines: `reading | name | file | class | settings` and
-# `run | view | reading | camera | ms | mm2 | utilization`. Variables: table (which one), cameras (those that were run).
+# `run | view | reading | camera | ms | mm2 | utilization`. Variables: table (which one), cameras (those that were run),
+# csv (1: the tables of single readings as CSV).
 $1 == "reading" {
     order[++readings] = $2; file[$2] = $3; class[$2] = $4; settings[$2] = $5
     split($2, part, "-"); design[$2] = part[1]
@@ -24,10 +25,16 @@ function ratio(camera, degs, other) {
     return exp(time[camera, other] / n[camera, other] - time[camera, degs] / n[camera, degs]) * area_of(other) / area_of(degs)
 }
 function cell(value) { return value ? sprintf("%.2f", value) : "" }
+# A line of a table, or of a CSV; no cell has a comma.
+function line_of_table(line) {
+    if (csv) { gsub(/^\| | \|$/, "", line); gsub(/ \| /, ",", line) }
+    print line
+}
 function keys(name, text) { text = settings[name]; gsub(/ /, "`, `", text); return "`" text "`" }
 # Long lists of keys stand below the table, under the name of the reading.
 function what(name) {
     if (settings[name] == "") return "as shipped"
+    if (csv) return settings[name]
     if (length(settings[name]) < 75) return keys(name)
     if (!(name in long)) { long[name] = 1; legend[++legends] = name }
     return "*" name "*"
@@ -37,7 +44,8 @@ function print_legend(i) {
 }
 # A table's head; `left` are the numbers of the columns of text.
 function head(columns, left, text, i) {
-    print text; line = "|"
+    line_of_table(text); line = "|"
+    if (csv) return
     for (i = 1; i <= columns; ++i) line = line (index(" " left " ", " " i " ") ? "---|" : "--:|")
     print line
 }
@@ -50,7 +58,7 @@ function utilization_table(i, c, name) {
         name = order[i]
         line = "| " file[name] " | " what(name) " | " class[name] " |"
         for (c = 1; c <= cams; ++c) line = line " " utilization(camera[c], name) " |"
-        print line
+        line_of_table(line)
     }
 }
 # The least and the most of what the text leaves open, for every file.
@@ -104,7 +112,7 @@ function range_table(c, i, j, k, value, name) {
 # and `slow` are of all designs.
 function speed_table(i, c, k, name, base, other) {
     line = "| design | what is set | text |"
-    for (k = 2; k <= 4; ++k) for (c = 1; c <= cams; ++c) line = line " " title[k] ", camera " camera[c] " |"
+    for (k = 2; k <= 4; ++k) for (c = 1; c <= cams; ++c) line = line " " title[k] (csv ? "" : ",") " camera " camera[c] " |"
     head(3 + 3 * cams, "1 2 3", line)
     for (i = 1; i <= readings; ++i) {
         name = order[i]
@@ -117,7 +125,7 @@ function speed_table(i, c, k, name, base, other) {
                 other = design[name] == "degs" ? names[k] (all ? "-" class[name] : "") : design[name] == names[k] ? name : ""
                 line = line " " (other == "" ? "" : cell(ratio(camera[c], base, other))) " |"
             }
-        print line
+        line_of_table(line)
     }
 }
 function frames_table(v, k) {
@@ -138,5 +146,5 @@ END {
     else if (table == "least-most") utilization_range()
     else utilization_table()
     print_legend()
-    print ""
+    if (!csv) print ""
 }

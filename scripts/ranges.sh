@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # ranges.sh [--quick] [--tables] [FOLDER]: the tables of docs/readings.md: what the published
 # figures become over the readings that the paper's text allows, and what every single assumption is
-# worth, measured with build/release/sim/degs on one core and printed as Markdown. Every comparison
-# stays in FOLDER with its reports, and one that is there already is not run again; a changed
-# program or configuration needs another FOLDER. All of it takes some twenty minutes; --quick
-# measures one tiny view, and --tables runs nothing and prints what FOLDER has. Environment
+# worth, measured with build/release/sim/degs on one core and printed as Markdown. Single readings
+# are FOLDER/readings-speed.csv and FOLDER/readings-utilization.csv, of which docs has copies. Every
+# comparison stays in FOLDER with its reports, and one that is there already is not run again; a
+# changed program or configuration needs another FOLDER. All of it takes some twenty minutes;
+# --quick measures one tiny view, and --tables runs nothing and prints what FOLDER has. Environment
 # variables choose what is run, as lists of words:
 #     SCENES      trained scenes in DEGS_SCENES (default ../shared/scenes), or
 #                 synthetic:NAME,gaussians=N
@@ -44,7 +45,7 @@ read -ra kinds <<<"${KINDS:-speed utilization small-tiles frames}"
 limited="span_buffer.ports=1 packing.ports=2 feature_buffer.ports=1 feature_buffer.sram_banks=8 \
 feature_buffer.fill_cycles=1 pixel_buffer.ports=1 pixel_buffer.sram_banks=32"
 narrow="slicing.distribution=broadcast pixel_buffer.state_bytes=16"
-engines="tile_size=16 engines.count=8 engines.row_pes=8"
+engines="tile_size=16 engines.count=8 engines.row_pes=8" # and their share of the one scheduler, or all rows at once
 wide="slicing.rows=tile pixel_buffer.release=bank span.rows=pool scheduler.termination=task"
 
 readings_speed() {
@@ -81,16 +82,17 @@ gscore-squares-exact | gscore-64 | squares | pipeline.tiles=reference array.subt
 gscore-squares-none | gscore-64 | squares | pipeline.tiles=reference array.subtile_skip=none
 gscore-slow | gscore-64 | slow | memory.bandwidth_gb_per_s=51.2
 gbu | gbu-64 | shipped |
-gbu-8-of-8 | gbu-64 | open | tile_size=16 engines.count=8 engines.row_pes=8
-gbu-4-of-16 | gbu-64 | open | tile_size=16 engines.count=4 engines.row_pes=16
-gbu-1-of-64 | gbu-64 | open | tile_size=64 engines.count=1 engines.row_pes=64
+gbu-8-of-8 | gbu-64 | open | $engines engines.rows_per_cycle=1
+gbu-4-of-16 | gbu-64 | open | tile_size=16 engines.count=4 engines.row_pes=16 engines.rows_per_cycle=2
+gbu-1-of-64 | gbu-64 | open | tile_size=64 engines.count=1 engines.row_pes=64 engines.rows_per_cycle=8
+gbu-all-rows | gbu-64 | open | engines.rows_per_cycle=0
 gbu-short | gbu-64 | open | engines.queue_depth=1
 gbu-long | gbu-64 | open | engines.queue_depth=64
 gbu-no-probe | gbu-64 | against | engines.end_probe=false
-gbu-least | gbu-64 | open | tile_size=64 engines.count=1 engines.row_pes=64 engines.queue_depth=1
-gbu-most | gbu-64 | open | tile_size=16 engines.count=8 engines.row_pes=8 engines.queue_depth=64
+gbu-least | gbu-64 | open | tile_size=64 engines.count=1 engines.row_pes=64 engines.rows_per_cycle=8 engines.queue_depth=1
+gbu-most | gbu-64 | open | $engines engines.rows_per_cycle=0 engines.queue_depth=64
 gbu-squares | gbu-64 | squares | pipeline.tiles=reference
-gbu-squares-most | gbu-64 | squares | pipeline.tiles=reference $engines engines.queue_depth=64
+gbu-squares-most | gbu-64 | squares | pipeline.tiles=reference $engines engines.rows_per_cycle=0 engines.queue_depth=64
 gbu-slow | gbu-64 | slow | memory.bandwidth_gb_per_s=51.2
 gcc | gcc-64 | shipped |
 gcc-2 | gcc-64 | open | array.discovery_cycles=2
@@ -123,7 +125,9 @@ gscore-$n-exact | gscore-$n | open | array.subtile_skip=exact
 gscore-$n-squares | gscore-$n | squares | pipeline.tiles=reference
 gscore-$n-squares-none | gscore-$n | squares | pipeline.tiles=reference array.subtile_skip=none
 gbu-$n | gbu-$n | shipped |
-gbu-$n-small | gbu-$n | open | tile_size=16 engines.count=$((n / 8)) engines.row_pes=8
+gbu-$n-small | gbu-$n | open | tile_size=16 engines.count=$((n / 8)) engines.row_pes=8 engines.rows_per_cycle=$((n < 64 ? 64 / n : 1))
+gbu-$n-all-rows | gbu-$n | open | engines.rows_per_cycle=0
+gbu-$n-small-all-rows | gbu-$n | open | tile_size=16 engines.count=$((n / 8)) engines.row_pes=8 engines.rows_per_cycle=0
 gbu-$n-short | gbu-$n | open | engines.queue_depth=1
 gbu-$n-long | gbu-$n | open | engines.queue_depth=64
 gbu-$n-squares | gbu-$n | squares | pipeline.tiles=reference
@@ -147,7 +151,7 @@ readings_small-tiles() { # the paper's Table II: tiles of 16 px, 64 PEs
     echo "degs-64-wide | degs-64 | open | tile_size=16 $wide slicing.interleave=8 slicing.count=8"
     echo "gscore-64 | gscore-64 | shipped |"
     echo "gscore-64-none | gscore-64 | open | array.subtile_skip=none"
-    echo "gbu-64-tiles | gbu-64 | open | tile_size=16 engines.count=8 engines.row_pes=8"
+    echo "gbu-64-tiles | gbu-64 | open | $engines engines.rows_per_cycle=1"
 }
 
 readings_frames() { printf '%s\n' "degs | degs-64 | shipped |" "gscore | gscore-64 | shipped |" \
@@ -171,7 +175,7 @@ measure() {
     mv "$path.part" "$path"
 }
 
-# table TABLE KIND: scripts/ranges.awk makes a table from the readings of a kind and from its runs.
+# table TABLE KIND [1]: scripts/ranges.awk makes a table from the readings of a kind and their runs.
 table() {
     local csv
     {
@@ -183,7 +187,7 @@ table() {
                 { print "run | " view " | " $column["config"] " | " $column["camera"] " | " $column["latency_ms"] " | " \
                         $column["area_mm2"] " | " $column["slots.utilization"] }'
         done
-    } | awk -F ' *[|] *' -v table="$1" -v cameras="${cameras[*]}" -f scripts/ranges.awk
+    } | awk -F ' *[|] *' -v table="$1" -v csv="${3:-0}" -v cameras="${cameras[*]}" -f scripts/ranges.awk
 }
 
 wanted() { [[ " ${kinds[*]} " == *" $1 "* ]]; }
@@ -206,17 +210,13 @@ if wanted utilization; then
     echo "### PE utilization in percent, 16 and 1024 PEs, arrays alone: the range"
     echo
     table least-most utilization
-    echo "### PE utilization in percent, 16 and 1024 PEs, arrays alone: one change at a time"
-    echo
-    table one-change utilization
+    table one-change utilization 1 > "$out/readings-utilization.csv"
 fi
 if wanted speed; then
     echo "### Speed-up per mm2 of DeGS-64 over the baselines, one frame: the range"
     echo
     table range speed
-    echo "### Speed-up per mm2 of DeGS-64 over the baselines, one frame: one change at a time"
-    echo
-    table speed speed
+    table speed speed 1 > "$out/readings-speed.csv"
 fi
 if wanted frames; then
     echo "### Speed-up per mm2 of DeGS-64 over the baselines, one frame, by view"

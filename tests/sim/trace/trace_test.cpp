@@ -141,8 +141,8 @@ TEST_P(TraceOf, IntegratesToTheReport) {
     }
     for (const auto& [name, stream] : run.report["dram"]["streams"].items()) {
         const double clock = run.report["timing"]["clock_ghz"];
-        const auto bytes = [&](const char* way) {
-            return std::llround(static_cast<double>(reader.integral(kMemory, name + way)) / clock);
+        const auto bytes = [&, stage = name](const char* way) {
+            return std::llround(static_cast<double>(reader.integral(kMemory, stage + way)) / clock);
         };
         EXPECT_EQ(bytes(" read"), stream["bytes_read"]) << name;
         EXPECT_EQ(bytes(" written"), stream["bytes_written"]) << name;

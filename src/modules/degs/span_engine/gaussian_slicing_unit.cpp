@@ -211,7 +211,9 @@ void GaussianSlicingUnit::work(TileNumber number) {
 }
 
 void GaussianSlicingUnit::send_rows(TileNumber number, Slice& slice, int before) {
-    for (; slice.row <= slice.last && slice.row < before; slice.row += modules_, ++slice.drawn) {
+    const int drawn = drawing_ != nullptr ? 1 : 0;
+    for (; slice.row <= slice.last && slice.row < before;
+         slice.row += modules_, slice.drawn += drawn) {
         if ((slice.below & ~ended_[slice.row]) == 0) {
             stats_.rows_skipped++;
             continue;
