@@ -4,7 +4,8 @@
 
 docs/regime.csv has the real ones. Without an option the views are measured with `degs scene info`; --utilization runs
 three designs on each view. --only TEXT takes the rows whose first word contains TEXT, --gaussians N draws every scene
-with that many Gaussians at most. --large measures cameras 1 and 2 of the trained scenes in DEGS_SCENES_LARGE (default
+with that many Gaussians at most. --figures has the paper's figures on both scenes with camera 1: utilization from 720p
+to 8K, and latency per mm2 of DeGS-64 over the others by memory. --large measures cameras 1 and 2 of the trained scenes in DEGS_SCENES_LARGE (default
 ../shared/scenes-large) at 1080p instead. Runs DEGS_PROGRAM (default: degs of the search path, else
 build/release/sim/degs)."""
 import argparse
@@ -23,6 +24,9 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = os.environ.get("DEGS_PROGRAM") or shutil.which("degs") or str(ROOT / "build/release/sim/degs")
 LARGE = pathlib.Path(os.environ.get("DEGS_SCENES_LARGE", ROOT / "../shared/scenes-large"))
 DESIGNS = ["degs-64", "degs-1024", "gscore-64"]
+ARRAYS = [f"{name}-{pes}" for name in ("degs", "gscore", "gbu", "gcc") for pes in ("64", "1024")]
+WHOLE = ["degs-64", "gscore-64", "gbu-64", "gcc-64"]
+RESOLUTIONS = {"720p": 1280, "1080p": 1920, "2k": 2560, "4k": 3840, "8k": 7680}
 COUNTS = ["visible", "pairs_per_tile", "fragments_per_pixel", "fragments_per_splat", "footprint_p50", "ended",
           "covered"]
 
@@ -85,6 +89,38 @@ def print_table(rows, names, measure, relative):
         print(f"| {row['measured']} {row['view']} {row['pixels']} | " + " | ".join(cells) + " |", flush=True)
 
 
+def compared(designs, scene, resolutions, *more):
+    """Rows of compare.csv by design and width of the image."""
+    with tempfile.TemporaryDirectory() as folder:
+        call("compare", *[str(ROOT / f"configs/{design}.yaml") for design in designs], "--scene", scene, "--camera", "1",
+             "--resolution", resolutions, "--no-reference", "--out", folder + "/out", *more)
+        with open(folder + "/out/compare.csv", encoding="utf-8") as file:
+            return {(row["config"], int(row["width"])): row for row in csv.DictReader(file)}
+
+
+def print_figures(only, gaussians):
+    """Utilization over resolutions, and latency per area over that of DeGS-64 by bandwidth."""
+    scenes = [f"synthetic:{name},gaussians={gaussians or 1_000_000}" for name in ("interior", "garden") if only in name]
+    print("| array alone, % | design | " + " | ".join(RESOLUTIONS) + " |")
+    print("| --- | --- |" + " ---: |" * len(RESOLUTIONS))
+    for scene in scenes:
+        rows = compared(ARRAYS, scene, ",".join(RESOLUTIONS), "--array-only")
+        for design in ARRAYS:
+            cells = [f"{100 * float(rows[design, width]['slots.utilization']):.1f}" for width in RESOLUTIONS.values()]
+            print(f"| {scene[len('synthetic:'):]} | {design} | {' | '.join(cells)} |", flush=True)
+    print("\n| whole | image | GB/s | DeGS-64, ms | " + " | ".join(f"{design} ×" for design in WHOLE[1:]) + " |")
+    print("| --- | --- | ---: | ---: |" + " ---: |" * len(WHOLE[1:]))
+    for scene in scenes:
+        for bandwidth in ("204.8", "51.2"):
+            rows = compared(WHOLE, scene, "720p,4k", "--set", f"memory.bandwidth_gb_per_s={bandwidth}")
+            for name in ("720p", "4k"):
+                found = {design: rows[design, RESOLUTIONS[name]] for design in WHOLE}
+                cost = {design: float(row["latency_ms"]) * float(row["area_mm2"]) for design, row in found.items()}
+                cells = [f"{cost[design] / cost['degs-64']:.2f}" for design in WHOLE[1:]]
+                print(f"| {scene[len('synthetic:'):]} | {name} | {bandwidth} | "
+                      f"{float(found['degs-64']['latency_ms']):.3f} | {' | '.join(cells)} |", flush=True)
+
+
 def print_large(only):
     """Views of the large trained scenes; those that came in parts are joined first."""
     folders = [folder for folder in sorted(LARGE.glob("*")) if folder.is_dir() and only in folder.name]
@@ -106,12 +142,16 @@ def print_large(only):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--utilization", action="store_true")
+    parser.add_argument("--figures", action="store_true")
     parser.add_argument("--large", action="store_true")
     parser.add_argument("--only", default="")
     parser.add_argument("--gaussians", type=int, default=0)
     options = parser.parse_args()
     if options.large:
         print_large(options.only)
+        return
+    if options.figures:
+        print_figures(options.only, options.gaussians)
         return
     with open(ROOT / "docs/regime.csv", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if options.only in row["measured"]]
