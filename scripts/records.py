@@ -131,13 +131,8 @@ def joint(out):
 
 def rounding(out):
     """PSNR by records: arithmetic in double, and that of `tuned` and `paper`."""
-    formats = {
-        "fp16": "gaussian_mean=fp16:gaussian_scale=fp16:gaussian_rotation=fp16:gaussian_opacity=fp16:"
-                "sh_dc=fp16:sh_rest=fp16",
-        "tuned": "gaussian_mean=e5m22:gaussian_scale=ue5m11b14:gaussian_rotation=q1.15:gaussian_opacity=uq0.16:"
-                 "sh_dc=e4m11b8:sh_rest=e4m11b9"}
-    sets = ["paper", "tuned", f"ideal:{formats['fp16']}", f"paper:{formats['fp16']}", f"ideal:{formats['tuned']}",
-            f"paper:{formats['tuned']}", f"tuned:{formats['tuned']}"]
+    sets = ["paper", "tuned", "ideal:records=fp16", "paper:records=fp16", "ideal:records=tuned",
+            "paper:records=tuned", "tuned:records=tuned"]
     out = out / "rounding"
     if not (out / "accuracy.json").exists():
         subprocess.run([PROGRAM, "accuracy", "--scene", ",".join(path_of(s) for s in TRAINED), "--camera", CAMERA,

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Number sets by name.
+#include <algorithm>
+
 #include "config/config_source.hpp"
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
@@ -158,7 +160,7 @@ NumberSet number_set(const std::string& name) {
 
 NumberSet number_set(const std::string& name, const std::vector<std::string>& assignments) {
     NumberSet set = number_set(name);
-    ConfigSource::from_overrides(assignments, "--numbers").load(set);
+    ConfigSource::from_overrides(with_record_formats(assignments), "--numbers").load(set);
     for (const std::string& assignment : assignments) {
         set.name += " " + assignment;
     }
@@ -178,6 +180,27 @@ const std::vector<const char*>& record_set_names() {
 
 const std::vector<std::string>& record_formats(std::size_t set) {
     return record_sets().at(set).formats;
+}
+
+std::vector<std::string> with_record_formats(const std::vector<std::string>& assignments) {
+    const std::string key = "records=";
+    std::vector<std::string> all;
+    for (const std::string& assignment : assignments) {
+        if (assignment.compare(0, key.size(), key) != 0) {
+            all.push_back(assignment);
+            continue;
+        }
+        const std::string name = assignment.substr(key.size());
+        const auto& sets = record_sets();
+        const auto set = std::find_if(sets.begin(), sets.end(),
+                                      [&name](const RecordSet& each) { return each.name == name; });
+        if (set == sets.end()) {
+            throw InputError("There are no records '" + name + "'; there are " +
+                             config_words::list(record_set_names()) + ".");
+        }
+        all.insert(all.end(), set->formats.begin(), set->formats.end());
+    }
+    return all;
 }
 
 } // namespace degs

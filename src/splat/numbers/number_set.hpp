@@ -139,6 +139,9 @@ std::vector<std::pair<std::string, std::string>> cost_keys(const NumberSet& set)
 /// them, as "key=value" of NumberSet::describe.
 const std::vector<const char*>& record_set_names();
 const std::vector<std::string>& record_formats(std::size_t set);
+/// `assignments` with the formats of a record set in the place of `records=NAME`. Throws InputError
+/// for an unknown name.
+std::vector<std::string> with_record_formats(const std::vector<std::string>& assignments);
 
 /// "ideal", "fp32", "fp16", "paper", "tuned".
 std::vector<std::string> number_set_names();

@@ -53,8 +53,8 @@ DataPathOptions named_numbers(const std::string& name) {
     return named_numbers(name, {});
 }
 
-DataPathOptions named_numbers(const std::string& name,
-                              const std::vector<std::string>& assignments) {
+DataPathOptions named_numbers(const std::string& name, const std::vector<std::string>& given) {
+    const std::vector<std::string> assignments = with_record_formats(given);
     const Arithmetic arithmetic = arithmetic_of(name);
     const NumberSet set = number_set(set_of(arithmetic).name, assignments);
     DataPathOptions options = options_of(set);

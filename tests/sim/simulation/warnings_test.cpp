@@ -53,6 +53,20 @@ TEST(SmallRunWarnings, OrdinaryScenesHaveNone) {
     }
 }
 
+TEST(SmallRunWarnings, BufferOfTheBinnerWithoutEffectIsNamed) {
+    const auto warned = [](const std::string& entries) {
+        const Folder folder;
+        const Outcome outcome =
+            degs({"run", config("degs-16"), "--scene", "synthetic:object,gaussians=50", "--width",
+                  "32", "--set", "binning.entries=" + entries, "--set", "binning.buffer_bytes=4096",
+                  "--out", folder / "out"});
+        return outcome.err.find("'binning.buffer_bytes' has no effect") != std::string::npos;
+    };
+    EXPECT_TRUE(warned("stream"));
+    EXPECT_FALSE(warned("combined"));
+    EXPECT_TRUE(warned("entries"));
+}
+
 TEST(SmallRunWarnings, KeysWithoutEffectAreNamed) {
     const Folder folder;
     const std::vector<std::string> unused{"--set", "memory.model=lpddr5", "--set",

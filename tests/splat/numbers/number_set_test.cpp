@@ -29,6 +29,16 @@ TEST(NumberSets, GoByName) {
 }
 
 // What `tuned` may spend: the 32 B of the splat record, and words of 16 bits between the units.
+TEST(NumberSets, RecordsStandForTheirSixFormats) {
+    EXPECT_EQ(with_record_formats({"alpha=fp16", "records=fp16"}),
+              (std::vector<std::string>{"alpha=fp16", "gaussian_mean=fp16", "gaussian_scale=fp16",
+                                        "gaussian_rotation=fp16", "gaussian_opacity=fp16",
+                                        "sh_dc=fp16", "sh_rest=fp16"}));
+    EXPECT_EQ(with_record_formats({"records=fp32"}), std::vector<std::string>());
+    EXPECT_EQ(number_set("tuned", {"records=tuned"}).name, "tuned records=tuned");
+    EXPECT_THROW(number_set("tuned", {"records=small"}), InputError);
+}
+
 TEST(NumberSets, TunedHasTheBudgetOfPaper) {
     const NumberSet paper = number_set("paper");
     const NumberSet tuned = number_set("tuned");

@@ -24,6 +24,12 @@ void TileBinner::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("head_bytes", head_bytes, 0, 1 << 24,
                     "bytes on the chip for the ends of the lists, 4 per tile; those of further "
                     "tiles are read and written back in memory; 16 KB are 4096 tiles [assumed]");
+    if (entries != ListWriting::Combined) {
+        visitor.unused("buffer_bytes", "entries", "only combined entries wait to be grouped");
+    }
+    if (entries == ListWriting::Stream) {
+        visitor.unused("head_bytes", "entries", "a stream has no ends of lists");
+    }
     visitor.boolean("keep_lists", keep_lists,
                     "do sorted lists stay in memory for the next frame, so that only entries that "
                     "are new in a tile are written and sorted? (Neo, ASPLOS 2026) [assumed: no]");
