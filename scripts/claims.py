@@ -1,0 +1,387 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The sentences of the paper that can fail, tried on our scenes, with a verdict on each.
+
+    claims.py run [FOLDER] [--jobs N]    sweeps what is needed into FOLDER (default out/claims); writes docs/claims.csv
+    claims.py run --quick                small views of the studies, to try them; writes nothing
+    claims.py table                      Markdown table of claims, points tried and verdicts, from docs/claims.csv
+    claims.py failing [TEXT]             every point at which the claims with TEXT in their name do not hold
+
+The claims are the rows 'Claims' of docs/published.csv. A claim `holds` if it holds at every point tried. Otherwise its
+verdict is `our scene differs` if it holds at every point of the views in its range, and there are some; else it is
+`does not hold`. The range is, for what the workload of the array decides, views with at least FRAGMENTS fragments per
+visible splat at 1080p, and for frame rates and kinds of scenes, scenes with the numbers of Gaussians of the paper's.
+`run` needs the trained scenes of DEGS_SCENES, and goes on with what FOLDER has."""
+import argparse
+import collections
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import figures
+from figures import HEIGHTS, PROGRAM, ROOT, SIZES, Mistake
+
+MEASURED = ROOT / "docs/claims.csv"
+SCENES_AT = Path(os.environ.get("DEGS_SCENES", ROOT / "../shared/scenes"))
+SCENES = {"flowers": "", "garden-crop": "", "garden": "synthetic:garden", "interior": "synthetic:interior",
+          "landscape": "synthetic:landscape,gaussians=3000000"}  # without text: a file of DEGS_SCENES
+CAMERA = "2"
+# Study, scene, resolutions, and frames of a path (three give a throughput).
+RUNS = [("claims", "flowers", "720p,1080p,2k,4k", 3), ("scaling", "flowers", "720p,1080p,2k,4k", 1),
+        *(("real-time", scene, "4k", 1) for scene in ("flowers", "garden", "landscape")),
+        *(("8k", scene, "8k", 1) for scene in ("flowers", "garden", "landscape")),
+        ("scaling", "garden-crop", "720p,1080p,2k,4k", 1), ("claims", "garden-crop", "2k,4k", 1),
+        ("claims", "garden-crop", "720p,1080p", 3),
+        ("claims", "garden", "720p,1080p", 3), ("claims", "interior", "1080p", 1),
+        *((study, scene, resolutions, 1) for scene in ("flowers", "garden-crop", "garden") for study, resolutions in
+          (("banks", "1080p"), ("segment-length", "720p,1080p,2k"))),
+        *(("real-time", scene, "720p,1080p,2k", 1) for scene in ("flowers", "garden")),
+        *((study, "garden", resolution, 1) for resolution in ("2k", "4k") for study in ("claims", "scaling")),
+        ("scaling", "garden", "720p,1080p", 1)]
+COLUMNS = {"pes": "pes", "useful": "slots.utilization", "ended": "slots.terminated", "latency_ms": "latency_ms",
+           "preprocessing": "preprocessing_cycles / cycles", "throughput_fps": "throughput_fps",
+           "nj_per_frame": "energy.nj_per_frame", "area_mm2": "area_mm2"}
+AXES = {"banks": "scheduler.banks", "segment-length": "scheduler.segment_length"}
+KEYS = ("study", "scene", "height", "design", "axis")
+FRAGMENTS = 1450  # per visible splat at 1080p: from here on degs-16 to degs-1024 reach the paper's utilisation
+GAUSSIANS = (1e6, 6e6)  # of the paper's scenes
+BASELINES = ("gscore", "gbu", "gcc")
+BANKS = {"16": "4", "64": "8", "256": "16", "1024": "32"}  # of the design itself
+NAMES = {height: name for name, height in HEIGHTS.items()}
+
+Point = collections.namedtuple("Point", "scene label value")
+
+
+class Data:
+    """Rows of docs/claims.csv."""
+
+    def __init__(self, rows):
+        self.rows = {tuple(row[key] for key in KEYS): row for row in rows}
+        self.views = {row["scene"]: row for row in rows}
+
+    def get(self, measure, study, scene, height, design, axis=""):
+        """A number, or a mistake if it was not measured."""
+        row = self.rows.get((study, scene, height, design, axis))
+        if row is None or not row[measure]:
+            raise Mistake(f"docs/claims.csv lacks {measure} of {design} in {scene} at {height}; run scripts/claims.py.")
+        return float(row[measure])
+
+    def grid(self, study, measure="latency_ms"):
+        """All pairs of scene and height that a study has with this measure."""
+        return list(dict.fromkeys((row["scene"], row["height"]) for row in self.rows.values()
+                                  if row["study"] == study and row[measure]))
+
+    def in_range(self, scene, kind):
+        view = self.views[scene]
+        if kind == "gaussians":
+            return GAUSSIANS[0] <= float(view["gaussians"]) <= GAUSSIANS[1]
+        return float(view["fragments_per_splat"]) >= FRAGMENTS
+
+
+def place(scene, height, more):
+    return f"{scene} {NAMES[height]}, {more}"
+
+
+def best(study, measure, sign, area=False):
+    """DeGS over the best of the baselines at each size and resolution; with `sign` -1 less is better."""
+    def points(data):
+        for scene, height in data.grid(study, measure):
+            for pes in SIZES:
+                def value(name):
+                    design = f"{name}-{pes}"
+                    number = data.get(measure, study, scene, height, design) ** sign
+                    return number / (data.get("area_mm2", study, scene, height, design) if area else 1)
+                other = max(BASELINES, key=value)
+                yield Point(scene, place(scene, height, f"{other}-{pes}"), value("degs") / value(other))
+    return points
+
+
+def utilization_of_degs(data):
+    for scene, height in data.grid("scaling"):
+        if height == "2160":
+            for pes in SIZES:
+                yield Point(scene, place(scene, height, f"{pes} PEs"),
+                            data.get("useful", "scaling", scene, height, f"degs-{pes}"))
+
+
+def graceful(data):
+    """What DeGS keeps of its utilization from 16 to 1024 PEs over what the best baseline keeps."""
+    for scene, height in data.grid("scaling"):
+        def kept(name):
+            return (data.get("useful", "scaling", scene, height, f"{name}-1024") /
+                    data.get("useful", "scaling", scene, height, f"{name}-16"))
+        other = max(BASELINES, key=kept)
+        yield Point(scene, place(scene, height, other), kept("degs") / kept(other))
+
+
+def scale_of_best(data):
+    """The number of PEs at which DeGS has most frames per second and mm2, over that number of each baseline."""
+    for scene, height in data.grid("claims"):
+        def scale(name):
+            return int(max(SIZES, key=lambda pes: 1 / data.get("latency_ms", "claims", scene, height, f"{name}-{pes}") /
+                           data.get("area_mm2", "claims", scene, height, f"{name}-{pes}")))
+        for name in BASELINES:
+            yield Point(scene, place(scene, height, name), scale("degs") / scale(name))
+
+
+def in_space(data, *where):
+    return 1 - data.get("useful", *where) - data.get("ended", *where)
+
+
+def in_time(data, *where):
+    return data.get("ended", *where)
+
+
+def grown(redundancy):
+    """Redundancy of a coupled array with 1024 over that with 16 PEs."""
+    def points(data):
+        for scene, height in data.grid("scaling"):
+            for name in BASELINES:
+                large, small = (redundancy(data, "scaling", scene, height, f"{name}-{n}") for n in (1024, 16))
+                if small > 0:  # without a pixel that ends early, a view says nothing of redundancy in time
+                    yield Point(scene, place(scene, height, name), large / small)
+    return points
+
+
+def lowest(data):
+    """Utilization of GSCore over that of the lower of the others."""
+    for scene, height in data.grid("scaling"):
+        for pes in SIZES:
+            gscore, *others = (data.get("useful", "scaling", scene, height, f"{name}-{pes}") for name in BASELINES)
+            yield Point(scene, place(scene, height, f"{pes} PEs"), gscore / min(others))
+
+
+def outdoors(data):
+    """Latency per mm2 of a baseline over DeGS in the garden, over that in the flat."""
+    def gain(scene, name):
+        def cost(design):
+            return (data.get("latency_ms", "claims", scene, "1080", design) *
+                    data.get("area_mm2", "claims", scene, "1080", design))
+        return cost(f"{name}-64") / cost("degs-64")
+    for name in BASELINES:
+        yield Point("garden", f"garden over interior 1080p, {name}-64", gain("garden", name) / gain("interior", name))
+
+
+def frame_rate(pes):
+    def points(data):
+        for scene, height in data.grid("real-time"):
+            for speed in ("204.8", "51.2") if height == "2160" else ():
+                yield Point(scene, place(scene, height, f"{speed} GB/s"),
+                            1000 / data.get("latency_ms", "real-time", scene, height, f"degs-{pes}@{speed}"))
+    return points
+
+
+def preprocessing(data):
+    """Time of preprocessing with the slow over that with the fast memory."""
+    for scene, height in data.grid("real-time"):
+        for pes in ("64", "256"):
+            slow, fast = (data.get("preprocessing", "real-time", scene, height, f"degs-{pes}@{speed}") *
+                          data.get("latency_ms", "real-time", scene, height, f"degs-{pes}@{speed}")
+                          for speed in ("51.2", "204.8"))
+            yield Point(scene, place(scene, height, f"{pes} PEs"), slow / fast)
+
+
+def rendering_at_8k(data):
+    for scene, height in data.grid("8k"):
+        where = ("8k", scene, height, "degs-256@204.8")
+        yield Point(scene, place(scene, height, f"{1000 / data.get('latency_ms', *where):.0f} fps"),
+                    1 - data.get("preprocessing", *where))
+
+
+def own_banks(data):
+    for scene, height in data.grid("banks"):
+        for pes in SIZES:
+            yield Point(scene, place(scene, height, f"{pes} PEs"),
+                        in_space(data, "banks", scene, height, f"degs-{pes}", BANKS[pes]))
+
+
+def growth_with_banks(data):
+    """How much more the redundancy in space grows when the banks are doubled than it does in the next smaller array."""
+    for scene, height in data.grid("banks"):
+        def growth(pes):
+            few, many = (in_space(data, "banks", scene, height, f"degs-{pes}", banks)
+                         for banks in (BANKS[pes], str(2 * int(BANKS[pes]))))
+            return many - few
+        for small, large in zip(SIZES, SIZES[1:]):
+            yield Point(scene, place(scene, height, f"{large} over {small} PEs"), growth(large) - growth(small))
+
+
+def gain_of_segments(data):
+    """How much more redundancy half as long segments save at a resolution than at the next higher one."""
+    heights = ("720", "1080", "1440")
+    for scene in dict.fromkeys(scene for scene, _ in data.grid("segment-length")):
+        def gain(height, long):
+            coarse, fine = (1 - data.get("useful", "segment-length", scene, height, "degs-64", str(length))
+                            for length in (long, long // 2))
+            return coarse - fine
+        for low, high in zip(heights, heights[1:]):
+            for long in (32, 16):
+                yield Point(scene, place(scene, low, f"{long} to {long // 2} px"), gain(low, long) - gain(high, long))
+
+
+# Names of docs/published.csv with the range that decides about a scene, and what gives the points.
+CLAIMS = {
+    "best PE utilisation (arrays alone)": ("fragments", best("scaling", "useful", 1)),
+    "best latency": ("fragments", best("claims", "latency_ms", -1)),
+    "best latency per mm²": ("fragments", best("claims", "latency_ms", -1, True)),
+    "best throughput": ("fragments", best("claims", "throughput_fps", 1)),
+    "best throughput per mm²": ("fragments", best("claims", "throughput_fps", 1, True)),
+    "least energy": ("fragments", best("claims", "nj_per_frame", -1)),
+    "least energy per mm²": ("fragments", best("claims", "nj_per_frame", -1, True)),
+    "utilisation of DeGS at 4K": ("fragments", utilization_of_degs),
+    "utilisation kept from 16 to 1024 PEs": ("fragments", graceful),
+    "latency per mm² best at more PEs": ("fragments", scale_of_best),
+    "redundancy in space, 1024 over 16 PEs": ("fragments", grown(in_space)),
+    "redundancy in time, 1024 over 16 PEs": ("fragments", grown(in_time)),
+    "utilisation of GSCore, the lowest": ("fragments", lowest),
+    "gain outdoors over gain indoors": ("gaussians", outdoors),
+    "frame rate at 4K, 64 PEs": ("gaussians", frame_rate("64")),
+    "frame rate at 4K, 256 PEs": ("gaussians", frame_rate("256")),
+    "preprocessing, 51.2 over 204.8 GB/s": ("gaussians", preprocessing),
+    "rendering's share at 8K, 256 PEs": ("gaussians", rendering_at_8k),
+    "redundancy in space, banks of Table III": ("fragments", own_banks),
+    "growth with banks, more at more PEs": ("fragments", growth_with_banks),
+    "gain of segments, more at low resolution": ("fragments", gain_of_segments),
+}
+
+
+def holds(value, text, unit):
+    """Whether a number is on the side of its bound that a claim names."""
+    bound = float(text[1:]) / (100 if unit == "%" else 1)
+    return value < bound if text[0] == "<" else value > bound
+
+
+def verdict(points, fails, is_in_range):
+    """The rule of the page: what is in the range decides whether a failure is the scene's."""
+    if not fails:
+        return "holds"
+    inside = [point for point in points if is_in_range(point.scene)]
+    return "does not hold" if not inside or any(map(is_in_range, (point.scene for point in fails))) \
+        else "our scene differs"
+
+
+def tried(data, row):
+    """The points of a claim, those that fail, and a test of their scenes."""
+    kind, points_of = CLAIMS[row["quantity"]]
+    points = list(points_of(data))
+    fails = [point for point in points if not holds(point.value, row["value"], row["unit"])]
+    return points, fails, lambda scene: data.in_range(scene, kind)
+
+
+def claims():
+    return [row for row in figures.published() if row["figure"] == "Claims"]
+
+
+def shown(point, unit):
+    return f"{point.value:.3f}" if unit == "×" else f"{figures.shown(point.value, unit)} {unit}"
+
+
+def stored():
+    return Data(figures.rows_of(MEASURED))
+
+
+def table(_):
+    data, lines = stored(), []
+    for row in claims():
+        points, fails, is_in_range = tried(data, row)
+        counts = []
+        for inside in (True, False):
+            part = [point for point in points if is_in_range(point.scene) == inside]
+            counts.append(f"{len([point for point in part if point not in fails])}/{len(part)}" if part else "—")
+        worst = (max if row["value"][0] == "<" else min)(points, key=lambda point: point.value)
+        lines.append([row["quantity"], row["section"], figures.as_published(row["value"], row["unit"]), *counts,
+                      f"{shown(worst, row['unit'])} ({worst.label})", verdict(points, fails, is_in_range)])
+    head = ["claim", "where", "published", "in the range", "outside", "worst point", "verdict"]
+    print("\n".join(f"| {' | '.join(line)} |" for line in [head, ["---"] * len(head), *lines]))
+
+
+def failing(options):
+    data = stored()
+    for row in claims():
+        if options.text in row["quantity"]:
+            for point in tried(data, row)[1]:
+                print(f"{row['quantity']} {row['value']} {row['unit']}: {shown(point, row['unit'])} ({point.label})")
+
+
+def scene_of(name):
+    return SCENES[name] or str(SCENES_AT / name / "scene.ply")
+
+
+def view_of(name):
+    """Counts of the view at 1080p, which say in which range a scene lies."""
+    text = subprocess.run([PROGRAM, "scene", "info", scene_of(name), "--camera", CAMERA, "--resolution", "1080p",
+                           "--json"], check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout
+    info = json.loads(text)
+    return {"gaussians": info["scene"]["gaussians"],
+            "fragments_per_splat": f"{info['view']['fragments_per_splat']:.5g}"}
+
+
+def kept(study, scene, row):
+    """A line of docs/claims.csv from one of a study's results."""
+    line = {"study": study, "scene": scene, "height": row["height"], "design": row["design"],
+            "axis": row[AXES[study]] if study in AXES else ""}
+    for name, measure in COLUMNS.items():
+        present = measure not in row or row[measure]
+        line[name] = f"{figures.evaluated(measure, row):.5g}" if present else ""
+    return line
+
+
+def swept(study, folder, options, *views):
+    """Results of a study; those that are there already are not simulated again."""
+    subprocess.run([PROGRAM, "sweep", ROOT / f"configs/studies/{study}.yaml", *views, "--no-reference", "--jobs",
+                    str(options.jobs), "--out", folder], check=True, stdout=subprocess.DEVNULL)
+    return figures.rows_of(folder / "results.csv")
+
+
+def quick(options):
+    """The small views of the studies that scripts/figures.py does not run: they must have what is to be kept."""
+    with tempfile.TemporaryDirectory(prefix="degs-claims-") as folder:
+        for study in sorted({study for study, *_ in RUNS} - {value.study for value in figures.all_values()}):
+            lines = [kept(study, "object", row) for row in swept(study, Path(folder, study), options, "--quick")]
+            if not all(line["useful"] and line["latency_ms"] and line["preprocessing"] for line in lines):
+                raise Mistake(f"the results of {study} lack values.")
+            print(f"{study}: {len(lines)} points")
+
+
+def run(options):
+    if options.quick:
+        quick(options)
+        return
+    views, lines = {name: view_of(name) for name in SCENES}, {}
+    for study, scene, resolutions, frames in RUNS:
+        rows = swept(study, options.folder / f"{study}-{scene}-{resolutions}", options, "--scene", scene_of(scene),
+                     "--camera", CAMERA, "--resolution", resolutions, "--frames", str(frames))
+        for row in rows:
+            line = kept(study, scene, row) | views[scene]
+            lines[tuple(line[key] for key in KEYS)] = line
+        print(f"{study}, {scene}, {resolutions}", flush=True)
+    with MEASURED.open("w", newline="") as file:
+        writer = csv.DictWriter(file, [*KEYS, *COLUMNS, *views["flowers"]], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(lines.values())
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
+    commands = parser.add_subparsers(dest="command", required=True)
+    command = commands.add_parser("run")
+    command.add_argument("folder", type=Path, nargs="?", default=ROOT / "out/claims")
+    command.add_argument("--jobs", type=int, default=1)
+    command.add_argument("--quick", action="store_true")
+    commands.add_parser("table")
+    commands.add_parser("failing").add_argument("text", nargs="?", default="")
+    options = parser.parse_args()
+    try:
+        {"run": run, "table": table, "failing": failing}[options.command](options)
+    except Mistake as mistake:
+        sys.exit(f"claims.py: {mistake}")
+    except subprocess.CalledProcessError as failed:
+        sys.exit(f"claims.py: the program ended with exit code {failed.returncode}.")
+
+
+if __name__ == "__main__":
+    main()
