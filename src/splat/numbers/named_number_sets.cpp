@@ -195,8 +195,9 @@ std::vector<std::string> with_record_formats(const std::vector<std::string>& ass
         const auto set = std::find_if(sets.begin(), sets.end(),
                                       [&name](const RecordSet& each) { return each.name == name; });
         if (set == sets.end()) {
+            const std::vector<const char*>& names = record_set_names();
             throw InputError("There are no records '" + name + "'; there are " +
-                             config_words::list(record_set_names()) + ".");
+                             config_words::list({names.begin(), names.end()}) + ".");
         }
         all.insert(all.end(), set->formats.begin(), set->formats.end());
     }
