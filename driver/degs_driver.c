@@ -64,7 +64,7 @@ void degs_set_frame_buffer(const degs_device *device, uint64_t address, uint32_t
 
 void degs_start(const degs_device *device, uint32_t interrupts) {
     write_word(device, DEGS_REG_IRQ_ENABLE, interrupts);
-    write_word(device, DEGS_REG_CONTROL, DEGS_CONTROL_START);
+    write_word(device, DEGS_REG_CONTROL, DEGS_CONTROL_CLEAR_ERROR | DEGS_CONTROL_START);
 }
 
 void degs_abort(const degs_device *device) {
@@ -75,10 +75,33 @@ int degs_busy(const degs_device *device) {
     return (read_word(device, DEGS_REG_STATUS) & DEGS_STATUS_BUSY) != 0;
 }
 
+static int pending(uint32_t status) {
+    return (status & (DEGS_STATUS_BUSY | DEGS_STATUS_IN_RESET)) != 0;
+}
+
+uint32_t degs_reset(const degs_device *device, uint32_t polls) {
+    write_word(device, DEGS_REG_CONTROL, DEGS_CONTROL_RESET);
+    for (; polls > 0; polls--) {
+        if (!pending(read_word(device, DEGS_REG_STATUS))) {
+            return DEGS_ERROR_CODE_NONE;
+        }
+    }
+    return DEGS_RESULT_BUSY;
+}
+
 uint32_t degs_wait(const degs_device *device) {
-    while (degs_busy(device)) {
+    while (pending(read_word(device, DEGS_REG_STATUS))) {
     }
     return degs_error(device);
+}
+
+uint32_t degs_wait_for(const degs_device *device, uint32_t polls) {
+    for (; polls > 0; polls--) {
+        if (!pending(read_word(device, DEGS_REG_STATUS))) {
+            return degs_error(device);
+        }
+    }
+    return DEGS_RESULT_BUSY;
 }
 
 uint32_t degs_acknowledge(const degs_device *device) {
@@ -88,7 +111,21 @@ uint32_t degs_acknowledge(const degs_device *device) {
 }
 
 uint32_t degs_error(const degs_device *device) {
-    return read_word(device, DEGS_REG_ERROR_CODE);
+    const uint32_t status = read_word(device, DEGS_REG_STATUS);
+    const uint32_t code = read_word(device, DEGS_REG_ERROR_CODE);
+    if (pending(status)) {
+        return DEGS_RESULT_BUSY;
+    }
+    if ((status & DEGS_STATUS_START_IGNORED) != 0) {
+        return DEGS_RESULT_START_IGNORED;
+    }
+    if ((status & DEGS_STATUS_ABORTED) != 0) {
+        return DEGS_RESULT_ABORTED;
+    }
+    if (code != DEGS_ERROR_CODE_NONE) {
+        return code;
+    }
+    return (status & DEGS_STATUS_DONE) != 0 ? DEGS_ERROR_CODE_NONE : DEGS_RESULT_NO_FRAME;
 }
 
 uint64_t degs_workspace_needed(const degs_device *device) {

@@ -58,18 +58,31 @@ void degs_set_workspace(const degs_device *device, uint64_t address, uint64_t by
 /* format: DEGS_FORMAT_RGBA8 or DEGS_FORMAT_RGBA16F. */
 void degs_set_frame_buffer(const degs_device *device, uint64_t address, uint32_t format);
 
-/* Starts a frame. interrupts: bits of IRQ_ENABLE, as DEGS_IRQ_ENABLE_DONE | DEGS_IRQ_ENABLE_ERROR, or 0. Has no effect
- * while a frame is being rendered. */
+/* What degs_error, degs_wait and degs_wait_for return beside the codes of ERROR_CODE. */
+#define DEGS_RESULT_ABORTED       0x100u /* the last frame has been given up */
+#define DEGS_RESULT_START_IGNORED 0x101u /* a start came while the accelerator was busy or in reset */
+#define DEGS_RESULT_NO_FRAME      0x102u /* no frame has been started since power-on or the last reset */
+#define DEGS_RESULT_BUSY          0x103u /* a frame, an abort or a reset has not ended yet */
+
+/* Clears what is left of the last frame (error, aborted, start ignored) and starts a frame. interrupts: bits of
+ * IRQ_ENABLE, as DEGS_IRQ_ENABLE_DONE | DEGS_IRQ_ENABLE_ERROR, or 0. While the accelerator is busy or in reset the start
+ * is ignored, which degs_wait reports. */
 void degs_start(const degs_device *device, uint32_t interrupts);
 /* Gives up the present frame; the accelerator is busy until it has. */
 void degs_abort(const degs_device *device);
 /* Whether a frame is being rendered: 1 or 0. */
 int degs_busy(const degs_device *device);
-/* Reads STATUS until the frame has ended; returns degs_error(). */
+/* Resets the accelerator, which gives up its frame and forgets its registers, and reads STATUS at most `polls` times
+ * until the reset has ended. Returns DEGS_ERROR_CODE_NONE or DEGS_RESULT_BUSY. */
+uint32_t degs_reset(const degs_device *device, uint32_t polls);
+/* Reads STATUS until the frame, abort or reset has ended; returns degs_error(). */
 uint32_t degs_wait(const degs_device *device);
+/* The same with at most `polls` readings of STATUS; DEGS_RESULT_BUSY if it has not ended by then. */
+uint32_t degs_wait_for(const degs_device *device, uint32_t polls);
 /* Takes back the pending interrupts, and returns them (bits of IRQ_STATUS). */
 uint32_t degs_acknowledge(const degs_device *device);
-/* Why the last frame was not rendered, or cannot be trusted: DEGS_ERROR_CODE_NONE (0) or another of them. */
+/* Why the last frame was not rendered, or cannot be trusted: DEGS_ERROR_CODE_NONE (0) if it is in the frame buffer, else
+ * another code of ERROR_CODE or one of DEGS_RESULT_. */
 uint32_t degs_error(const degs_device *device);
 
 /* Bytes of workspace that the last frame needed. A frame with a workspace of 0 bytes ends at once with

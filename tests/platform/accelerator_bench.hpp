@@ -269,14 +269,15 @@ inline Camera test_camera(int width = 96, int height = 72) {
     return camera;
 }
 
-/// What a frame buffer of RGBA8 must hold of an image: clamped, rounded half up; A = 1 - T.
+/// What a frame buffer of RGBA8 must hold of an image, as its PNG file has it: clamped, rounded
+/// half up in single precision; A = 1 - T.
 inline std::vector<unsigned char> rgba8(const Image& image) {
     std::vector<unsigned char> bytes;
     for (std::size_t i = 0; i < image.pixels(); ++i) {
         for (std::size_t c = 0; c < 4; ++c) {
-            const double value = c < 3 ? image.rgb[3 * i + c] : 1.0 - image.transmittance[i];
-            const double clamped = std::min(std::max(value, 0.0), 1.0);
-            bytes.push_back(static_cast<unsigned char>(static_cast<int>(clamped * 255 + 0.5)));
+            const float value = c < 3 ? image.rgb[3 * i + c] : 1.0F - image.transmittance[i];
+            const float clamped = std::min(std::max(value, 0.0F), 1.0F);
+            bytes.push_back(static_cast<unsigned char>(clamped * 255.0F + 0.5F));
         }
     }
     return bytes;

@@ -113,10 +113,6 @@ TEST(SmallRunDriver, RendersTheFrameOfTheRegistersAndReportsErrors) {
         EXPECT_EQ(degs_acknowledge(&device), DEGS_IRQ_STATUS_DONE | DEGS_IRQ_STATUS_ERROR);
         EXPECT_EQ(degs_acknowledge(&device), 0U);
         degs_read_counters(&device, &counters);
-        degs_start(&device, 0);
-        degs_abort(&device);
-        degs_wait(&device);
-        EXPECT_NE(host.read(Register::Status) & kStatusAborted, 0U);
     };
     std::uint64_t cycles = 0;
     written.host.script = [&](Host& host) {
@@ -131,6 +127,43 @@ TEST(SmallRunDriver, RendersTheFrameOfTheRegistersAndReportsErrors) {
     EXPECT_EQ(counters.frames, 1U);
     EXPECT_GT(counters.fragments, 0U);
     EXPECT_EQ(counters.dropped, 0U);
+}
+
+// A frame that does not exist is never reported as rendered.
+TEST(SmallRunDriver, NeverTakesAFrameThatDoesNotExistForRendered) {
+    const GaussianCloud cloud = test_cloud();
+    const Camera camera = test_camera();
+    Platform p("p", DegsConfig(), cloud);
+    constexpr std::uint32_t kPolls = 1'000'000;
+    p.host.script = [&](Host& host) {
+        const degs_device device = device_of(host);
+        EXPECT_EQ(degs_wait(&device), DEGS_RESULT_NO_FRAME);
+        program(host, cloud, camera);
+        degs_start(&device, 0);
+        EXPECT_EQ(degs_error(&device), DEGS_RESULT_BUSY);
+        EXPECT_EQ(degs_wait_for(&device, 1), DEGS_RESULT_BUSY);
+        degs_abort(&device);
+        EXPECT_EQ(degs_wait(&device), DEGS_RESULT_ABORTED);
+        degs_start(&device, 0);
+        EXPECT_EQ(degs_wait_for(&device, kPolls), DEGS_ERROR_CODE_NONE);
+        degs_start(&device, 0);
+        degs_start(&device, 0); // ignored: the frame before is being rendered
+        EXPECT_EQ(degs_wait(&device), DEGS_RESULT_START_IGNORED);
+        degs_start(&device, 0);
+        EXPECT_EQ(degs_wait(&device), DEGS_ERROR_CODE_NONE);
+        degs_start(&device, 0);
+        host.write(Register::Control, kControlReset);
+        program(host, cloud, camera);
+        degs_start(&device, 0); // ignored: the reset has not ended
+        EXPECT_EQ(degs_wait(&device), DEGS_RESULT_START_IGNORED);
+        EXPECT_EQ(degs_reset(&device, kPolls), DEGS_ERROR_CODE_NONE);
+        EXPECT_EQ(degs_wait(&device), DEGS_RESULT_NO_FRAME);
+        program(host, cloud, camera);
+        degs_start(&device, 0);
+        EXPECT_EQ(degs_wait(&device), DEGS_ERROR_CODE_NONE);
+    };
+    sc_core::sc_start();
+    EXPECT_TRUE(p.host.finished);
 }
 
 TEST(Driver, ReachesRegistersThatAreMappedIntoMemory) {

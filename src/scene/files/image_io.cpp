@@ -133,11 +133,6 @@ Image read_pixels(const std::string& path, std::uint64_t file_bytes) {
     return image;
 }
 
-png_byte to_byte(float value) {
-    const float clamped = value > 0 ? std::min(value, 1.0F) : 0.0F; // NaN fails the comparison
-    return static_cast<png_byte>(clamped * 255.0F + 0.5F);
-}
-
 } // namespace
 
 void write_exr(const Image& image, const std::string& path) {
@@ -178,7 +173,7 @@ namespace {
 
 std::vector<png_byte> bytes_of(const Image& image) {
     std::vector<png_byte> bytes(image.rgb.size());
-    std::transform(image.rgb.begin(), image.rgb.end(), bytes.begin(), to_byte);
+    std::transform(image.rgb.begin(), image.rgb.end(), bytes.begin(), byte_of);
     return bytes;
 }
 

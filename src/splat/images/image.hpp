@@ -10,6 +10,13 @@ namespace degs {
 
 /// A rendered frame: colour in the scene's display-referred space (not clamped), the transmittance
 /// left for the background, and how many splats each pixel blended. Row-major from the top left.
+/// A colour value as a byte, wherever one is written: PNG files, frame buffers, checksums. 0..1
+/// becomes 0..255, to the nearest step in single precision, halves up; NaN is 0.
+inline std::uint8_t byte_of(float value) {
+    const float clamped = std::min(std::max(0.0F, value), 1.0F);
+    return static_cast<std::uint8_t>(clamped * 255.0F + 0.5F);
+}
+
 struct Image {
     int width = 0;
     int height = 0;

@@ -7,6 +7,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "splat/images/image.hpp"
 #include "tlm/ceil_div.hpp"
 #include "tlm/has_process.hpp"
 
@@ -18,13 +19,8 @@ void encode_half(double value, unsigned char* bytes) {
     std::memcpy(bytes, &half, sizeof half);
 }
 
-// Every pixel of a frame passes here; so the limits are minima and maxima, which need no branches.
-unsigned char encode_byte(double value) {
-    return static_cast<unsigned char>(std::min(std::max(value, 0.0), 1.0) * 255.0 + 0.5);
-}
-
 void encode(const PixelValue& pixel, int pixel_bytes, unsigned char* bytes) {
-    const double alpha = 1.0 - pixel.transmittance;
+    const float alpha = 1.0F - static_cast<float>(pixel.transmittance); // an Image has floats
     if (pixel_bytes == 8) {
         for (int c = 0; c < 3; ++c) {
             encode_half(pixel.rgb[c], bytes + std::ptrdiff_t{2} * c);
@@ -32,9 +28,9 @@ void encode(const PixelValue& pixel, int pixel_bytes, unsigned char* bytes) {
         encode_half(alpha, bytes + 6);
     } else {
         for (int c = 0; c < 3; ++c) {
-            bytes[c] = encode_byte(pixel.rgb[c]);
+            bytes[c] = byte_of(static_cast<float>(pixel.rgb[c])); // as in an Image
         }
-        bytes[3] = encode_byte(alpha);
+        bytes[3] = byte_of(alpha);
     }
 }
 
