@@ -9,6 +9,7 @@
 #include "degs/messages.hpp"
 #include "tlm/has_process.hpp"
 #include "tlm/memory.hpp"
+#include "tlm/urgent.hpp"
 
 namespace degs {
 
@@ -28,10 +29,11 @@ AtRequester::AtRequester(const sc_core::sc_module_name& name, tlm::tlm_initiator
     dont_initialize();
 }
 
-// Transactions that are still in flight then must not free the extension of a port.
+// Transactions that are still in flight then must not free the extensions of a port.
 AtRequester::~AtRequester() {
     for (const auto& transaction : transactions_) {
         transaction->set_extension<TimingOnly>(nullptr);
+        transaction->set_extension<Urgent>(nullptr);
     }
 }
 
@@ -129,11 +131,13 @@ AtRequester::Transaction& AtRequester::make(const Payload& access, unsigned char
     part.set_command(access.get_command());
     part.burst.open(part, piece, data);
     part.set_extension(access.get_extension<TimingOnly>());
+    part.set_extension(access.get_extension<Urgent>());
     return part;
 }
 
 void AtRequester::free(Payload* payload) {
     payload->set_extension<TimingOnly>(nullptr); // the port's
+    payload->set_extension<Urgent>(nullptr);
     payload->reset();
     free_.push_back(static_cast<Transaction*>(payload));
 }

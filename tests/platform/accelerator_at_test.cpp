@@ -120,6 +120,26 @@ TEST_F(SmallRunAtPlatform, ClustersShareRecordsThatComeLate) {
     EXPECT_GE(cycles[0], cycles[3]);
 }
 
+TEST_F(SmallRunAtPlatform, AsManyAccessesAreUrgentAsThroughLt) {
+    config.memory.priority = ReadPriority::Blending;
+    constexpr std::uint64_t kBurst = 64;
+    Accelerator::Options bursts;
+    bursts.memory.burst_bytes = kBurst;
+    Platform lt("lt", config, cloud,
+                std::make_unique<PlainMemory>("lt_memory", kMemoryBytes, Timing::Annotated),
+                bursts);
+    AtPlatform at("at", config, cloud, four_phases(64, kBurst));
+    std::uint64_t cycles = 0;
+    lt.host.script = frame(cycles);
+    at.host.script = frame(cycles);
+    sc_core::sc_start();
+    ASSERT_TRUE(lt.host.finished && at.host.finished);
+    EXPECT_GT(lt.memory->urgent, 0U);
+    EXPECT_LT(lt.memory->urgent, lt.memory->accesses);
+    EXPECT_EQ(at.at.urgent, lt.memory->urgent);
+    EXPECT_EQ(at.at.requests, lt.memory->accesses);
+}
+
 TEST_F(SmallRunAtPlatform, StrictTakesTheSameTime) {
     Accelerator::Options strict_options = four_phases();
     strict_options.fidelity = Fidelity::Strict;

@@ -20,6 +20,7 @@
 #include "platform/accelerator_core.hpp"
 #include "tests/platform/protocol/base_protocol_monitor.hpp"
 #include "tlm/has_process.hpp"
+#include "tlm/urgent.hpp"
 
 namespace degs::test {
 
@@ -32,7 +33,7 @@ public:
     std::vector<unsigned char> bytes;
     std::uint64_t refused_from = ~std::uint64_t{0}; ///< accesses that reach this address fail
     sc_core::sc_time latency{50, sc_core::SC_NS};
-    std::uint64_t accesses = 0;
+    std::uint64_t accesses = 0, urgent = 0;
     std::uint64_t refused = 0;
     std::function<void(std::uint64_t access)> on_access;
     std::function<void(std::uint64_t address, std::uint64_t bytes)> on_range; ///< timed accesses
@@ -70,6 +71,7 @@ private:
     }
     void transport(tlm::tlm_generic_payload& payload, sc_core::sc_time& delay) {
         ++accesses;
+        urgent += payload.get_extension<Urgent>() != nullptr ? 1 : 0;
         if (on_access) {
             on_access(accesses);
         }

@@ -14,6 +14,7 @@
 #include <tlm_utils/peq_with_get.h>
 
 #include "tlm/has_process.hpp"
+#include "tlm/urgent.hpp"
 
 namespace degs::test {
 
@@ -44,7 +45,7 @@ public:
     bool aligned_only =
         false; ///< complains of accesses that are not naturally aligned powers of two
     unsigned under_way = 0, most_under_way = 0;
-    std::uint64_t requests = 0, longest = 0;
+    std::uint64_t requests = 0, longest = 0, urgent = 0;
 
     AtMemory(const sc_core::sc_module_name& name, std::size_t size)
         : sc_core::sc_module(name), in("in"), bytes(size, 0xA5), accepted_("accepted"),
@@ -103,6 +104,7 @@ private:
         const sc_core::sc_time here =
             latency * (out_of_order ? 4.0 - static_cast<double>(requests % 4) : 1.0);
         ++requests;
+        urgent += payload.get_extension<Urgent>() != nullptr ? 1 : 0;
         if (how == Ending::Completed) {
             move(payload);
             leave(payload);
