@@ -149,10 +149,12 @@ TEST(Gscore, ReadsTheShOfCulledGaussians) {
     FrameWorkload frame = make_frame({blanket(8, 8, 4)}, 16, 16, 16);
     frame.gaussians = 64 * 10;
     frame.sh_degree = 3;
-    const gscore::Config config;
-    gscore::Config visible = config;
-    visible.traffic.sh = ShReads::Visible;
-    const EngineRun run("run", config, {&frame});
+    gscore::Config visible;
+    visible.pipeline.records = Records::Fp32;
+    visible.traffic.set_formats(visible.pipeline.stored_numbers());
+    gscore::Config all = visible;
+    all.traffic.sh = ShReads::All;
+    const EngineRun run("run", all, {&frame});
     const EngineRun frugal("frugal", visible, {&frame});
     sc_core::sc_start();
     EXPECT_EQ(bytes_read(run.result(), "sh"), 640U * 48 * 4);
