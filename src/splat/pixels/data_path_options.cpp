@@ -53,15 +53,15 @@ DataPathOptions named_numbers(const std::string& name) {
     return named_numbers(name, {});
 }
 
-DataPathOptions named_numbers(const std::string& name, const std::vector<std::string>& given) {
-    const std::vector<std::string> assignments = with_record_formats(given);
+DataPathOptions named_numbers(const std::string& name,
+                              const std::vector<std::string>& assignments) {
+    const std::vector<std::string> parts = with_record_formats(assignments);
     const Arithmetic arithmetic = arithmetic_of(name);
     const NumberSet set = number_set(set_of(arithmetic).name, assignments);
     DataPathOptions options = options_of(set);
-    const bool same =
-        std::all_of(assignments.begin(), assignments.end(), [](const std::string& assignment) {
-            return NumberSet::makes_splats(assignment.substr(0, assignment.find('=')));
-        });
+    const bool same = std::all_of(parts.begin(), parts.end(), [](const std::string& assignment) {
+        return NumberSet::makes_splats(assignment.substr(0, assignment.find('=')));
+    });
     if (same) {
         options.set.reset();
         options.numbers = arithmetic;
