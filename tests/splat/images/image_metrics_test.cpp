@@ -160,5 +160,19 @@ TEST(ImageMetrics, SizesMustAgree) {
     }
 }
 
+TEST(ImageBytes, AreClampedAndRoundHalvesUp) {
+    for (int step = 0; step <= 255; ++step) {
+        const float value = static_cast<float>(step) / 255.0F;
+        EXPECT_EQ(byte_of(value), step);
+        EXPECT_EQ(byte_of(value - 0.49F / 255.0F), step);
+        EXPECT_EQ(byte_of(value + 0.49F / 255.0F), step);
+    }
+    EXPECT_EQ(byte_of(0.5F), 128);
+    EXPECT_EQ(byte_of(-1.0F), 0);
+    EXPECT_EQ(byte_of(2.0F), 255);
+    EXPECT_EQ(byte_of(std::numeric_limits<float>::infinity()), 255);
+    EXPECT_EQ(byte_of(std::numeric_limits<float>::quiet_NaN()), 0);
+}
+
 } // namespace
 } // namespace degs
