@@ -75,14 +75,14 @@ int degs_busy(const degs_device *device) {
     return (read_word(device, DEGS_REG_STATUS) & DEGS_STATUS_BUSY) != 0;
 }
 
-static int pending(uint32_t status) {
+static int unfinished(uint32_t status) {
     return (status & (DEGS_STATUS_BUSY | DEGS_STATUS_IN_RESET)) != 0;
 }
 
 uint32_t degs_reset(const degs_device *device, uint32_t polls) {
     write_word(device, DEGS_REG_CONTROL, DEGS_CONTROL_RESET);
     for (; polls > 0; polls--) {
-        if (!pending(read_word(device, DEGS_REG_STATUS))) {
+        if (!unfinished(read_word(device, DEGS_REG_STATUS))) {
             return DEGS_ERROR_CODE_NONE;
         }
     }
@@ -90,14 +90,14 @@ uint32_t degs_reset(const degs_device *device, uint32_t polls) {
 }
 
 uint32_t degs_wait(const degs_device *device) {
-    while (pending(read_word(device, DEGS_REG_STATUS))) {
+    while (unfinished(read_word(device, DEGS_REG_STATUS))) {
     }
     return degs_error(device);
 }
 
 uint32_t degs_wait_for(const degs_device *device, uint32_t polls) {
     for (; polls > 0; polls--) {
-        if (!pending(read_word(device, DEGS_REG_STATUS))) {
+        if (!unfinished(read_word(device, DEGS_REG_STATUS))) {
             return degs_error(device);
         }
     }
@@ -113,7 +113,7 @@ uint32_t degs_acknowledge(const degs_device *device) {
 uint32_t degs_error(const degs_device *device) {
     const uint32_t status = read_word(device, DEGS_REG_STATUS);
     const uint32_t code = read_word(device, DEGS_REG_ERROR_CODE);
-    if (pending(status)) {
+    if (unfinished(status)) {
         return DEGS_RESULT_BUSY;
     }
     if ((status & DEGS_STATUS_START_IGNORED) != 0) {

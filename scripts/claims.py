@@ -18,7 +18,6 @@ import csv
 import json
 import os
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
@@ -375,12 +374,7 @@ def main():
     commands.add_parser("table")
     commands.add_parser("failing").add_argument("text", nargs="?", default="")
     options = parser.parse_args()
-    try:
-        {"run": run, "table": table, "failing": failing}[options.command](options)
-    except Mistake as mistake:
-        sys.exit(f"claims.py: {mistake}")
-    except subprocess.CalledProcessError as failed:
-        sys.exit(f"claims.py: the program ended with exit code {failed.returncode}.")
+    figures.carry_out({"run": run, "table": table, "failing": failing}[options.command], options)
 
 
 if __name__ == "__main__":

@@ -317,6 +317,28 @@ def curve(name):
     markdown([chart.corner] + [each[0] for each in chart.columns], lines)
 
 
+def carry_out(command, options):
+    """Calls a command; a mistake or a failed program ends the script with one sentence."""
+    script = Path(sys.argv[0]).name
+    try:
+        command(options)
+    except Mistake as mistake:
+        sys.exit(f"{script}: {mistake}")
+    except subprocess.CalledProcessError as failed:
+        sys.exit(f"{script}: the program ended with exit code {failed.returncode}.")
+
+
+def chosen(options):
+    """Does what the command line names."""
+    if options.command != "run":
+        (table if options.command == "table" else curve)(options.name)
+        return
+    with tempfile.TemporaryDirectory(prefix="degs-figures-") as temporary:
+        options.folder = options.folder or Path(temporary)
+        options.folder.mkdir(parents=True, exist_ok=True)
+        run(options)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     commands = parser.add_subparsers(dest="command", required=True)
@@ -332,18 +354,7 @@ def main():
     options = parser.parse_args()
     if options.command == "run" and options.quick and options.keep:
         sys.exit("figures.py: --keep needs the full studies; --quick is for a trial.")
-    try:
-        if options.command == "run":
-            with tempfile.TemporaryDirectory(prefix="degs-figures-") as temporary:
-                options.folder = options.folder or Path(temporary)
-                options.folder.mkdir(parents=True, exist_ok=True)
-                run(options)
-        else:
-            (table if options.command == "table" else curve)(options.name)
-    except Mistake as mistake:
-        sys.exit(f"figures.py: {mistake}")
-    except subprocess.CalledProcessError as failed:
-        sys.exit(f"figures.py: the sweep ended with exit code {failed.returncode}.")
+    carry_out(chosen, options)
 
 
 if __name__ == "__main__":

@@ -4,10 +4,10 @@
 
 docs/regime.csv has the real ones. Without an option the views are measured with `degs scene info`; --utilization runs
 three designs on each view. --only TEXT takes the rows whose first word contains TEXT, --gaussians N draws every scene
-with that many Gaussians at most. --figures has the paper's figures on both scenes with camera 1: utilization from 720p
-to 8K, and latency per mm2 of DeGS-64 over the others by memory. --large measures cameras 1 and 2 of the trained scenes in DEGS_SCENES_LARGE (default
-../shared/scenes-large) at 1080p instead. Runs DEGS_PROGRAM (default: degs of the search path, else
-build/release/sim/degs)."""
+with that many Gaussians at most. --figures has the paper's figures on both scenes with camera 1 and a million Gaussians
+each: utilization from 720p to 8K, and latency per mm2 over that of DeGS-64 by bandwidth. --large measures cameras 1 and
+2 of the trained scenes in DEGS_SCENES_LARGE (default ../shared/scenes-large) at 1080p instead. Runs DEGS_PROGRAM
+(default: degs of the search path, else build/release/sim/degs)."""
 import argparse
 import csv
 import json
@@ -98,6 +98,11 @@ def compared(designs, scene, resolutions, *more):
             return {(row["config"], int(row["width"])): row for row in csv.DictReader(file)}
 
 
+def short_name(scene):
+    """interior of synthetic:interior,gaussians=1000000."""
+    return scene[len("synthetic:"):].split(",")[0]
+
+
 def print_figures(only, gaussians):
     """Utilization over resolutions, and latency per area over that of DeGS-64 by bandwidth."""
     scenes = [f"synthetic:{name},gaussians={gaussians or 1_000_000}" for name in ("interior", "garden") if only in name]
@@ -107,7 +112,7 @@ def print_figures(only, gaussians):
         rows = compared(ARRAYS, scene, ",".join(RESOLUTIONS), "--array-only")
         for design in ARRAYS:
             cells = [f"{100 * float(rows[design, width]['slots.utilization']):.1f}" for width in RESOLUTIONS.values()]
-            print(f"| {scene[len('synthetic:'):]} | {design} | {' | '.join(cells)} |", flush=True)
+            print(f"| {short_name(scene)} | {design} | {' | '.join(cells)} |", flush=True)
     print("\n| whole | image | GB/s | DeGS-64, ms | " + " | ".join(f"{design} ×" for design in WHOLE[1:]) + " |")
     print("| --- | --- | ---: | ---: |" + " ---: |" * len(WHOLE[1:]))
     for scene in scenes:
@@ -117,7 +122,7 @@ def print_figures(only, gaussians):
                 found = {design: rows[design, RESOLUTIONS[name]] for design in WHOLE}
                 cost = {design: float(row["latency_ms"]) * float(row["area_mm2"]) for design, row in found.items()}
                 cells = [f"{cost[design] / cost['degs-64']:.2f}" for design in WHOLE[1:]]
-                print(f"| {scene[len('synthetic:'):]} | {name} | {bandwidth} | "
+                print(f"| {short_name(scene)} | {name} | {bandwidth} | "
                       f"{float(found['degs-64']['latency_ms']):.3f} | {' | '.join(cells)} |", flush=True)
 
 

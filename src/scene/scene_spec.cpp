@@ -105,10 +105,6 @@ void take_option(const std::string& text, const std::string& option, SceneSpec& 
               "'" + option + "' is not an option of a scene file; allowed are " + allowed + ".");
 }
 
-} // namespace
-
-namespace {
-
 SceneSpec spec_of(const std::string& text) {
     SceneSpec spec;
     spec.path = text;

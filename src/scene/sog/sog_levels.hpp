@@ -13,7 +13,7 @@ namespace degs {
 
 struct SogChoice {
     std::vector<SogRun> runs;       ///< one per leaf at most
-    std::vector<std::string> notes; ///< a full sentence for what the scene now is or lacks
+    std::vector<std::string> notes; ///< full sentences: what is shown, and what is left out
 };
 
 /// Level `detail.level` of every leaf, which is nothing where a leaf has no such level. Or within a

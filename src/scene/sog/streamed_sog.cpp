@@ -188,7 +188,8 @@ private:
         }
     }
 
-    /// Runs of any level lie in the file, and what no run names is told.
+    /// The runs of all levels must lie inside the file. A note says how many Gaussians no run
+    /// names.
     void check_all(const SogPart& part, std::uint64_t gaussians) {
         std::uint64_t end = 0, named = 0;
         for (const SogRun& run : part.all) {
