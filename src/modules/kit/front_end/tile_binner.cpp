@@ -28,7 +28,7 @@ void TileBinner::Config::describe(ConfigVisitor& visitor) {
         visitor.unused("buffer_bytes", "entries", "only combined entries wait to be grouped");
     }
     if (entries == ListWriting::Stream) {
-        visitor.unused("head_bytes", "entries", "a stream has no ends of lists");
+        visitor.unused("head_bytes", "entries", "a stream needs no ends of lists");
     }
     visitor.boolean("keep_lists", keep_lists,
                     "do sorted lists stay in memory for the next frame, so that only entries that "
