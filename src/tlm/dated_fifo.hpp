@@ -11,6 +11,7 @@
 #include <systemc>
 #include <tlm>
 
+#include "tlm/event_log.hpp"
 #include "tlm/process.hpp"
 
 namespace degs {
@@ -145,6 +146,8 @@ public:
     }
     void drop(Process& reader) {
         const Cycle now = reader.local();
+        const Cell* const taken = front_;
+        const Cycle readable = front_->date;
         stats_.items++;
         stats_.occupied_cycles += now - front_->written;
         if (stats_.high_water != depth_) {
@@ -155,8 +158,8 @@ public:
         const bool was_full = filled_-- == room_;
         front_ = next(front_);
         head_ = &front_->date;
-        if (foreign_listens_) {
-            announce();
+        if (attended_) {
+            show_take(taken->value, readable, now);
         }
         if (was_full && writer_ != nullptr && writer_->blocked()) {
             writer_->wake();
@@ -167,6 +170,16 @@ public:
         while (filled_ == 0) {
             reader.block_on_item(*this);
         }
+    }
+
+    /// Logs what is written as events `kind` of port `port` of the writer.
+    void log_puts(EventLog& log, const char* kind, std::size_t port = 0) {
+        puts_ = logged(log, kind, port, false);
+    }
+    /// Logs what is read as events `kind` of port `port` of the reader: the cycle in which it is
+    /// taken, and the cycles for which it could have been.
+    void log_takes(EventLog& log, const char* kind, std::size_t port = 0) {
+        takes_ = logged(log, kind, port, true);
     }
 
     // Standard interfaces (TLM-1), for blocks that live in kernel time.
@@ -239,6 +252,7 @@ private:
         T value{};
     };
     void commit(Process& writer, Cycle ready) {
+        const Cell* const written = tail_;
         tail_->written = writer.local();
         tail_->date = std::max(writer.local() + forward_latency_, ready);
         const bool was_empty = filled_++ == 0;
@@ -247,8 +261,8 @@ private:
         if (filled_ == capacity_ && capacity_ < depth_) {
             grow(); // so that tail_ is free unless the ring is full
         }
-        if (foreign_listens_) {
-            announce();
+        if (attended_) {
+            show_put(*written);
         }
         // Last, because a reader without a thread takes the item at once.
         if (was_empty && reader_ != nullptr && reader_->blocked()) {
@@ -258,6 +272,7 @@ private:
     /// The staged item takes its cell, but cannot be read before those that are late and its own
     /// answer.
     __attribute__((noinline)) void hold(Process& writer, const Completion& ready) {
+        const Cell* const written = tail_;
         tail_->written = writer.local();
         tail_ = next(tail_);
         free_ = &tail_->date;
@@ -266,6 +281,9 @@ private:
         late_from_ = late_.size() == 1 ? writer.local() + forward_latency_ : late_from_;
         if (filled_ + late_.size() == capacity_ && capacity_ < depth_) {
             grow();
+        }
+        if (attended_) {
+            show_put(*written);
         }
         ready.when_known([this](Cycle /*date*/) { settle(); });
     }
@@ -279,7 +297,7 @@ private:
             ++filled_;
         }
         late_from_ = late_.empty() ? ~Cycle{0} : late_cell().written + forward_latency_;
-        if (foreign_listens_) {
+        if (attended_) {
             announce();
         }
         if (was_empty && filled_ != 0 && reader_ != nullptr && reader_->blocked()) {
@@ -360,11 +378,51 @@ private:
     Cycle room_date() const { return capacity_ < depth_ ? 0 : tail_->date; }
     void listen() const {
         foreign_listens_ = true;
+        attended_ = true;
         announce();
+    }
+    __attribute__((noinline)) void show_put(const Cell& cell) const {
+        announce();
+        if (puts_.log != nullptr) {
+            puts_.log->begin(puts_.kind, cell.written);
+            puts_.log->put(puts_.port);
+            FieldValues values(*puts_.log);
+            visit_fields(cell.value, values);
+        }
+    }
+    __attribute__((noinline)) void show_take(const T& value, Cycle readable, Cycle now) const {
+        announce();
+        if (takes_.log != nullptr) {
+            takes_.log->begin(takes_.kind, now);
+            takes_.log->put(takes_.port);
+            takes_.log->put(static_cast<std::int64_t>(now - readable));
+            FieldValues values(*takes_.log);
+            visit_fields(value, values);
+        }
+    }
+    /// A side of the ring in a log.
+    struct Logged {
+        EventLog* log = nullptr;
+        std::size_t kind = 0;
+        std::int64_t port = 0;
+    };
+    Logged logged(EventLog& log, const char* kind, std::size_t port, bool takes) {
+        std::vector<EventLog::Field> fields{{"port", {}}};
+        if (takes) {
+            fields.push_back({"waited", {}});
+        }
+        FieldNames names;
+        visit_fields(T(), names);
+        fields.insert(fields.end(), names.fields().begin(), names.fields().end());
+        attended_ = true;
+        return {&log, log.kind(kind, fields), static_cast<std::int64_t>(port)};
     }
     /// An event remembers its earliest notification only. So the next item and the next free cell
     /// are announced anew whenever a side has moved or a foreign block starts to listen.
     __attribute__((noinline)) void announce() const {
+        if (!foreign_listens_) {
+            return;
+        }
         if (filled_ != 0) {
             notify_foreign(foreign_item_, front_->date);
         }
@@ -401,6 +459,8 @@ private:
     std::unique_ptr<Process> foreign_writer_;
     std::unique_ptr<Process> foreign_reader_;
     mutable bool foreign_listens_ = false; // somebody asked for ok_to_get() or ok_to_put()
+    mutable bool attended_ = false;        // by foreign blocks or by a log
+    Logged puts_, takes_;
     mutable sc_core::sc_event foreign_item_;
     mutable sc_core::sc_event foreign_room_;
 };

@@ -50,6 +50,18 @@ bool Degs::draws_ahead() const {
            config_.tile_size <= kMostDrawnColumns && tiles_in_flight < kMostContexts / 2;
 }
 
+std::vector<RenderEngine::BlockGroup> Degs::logged_blocks() const {
+    const auto group = [](const char* kind, const auto& units) {
+        BlockGroup blocks{kind, {}};
+        for (const auto& unit : units) {
+            blocks.blocks.push_back(unit.get());
+        }
+        return blocks;
+    };
+    return {group("slicing", blocks_.slicing), group("span", blocks_.spans),
+            group("bank", blocks_.banks), group("slice", blocks_.slices)};
+}
+
 std::unique_ptr<RenderEngine> DegsConfig::build(const char* module, const Timebase& time,
                                                 RenderJob& job, const BuildOptions& options) const {
     return std::make_unique<Degs>(module, *this, time, job, options);

@@ -32,6 +32,7 @@ public:
 
     std::size_t finished_tiles() const override;
     void collect(AcceleratorResult& result) const override;
+    std::vector<BlockGroup> logged_blocks() const override;
 
     const DegsConfig& config() const { return config_; }
     const TileFrontEnd& front_end() const { return *front_end_; }

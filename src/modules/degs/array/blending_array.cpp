@@ -62,6 +62,33 @@ void ArraySlice::end_of_elaboration() {
     }
 }
 
+void ArraySlice::start_of_simulation() {
+    if (log_ == nullptr) {
+        return;
+    }
+    const std::pair<const char*, std::int64_t> facts[] = {
+        {"tile_size", job_.tile_size},
+        {"slice", index_},
+        {"slices", slices_},
+        {"pes", config_.pes_per_bank},
+        {"writeback_cycles", config_.writeback_cycles},
+        {"termination", static_cast<int>(config_.termination)},
+        {"contexts", config_.contexts},
+        {"streams", config_.streams}};
+    for (const auto& [name, value] : facts) {
+        log_->set(name, value);
+    }
+    in.ring().log_takes(*log_, "packet");
+    terminated.ring().log_puts(*log_, "terminated");
+    for (std::size_t i = 0; i < region_ended.size(); ++i) {
+        region_ended[i].ring().log_puts(*log_, "region_ended", i);
+    }
+    for (std::size_t i = 0; i < tile_done.size(); ++i) {
+        tile_done[i].ring().log_puts(*log_, "tile_done", i);
+        tile_state[i].ring().log_puts(*log_, "tile_state", i);
+    }
+}
+
 // Inlined: a call more per packet is 1 % of a run.
 template <ArraySlice::Tasks Kind>
 inline __attribute__((always_inline)) void ArraySlice::execute(const TaskPacket& packet) {

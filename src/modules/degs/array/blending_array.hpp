@@ -22,7 +22,7 @@ namespace degs {
 /// written back after `writeback_cycles`, and the reports that a pixel or a whole segment has ended
 /// leave at the same date. The slice never stalls, because a packet is issued only when nothing can
 /// stop it.
-class ArraySlice : public sc_core::sc_module, private Pumped {
+class ArraySlice : public sc_core::sc_module, public LoggedBlock, private Pumped {
 public:
     struct Config {
         int pes_per_bank = 8;
@@ -86,6 +86,8 @@ public:
     /// Packets tell dates alone, and of their tasks those that end a pixel; before the simulation
     /// starts.
     void expect_drawn() { drawn_ = true; }
+    /// Packets taken, ended pixels and regions told, tiles handed over.
+    void log_to(EventLog& log) override { log_ = &log; }
 
 private:
     /// What to do with the tasks of packets: blend them, record them as well, or neither, since
@@ -115,6 +117,7 @@ private:
         std::vector<Recent> recent; ///< per segment: pixels updated lately
     };
     void end_of_elaboration() override;
+    void start_of_simulation() override;
     void run();
     void pump() override;
     /// The context, prepared for the tile if that starts with this call.
@@ -168,6 +171,7 @@ private:
     bool drawn_ = false;
     RecordedPump recorded_{*this};
     Stats stats_;
+    EventLog* log_ = nullptr;
 };
 
 inline __attribute__((always_inline)) void

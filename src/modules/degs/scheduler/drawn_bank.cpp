@@ -16,6 +16,17 @@ void DrawnBank::run() {
     finish();
 }
 
+// Of the span's next segment.
+inline std::uint32_t DrawnBank::cut_mask() const {
+    const std::uint64_t high = std::uint64_t{1} << std::min(left_, segment_length_);
+    return static_cast<std::uint32_t>(high - low_);
+}
+
+// See IssueBank::can_cut().
+inline bool DrawnBank::can_cut() const {
+    return left_ > 0 && (free_ != nullptr || (cut_mask() & cut_tile_->domains[cut_].live) == 0);
+}
+
 template <bool single, bool in_turn>
 void DrawnBank::run_cycles() {
     for (bool over = this->over(); !over;) {
@@ -39,7 +50,7 @@ void DrawnBank::run_cycles() {
         if (over) {
             const Cycle open = packet_.open_until();
             next = open == kNever ? next : std::max(open, next);
-        } else if (issued == 0 && !(left_ > 0 && free_ != nullptr)) {
+        } else if (issued == 0 && !can_cut()) {
             next = next_date();
         } // else work is left, whatever arrives
         if (packet_.leaves_slots(next)) {
@@ -181,8 +192,7 @@ inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stre
 template <bool in_turn>
 inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
     Domain& domain = cut_tile_->domains[cut_];
-    const std::uint64_t high = std::uint64_t{1} << std::min(left_, segment_length_);
-    const auto mask = static_cast<std::uint32_t>(high - low_);
+    const std::uint32_t mask = cut_mask();
     if ((mask & domain.live) == 0) {
         stats_.drop(mask);
         inside_ -= __builtin_popcount(mask & drawn_.inside.from(column_));

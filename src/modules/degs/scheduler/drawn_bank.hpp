@@ -101,6 +101,8 @@ private:
     [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number);
     template <bool in_turn>
     inline bool cut_segment();
+    inline std::uint32_t cut_mask() const;
+    inline bool can_cut() const;
     [[gnu::noinline]] void enter_tile(BankStream& stream, TileNumber number);
     [[gnu::noinline]] void renumber();
     [[gnu::noinline]] void end_pixels();
@@ -131,7 +133,7 @@ private:
     template <bool in_turn>
     inline bool find_ready(const BankStream& stream, Cycle slot);
     template <bool in_turn>
-    std::size_t first_ready(Cycle slot, bool last);
+    std::size_t first_ready(Cycle slot);
     template <bool in_turn>
     inline std::size_t least_ready(Cycle slot);
     template <bool in_turn>
@@ -250,7 +252,7 @@ inline __attribute__((always_inline)) void DrawnBank::send() {
     const int tasks = packet_.tasks();
     const bool ends = ends_tile_;
     ends_tile_ = false;
-    packing_.pass_packet(now_, packet_.sent(), tasks, ends);
+    packing_.pass_packet(now_, packet_.sent(now_), tasks, ends);
 }
 
 } // namespace degs

@@ -38,25 +38,32 @@ inline __attribute__((always_inline)) std::uint64_t DrawnBank::find(const Tile& 
     return found >= DomainLanes::kTop ? kNothing : found;
 }
 
-// The older tile goes first.
+// A single stream; see IssueBank::issue_segments().
 template <bool in_turn>
 inline __attribute__((always_inline)) int DrawnBank::issue_in_order() {
+    Tile* const* const first = started_.data();
+    Tile* const* const end = first + started_.size();
+    Tile* const* place = first;
+    Cycle slot = packet_.next_execution(now_);
     int issued = 0;
-    for (Tile* const tile : started_) {
-        while (tile->waiting != 0) {
-            const Cycle slot = packet_.next_execution(now_);
-            const std::uint64_t found = find<in_turn>(*tile, slot);
-            if (found == kNothing) {
-                break;
-            }
-            const auto number = static_cast<int>(found & tile->lanes.mask());
-            tile->cursor = after(number);
-            if (!issue_one<in_turn>(*tile, number, slot)) {
-                break;
-            }
-            if (++issued == issue_width_) {
-                return issued;
-            }
+    while (place != end) {
+        Tile& tile = **place;
+        const std::uint64_t found = tile.waiting == 0 ? kNothing : find<in_turn>(tile, slot);
+        if (found == kNothing) {
+            ++place;
+            continue;
+        }
+        const auto number = static_cast<int>(found & tile.lanes.mask());
+        if (!issue_one<in_turn>(tile, number, slot)) {
+            break;
+        }
+        tile.cursor = after(number);
+        if (++issued == issue_width_) {
+            break;
+        }
+        if (const Cycle date = packet_.next_execution(now_); date != slot) {
+            slot = date;
+            place = first; // the older tile may have a ready domain now
         }
     }
     return issued;
@@ -88,19 +95,17 @@ inline __attribute__((always_inline)) bool DrawnBank::find_ready(const BankStrea
 }
 
 // The next stream that has a ready domain, that which issued last at the end; if there is none,
-// their number. All streams are searched, because what they have at this date counts for later
-// issues of the cycle; for the `last` one only as far as needed.
+// their number.
 template <bool in_turn>
-std::size_t DrawnBank::first_ready(Cycle slot, bool last) {
-    std::size_t first = streams_.size();
+std::size_t DrawnBank::first_ready(Cycle slot) {
     std::size_t stream = issued_stream_;
     do {
         stream = streams_[stream].next->index;
-        if (find_ready<in_turn>(streams_[stream], slot) && first == streams_.size()) {
-            first = stream;
+        if (find_ready<in_turn>(streams_[stream], slot)) {
+            return stream;
         }
-    } while (stream != issued_stream_ && (first == streams_.size() || !last));
-    return first;
+    } while (stream != issued_stream_);
+    return streams_.size();
 }
 
 // The stream whose ready domain goes first; if there is none, their number.
@@ -117,30 +122,31 @@ inline __attribute__((always_inline)) std::size_t DrawnBank::least_ready(Cycle s
     return chosen;
 }
 
-// One of the streams after the other; a domain that was found stays ready until it is issued.
+// Of several streams; see IssueBank::issue_segments().
 template <bool in_turn>
 inline __attribute__((always_inline)) int DrawnBank::issue_from_all() {
-    for (Stream& ready : own_) {
-        ready.rank = kNothing;
-    }
     int issued = 0;
-    while (issued < issue_width_) {
+    for (Cycle date = 0; issued < issue_width_; ++issued) {
         const Cycle slot = packet_.next_execution(now_);
-        const bool last = issued + 1 == issue_width_;
+        if (slot != date) { // another domain may be ready now
+            date = slot;
+            for (Stream& ready : own_) {
+                ready.rank = kNothing;
+            }
+        }
         const std::size_t chosen =
-            in_turn ? first_ready<in_turn>(slot, last) : least_ready<in_turn>(slot);
+            in_turn ? first_ready<in_turn>(slot) : least_ready<in_turn>(slot);
         if (chosen == streams_.size()) {
             break;
         }
         Stream& ready = own_[chosen];
         const auto number = static_cast<int>(ready.rank & ready.tile->lanes.mask());
         if (!issue_one<in_turn>(*ready.tile, number, slot)) {
-            break; // nothing overtakes what waits for room
+            break;
         }
         ready.tile->cursor = after(number);
         ready.rank = kNothing;
         issued_stream_ = chosen;
-        ++issued;
     }
     return issued;
 }
@@ -187,7 +193,7 @@ inline __attribute__((always_inline)) bool DrawnBank::issue_one(Tile& tile, int 
         tasks = tasks_of(segment, domain.live);
     }
     const int count = __builtin_popcount(tasks);
-    if (!packet_.fits(now_, slot, count)) {
+    if (count != 0 && !(packet_.fits(now_, slot, count) && packet_.can_write(now_, count))) {
         no_room_ = true;
         return false;
     }
@@ -203,7 +209,7 @@ inline __attribute__((always_inline)) bool DrawnBank::issue_one(Tile& tile, int 
         tile.lanes.set_date(number, last);
     }
     if (trace_ != nullptr) {
-        trace_->add(now_, slot, tile.context, number, last, count);
+        trace_->add({now_, slot, last, tile.context, number, tasks});
     }
     if (tasks != segment.mask) {
         drop(segment, segment.mask ^ tasks);

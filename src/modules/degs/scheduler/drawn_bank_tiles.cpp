@@ -51,7 +51,8 @@ DrawnBank::DrawnBank(const Parts& parts, DrawnSpans* spans)
       sees_pixels_(config_.termination != TerminationGrain::Segment),
       fills_(config_.fill.cycles != 0), width_cause_(parts.width_cause), pool_(config_.queue_depth),
       tile_mask_(places_of(parts) - 1), own_(streams_.size()), next_stream_(&streams_.front()),
-      packet_(packing_.config().width, packing_.config().latency_cycles, packing_.config().depth),
+      packet_(packing_.config().width, packing_.config().latency_cycles, packing_.config().depth,
+              packing_.config().packets_per_cycle),
       trace_(parts.trace) {
     for (Waiting& place : pool_) {
         place.next = free_;
@@ -341,7 +342,7 @@ Cycle DrawnBank::next_date() {
         return next;
     }
     watched_.clear();
-    if (free_ != nullptr && left_ <= 0 && watch_inputs()) {
+    if (left_ <= 0 && watch_inputs()) {
         // More than a cycle's worth, or no Feature Buffer entry.
         const bool entries_only = features_full_ && single_stream_;
         limit = std::min(limit, entries_only ? std::max(next, features_.next_free()) : next);

@@ -33,7 +33,7 @@ class DrawnBank;
 /// issues segments. Tiles come in one stream, or in several at once: spans are then taken from the
 /// streams in turn, a tile enters when it has its context of the Pixel Buffer, and the scan rule
 /// also chooses among the streams.
-class IssueBank : public sc_core::sc_module {
+class IssueBank : public sc_core::sc_module, public LoggedBlock {
 public:
     struct Config {
         static constexpr int kMostSegmentsPerPe = 256;
@@ -104,6 +104,8 @@ public:
     void read_from(SpanUnit& unit) { unit_ = &unit; }
     /// Writes what is issued into `trace`; before the simulation starts.
     void trace_to(IssueTrace& trace) { trace_ = &trace; }
+    /// Spans and ends of tiles taken, ended pixels and contexts seen, segments issued, packets.
+    void log_to(EventLog& log) override { log_ = &log; }
     const Stats& stats() const { return stats_; }
     /// What passes the only input in place of its ring; nullptr if nothing does.
     const DrawnSpans* drawn_spans() const { return drawn_spans_.get(); }
@@ -114,6 +116,7 @@ private:
 
     void end_of_elaboration() override;
     void start_of_simulation() override;
+    void start_log();
     void run();
     /// `single`: one tile stream from one Span Unit, whose loop asks for no others.
     template <bool single>
@@ -138,6 +141,8 @@ private:
     [[gnu::noinline]] void enter_tile(BankStream& stream, TileNumber number);
     [[gnu::noinline]] void take_end(BankStream& stream, TileNumber number, Cycle now);
     bool cut_segment();
+    /// True if another segment of the span can be cut or dropped at once.
+    bool can_cut() const;
     static bool takes(const BankStream& stream, const BankStream::Input& input) {
         return input.turn == stream.entering && stream.enterable;
     }
@@ -147,11 +152,10 @@ private:
 
     // Issue.
     bool issue(Cycle now);
-    int issue_in_order(Cycle now);
-    [[gnu::noinline]] int issue_from_all(Cycle now);
-    bool find_ready(BankStream& stream, Cycle now);
-    BankStream* first_ready(Cycle now, bool last);
-    BankStream* least_ready(Cycle now);
+    int issue_segments(Cycle now);
+    bool find_ready(BankStream& stream, Cycle slot);
+    BankStream* first_ready(Cycle slot);
+    BankStream* least_ready(Cycle slot);
     bool issue_one(Cycle now, SegmentQueue::Tile& tile, int domain);
     bool finish_tiles();
     [[gnu::noinline]] void finish_tiles(BankStream& stream);
@@ -170,6 +174,7 @@ private:
 
     Config config_;
     const RenderJob& job_;
+    int index_;
     PackingUnit& packing_;
     int contexts_;        // of a stream
     int tiles_in_flight_; // of a single stream
@@ -200,6 +205,9 @@ private:
     std::vector<FifoBase*> watched_; // inputs that can end the bank's sleep
     Stats stats_;
     IssueTrace* trace_ = nullptr;
+    IssueTrace logged_issues_;
+    EventLog* log_ = nullptr;
+    std::size_t tile_event_ = 0;
     SpanUnit* unit_ = nullptr;
     // Where a DrawnBank runs, the bank and what passes its input.
     std::unique_ptr<DrawnSpans> drawn_spans_;

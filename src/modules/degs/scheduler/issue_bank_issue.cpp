@@ -32,7 +32,7 @@ inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, Segme
         }
     }
     if (trace_ != nullptr) {
-        trace_->add(now, slot, tile.context(), domain, last, tasks);
+        trace_->add({now, slot, last, tile.context(), domain, wanted});
     }
     stats_.segments_issued++;
     stats_.tasks_issued += tasks;
@@ -45,62 +45,48 @@ inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, Segme
 // True if anything was issued.
 bool IssueBank::issue(Cycle now) {
     no_room_ = false;
-    const int issued = stream_count_ == 1 ? issue_in_order(now) : issue_from_all(now);
+    const int issued = issue_segments(now);
     width_limited_ = issued == config_.issue_width;
     stats_.busy += issued != 0 ? 1 : 0;
     return issued != 0;
 }
 
-// The older tile goes first. Returns the number of segments issued.
-int IssueBank::issue_in_order(Cycle now) {
-    int issued = 0;
-    for (SegmentQueue::Tile* const tile : started_) {
-        while (tile->waiting() != 0) {
-            const int domain = queue_.pick(*tile, packing_.next_execution(now));
-            if (domain < 0 || !issue_one(now, *tile, domain)) {
-                break;
-            }
-            if (++issued == config_.issue_width) {
-                return issued;
-            }
-        }
-    }
-    return issued;
-}
-
-// One of the streams after the other; a domain that was found stays ready until it is issued.
-int IssueBank::issue_from_all(Cycle now) {
-    for (BankStream& stream : streams_) {
-        stream.ready = -1;
-    }
+// Picks one segment after the other, each for the date at which its first task will execute.
+// Nothing overtakes what waits for room. Returns the number of segments issued.
+int IssueBank::issue_segments(Cycle now) {
     const bool in_turn = config_.scan == DomainScan::RoundRobin;
     int issued = 0;
-    while (issued < config_.issue_width) {
-        const bool last = issued + 1 == config_.issue_width;
-        BankStream* const chosen = in_turn ? first_ready(now, last) : least_ready(now);
+    for (Cycle date = 0; issued < config_.issue_width; ++issued) {
+        const Cycle slot = packing_.next_execution(now);
+        if (slot != date) { // another domain may be ready now
+            date = slot;
+            for (BankStream& stream : streams_) {
+                stream.ready = -1;
+            }
+        }
+        BankStream* const chosen = in_turn ? first_ready(slot) : least_ready(slot);
         if (chosen == nullptr) {
             break;
         }
         SegmentQueue::Tile& tile = *started_[chosen->issuing];
         if (!issue_one(now, tile, chosen->ready)) {
-            break; // nothing overtakes what waits for room
+            break;
         }
         queue_.took(tile, chosen->ready);
         chosen->ready = -1;
         issued_stream_ = chosen;
-        ++issued;
     }
     return issued;
 }
 
 // Looks for a domain of the stream that may issue, in its oldest tile that has one. False if there
 // is none.
-inline bool IssueBank::find_ready(BankStream& stream, Cycle now) {
+inline bool IssueBank::find_ready(BankStream& stream, Cycle slot) {
     for (std::size_t place = stream.first_started; stream.ready < 0 && place < stream.end_started;
          ++place) {
         SegmentQueue::Tile& tile = *started_[place];
         if (tile.waiting() != 0) {
-            stream.ready = queue_.find(tile, packing_.next_execution(now));
+            stream.ready = queue_.find(tile, slot);
             stream.issuing = place;
         }
     }
@@ -108,26 +94,24 @@ inline bool IssueBank::find_ready(BankStream& stream, Cycle now) {
 }
 
 // The next stream that has a ready domain, that which issued last at the end; nullptr: there is
-// none. All streams are searched, because what they have at this date counts for later issues of
-// the cycle; for the `last` one only as far as needed.
-inline BankStream* IssueBank::first_ready(Cycle now, bool last) {
-    BankStream* first = nullptr;
+// none.
+inline BankStream* IssueBank::first_ready(Cycle slot) {
     BankStream* stream = issued_stream_;
     do {
         stream = stream->next;
-        if (find_ready(*stream, now) && first == nullptr) {
-            first = stream;
+        if (find_ready(*stream, slot)) {
+            return stream;
         }
-    } while (stream != issued_stream_ && (first == nullptr || !last));
-    return first;
+    } while (stream != issued_stream_);
+    return nullptr;
 }
 
 // The stream whose ready domain has the smallest key; nullptr: there is none.
-BankStream* IssueBank::least_ready(Cycle now) {
+BankStream* IssueBank::least_ready(Cycle slot) {
     BankStream* chosen = nullptr;
     std::uint64_t least = ~std::uint64_t{0};
     for (BankStream& stream : streams_) {
-        if (find_ready(stream, now)) {
+        if (find_ready(stream, slot)) {
             const std::uint64_t key = SegmentQueue::key_of(*started_[stream.issuing], stream.ready);
             if (key < least) {
                 least = key;
@@ -229,7 +213,7 @@ Cycle IssueBank::next_date(Cycle now) {
         return next; // there is work then, whatever arrives
     }
     watched_.clear();
-    if (!queue_.full() && !segmenter_.cutting() && watch_inputs(now)) {
+    if (!segmenter_.cutting() && watch_inputs(now)) {
         // More than a cycle's worth, or no Feature Buffer entry.
         const bool entries_only = features_full_ && stream_count_ == 1;
         limit = std::min(limit, entries_only ? std::max(next, features_.next_free()) : next);

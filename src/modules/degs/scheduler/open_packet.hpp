@@ -21,8 +21,10 @@ namespace degs {
 class OpenPacket {
 public:
     /// `depth`: packets that wait in the Packing Buffer. `latency`: cycles from issue to execution.
-    OpenPacket(int width, int latency, int depth)
-        : latency_(latency), width_(width), capacity_(Cycle{1} * width * depth) {}
+    /// `writes`: packets that are written to the Packing Buffer per cycle.
+    OpenPacket(int width, int latency, int depth, int writes)
+        : latency_(latency), width_(width), capacity_(Cycle{1} * width * depth), writes_(writes),
+          most_(Cycle{1} * width * (writes + 1)) {}
 
     bool open() const { return tasks_ != 0; }
     int tasks() const { return tasks_; }
@@ -40,6 +42,23 @@ public:
     bool fits(Cycle now, Cycle slot, int tasks) const {
         return (slot - (now + latency_)) * width_ + (tasks_ + tasks) <= capacity_;
     }
+    /// Complete packets that have not been written before `now`.
+    Cycle unwritten(Cycle now) const {
+        const Cycle first = now * writes_;
+        return next_write_ <= first ? 0 : next_write_ - first;
+    }
+    /// True if `complete` packets more can be written at `now`, or if no complete packet waits to
+    /// be written: those that are left follow in the next cycles, in time, because packets execute
+    /// one per cycle.
+    bool can_write_packets(Cycle now, Cycle complete) const {
+        const Cycle waiting = unwritten(now);
+        return waiting == 0 || waiting + complete <= writes_;
+    }
+    /// The same for the packets that `tasks` tasks more complete. It does not divide.
+    bool can_write(Cycle now, int tasks) const {
+        const Cycle waiting = unwritten(now);
+        return waiting == 0 || waiting * width_ + (tasks_ + tasks) < most_;
+    }
     /// Latest date up to which the bank may sleep: an open packet has to go then. kNever if none.
     Cycle open_until() const { return open() ? slot_ - latency_ : kNever; }
     bool due(Cycle now) const { return open() && slot_ - latency_ <= now; }
@@ -56,9 +75,10 @@ public:
     /// date of the last one.
     template <class Sink>
     inline Cycle pack(Cycle now, std::uint32_t mask, int count, Sink& sink);
-    /// The open packet is sent; returns its execution date.
-    Cycle sent() {
+    /// The open packet is sent at `now`; returns its execution date.
+    Cycle sent(Cycle now) {
         tasks_ = 0;
+        next_write_ = std::max(next_write_, now * writes_) + 1;
         return slot_++;
     }
 
@@ -68,6 +88,10 @@ private:
     Cycle latency_;
     int width_;
     Cycle capacity_;
+    Cycle writes_; // per cycle
+    Cycle next_write_ =
+        0;       // the first that is free; cycle t has `writes_` of them from t * writes_ on
+    Cycle most_; // tasks beyond which more than these packets are complete
 };
 
 // Inlined in the hot loop of the bank.

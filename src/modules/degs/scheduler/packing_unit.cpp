@@ -4,7 +4,7 @@
 namespace degs {
 PackingUnit::PackingUnit(const sc_core::sc_module_name& name, const Config& config)
     : sc_core::sc_module(name), out("out"), config_(config),
-      packet_(config.width, config.latency_cycles, config.depth) {
+      packet_(config.width, config.latency_cycles, config.depth, config.packets_per_cycle) {
     if (config.ports.limited()) {
         ports_.emplace(config.ports);
         trial_.emplace(config.ports);
@@ -110,7 +110,7 @@ void PackingUnit::record_packet(Slot cause) {
 bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, int entry) {
     const Cycle queued = next_execution(now) - (now + packet_.latency()) + (packet_.open() ? 1 : 0);
     const Cycle most = config_.depth;
-    if (queued + ports_->most_packets(mask, config_.width) <= most) {
+    if (queued + ports_->most_packets(mask, config_.width) <= most && packet_.unwritten(now) == 0) {
         return true; // even if the open packet takes none of them
     }
     const bool joined = packet_.open() && (config_.reorganisation || joins(run));
@@ -124,13 +124,16 @@ bool PackingUnit::fits_ports(Cycle now, const TaskRun& run, std::uint32_t mask, 
     for (std::uint32_t left = mask; left != 0;) {
         const std::uint32_t part = trial_->take(run.task, left, entry, config_.width - tasks);
         left ^= part;
+        tasks += __builtin_popcount(part);
         if (left != 0) { // in the next packet
             ++packets;
             tasks = 0;
             trial_->clear();
         }
     }
-    return queued + packets <= most;
+    const Cycle before = packet_.open() && !joined ? 1 : 0;
+    const Cycle complete = before + packets - (joined ? 0 : 1) + (tasks == config_.width ? 1 : 0);
+    return queued + packets <= most && packet_.can_write_packets(now, complete);
 }
 
 // All runs of the packet are of one span.
@@ -159,6 +162,7 @@ void PackingUnit::end_tile(Process& bank, TileNumber tile, std::int16_t context)
         packet.ended_context = context;
         packet.run_count = 0;
         packet.tasks = 0;
+        packet.slot = bank.local() + packet_.latency();
         packet.ends_tile = true;
         ring_->put_staged(bank);
     }

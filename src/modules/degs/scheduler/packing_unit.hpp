@@ -32,8 +32,9 @@ public:
     struct Config {
         int bytes = 32 * 1024; ///< of the Packing Buffer of all banks
         int task_bytes = 16;
-        int lead_packets = 5;   ///< packets that may wait for the array slice
-        int latency_cycles = 2; ///< issue to execution, unloaded: pack, read the buffer
+        int lead_packets = 5;      ///< packets that may wait for the array slice
+        int latency_cycles = 2;    ///< issue to execution, unloaded: pack, read the buffer
+        int packets_per_cycle = 1; ///< written to the Packing Buffer
         /// A packet may have tasks of different spans; false: of one span only, so that a segment
         /// of another span closes an open packet.
         bool reorganisation = true;
@@ -74,12 +75,13 @@ public:
 
     /// Execution date of the next task if it is packed at `now`.
     Cycle next_execution(Cycle now) const { return packet_.next_execution(now); }
-    /// True if there is room for `tasks` tasks of `run` more at `now`. Packets on their way through
-    /// the pipeline, which are those that execute before now + latency, lie in its registers.
+    /// True if there is room for `tasks` tasks of `run` more at `now`, and if the packets that they
+    /// complete can be written. Packets on their way through the pipeline, which are those that
+    /// execute before now + latency, lie in its registers.
     bool room(Cycle now, const TaskRun& run, int tasks) const {
-        const Cycle slot = next_execution(now);
-        return packet_.fits(now, slot, tasks) && (config_.reorganisation || joins(run) ||
-                                                  packet_.fits(now, slot, packet_.room() + tasks));
+        const int closed = config_.reorganisation || joins(run) ? 0 : packet_.room();
+        return tasks == 0 || (packet_.fits(now, next_execution(now), closed + tasks) &&
+                              packet_.can_write(now, closed + tasks));
     }
     /// True if there is room for the tasks `mask` with limited ports, where packets need not be
     /// full; `entry` of the Feature Buffer has the parameters of their splat.
@@ -211,14 +213,14 @@ inline __attribute__((always_inline)) void PackingUnit::send_counted(Cycle now) 
     const int tasks = packet_.tasks();
     const bool ends = ends_tile_;
     ends_tile_ = false;
-    pass_packet(now, packet_.sent(), tasks, ends);
+    pass_packet(now, packet_.sent(now), tasks, ends);
 }
 
 // The open packet, through the ring.
 inline __attribute__((always_inline)) void PackingUnit::send_packet(Process& bank, Slot cause) {
     TaskPacket& packet = ring_->staged();
     packet.tasks = packet_.tasks();
-    packet.slot = packet_.sent();
+    packet.slot = packet_.sent(bank.local());
     packet.ends_tile = ends_tile_;
     packet.ended_tile = ended_tile_;
     packet.ended_context = ended_context_;

@@ -14,6 +14,10 @@ void PackingUnit::Config::describe(ConfigVisitor& visitor) {
                     "dropped, so a longer lead adds terminated ones [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 64,
                     "cycles from issue to execution: prefix sum and shift, buffer read [assumed]");
+    visitor.integer(
+        "packets_per_cycle", packets_per_cycle, 1, 64,
+        "packets of a bank that can be written per cycle; a segment that completes more keeps the "
+        "next ones waiting, and the array executes one per cycle [assumed]");
     visitor.boolean("reorganisation", reorganisation,
                     "compact tasks of different spans into one packet (paper, Sec. IV-B); false, "
                     "for ablations: a packet has tasks of one span only");

@@ -83,6 +83,35 @@ void GaussianSlicingUnit::end_of_elaboration() {
     open_chunks_.connect_writer(self_);
 }
 
+void GaussianSlicingUnit::start_of_simulation() {
+    if (log_ == nullptr) {
+        return;
+    }
+    const std::pair<const char*, std::int64_t> facts[] = {
+        {"tile_size", job_.tile_size},
+        {"module", index_},
+        {"modules", modules_},
+        {"units", config_.units_per_module()},
+        {"rows_per_cycle", config_.rows_per_cycle},
+        {"splats_per_cycle", config_.splats_per_cycle},
+        {"distribution", static_cast<int>(config_.distribution)},
+        {"rows", static_cast<int>(config_.rows)},
+        {"skip_dead_rows", config_.skip_dead_rows}};
+    for (const auto& [name, value] : facts) {
+        log_->set(name, value);
+    }
+    for (std::size_t i = 0; i < in.size(); ++i) {
+        in[i].ring().log_takes(*log_, "chunk", i);
+    }
+    for (std::size_t i = 0; i < region_ended.size(); ++i) {
+        region_ended[i].ring().log_takes(*log_, "region_ended", i);
+    }
+    cancel.ring().log_takes(*log_, "cancelled");
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i].ring().log_puts(*log_, "row", i);
+    }
+}
+
 void GaussianSlicingUnit::run() {
     for (TileNumber number = tile_after(kNoTile); number != kNoTile; number = tile_after(number)) {
         slice_tile(number);

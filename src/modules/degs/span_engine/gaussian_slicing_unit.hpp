@@ -34,7 +34,7 @@ enum class SliceDistribution { Broadcast, BroadcastSkip, Splats };
 /// Drops the splats of a cancelled tile, a chunk per cycle. With skip_dead_rows (not in the paper)
 /// the array also reports rows whose pixels have all ended; they are masked out, sampled once per
 /// chunk.
-class GaussianSlicingUnit : public sc_core::sc_module {
+class GaussianSlicingUnit : public sc_core::sc_module, public LoggedBlock {
 public:
     struct Config {
         int count = 2;            ///< units
@@ -97,6 +97,8 @@ public:
     const Stats& stats() const { return stats_; }
     /// Has the rows of every splat drawn; before the simulation starts.
     void draw_with(TileDrawing& drawing) { drawing_ = &drawing; }
+    /// Chunks of splats, cancelled tiles and ended regions taken, rows and ends of tiles sent.
+    void log_to(EventLog& log) override { log_ = &log; }
 
 private:
     /// A splat in a unit.
@@ -113,6 +115,7 @@ private:
     };
 
     void end_of_elaboration() override;
+    void start_of_simulation() override;
     void run();
     TileNumber tile_after(TileNumber number);
     void slice_tile(TileNumber number);
@@ -154,6 +157,7 @@ private:
     std::vector<std::vector<DrawnRow>> sheets_; // rows of the splats in work
     std::vector<std::size_t> free_sheets_;
     Stats stats_;
+    EventLog* log_ = nullptr;
 };
 
 } // namespace degs

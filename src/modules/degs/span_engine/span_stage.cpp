@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/degs/span_engine/span_stage.hpp"
 
+#include <utility>
+
 namespace degs {
 
 void SpanStage::Config::describe(ConfigVisitor& visitor) {
@@ -26,6 +28,27 @@ void SpanStage::Config::describe(ConfigVisitor& visitor) {
     visitor.require(
         rows_per_cycle == 1 || cycles_per_row == 1,
         {"rows_per_cycle", "must be 1 where a row takes several cycles", "1", {"cycles_per_row"}});
+}
+
+void SpanStage::start_of_simulation() {
+    if (log_ == nullptr) {
+        return;
+    }
+    const std::pair<const char*, std::int64_t> facts[] = {
+        {"tile_size", job_.tile_size},
+        {"units", config_.units_per_module()},
+        {"rows_per_cycle", config_.rows_per_cycle},
+        {"cycles_per_row", config_.cycles_per_row},
+        {"row_ports", config_.row_ports.ports}};
+    for (const auto& [name, value] : facts) {
+        log_->set(name, value);
+    }
+    for (std::size_t i = 0; i < in.size(); ++i) {
+        in[i].ring().log_takes(*log_, "row", i);
+    }
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out[i].ring().log_puts(*log_, "span", i);
+    }
 }
 
 } // namespace degs

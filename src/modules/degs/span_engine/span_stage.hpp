@@ -22,7 +22,7 @@ enum class RowAssignment { Fixed, Pool };
 /// Span Units: they solve scanlines (centre, half-width, ends, g0 and d0; paper, Sec. III-A and
 /// IV-A) and send the Span Vectors through the spatial crossbar to bank y mod banks. A row that
 /// misses every pixel of the tile costs its cycle and sends nothing.
-class SpanStage : public sc_core::sc_module {
+class SpanStage : public sc_core::sc_module, public LoggedBlock {
 public:
     struct Config {
         int count = 8;       ///< units
@@ -65,6 +65,8 @@ public:
     sc_core::sc_vector<FifoPort<RowSolved>> solved;
 
     const Stats& stats() const { return stats_; }
+    /// Rows taken from the lanes, Span Vectors and ends of tiles sent.
+    void log_to(EventLog& log) override { log_ = &log; }
 
 protected:
     SpanStage(const sc_core::sc_module_name& name, const Config& config, const RenderJob& job,
@@ -73,6 +75,7 @@ protected:
           solved("solved", config.reports_rows ? inputs : 0), config_(config), job_(job),
           tiles_(job, config.granted ? streams : 0) {}
 
+    void start_of_simulation() override;
     void connect_reports(Process& self) {
         for (auto& port : solved) {
             port->connect_writer(self);
@@ -91,6 +94,7 @@ protected:
     const RenderJob& job_;
     TileEnd tiles_;
     Stats stats_;
+    EventLog* log_ = nullptr;
 };
 
 // Inlined in the hot loops. The pixels of the span are made in place, because a copy of what was

@@ -15,6 +15,7 @@
 #include "modules/kit/config/pipeline_config.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
+#include "tlm/event_log.hpp"
 #include "tlm/process.hpp"
 
 namespace degs {
@@ -30,6 +31,12 @@ public:
     virtual std::size_t finished_tiles() const = 0;
     /// Reads the counters. It does not fill in names, images, host times or job fields.
     virtual void collect(AcceleratorResult& result) const = 0;
+    /// Blocks of a kind that can write a log, in the order of their numbers.
+    struct BlockGroup {
+        std::string kind;
+        std::vector<LoggedBlock*> blocks;
+    };
+    virtual std::vector<BlockGroup> logged_blocks() const { return {}; }
 };
 
 /// Which parts of an accelerator to build, and what to connect them to.

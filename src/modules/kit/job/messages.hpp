@@ -49,6 +49,13 @@ struct SplatChunk {
     std::uint64_t first = 0; ///< index into FrameWorkload::tile_splats
     std::uint32_t count = 0;
     bool last = false; ///< nothing of this tile follows
+    template <class Visitor>
+    void visit(Visitor& visitor) const {
+        visitor.number("tile", tile);
+        visitor.number("first", static_cast<std::int64_t>(first));
+        visitor.number("count", count);
+        visitor.number("last", last);
+    }
 };
 
 /// Splat Fetcher's chunk whose last row has been sent, Slicing Unit -> Parameter Release.
@@ -71,6 +78,13 @@ struct RowItem {
     std::int16_t row = 0;    ///< inside the tile
     bool end = false;        ///< end of the tile instead of a row
     DrawnRow drawn;          ///< if TileDrawing draws
+    template <class Visitor>
+    void visit(Visitor& visitor) const {
+        visitor.number("tile", tile);
+        visitor.number("end", end);
+        visitor.number("splat", end ? 0 : splat);
+        visitor.number("row", end ? 0 : row);
+    }
 };
 
 /// Span Unit -> Issue Bank.
@@ -78,6 +92,15 @@ struct SpanItem {
     std::optional<RowSpan> span; ///< none: the end of the tile
     TileNumber tile = 0;
     DrawnRow drawn; ///< if TileDrawing draws: the span then has no g0 and d0
+    template <class Visitor>
+    void visit(Visitor& visitor) const {
+        visitor.number("tile", tile);
+        visitor.number("end", !span);
+        visitor.number("splat", span ? span->splat : 0);
+        visitor.number("row", span ? span->y : 0);
+        visitor.number("x0", span ? span->x0 : 0);
+        visitor.number("length", span ? span->length : 0);
+    }
 };
 
 /// What becomes of the tasks of a segment, by bits of its mask; see DrawnRow.
@@ -93,6 +116,17 @@ struct TaskRun {
     TileNumber tile = 0;
     std::uint32_t domain = 0; ///< conflict domain inside the bank's part of the tile
     DrawnTasks drawn;         ///< if TileDrawing draws, in place of g0, d0 and offset
+    template <class Visitor>
+    void visit(Visitor& visitor) const {
+        visitor.number("tile", tile);
+        visitor.number("context", task.context);
+        visitor.number("domain", domain);
+        visitor.number("splat", task.splat);
+        visitor.number("row", task.row);
+        visitor.number("column", task.column);
+        visitor.number("mask", task.mask);
+        visitor.number("part", part);
+    }
 };
 
 /// A fixed-width packet of tasks, Packing Unit -> Blending Array.
@@ -108,6 +142,15 @@ struct TaskPacket {
 
     const TaskRun* begin() const { return runs.data(); }
     const TaskRun* end() const { return runs.data() + run_count; }
+    template <class Visitor>
+    void visit(Visitor& visitor) const {
+        visitor.number("slot", static_cast<std::int64_t>(slot));
+        visitor.number("tasks", tasks);
+        visitor.number("ends_tile", ends_tile);
+        visitor.number("ended_tile", ends_tile ? ended_tile : 0);
+        visitor.number("ended_context", ends_tile ? ended_context : 0);
+        visitor.list("runs", runs.data(), run_count);
+    }
 
     TaskPacket() = default;
     TaskPacket(const TaskPacket& other) { copy(other); }
@@ -139,6 +182,14 @@ struct Termination {
     std::int16_t column = 0;  ///< of mask bit 0, a multiple of the segment length
     std::int16_t context = 0; ///< of the Pixel Buffer, in which the tile lies
     std::uint32_t mask = 0;
+    template <class Visitor>
+    void visit(Visitor& visitor) const {
+        visitor.number("tile", tile);
+        visitor.number("context", context);
+        visitor.number("row", row);
+        visitor.number("column", column);
+        visitor.number("mask", mask);
+    }
 };
 
 /// A segment of a tile's row whose pixels have all ended, array slice -> Gaussian Slicing Unit.
@@ -146,12 +197,23 @@ struct RegionEnded {
     TileNumber tile = 0;
     std::int16_t row = 0;     ///< inside the tile
     std::int16_t segment = 0; ///< column / segment length
+    template <class Visitor>
+    void visit(Visitor& visitor) const {
+        visitor.number("tile", tile);
+        visitor.number("row", row);
+        visitor.number("segment", segment);
+    }
 };
 
 /// Array slice -> Tile Monitor and Pixel Buffer.
 struct SliceReport {
     TileNumber tile = 0;
     bool all_ended = false; ///< every pixel of the slice's rows has terminated
+    template <class Visitor>
+    void visit(Visitor& visitor) const {
+        visitor.number("tile", tile);
+        visitor.number("all_ended", all_ended);
+    }
 };
 
 } // namespace degs

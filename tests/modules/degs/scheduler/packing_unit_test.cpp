@@ -34,17 +34,20 @@ struct PackingBench {
     std::vector<Got> got;
     std::unique_ptr<Script> driver, listener;
 
-    explicit PackingBench(bool reorganisation = true, const PacketPorts::Config& ports = {})
-        : unit("unit", config_of(reorganisation, ports)) {
+    explicit PackingBench(bool reorganisation = true, const PacketPorts::Config& ports = {},
+                          int packets_per_cycle = 64)
+        : unit("unit", config_of(reorganisation, ports, packets_per_cycle)) {
         unit.out.bind(ring);
     }
-    static PackingUnit::Config config_of(bool reorganisation, const PacketPorts::Config& ports) {
+    static PackingUnit::Config config_of(bool reorganisation, const PacketPorts::Config& ports,
+                                         int packets_per_cycle) {
         PackingUnit::Config config;
         config.width = 4;
         config.latency_cycles = static_cast<int>(kLatency);
         config.depth = 8;
         config.reorganisation = reorganisation;
         config.ports = ports;
+        config.packets_per_cycle = packets_per_cycle;
         return config;
     }
     void drive(const std::function<void()>& body) {
@@ -191,6 +194,37 @@ TEST(PackingUnit, RoomIsTheBufferMinusWhatIsQueued) {
     });
     EXPECT_EQ(bench.got.size(), 6U);
 }
+
+class PacketWrites : public ::testing::TestWithParam<int> {};
+
+// A segment of 15 tasks completes three packets of four. With P writes per cycle they are written
+// in the cycles up to ceil(3 / P) - 1; until then only tasks may follow that complete no more than
+// the cycle can write beside them.
+TEST_P(PacketWrites, LetNothingPassThatCannotBeWritten) {
+    const int writes = GetParam();
+    PackingBench bench(true, {}, writes);
+    bench.drive([&] {
+        EXPECT_TRUE(bench.unit.room(0, run_of(1), 15)) << "nothing waits";
+        bench.add(run_of(0x7FFF));
+        for (int now = 0; now < 5; ++now) {
+            const int waiting = std::max(3 - now * writes, 0);
+            for (int tasks = 1; tasks < 9; ++tasks) {
+                const int complete = (3 + tasks) / 4; // three tasks are in the open packet
+                EXPECT_EQ(bench.unit.room(now, run_of(1), tasks),
+                          waiting == 0 || waiting + complete <= writes)
+                    << tasks << " tasks in cycle " << now;
+            }
+            EXPECT_TRUE(bench.unit.room(now, run_of(1), 0)) << "a segment whose pixels have ended";
+            bench.next_cycle(now + 1);
+        }
+    });
+    ASSERT_EQ(bench.got.size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(bench.got[i].date, kLatency + i) << "the array never waits for a write";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(PerCycle, PacketWrites, ::testing::Values(1, 2, 3, 4, 64));
 
 /// Single tasks of two rows, of one row and two splats, and of one span in two segments; then six
 /// tasks of one span and one of another.

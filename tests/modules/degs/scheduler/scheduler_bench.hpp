@@ -10,6 +10,7 @@
 #include "modules/degs/array/blending_array.hpp"
 #include "modules/degs/scheduler/issue_bank.hpp"
 #include "tests/modules/degs/workload_fixture.hpp"
+#include "tests/tlm/event_reader.hpp"
 #include "tests/tlm/script.hpp"
 
 namespace degs::test {
@@ -22,6 +23,7 @@ struct SchedulerBench {
         int reuse = 4;
         int writeback = 4;
         int queue = 64;
+        int segments_per_cycle = 4;
         int issue_width = 4;
         int packets = 64;
         int spans_per_cycle = 0;
@@ -84,7 +86,7 @@ struct SchedulerBench {
         IssueBank::Config c;
         c.banks = 1;
         c.queue_depth = s.queue;
-        c.segments_per_cycle = 4;
+        c.segments_per_cycle = s.segments_per_cycle;
         c.spans_per_cycle = s.spans_per_cycle;
         c.issue_width = s.issue_width;
         c.segment_ports.ports = s.segment_ports;
@@ -170,6 +172,19 @@ struct SchedulerBench {
             end_tile();
         }
         feeder.finish();
+    }
+    /// The cycles in which run() takes the spans of tile 0.
+    std::vector<Cycle> run_and_list_takes(const std::vector<Feed>& feeds) {
+        EventLog log;
+        bank.log_to(log);
+        run(feeds);
+        std::vector<Cycle> takes;
+        for (const LoggedEvent& event : events_of(log)) {
+            if (event.kind == "span" && event["end"] == 0) {
+                takes.push_back(event.now);
+            }
+        }
+        return takes;
     }
     const ArraySlice::Stats& stats() const { return slice.stats(); }
     /// The slots between first and last execution: executed tasks and idle ones.

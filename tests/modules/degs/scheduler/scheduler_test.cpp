@@ -148,6 +148,41 @@ TEST(IssueBank, TheNextTileStartsWhenItsContextIsFree) {
     EXPECT_EQ(bench.accounted(), bench.window_slots());
 }
 
+// The queue has room for one segment and is full until the first one's pixels are at rest. The
+// Segmenter is empty, so it takes the next span at once.
+TEST(IssueBank, TakesASpanAlthoughTheQueueIsFull) {
+    SchedulerBench::Sizes sizes;
+    sizes.queue = 1;
+    sizes.reuse = 20;
+    SchedulerBench bench(sizes, std::vector<ProjectedSplat>(3, blanket(8, 8, 16, 0.1)));
+    EXPECT_EQ(bench.run_and_list_takes({{10, 0, 3}, {12, 1, 3}, {14, 2, 3}}),
+              (std::vector<Cycle>{10, 12, 14}));
+}
+
+// Twenty splats end columns 16 to 31 of a row, not those before. One segment is cut per cycle, and
+// the queue has room for one, which waits for its pixels. The second segment of the span that was
+// taken at 1102 has ended and is dropped at 1103, without room, so that the next span is taken at
+// 1104.
+TEST(IssueBank, DropsTheNextSegmentAlthoughTheQueueIsFull) {
+    SchedulerBench::Sizes sizes;
+    sizes.queue = 1;
+    sizes.segments_per_cycle = 1;
+    sizes.reuse = 20;
+    const ProjectedSplat wide = test::make_splat(23.5, 3, 6, 0.3, 0, 0.99);
+    SchedulerBench bench(sizes, std::vector<ProjectedSplat>(23, wide), 32);
+    std::vector<SchedulerBench::Feed> feeds;
+    for (std::uint32_t i = 0; i < 20; ++i) {
+        feeds.push_back({10 + Cycle{50} * i, i, 3});
+    }
+    feeds.push_back({1100, 20, 3});
+    feeds.push_back({1102, 21, 3});
+    feeds.push_back({1103, 22, 3});
+    const std::vector<Cycle> takes = bench.run_and_list_takes(feeds);
+    EXPECT_EQ(bench.bank.stats().segments_dropped, 3U);
+    EXPECT_EQ(std::vector<Cycle>(takes.end() - 3, takes.end()),
+              (std::vector<Cycle>{1100, 1102, 1104}));
+}
+
 // Room for two packets and a long way from issue to execution: packets in the pipeline take no
 // room, so five rows that wait from the start execute one after the other.
 class PackingLatency : public ::testing::TestWithParam<int> {};
