@@ -14,18 +14,6 @@ foreach(room IN LISTS rooms)
     set_target_properties(degs_${room} PROPERTIES EXPORT_NAME ${room})
     install(TARGETS degs_${room} EXPORT degsTargets COMPONENT degs)
 endforeach()
-# Machine code only: another compiler could not read the rest, and this one would optimise the whole
-# model once more for every program that links it, which takes most of a minute.
-if(DEGS_HAS_IPO AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    install(CODE "
-        file(GLOB archives \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/libdegs_*.a\")
-        foreach(archive IN LISTS archives)
-            execute_process(COMMAND \"${CMAKE_OBJCOPY}\" --wildcard --remove-section=.gnu.lto_*
-                            --remove-section=.gnu.debuglto_* --strip-symbol=__gnu_lto_* \"\${archive}\"
-                            COMMAND_ERROR_IS_FATAL ANY)
-        endforeach()
-    " COMPONENT degs)
-endif()
 install(TARGETS degs degs_glm degs_systemc degs_driver EXPORT degsTargets COMPONENT degs)
 install(EXPORT degsTargets NAMESPACE degs:: DESTINATION ${package_dir} COMPONENT degs)
 install(DIRECTORY include/degs DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT degs FILES_MATCHING PATTERN "*.hpp")

@@ -19,18 +19,7 @@ target_compile_options(degs_flags INTERFACE -ffp-contract=off -fno-tree-slp-vect
                        -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
                        -Wnon-virtual-dtor $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>
                        $<$<BOOL:${DEGS_WARNINGS_AS_ERRORS}>:-Werror>)
-# The same for the link-time half of whole-program optimisation.
-target_link_options(degs_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
 target_include_directories(degs_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>)
-
-# The program takes 3 % less time with whole-program optimisation. Objects carry machine code as
-# well, for test programs, each of which would repeat it, and for the package, whose archives any
-# compiler can link (DegsInstall.cmake). A platform that embeds this project decides for itself.
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND (DEGS_INSTALL OR DEGS_BUILD_TESTS))
-    set(CMAKE_CXX_COMPILE_OPTIONS_IPO -flto=auto -ffat-lto-objects)
-endif()
-include(CheckIPOSupported)
-check_ipo_supported(RESULT DEGS_HAS_IPO LANGUAGES CXX)
 
 # What src has inside, for those who build on it: this project's program and tests, and accelerators
 # from outside. Targets that link a room see the public headers of include/degs alone.
@@ -51,9 +40,6 @@ function(degs_library room)
         list(FILTER lanes INCLUDE REGEX "_lanes\\.cpp$")
         set_source_files_properties(${lanes} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
         target_link_libraries(degs_${room} PRIVATE $<BUILD_INTERFACE:degs_flags>)
-        if(DEGS_HAS_IPO AND PROJECT_IS_TOP_LEVEL AND CMAKE_BUILD_TYPE STREQUAL "Release")
-            set_target_properties(degs_${room} PROPERTIES INTERPROCEDURAL_OPTIMIZATION ON)
-        endif()
     else()
         set(scope INTERFACE)
         add_library(degs_${room} INTERFACE)

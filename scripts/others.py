@@ -3,8 +3,8 @@
 """others.py [--quick]: prints the tables of docs/others.md, which has numbers of other publications beside ours.
 
 docs/others.csv has the published ones. Their scenes are not here; synthetic scenes with as many Gaussians stand for
-them. --quick takes scenes of 1000 Gaussians, which shows that the script works and nothing else. Runs DEGS_PROGRAM
-(default: degs of the search path, else build/release/sim/degs)."""
+them. --quick takes scenes of 1000 Gaussians and images with a quarter of the width and height, which shows that the
+script works and nothing else. Runs DEGS_PROGRAM (default: degs of the search path, else build/release/sim/degs)."""
 import argparse
 import csv
 import functools
@@ -58,11 +58,13 @@ def report(design, scene, size):
 
 
 def large(design, resolution, scene=LANDSCAPE):
-    return report(design, scene, ("--camera", "2", "--resolution", resolution))
+    size = ("--height", str(int(RESOLUTIONS[resolution].split("x")[1]) // 4)) if most else ("--resolution", resolution)
+    return report(design, scene, ("--camera", "2", *size))
 
 
 def lego(design):
-    return report(design, OBJECT, ("--camera", "1", "--width", "800", "--height", "800"))
+    side = str(800 // 4 if most else 800)
+    return report(design, OBJECT, ("--camera", "1", "--width", side, "--height", side))
 
 
 def latency(found):
