@@ -72,6 +72,9 @@ AcceleratorResult run_accelerator(const AcceleratorConfig& config,
         job.recorder = std::make_unique<SlotRecorder>(time.timeline);
     }
     const std::unique_ptr<RenderEngine> engine = config.build("accelerator", time, job, options);
+    if (recording.log != nullptr) {
+        logged_block(*engine, config.name, recording.block).log_to(*recording.log);
+    }
     AcceleratorResult result;
     result.elaborate_s = elaborate.seconds();
 

@@ -15,6 +15,8 @@ namespace degs::sim {
 struct Recording {
     std::optional<Timeline::Config> timeline;
     bool tiles = false; ///< what the array did for each tile
+    std::string block;  ///< that writes `log`, see logged_block(); empty: none
+    EventLog* log = nullptr;
 };
 
 /// Builds the accelerator, renders the frames one after the other and checks the invariants. May be

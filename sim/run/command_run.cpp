@@ -18,6 +18,7 @@
 #include "sim/shell/view_options.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/text/standard_output.hpp"
+#include "sim/trace/block_log.hpp"
 #include "sim/trace/tile_maps.hpp"
 #include "sim/trace/trace_file.hpp"
 #include "sim/trace/trace_options.hpp"
@@ -39,6 +40,7 @@ struct RunOptions {
     bool array_only = false;
     bool explain = false;
     TraceRequest trace;
+    BlockLogRequest block_log;
     std::string maps; ///< folder; empty: none
 };
 
@@ -56,6 +58,9 @@ std::optional<SamplingRequest> wanted_sampling(const RunOptions& options) {
     if (!options.trace.file.empty()) {
         refuse("--trace");
     }
+    if (options.block_log.given()) {
+        refuse("--block-log");
+    }
     if (!options.maps.empty()) {
         refuse("--maps");
     }
@@ -70,9 +75,10 @@ const std::string kAnalytic = "analytic";
 /// An estimate has neither an image nor dates.
 void refuse_beside_analytic(const RunOptions& options) {
     const std::pair<bool, const char*> asked[] = {
-        {options.within.has_value(), "--within"}, {!options.trace.file.empty(), "--trace"},
-        {!options.maps.empty(), "--maps"},        {options.path.frames > 1, "--frames"},
-        {options.array_only, "--array-only"},     {options.explain, "--explain"}};
+        {options.within.has_value(), "--within"},  {!options.trace.file.empty(), "--trace"},
+        {!options.maps.empty(), "--maps"},         {options.path.frames > 1, "--frames"},
+        {options.array_only, "--array-only"},      {options.explain, "--explain"},
+        {options.block_log.given(), "--block-log"}};
     for (const auto& [given, option] : asked) {
         if (given) {
             throw InputError(std::string(option) +
@@ -135,6 +141,9 @@ void write_results(const RunOptions& options, const RunRequest& request, const R
     if (request.recording.timeline) {
         write_trace({run.name, run.clock_ghz, run.timeline, spans_of(run)}, options.trace.file);
     }
+    if (request.recording.log != nullptr) {
+        write_block_log(run.name, options.block_log, *request.recording.log);
+    }
     if (maps) {
         write_tile_maps(result, *maps);
     }
@@ -151,10 +160,10 @@ void run(const RunOptions& options) {
     path.near_plane = config.accelerator().data_path().rules.near;
     CachedView view(options.view, path, options.no_cache ? FrameCache() : FrameCache::of_user());
     const OutputFolder out(options.out, image_result_files("report.json"));
-    const Fidelity fidelity = options.fidelity == "strict" ? Fidelity::Strict : Fidelity::Exact;
+    const bool strict = options.fidelity == "strict" || options.block_log.given();
     RunRequest request;
     request.config = config;
-    request.fidelity = fidelity;
+    request.fidelity = strict ? Fidelity::Strict : Fidelity::Exact;
     request.build.array_only = options.array_only;
     request.reference = !options.no_reference;
     request.sampling = sampling;
@@ -164,6 +173,12 @@ void run(const RunOptions& options) {
         request.recording.tiles = true;
     }
     request.recording.timeline = timeline_of(options.trace);
+    EventLog log;
+    if (options.block_log.given()) {
+        check_block_log(options.block_log);
+        request.recording.block = options.block_log.block();
+        request.recording.log = &log;
+    }
     const RunResult result = simulate(request, view, since_start);
     out.replace([&] { write_results(options, request, result, out, maps); },
                 old_tile_maps(out, maps));
@@ -200,6 +215,7 @@ void add_run_command(CLI::App& program) {
         "the rasterisation array alone: sorted lists are there at once, and memory is "
         "unlimited");
     add_trace_options(*command, options->trace);
+    add_block_log_option(*command, options->block_log);
     command
         ->add_option("--maps", options->maps,
                      "folder for maps of the tiles: list length, fragments, cycles, and PE-cycles "

@@ -274,15 +274,19 @@ std::string trace_text(const Trace& trace) {
            std::to_string(trace.timeline.end) + R"(},"traceEvents":[)" + events.take() + "\n]}\n";
 }
 
-void write_trace(const Trace& trace, const std::string& path) {
+void write_text(const std::string& path, const std::string& text) {
     write_atomically(path, [&](const std::string& temporary) {
         std::ofstream out(temporary, std::ios::binary);
-        out << trace_text(trace);
+        out << text;
         out.close();
         if (!out) {
             throw InputError("The file '" + path + "' cannot be written: the disk may be full.");
         }
     });
+}
+
+void write_trace(const Trace& trace, const std::string& path) {
+    write_text(path, trace_text(trace));
 }
 
 } // namespace degs::sim

@@ -30,13 +30,17 @@ void add_trace_options(CLI::App& command, TraceRequest& request) {
         ->needs(file);
 }
 
+void check_writable(const std::string& file) {
+    const std::filesystem::path path(file);
+    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+    const OutputFolder writable(folder, {path.filename().string()});
+}
+
 std::optional<Timeline::Config> timeline_of(const TraceRequest& request) {
     if (request.file.empty()) {
         return {};
     }
-    const std::filesystem::path path(request.file);
-    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
-    const OutputFolder writable(folder, {path.filename().string()});
+    check_writable(request.file);
     Timeline::Config config;
     config.step = request.step == 0 ? kFirstStep : request.step;
     config.most_steps = request.step == 0 ? kUsualSteps : kMostSteps;

@@ -20,5 +20,7 @@ struct TraceRequest {
 void add_trace_options(CLI::App& command, TraceRequest& request);
 /// Empty without --trace. Throws InputError if the file cannot be written, before a long run.
 std::optional<Timeline::Config> timeline_of(const TraceRequest& request);
+/// Throws InputError if a file of that name cannot be written.
+void check_writable(const std::string& file);
 
 } // namespace degs::sim

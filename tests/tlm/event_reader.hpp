@@ -23,10 +23,11 @@ struct LoggedEvent {
 
 class EventReader {
 public:
-    explicit EventReader(const EventLog& log) : log_(log) {}
-    bool more() const { return place_ < log_.bytes().size(); }
+    EventReader(const std::vector<EventLog::Kind>& kinds, const std::string& bytes)
+        : kinds_(kinds), bytes_(bytes) {}
+    bool more() const { return place_ < bytes_.size(); }
     LoggedEvent next() {
-        const EventLog::Kind& kind = log_.kinds().at(static_cast<std::size_t>(number()));
+        const EventLog::Kind& kind = kinds_.at(static_cast<std::size_t>(number()));
         now_ += static_cast<Cycle>(number());
         LoggedEvent event{kind.name, now_, {}, {}};
         for (const EventLog::Field& field : kind.fields) {
@@ -48,7 +49,7 @@ private:
     std::int64_t number() {
         std::uint64_t value = 0;
         for (unsigned shift = 0;; shift += 7) {
-            const auto byte = static_cast<unsigned char>(log_.bytes().at(place_++));
+            const auto byte = static_cast<unsigned char>(bytes_.at(place_++));
             value |= std::uint64_t{byte & 0x7FU} << shift;
             if (byte < 0x80) {
                 return static_cast<std::int64_t>(value >> 1U) ^
@@ -56,14 +57,15 @@ private:
             }
         }
     }
-    const EventLog& log_;
+    const std::vector<EventLog::Kind>& kinds_;
+    const std::string& bytes_;
     std::size_t place_ = 0;
     Cycle now_ = 0;
 };
 
 inline std::vector<LoggedEvent> events_of(const EventLog& log) {
     std::vector<LoggedEvent> events;
-    for (EventReader reader(log); reader.more();) {
+    for (EventReader reader(log.kinds(), log.bytes()); reader.more();) {
         events.push_back(reader.next());
     }
     return events;

@@ -56,8 +56,7 @@ public:
         bool granted = false;     ///< tiles come one by one, see TileEnd
         int first_context = 0;    ///< of the Pixel Buffer
         /// Ports of the waiting segments in a bank's part of the Packing Buffer. Packets lie in a
-        /// memory of their own, of which one is written and one is read per cycle at most
-        /// [assumed].
+        /// memory of their own [assumed], see PackingUnit::Config::packets_per_cycle.
         SramPorts segment_ports;
         FeatureBuffer::Fill fill;
         void describe(ConfigVisitor& visitor);

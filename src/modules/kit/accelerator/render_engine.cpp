@@ -5,6 +5,23 @@
 
 namespace degs {
 
+LoggedBlock& logged_block(const RenderEngine& engine, const std::string& design,
+                          const std::string& name) {
+    std::string known;
+    for (const RenderEngine::BlockGroup& group : engine.logged_blocks()) {
+        for (std::size_t i = 0; i < group.blocks.size(); ++i) {
+            if (name == group.kind + ":" + std::to_string(i)) {
+                return *group.blocks[i];
+            }
+        }
+        known += (known.empty() ? "" : ", ") + group.kind + ":0 to " +
+                 std::to_string(group.blocks.size() - 1);
+    }
+    throw InputError("--block-log " + name + ": " + design +
+                     (known.empty() ? " has no block that writes a log."
+                                    : " has no such block; there are " + known + "."));
+}
+
 void AcceleratorConfig::describe_common(ConfigVisitor& visitor) {
     visitor.text("name", name, "what reports call this accelerator");
     visitor.real("clock_ghz", clock_ghz, 0.01, 10.0, "GHz (paper: 1.0)");

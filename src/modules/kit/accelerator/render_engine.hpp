@@ -39,6 +39,11 @@ public:
     virtual std::vector<BlockGroup> logged_blocks() const { return {}; }
 };
 
+/// The block `name` of an engine, "bank:3". InputError, which lists the blocks of `design` that
+/// write a log, if there is none of that name.
+LoggedBlock& logged_block(const RenderEngine& engine, const std::string& design,
+                          const std::string& name);
+
 /// Which parts of an accelerator to build, and what to connect them to.
 struct BuildOptions {
     /// The rasterisation array alone: depth-ordered lists are there at once and memory is

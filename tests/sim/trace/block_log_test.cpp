@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// --block-log: the logs of blocks that face each other agree, and a naive bank follows them on
+// trained scenes.
+#include "tests/modules/degs/scheduler/naive_log.hpp"
+#include "tests/sim/process/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using nlohmann::json;
+
+struct BlockLog {
+    json about;
+    std::vector<degs::test::LoggedEvent> events;
+
+    std::map<std::string, std::int64_t> facts() const {
+        return about["facts"].get<std::map<std::string, std::int64_t>>();
+    }
+    std::size_t count(const std::string& kind) const {
+        return std::count_if(events.begin(), events.end(),
+                             [&](const auto& event) { return event.kind == kind; });
+    }
+};
+
+BlockLog read_log(const std::string& path) {
+    const std::string text = read_file(path);
+    const std::size_t end = text.find('\n');
+    BlockLog log{json::parse(text.substr(0, end)), {}};
+    std::vector<EventLog::Kind> kinds;
+    for (const json& kind : log.about["events"]) {
+        kinds.push_back({kind["name"], {}});
+        for (const json& field : kind["fields"]) {
+            if (field.is_string()) {
+                kinds.back().fields.push_back({field, {}});
+            } else {
+                kinds.back().fields.push_back(
+                    {field.begin().key(), field.begin().value().get<std::vector<std::string>>()});
+            }
+        }
+    }
+    const std::string bytes = text.substr(end + 1);
+    EXPECT_EQ(log.about["bytes"], bytes.size());
+    for (degs::test::EventReader reader(kinds, bytes); reader.more();) {
+        log.events.push_back(reader.next());
+    }
+    return log;
+}
+
+BlockLog logged(const std::vector<std::string>& view, const std::string& design,
+                const std::string& block) {
+    const Folder folder;
+    std::vector<std::string> arguments{"run", config(design)};
+    arguments.insert(arguments.end(), view.begin(), view.end());
+    for (const std::string& word :
+         {std::string("--no-reference"), std::string("--array-only"), std::string("--out"),
+          folder / "out", std::string("--block-log"), block, folder / "log"}) {
+        arguments.push_back(word);
+    }
+    const Outcome outcome = degs(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return read_log(folder / "log");
+}
+
+const std::vector<std::string> kSmall{"--scene", "synthetic:object,gaussians=1000", "--width",
+                                      "160"};
+
+// What one block sends another one takes, in the order in which it was sent. Span Unit 3 is the
+// only one that reaches bank 3.
+TEST(SmallRunBlockLog, NeighboursAgree) {
+    const BlockLog bank = logged(kSmall, "degs-64", "bank:3");
+    const BlockLog slice = logged(kSmall, "degs-64", "slice:3");
+    const BlockLog span = logged(kSmall, "degs-64", "span:3");
+    EXPECT_GT(bank.count("issue"), 100U);
+    EXPECT_EQ(bank.count("packet"), slice.count("packet"));
+    EXPECT_EQ(bank.count("terminated"), slice.count("terminated"));
+    EXPECT_EQ(bank.count("span"), span.count("span"));
+    std::vector<std::int64_t> sent, taken;
+    for (const auto& event : bank.events) {
+        if (event.kind == "packet" && event["tasks"] != 0) {
+            sent.push_back(event["slot"]);
+        }
+    }
+    for (const auto& event : slice.events) {
+        if (event.kind == "packet" && event["tasks"] != 0) {
+            taken.push_back(static_cast<std::int64_t>(event.now)); // it executes then
+        }
+    }
+    EXPECT_EQ(sent, taken);
+}
+
+// The lanes that Slicing Units feed are those from which Span Units take rows.
+TEST(SmallRunBlockLog, RowsOfTheSlicingUnitsAreThoseOfTheSpanUnits) {
+    const BlockLog slicing = logged(kSmall, "degs-64", "slicing:0");
+    std::size_t rows = 0;
+    for (int unit = 0; unit < 8; ++unit) {
+        rows += logged(kSmall, "degs-64", "span:" + std::to_string(unit)).count("row");
+    }
+    EXPECT_EQ(slicing.count("row"), rows);
+    EXPECT_GT(slicing.count("chunk"), 0U);
+}
+
+struct Refused {
+    const char* name;
+    std::vector<std::string> words;
+    const char* sentence;
+};
+std::ostream& operator<<(std::ostream& out, const Refused& refused) {
+    return out << refused.name;
+}
+
+class HostileBlockLog : public testing::TestWithParam<Refused> {};
+
+TEST_P(HostileBlockLog, IsRefusedInASentence) {
+    const Folder folder;
+    std::vector<std::string> arguments{"run"};
+    const Refused& refused = GetParam();
+    arguments.push_back(config(refused.words.front()));
+    arguments.insert(arguments.end(), kSmall.begin(), kSmall.end());
+    arguments.insert(arguments.end(), {"--out", folder / "out", "--block-log"});
+    arguments.insert(arguments.end(), refused.words.begin() + 1, refused.words.end());
+    if (refused.words.size() == 2) {
+        arguments.push_back(folder / "log");
+    }
+    const Outcome outcome = degs(arguments);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_NE(outcome.err.find(refused.sentence), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(folder / "log"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, HostileBlockLog,
+    testing::Values(
+        Refused{"number", {"degs-64", "bank:8"}, "there are slicing:0 to 0, span:0 to 7, bank:0"},
+        Refused{"kind", {"degs-64", "blender:0"}, "--block-log blender:0: degs-64 has no such"},
+        Refused{"empty", {"degs-64", ""}, "has no such block"},
+        Refused{"design", {"gcc-64", "bank:0"}, "gcc-64 has no block that writes a log."},
+        Refused{"folder", {"degs-64", "bank:0", "/nowhere/log"}, "/nowhere"},
+        Refused{"sample",
+                {"degs-64", "bank:0", "log", "--fidelity", "sampled:50%"},
+                "--block-log needs every tile"},
+        Refused{"estimate",
+                {"degs-64", "bank:0", "log", "--fidelity", "analytic"},
+                "--block-log needs a simulation"}),
+    [](const auto& refused) { return refused.param.name; });
+
+/// A view of a trained scene, a design and one of its banks.
+struct Followed {
+    const char* scene;
+    const char* camera;
+    const char* design;
+    const char* bank;
+};
+std::ostream& operator<<(std::ostream& out, const Followed& followed) {
+    return out << followed.scene << " " << followed.design;
+}
+
+class TrainedBlockLog : public testing::TestWithParam<Followed> {};
+
+TEST_P(TrainedBlockLog, IsThatOfANaiveBank) {
+    const Followed& f = GetParam();
+    const fs::path scene = trained_scenes() / f.scene / "scene.ply";
+    if (!fs::exists(scene)) {
+        GTEST_SKIP() << "the trained scene " << f.scene << " is not in " << trained_scenes()
+                     << "; set DEGS_SCENES";
+    }
+    const BlockLog log = logged({"--scene", scene.string(), "--camera", f.camera, "--width", "360"},
+                                f.design, f.bank);
+    EXPECT_GT(log.count("packet"), 10000U);
+    degs::test::NaiveBank naive(degs::test::NaiveFacts(log.facts()), log.events);
+    EXPECT_EQ(degs::test::first_difference(degs::test::lines_of(log.events), naive.run()), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, TrainedBlockLog,
+                         testing::Values(Followed{"flowers", "2", "degs-64", "bank:0"},
+                                         Followed{"flowers", "2", "degs-x-64", "bank:1"},
+                                         Followed{"st-peter", "2", "degs-64", "bank:3"},
+                                         Followed{"st-peter", "2", "degs-64-tuned", "bank:6"},
+                                         Followed{"guitar", "1", "degs-64", "bank:5"},
+                                         Followed{"guitar", "1", "degs-1024", "bank:17"}));
+
+} // namespace
+} // namespace degs::sim_test
