@@ -292,9 +292,9 @@ def table(_):
             part = [point for point in points if is_in_range(point.scene) == inside]
             counts.append(f"{len([point for point in part if point not in fails])}/{len(part)}" if part else "—")
         worst = (max if row["value"][0] == "<" else min)(points, key=lambda point: point.value)
-        lines.append([row["quantity"], row["section"], figures.as_published(row["value"], row["unit"]), *counts,
+        lines.append([row["quantity"], figures.as_published(row["value"], row["unit"]), *counts,
                       f"{shown(worst, row['unit'])} ({worst.label})", verdict(points, fails, is_in_range)])
-    head = ["claim", "where", "published", "in the range", "outside", "worst point", "verdict"]
+    head = ["claim", "published", "in the range", "outside", "worst point", "verdict"]
     print("\n".join(f"| {' | '.join(line)} |" for line in [head, ["---"] * len(head), *lines]))
 
 

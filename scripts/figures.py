@@ -287,8 +287,8 @@ def as_published(text, unit):
 
 
 def markdown(head, rows):
-    """Prints a table whose first column and that with places are text and whose others are numbers."""
-    rule = ["---" if word in (head[0], "where") else "--:" for word in head]
+    """Prints a table whose first column is text and whose others are numbers."""
+    rule = ["---", *["--:"] * (len(head) - 1)]
     print("\n".join(f"| {' | '.join(row)} |" for row in [head, rule, *rows]))
 
 
@@ -298,11 +298,11 @@ def table(figure):
         raise Mistake(f"docs/published.csv has no '{figure}' with a study.")
     lines = []
     for row in rows:
-        lines.append([row["quantity"], row["section"], as_published(row["value"], row["unit"])])
+        lines.append([row["quantity"], as_published(row["value"], row["unit"])])
         for camera in CAMERAS:
             number = measured_of(ours, value_of(row), camera)
             lines[-1] += [shown(number, row["unit"]), difference(number, row["value"], row["unit"])]
-    head = ["what", "where", "published"]
+    head = ["what", "published"]
     markdown(head + [word for camera in CAMERAS for word in (f"camera {camera}", "difference")], lines)
 
 

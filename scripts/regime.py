@@ -27,6 +27,7 @@ DESIGNS = ["degs-64", "degs-1024", "gscore-64"]
 ARRAYS = [f"{name}-{pes}" for name in ("degs", "gscore", "gbu", "gcc") for pes in ("64", "1024")]
 WHOLE = ["degs-64", "gscore-64", "gbu-64", "gcc-64"]
 RESOLUTIONS = {"720p": 1280, "1080p": 1920, "2k": 2560, "4k": 3840, "8k": 7680}
+SHOWN = ["720p", "2k", "8k"]
 COUNTS = ["visible", "pairs_per_tile", "fragments_per_pixel", "fragments_per_splat", "footprint_p50", "ended",
           "covered"]
 
@@ -78,15 +79,26 @@ def cell(measured, made, relative):
 
 
 def print_table(rows, names, measure, relative):
+    """A row for each view, and then how far each number is from the measured one over all views."""
     print("| measured / synthetic / difference | " + " | ".join(names) + " |")
     print("| --- |" + " ---: |" * len(names))
+    found = {name: [] for name in names}
     for row in rows:
         made = measure(row)
         measured = {name: float(row[name]) for name in names}
         if "visible" in measured:
             measured["visible"] *= 100 / int(row["gaussians"])
         cells = [cell(measured[name], made[name], relative) for name in names]
-        print(f"| {row['measured']} {row['view']} {row['pixels']} | " + " | ".join(cells) + " |", flush=True)
+        view = f"{row['measured']} {row['view']} {row['pixels']}"
+        for name, text in zip(names, cells):
+            found[name].append((measured[name], int(text.split(" / ")[2]), view))
+        print(f"| {view} | " + " | ".join(cells) + " |", flush=True)
+    print(f"\n| | measured | difference, {'%' if relative else 'points'} | largest |\n| --- | --- | --- | --- |")
+    for name in names:
+        measured, differences, _ = zip(*found[name])
+        farthest = max(found[name], key=lambda entry: abs(entry[1]))
+        print(f"| {name} | {min(measured):.3g} to {max(measured):.3g} | {min(differences):+d} to {max(differences):+d} | "
+              f"{farthest[2]} |")
 
 
 def compared(designs, scene, resolutions, *more):
@@ -104,26 +116,29 @@ def short_name(scene):
 
 
 def print_figures(only, gaussians):
-    """Utilization over resolutions, and latency per area over that of DeGS-64 by bandwidth."""
+    """Utilization over resolutions, and latency per area over that of DeGS-64 by bandwidth; a cell has both scenes."""
     scenes = [f"synthetic:{name},gaussians={gaussians or 1_000_000}" for name in ("interior", "garden") if only in name]
-    print("| array alone, % | design | " + " | ".join(RESOLUTIONS) + " |")
-    print("| --- | --- |" + " ---: |" * len(RESOLUTIONS))
-    for scene in scenes:
-        rows = compared(ARRAYS, scene, ",".join(RESOLUTIONS), "--array-only")
-        for design in ARRAYS:
-            cells = [f"{100 * float(rows[design, width]['slots.utilization']):.1f}" for width in RESOLUTIONS.values()]
-            print(f"| {short_name(scene)} | {design} | {' | '.join(cells)} |", flush=True)
-    print("\n| whole | image | GB/s | DeGS-64, ms | " + " | ".join(f"{design} ×" for design in WHOLE[1:]) + " |")
-    print("| --- | --- | ---: | ---: |" + " ---: |" * len(WHOLE[1:]))
-    for scene in scenes:
-        for bandwidth in ("204.8", "51.2"):
-            rows = compared(WHOLE, scene, "720p,4k", "--set", f"memory.bandwidth_gb_per_s={bandwidth}")
-            for name in ("720p", "4k"):
-                found = {design: rows[design, RESOLUTIONS[name]] for design in WHOLE}
-                cost = {design: float(row["latency_ms"]) * float(row["area_mm2"]) for design, row in found.items()}
-                cells = [f"{cost[design] / cost['degs-64']:.2f}" for design in WHOLE[1:]]
-                print(f"| {short_name(scene)} | {name} | {bandwidth} | "
-                      f"{float(found['degs-64']['latency_ms']):.3f} | {' | '.join(cells)} |", flush=True)
+    print(" · ".join(map(short_name, scenes)) + "\n")
+    print("| array alone, % | " + " | ".join(SHOWN) + " |\n| --- |" + " ---: |" * len(SHOWN))
+    found = [compared(ARRAYS, scene, ",".join(SHOWN), "--array-only") for scene in scenes]
+    for design in ARRAYS:
+        cells = [" · ".join(f"{100 * float(rows[design, RESOLUTIONS[name]]['slots.utilization']):.1f}" for rows in found)
+                 for name in SHOWN]
+        print(f"| {design} | {' | '.join(cells)} |", flush=True)
+    print("\n| whole | GB/s | DeGS-64, ms | " + " | ".join(f"{design} ×" for design in WHOLE[1:]) + " |")
+    print("| --- | ---: | ---: |" + " ---: |" * len(WHOLE[1:]))
+    for bandwidth in ("204.8", "51.2"):
+        found = [compared(WHOLE, scene, "720p,4k", "--set", f"memory.bandwidth_gb_per_s={bandwidth}")
+                 for scene in scenes]
+        for name in ("720p", "4k"):
+            columns = [[] for _ in WHOLE]
+            for rows in found:
+                row = {design: rows[design, RESOLUTIONS[name]] for design in WHOLE}
+                cost = {design: float(row[design]["latency_ms"]) * float(row[design]["area_mm2"]) for design in WHOLE}
+                columns[0].append(f"{float(row['degs-64']['latency_ms']):.3f}")
+                for column, design in zip(columns[1:], WHOLE[1:]):
+                    column.append(f"{cost[design] / cost['degs-64']:.2f}")
+            print(f"| {name} | {bandwidth} | {' | '.join(' · '.join(column) for column in columns)} |", flush=True)
 
 
 def print_large(only):

@@ -20,12 +20,10 @@ using nlohmann::ordered_json;
 void describe_culled(const CullCounts& culled, StatsVisitor& v) {
     v.begin_section("culled", "The other Gaussians, by reason.");
     v.count("near", culled.near, "Gaussians", "At or before the near plane.");
-    v.count(
-        "near_in_view", culled.near_in_view, "Gaussians",
-        "Of these, in front of the camera and with the mean in the image; a warning names them.");
+    v.count("near_in_view", culled.near_in_view, "Gaussians",
+            "Of these, in view; a warning names them.");
     v.count("transparent", culled.transparent, "Gaussians", "Opacity under 1/255.");
-    v.count("degenerate", culled.degenerate, "Gaussians",
-            "No finite projection or colour in the format of the projection.");
+    v.count("degenerate", culled.degenerate, "Gaussians", "No finite projection or colour.");
     v.count("off_screen", culled.off_screen, "Gaussians", "No pixel touched.");
     v.end_section();
 }
@@ -48,10 +46,10 @@ void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, S
     v.count("visible", workload.visible, "Gaussians", "Splats that at least one tile lists.");
     describe_culled(workload.culled, v);
     v.text("projection", workload.projection.numbers.name(),
-           "Formats in which the accelerator's splats were projected, and those of "
-           "SH coefficients and depth keys if they are not the default.");
+           "Formats of the projection, and of SH coefficients and depth keys if they are not the "
+           "default.");
     v.text("order", name_of(workload.projection.order),
-           "What splats are blended by: depth is view z, distance that to the camera.");
+           "What splats are blended by: view z, or distance to the camera.");
     v.text("antialiasing", workload.projection.compensated ? "on" : "off",
            "Whether opacities make up for the low-pass filter.");
     v.real("low_pass", workload.projection.dilation, "px2", "Added to both variances of a splat.");
@@ -66,10 +64,9 @@ void describe_workload(const WorkloadFacts& workload, const SceneFacts& scene, S
     v.count("fragments", of_reference(&ReferenceCounts::fragments), "pixels",
             "Pixel updates of the reference renderer; null with --no-reference.");
     v.real("fragments_per_splat", fragments_per_splat(workload), "pixels",
-           "fragments / visible, which orders scenes by how well arrays of PEs are used; null "
-           "likewise, and if nothing is visible.");
+           "fragments / visible; null likewise, and if nothing is visible.");
     v.count("terminated_pixels", of_reference(&ReferenceCounts::terminated), "pixels",
-            "Pixels of the reference that stopped before the end of their list; null likewise.");
+            "Pixels of the reference that ended early; null likewise.");
     v.end_section();
 }
 
@@ -119,16 +116,12 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
     v.real("workload_s", host.workload_s, "s", "Projection, depth order and tile lists.");
     v.real("elaborate_s", host.elaborate_s, "s", "Building the model.");
     v.real("start_s", host.start_s, "s",
-           "From the start of the command to that of the simulation proper: scene, frames, model, "
-           "and the "
-           "reference image where it is rendered before.");
+           "From the start of the command to that of the simulation proper.");
     v.real("sim_s", host.sim_s, "s",
            "The simulation proper: its processor's time, and its waits for the thread that draws.");
-    v.real("drawing_s", host.drawing_s, "s",
-           "What other threads computed meanwhile, on another processor if there is one: drawing.");
+    v.real("drawing_s", host.drawing_s, "s", "What the thread that draws computed meanwhile.");
     v.real("run_s", host.run_s, "s",
-           "Everything between the projected frames and their results, of all threads: the "
-           "expected work of the tiles, building, simulation, and a sample that came to nothing.");
+           "Everything between the projected frames and their results, of all threads.");
     v.real("render_s", host.render_s, "s",
            "The reference image, on one processor; null with --no-reference.");
     v.real("sim_over_render", ratio(host.sim_s, host.render_s), "", "sim_s / render_s.");
@@ -136,9 +129,8 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
     v.real("fragments_per_s",
            ratio(static_cast<double>(result.accelerator.fragments()), host.sim_s), "pixels/s",
            "Pixels of splats that were blended / sim_s.");
-    v.count(
-        "activations", host.activations, "resumptions",
-        "How often the kernel resumed a process of the model; what blocks do in one is not in it.");
+    v.count("activations", host.activations, "resumptions",
+            "How often the kernel resumed a process of the model.");
     v.count("peak_rss_bytes", host.peak_rss_bytes, "bytes", "Largest resident set.");
     v.end_section();
 }

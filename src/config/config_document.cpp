@@ -144,6 +144,9 @@ std::string markdown_allowed(const KeyDoc& key) {
 std::string markdown_table(const std::vector<KeyDoc>& keys) {
     std::string table = "| Key | Default | Allowed | Meaning |\n|---|---|---|---|\n";
     for (const KeyDoc& key : keys) {
+        if (key.type == "section") {
+            continue;
+        }
         table += "| " + code(key.path) + " | " + code(key.default_value) + " | " +
                  markdown_allowed(key) + " | " + config_words::markdown_cell(key.doc) + " |\n";
     }

@@ -49,7 +49,8 @@ std::vector<KeyDoc> document(Config config) {
 /// The cell "allowed" of a Markdown table: 1..64 of integers, "real 0..10", "text", or the choices.
 std::string markdown_allowed(const KeyDoc& key);
 
-/// Returns a Markdown table with the columns key, default, allowed and meaning.
+/// Returns a Markdown table with the columns key, default, allowed and meaning; sections have no
+/// row.
 std::string markdown_table(const std::vector<KeyDoc>& keys);
 
 } // namespace degs

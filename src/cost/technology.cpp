@@ -61,8 +61,8 @@ void Technology::Sram::describe(ConfigVisitor& visitor) {
                  "share of the area that follows the SRAM banks of a buffer with limited ports "
                  "[assumed]");
     visitor.real("port_share", port_share, 0, 10,
-                 "area that each port after the first adds to a buffer with limited ports, "
-                 "relative to one port [assumed]");
+                 "area that each port after the first adds to such a buffer, relative to one port "
+                 "[assumed]");
 }
 
 void Technology::Pe::describe(ConfigVisitor& visitor) {
@@ -70,25 +70,22 @@ void Technology::Pe::describe(ConfigVisitor& visitor) {
         "numbers", numbers, {"table", "run"},
         "format that PEs are built for: that of their row in Table I, or that of pipeline.numbers");
     visitor.real("fp32_area", fp32.area, 0, 1000,
-                 "area of a PE in fp32 / FP16: multiplier and adder, 11884 / 3000 um2 (Horowitz, "
-                 "ISSCC 2014, at 45 nm)");
-    visitor.real("fp32_energy", fp32.energy, 0, 1000,
-                 "energy of a PE in fp32 / FP16: multiply and add, 4.6 / 1.5 pJ (likewise)");
+                 "area of a PE in fp32 / FP16 (Horowitz, ISSCC 2014)");
+    visitor.real("fp32_energy", fp32.energy, 0, 1000, "energy of a PE in fp32 / FP16 (likewise)");
     visitor.real("fp64_area", fp64.area, 0, 1000, "the same of fp64: the square of fp32 [assumed]");
     visitor.real("fp64_energy", fp64.energy, 0, 1000,
                  "the same of fp64: the square of fp32 [assumed]");
 }
 
 void Technology::Dram::describe(ConfigVisitor& visitor) {
-    visitor.real("pj_per_bit", pj_per_bit, 0, 1000,
-                 "pJ per bit read: 2.75 for the burst, 0.4 for its share of activations; all three "
-                 "are for memory.model bus, lpddr5 counts commands [fitted to lpddr5]");
+    visitor.real(
+        "pj_per_bit", pj_per_bit, 0, 1000,
+        "pJ per bit read of memory.model bus: burst and a share of activations [fitted to lpddr5]");
     visitor.real("write_pj_per_bit", write_pj_per_bit, 0, 1000,
-                 "pJ per bit written: 1.75 and 0.4 [fitted to lpddr5]");
+                 "pJ per bit written, likewise [fitted to lpddr5]");
     visitor.real(
         "standby_mw_per_gb_per_s", standby_mw_per_gb_per_s, 0, 1000,
-        "mW per GB/s of memory.bandwidth_gb_per_s, whatever happens; 16 channels of 30 mW, "
-        "with refresh 38 mW, have 204.8 GB/s [as lpddr5]");
+        "mW per GB/s of memory.bandwidth_gb_per_s, whatever happens, likewise [as lpddr5]");
 }
 
 void Technology::describe(ConfigVisitor& visitor) {
@@ -100,11 +97,9 @@ void Technology::describe(ConfigVisitor& visitor) {
                  "leakage of a block, of this node / of the rows below");
     visitor.real("clock_ghz", clock_ghz, 0.01, 10, "GHz at which the rows state their power");
     visitor.real("activity", activity, 1e-3, 1,
-                 "operations per unit and cycle at which they state it; 1: every unit works "
-                 "[assumed]");
+                 "operations per unit and cycle at which they state it [assumed]");
     visitor.real("leakage_mw_per_mm2", leakage_mw_per_mm2, 0, 1e4,
-                 "mW per mm2 of logic and SRAM; the Span Buffer's row allows 25 at most "
-                 "[assumed]");
+                 "mW per mm2 of logic and SRAM [assumed]");
     visitor.section("sram", sram, "how the area of a buffer follows its banks and ports");
     visitor.section("pe", pe, "number formats of PEs");
     visitor.section("dram", dram, "main memory");

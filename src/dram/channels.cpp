@@ -14,8 +14,7 @@ void Config::describe(ConfigVisitor& visitor) {
     visitor.real("controller_latency_ns", controller_latency_ns, 0.0, 1000.0,
                  "ns; added to every answer, rounded up to CK; 0: the DRAM and its queues alone");
     visitor.integer("waiting_requests", waiting_requests, 1, 65536,
-                    "per initiator; so many may wait for room in the queues before the next one is "
-                    "held back (AT) [assumed]");
+                    "per initiator; so many may wait for room in the queues (AT) [assumed]");
     visitor.boolean("dmi", dmi, "grant direct memory access, which takes no time in the model");
     visitor.section("timing", timing, "one x16 channel: organisation, and durations in CK");
     visitor.section("mapping", mapping, "address to channel, bank group, bank, row and column");

@@ -35,13 +35,12 @@ const std::vector<PagePolicy>& page_policies() {
 }
 
 void ControllerConfig::describe(ConfigVisitor& visitor) {
-    visitor.integer("read_queue", read_queue, 1, Queue::kSlots,
-                    "accesses of 64 B per channel; 32 get most of the bandwidth of random traffic");
+    visitor.integer("read_queue", read_queue, 1, Queue::kSlots, "accesses of 64 B per channel");
     visitor.integer("write_queue", write_queue, 1, Queue::kSlots, "accesses of 64 B per channel");
     visitor.real("write_high", write_high, 0.0, 1.0,
-                 "share of the write queue; from here on writes go first, about 80 % is usual");
+                 "share of the write queue; from here on writes go first");
     visitor.real("write_low", write_low, 0.0, 1.0,
-                 "share of the write queue; down to here if a read waits, about 20 % is usual");
+                 "share of the write queue; down to here if a read waits");
     visitor.require(write_low <= write_high, {"write_low",
                                               "must not be above write_high",
                                               config_words::number(write_high),
@@ -58,8 +57,7 @@ void ControllerConfig::describe(ConfigVisitor& visitor) {
     visitor.choice("refresh", refresh, {"none", "all_bank", "per_bank"},
                    "all_bank every refi; per_bank: a pair of banks every refi / 8; none for tests");
     visitor.boolean("refresh_stagger", refresh_stagger,
-                    "spread the channels' refreshes over refi; off: all at once, which stalls a "
-                    "stream over all channels less often");
+                    "spread the channels' refreshes over refi, in place of all at once");
     visitor.boolean("posted_writes", posted_writes,
                     "answer a write when its queue has it, and merge writes to one place; off: "
                     "answer with the last beat");

@@ -17,8 +17,7 @@ public:
     bool has_keys() const override { return true; }
     void describe(ConfigVisitor& visitor) override {
         visitor.integer("row_hits", row_hits_, 1, 1 << 20,
-                        "accesses that hit an open row before an older one to another row goes "
-                        "first; 4 serve a record of 256 B as a whole [assumed]");
+                        "row hits before an older access to another row goes first [assumed]");
     }
 
     std::uint8_t hit(const Queue& queue, unsigned bank, std::uint32_t row) const override {

@@ -35,17 +35,13 @@ unsigned folded(std::uint64_t value, unsigned width) {
 
 void Mapping::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("interleave_bytes", interleave_bytes, 64, 2048,
-                    "bytes, a power of two; neighbours of this size are in different channels. 256 "
-                    "keeps a record of 256 B in one row: one activation instead of four");
+                    "bytes, a power of two; neighbours of this size are in different channels");
     visitor.require_power_of_two("interleave_bytes", interleave_bytes);
     visitor.text("order", order,
                  "fields from low to high: column, group, bank, row; column:2 takes two bits, a "
-                 "field without a number all that are left. Groups low: a stream alternates them");
-    visitor.boolean("fold_channel", fold_channel,
-                    "XOR all higher bits into the channel, against strides that miss channels");
-    visitor.boolean("fold_bank", fold_bank,
-                    "XOR all bits of the row into group and bank, against streams at equal offsets "
-                    "that meet in one bank");
+                 "field without a number all that are left");
+    visitor.boolean("fold_channel", fold_channel, "XOR all higher bits into the channel");
+    visitor.boolean("fold_bank", fold_bank, "XOR all bits of the row into group and bank");
 }
 
 Mapping::Mapping(const Config& config, const Timing& timing, unsigned channels) {

@@ -19,8 +19,7 @@ struct TransferAccount {
 
     void describe(StatsVisitor& v) const {
         v.count("on_bus", on_bus, "bytes", "Transferred by the data bus.");
-        v.count("queued", queued, "bytes",
-                "Still in the controllers' queues: posted writes are acknowledged before they go.");
+        v.count("queued", queued, "bytes", "Still in the controllers' queues.");
         v.count("merged", merged, "bytes", "Written over in a write queue before they went.");
         v.count("forwarded", forwarded, "bytes", "Read from a write queue.");
     }

@@ -21,10 +21,10 @@ double units_of(const sc_core::sc_time& time) {
 
 void Memory::Config::describe(ConfigVisitor& visitor) {
     visitor.real("bandwidth_gb_per_s", bandwidth_gb_per_s, 0.01, 1e5,
-                 "1e9 bytes/s; 204.8 is LPDDR5-6400 on 256 bit, the paper's main setting");
-    visitor.real(
-        "latency_ns", latency_ns, 0.0, 1e6,
-        "ns; request to data without the transfer; 100 is a loaded LPDDR5 controller's order");
+                 "1e9 bytes/s; 204.8 is the paper's main setting");
+    visitor.real("latency_ns", latency_ns, 0.0, 1e6,
+                 "ns; request to data without the transfer; 100: the order of a loaded LPDDR5 "
+                 "controller [assumed]");
     visitor.integer("access_bytes", access_bytes, 1, 4096,
                     "bytes; access granularity, a partial access costs a whole one");
 }

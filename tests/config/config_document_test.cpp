@@ -65,6 +65,12 @@ TEST(ConfigDocument, MarkdownEscapesItsSeparator) {
               "refreshed |\n");
 }
 
+TEST(ConfigDocument, MarkdownHasNoRowForASection) {
+    const std::string table = markdown_table(document(Keys()));
+    EXPECT_NE(table.find("| `memory.latency_ns` |"), std::string::npos) << table;
+    EXPECT_EQ(table.find("| `memory` |"), std::string::npos) << table;
+}
+
 struct OpenRanges {
     double positive = 1;
     int below = 0;

@@ -11,9 +11,9 @@ Config::Config() {
 }
 
 void Config::ListBuffer::describe(ConfigVisitor& visitor) {
-    visitor.integer("bytes", bytes, 16, 1 << 30,
-                    "bytes for lists being sorted: what is left of 91 KB (DeGS paper, Table I) "
-                    "beside the other buffers [assumed]");
+    visitor.integer(
+        "bytes", bytes, 16, 1 << 30,
+        "bytes for lists being sorted: what the other buffers leave of Table I's 91 KB [assumed]");
     visitor.integer("chunks", chunks, 1, 1024,
                     "chunks of splat records in front of each engine [assumed]");
 }
@@ -23,8 +23,7 @@ void Config::Engines::describe(ConfigVisitor& visitor) {
                     "tile engines, each on a tile of its own: PEs / rows of a tile [assumed]");
     TileEngine::Config::describe(visitor);
     visitor.integer("entry_bytes", entry_bytes, 1, 64,
-                    "bytes per row entry: splat 2, x0 and x1 2, x'' and threshold in FP16 4; "
-                    "counted as SRAM, limits nothing [assumed]");
+                    "bytes per row entry, counted as SRAM [assumed]");
 }
 
 void Config::Cache::describe(ConfigVisitor& visitor) {

@@ -18,23 +18,20 @@ std::uint32_t first_bits(int count) {
 
 void TileEngine::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("row_pes", row_pes, 1, 1024,
-                    "Row PEs per engine; PE k serves the tile rows k, k + row_pes, ... (8 for 16 "
-                    "rows in the original, one per row in the scaled designs [assumed])");
+                    "Row PEs per engine; PE k serves the tile rows k, k + row_pes, ... (GBU: 8 for "
+                    "16 rows) [assumed]");
     visitor.integer("queue_depth", queue_depth, 1, 4096,
                     "row entries waiting in front of a Row PE; GBU does not say [assumed]");
     visitor.integer(
         "rows_per_cycle", rows_per_cycle, 0, 1024,
-        "rows of a splat that Row Generation of an engine solves per cycle, and that "
-        "its area counts. Table I has one scheduler at every size; it solves 8 rows for "
-        "all engines, as the Span Units of DeGS with 64 PEs do [assumed]. 0: all at "
-        "once, in the area of Table I (docs/readings.md)");
+        "rows of a splat that Row Generation of an engine solves per cycle, and that its area "
+        "counts [assumed]; 0: all at once, in the area of Table I (docs/readings.md)");
     visitor.integer("generation_latency", generation_latency, 0, 4096,
                     "cycles from a splat's record to its row entries; 8 in an HLS rebuild");
     visitor.integer("row_pe_latency", row_pe_latency, 1, 4096,
                     "cycles from a pixel's slot to written-back state; 10 in an HLS rebuild");
     visitor.integer("termination_cycles", termination_cycles, 1, 4096,
-                    "cycles from the slot that ends a row to Row Generation, which then leaves it "
-                    "out [assumed]");
+                    "cycles from the slot that ends a row to Row Generation [assumed]");
     visitor.boolean("end_probe", end_probe,
                     "an entry's end is found by one failing check (DeGS paper, Sec. II-B); false: "
                     "it is computed with its start [assumed]");

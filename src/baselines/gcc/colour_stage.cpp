@@ -11,12 +11,11 @@
 namespace degs::gcc {
 
 void ColourStage::Config::describe(ConfigVisitor& visitor) {
-    visitor.integer("units", units, 1, 64, "SH units; as many as projection units [assumed]");
+    visitor.integer("units", units, 1, 64, "SH units [assumed]");
     visitor.integer("cycles_per_colour", cycles_per_colour, 1, 1024,
                     "cycles per Gaussian and unit for its SH colour [assumed]");
     visitor.integer("keys_per_cycle", keys_per_cycle, 1, 1024,
-                    "keys per cycle and pass of the sorter; 128 cycles for a group of 256 "
-                    "[assumed]");
+                    "keys per cycle and pass of the sorter [assumed]");
     visitor.integer("merge_ways", merge_ways, 2, 1024, "fan-in of a merge pass [assumed]");
     visitor.boolean("skip_ended", skip_ended,
                     "drop Gaussians that reach ended blocks only (cross-stage conditional "

@@ -17,8 +17,7 @@ void Config::describe(ConfigVisitor& visitor) {
                     "Stages II to IV, each with the buffers below and on a view of its own, behind "
                     "one Stage I; beyond the paper");
     visitor.integer("view_size", view_size, 4, 1024,
-                    "px; side of the part of the image that is rendered at a time, 128 fills 128 "
-                    "KB of image buffer [unverified]");
+                    "px; side of the part of the image that is rendered at a time [unverified]");
     visitor.integer("group_buffer_bytes", group_buffer_bytes, 256, 1 << 30,
                     "bytes for groups between the stages; 190 KB in all (DeGS, Table I) less the "
                     "image buffer");

@@ -9,15 +9,12 @@
 namespace degs::gcc {
 
 void Grouping::Config::describe(ConfigVisitor& visitor) {
-    visitor.integer("means_per_cycle", means_per_cycle, 1, 1024,
-                    "means per cycle; 4, as the units that project elsewhere [assumed]");
-    visitor.integer("chunk", chunk, 1, 65536,
-                    "means per request; long bursts, the array of means is read as it lies "
-                    "[assumed]");
+    visitor.integer("means_per_cycle", means_per_cycle, 1, 1024, "means per cycle [assumed]");
+    visitor.integer("chunk", chunk, 1, 65536, "means per request [assumed]");
     visitor.integer("chunks_in_flight", chunks_in_flight, 1, 256,
-                    "requests outstanding; 4 of 2 KB cover a 100 ns memory [assumed]");
+                    "requests outstanding; 4 cover 100 ns [assumed]");
     visitor.integer("entries_per_cycle", entries_per_cycle, 1, 1024,
-                    "list entries per cycle; 8 x 8 B keep one 64 B burst per cycle [assumed]");
+                    "list entries per cycle [assumed]");
     visitor.integer("writes_in_flight", writes_in_flight, 1, 1024,
                     "chunk writes not yet acknowledged by memory [assumed]");
     visitor.choice("lists", lists, {"direct", "regrouped"},

@@ -10,11 +10,10 @@
 namespace degs::gcc {
 
 void ProjectionStage::Config::describe(ConfigVisitor& visitor) {
-    visitor.integer("units", units, 1, 64, "projection units; as many as elsewhere [assumed]");
+    visitor.integer("units", units, 1, 64, "projection units [assumed]");
     visitor.integer("group", group, 1, 4096, "Gaussians per depth group; about 256 [unverified]");
     visitor.integer("groups_ahead", groups_ahead, 1, 64,
-                    "groups between two steps of Stages II and III; 1 lets four groups be on "
-                    "their way while one is rendered [assumed]");
+                    "groups between two steps of Stages II and III [assumed]");
     visitor.integer("cycles_per_gaussian", cycles_per_gaussian, 1, 1024,
                     "cycles per Gaussian and unit, so that bandwidth limits [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 4096,

@@ -11,15 +11,15 @@ std::uint64_t aligned_64(std::uint64_t bytes) {
 } // namespace
 
 void Traffic::describe(ConfigVisitor& visitor) {
-    visitor.integer("mean_bytes", mean_bytes, 0, 1024,
-                    "bytes per Gaussian read by Stage I; 0: as the formats of pipeline.records "
-                    "need, 12 in FP32, 6 in FP16");
+    visitor.integer(
+        "mean_bytes", mean_bytes, 0, 1024,
+        "bytes per Gaussian read by Stage I; 0: as the formats of pipeline.records need");
     visitor.integer("bound_bytes", bound_bytes, 0, 1024,
-                    "bytes per Gaussian that tell Stage I its extent, without which it could not "
-                    "know the views; a radius in FP16, computed offline [assumed]");
+                    "bytes per Gaussian that tell Stage I its extent: a radius in FP16, computed "
+                    "offline [assumed]");
     visitor.integer("shape_bytes", shape_bytes, 0, 1024,
                     "bytes per Gaussian read by Stage II: scale, rotation, opacity; 0: as the "
-                    "formats need; the mean comes along in the same burst [assumed]");
+                    "formats need [assumed]");
     visitor.integer("sh_value_bytes", sh_value_bytes, 0, 8,
                     "bytes per SH value read by Stage III; 0: as the formats need");
     visitor.integer("list_entry_bytes", list_entry_bytes, 1, 64,

@@ -17,17 +17,16 @@ constexpr int kLanes = 32; // pixels per call of the data path
 
 void WindowArray::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("window", window, 1, 64,
-                    "px; side of the traversal window, one PE per pixel. 8: the published 8 x 8 "
-                    "arrays; it grows with the array (paper, Sec. II-B)");
+                    "px; side of the traversal window, one PE per pixel (GCC: 8 x 8); it grows "
+                    "with the array (paper, Sec. II-B)");
     visitor.integer("skip_cycles", skip_cycles, 0, 64,
-                    "cycles for a window whose pixels have all ended; 0: found from the mask while "
-                    "another window is evaluated [assumed]");
+                    "cycles for a window whose pixels have all ended [assumed]");
     visitor.integer("seed_cycles", seed_cycles, 0, 256,
                     "cycles to find a further part of a splat, which is not connected with those "
-                    "that have been visited; no paper says how it is found [assumed]");
+                    "that have been visited [assumed]");
     visitor.integer("discovery_cycles", discovery_cycles, 1, 256,
                     "cycles from a slot to the windows it leads to; 1: interleaved splats hide the "
-                    "pipeline; 4..8: its depth with one splat in flight [assumed]");
+                    "pipeline [assumed]");
     visitor.integer("writeback_cycles", writeback_cycles, 1, 4096,
                     "cycles from a slot to pixel state and reports written [assumed]");
 }

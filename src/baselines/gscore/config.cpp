@@ -11,8 +11,7 @@ void Config::Buffer::describe(ConfigVisitor& visitor) {
     visitor.integer("bytes", bytes, 256, 1 << 30,
                     "bytes in all, pixel_buffer.bytes included (paper Table I: 8 x 34 KB)");
     visitor.real("sort_share", sort_share, 0.05, 0.95,
-                 "share of what the Pixel Buffer leaves for lists being sorted; the rest holds "
-                 "sorted splats [assumed]");
+                 "share of what the Pixel Buffer leaves for lists being sorted [assumed]");
 }
 
 Config::Config() {

@@ -9,7 +9,7 @@ void CostRows::describe(cost::RowSection& section) {
     section.row("preprocessing", preprocessing,
                 "P & S: pairs of a culling and conversion unit and a sorting unit");
     section.share("sorting_share", sorting_share,
-                  "share of P & S that sorts; 0.02 of 0.94 mm2 in DeGS [assumed]");
+                  "share of P & S that sorts, as in DeGS [assumed]");
     section.row("blending", blending, "lanes");
     section.row("sram", sram, "all buffers");
 }

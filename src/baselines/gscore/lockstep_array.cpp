@@ -9,19 +9,18 @@
 namespace degs::gscore {
 
 void LockstepArray::Config::describe(ConfigVisitor& visitor) {
-    visitor.integer("lanes", lanes, 16, 1024, "pixel lanes; GSCore has 64, a square of 8 x 8 px");
+    visitor.integer("lanes", lanes, 16, 1024, "pixel lanes (GSCore: 64)");
     visitor.require(lanes == side() * side() && 32 % side() == 0,
                     {"lanes", "must be a square of 4, 8, 16 or 32 px", "16, 64, 256 or 1024"});
     visitor.choice("subtile_skip", subtile_skip, {"obb", "exact", "none"},
                    "which sub-tiles a splat's bitmap names: those its oriented box meets (GSCore), "
                    "those with a pixel that passes the lanes' check, or all");
     visitor.integer("subtiles", subtiles, 1, 4,
-                    "side of a tile in sub-tiles, but never less than 16 px; 2, because GSCore has "
-                    "tiles of 16 px and sub-tiles of 8 px");
+                    "side of a tile in sub-tiles, but never less than 16 px");
     visitor.require(subtiles != 3, {"subtiles", "must be a power of two", "1, 2 or 4"});
     visitor.integer("skips_per_cycle", skips_per_cycle, 0, 1024,
-                    "splats of which no sub-tile is left that are passed per cycle; 0: any number, "
-                    "which favours the design [assumed]");
+                    "splats without a sub-tile that are passed per cycle; 0: any number, which "
+                    "favours the design [assumed]");
     visitor.integer(
         "clusters", clusters, 1, 4,
         "groups of lanes with their own place in the list; group c owns the sub-tiles s = c mod "
@@ -30,8 +29,8 @@ void LockstepArray::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("termination_cycles", termination_cycles, 1, 1024,
                     "cycles; 1: the check of cycle T guides cycle T + 1 (paper, Sec. II-B)");
     visitor.integer("pipeline_cycles", pipeline_cycles, 1, 4096,
-                    "cycles from the last slot of a tile to its pixels written back; as in DeGS, "
-                    "to compare dataflows; an HLS rebuild of the lanes has 192 [assumed]");
+                    "cycles from the last slot of a tile to its pixels written back; an HLS "
+                    "rebuild of the lanes has 192 [assumed]");
 }
 
 int LockstepArray::Config::side() const {

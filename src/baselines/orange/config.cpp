@@ -19,9 +19,8 @@ Config::Gemm::Gemm() : ExponentGemm(half_precision_gemm(GemmOrigin::Tile)) {}
 
 void Config::Gemm::describe(ConfigVisitor& visitor) {
     visitor.choice("origin", origin, {"tile", "image"},
-                   "origin of the pixels' monomials; tile: the middle of each tile, for which "
-                   "coefficients are formed anew; image: its first pixel, with coefficients that "
-                   "serve all tiles and cancel far from it");
+                   "origin of the pixels' monomials; tile: the middle of each tile; image: its "
+                   "first pixel, with coefficients that serve all tiles and cancel far from it");
     describe_format(visitor, "operands", operands,
                     "coefficients and monomials; of number sets, fp32 and fp64 multiply their own");
     describe_format(visitor, "sums", sums, "products and their sums, likewise");
@@ -37,8 +36,7 @@ void Config::Cores::describe(ConfigVisitor& visitor) {
 void Config::Scratchpad::describe(ConfigVisitor& visitor) {
     visitor.integer("bytes", bytes, 1024, 1 << 30,
                     "bytes of a core: batches on their way and lists being sorted [assumed]");
-    visitor.integer("splat_batches", splat_batches, 1, 1024,
-                    "batches of splat records; 2: one arrives while the other is read [assumed]");
+    visitor.integer("splat_batches", splat_batches, 1, 1024, "batches of splat records [assumed]");
     visitor.integer("coefficient_batches", coefficient_batches, 1, 1024,
                     "batches of coefficients and colours in front of the array [assumed]");
     visitor.integer("product_batches", product_batches, 1, 1024,

@@ -18,8 +18,8 @@ void SystolicArray::Config::describe(ConfigVisitor& visitor) {
         "what pays rows + columns - 2 cycles for filling and draining: every pass, every "
         "product, or nothing [assumed]");
     visitor.boolean("preload", preload,
-                    "monomials of the next pass are loaded during the present one; false: a pass "
-                    "begins with `rows` cycles of loading; dataflow weight alone [assumed]");
+                    "load monomials of the next pass during the present one; false: a pass begins "
+                    "with `rows` cycles of loading; dataflow weight alone [assumed]");
 }
 
 std::int64_t SystolicArray::Config::passes(int splats, int pixels) const {

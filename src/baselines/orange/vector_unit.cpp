@@ -8,10 +8,9 @@ namespace degs::orange {
 
 void VectorUnit::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("lanes", lanes, 1, 65536, "elements per cycle and core (ORANGE: 512)");
-    visitor.integer(
-        "coefficient_operations", coefficient_operations, 0, 1024,
-        "element operations that form the coefficients of a splat for a tile: 10 "
-        "products, 7 sums; 0 with gemm.origin image, whose records hold them [assumed]");
+    visitor.integer("coefficient_operations", coefficient_operations, 0, 1024,
+                    "element operations that form the coefficients of a splat for a tile: 10 "
+                    "products, 7 sums; 0 with gemm.origin image [assumed]");
     visitor.integer("blend_operations", blend_operations, 1, 1024,
                     "element operations per pixel of a product: exponential, limit, alpha test, "
                     "transmittance, its test, weight, three colours, mask [assumed]");
@@ -20,7 +19,7 @@ void VectorUnit::Config::describe(ConfigVisitor& visitor) {
         "cycles from the last operation of a tile to its pixels written back [assumed]");
     visitor.choice("termination", termination, {"batch", "none"},
                    "batch: a tile is left after the batch in which its last pixel ends; none: "
-                   "lists are blended to their end (ORANGE skips an estimated share of the list)");
+                   "lists are blended to their end");
 }
 
 Cycle VectorUnit::Config::coefficient_cycles(std::uint64_t splats) const {

@@ -20,13 +20,12 @@ int divisor_below(int most, int number) {
 
 void SpanPipelineConfig::describe(ConfigVisitor& visitor) {
     PipelineConfig::describe(visitor);
-    visitor.choice("span_ends", span_ends, {"exact", "outward", "slope"},
-                   "exact: ceil/floor, the pixels inside the ellipse; outward: floor/ceil (paper, "
-                   "Eq. 15); slope: outward, plus |dw/dy| times half a unit of the mean (0 in fp32 "
-                   "and fp64); a number set's own ends do not count");
-    visitor.integer(
-        "span_delta", span_delta, 0, 16,
-        "px added at both ends unless they are exact; the paper gives no value, 0 is the minimum");
+    visitor.choice(
+        "span_ends", span_ends, {"exact", "outward", "slope"},
+        "exact: the pixels inside the ellipse; outward: floor/ceil (paper, Eq. 15); slope: "
+        "outward, plus |dw/dy| times half a unit of the mean (0 in fp32 and fp64)");
+    visitor.integer("span_delta", span_delta, 0, 16,
+                    "px added at both ends unless they are exact; the paper gives no value");
     if (span_ends == SpanEnds::Exact) {
         visitor.unused("span_delta", "span_ends", "span_ends is exact");
     }
@@ -37,16 +36,15 @@ void PortedPixelBufferConfig::describe(ConfigVisitor& visitor) {
     ports.describe(visitor,
                    "pixels read and pixels written by the tasks of a packet, per cycle and SRAM "
                    "bank; 0: unlimited [assumed]",
-                   "SRAM banks of an Issue Bank's part of a tile context; pixels are dealt to them "
-                   "in turn, row after row [assumed]");
+                   "SRAM banks of an Issue Bank's part of a tile context [assumed]");
 }
 
 void DegsConfig::describe(ConfigVisitor& visitor) {
     describe_common(visitor);
     visitor.integer("tile_size", tile_size, 4, 1024, "px (paper Table III: 16, 32, 64, 128)");
-    visitor.integer("clusters", clusters, 1, 64,
-                    "back ends on tiles of their own that share preprocessing, sorting and memory; "
-                    "the sections from fetching to monitor are those of one (paper: 1)");
+    visitor.integer(
+        "clusters", clusters, 1, 64,
+        "back ends on tiles of their own that share preprocessing, sorting and memory (paper: 1)");
     visitor.section("pipeline", pipeline, "what the data path computes");
     visitor.section("traffic", traffic, "record layouts of the memory streams");
     pipeline.describe_records(visitor, traffic);

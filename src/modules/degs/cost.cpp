@@ -11,8 +11,8 @@ void DegsCostRows::describe(cost::RowSection& section) {
                 "Gaussian Slicing Units and Span Units, 2 + 8, which weigh the same [assumed]");
     section.row("packing_scheduler", packing_scheduler, "Issue Banks with Packing Units");
     section.share("scheduler_width_share", scheduler_width_share,
-                  "share of an Issue Bank that follows array.pes_per_bank, which is 8 in its row; "
-                  "0: Table III widens the packets and Table I counts banks [assumed]");
+                  "share of an Issue Bank that follows array.pes_per_bank; 0: Table I counts banks "
+                  "[assumed]");
     section.row("blending", blending, "Blending Array");
     section.row("gaussian_buffer", gaussian_buffer, "Gaussian Buffer");
     section.row("feature_buffer", feature_buffer, "Feature Buffer");

@@ -40,31 +40,26 @@ RenderingRules::RenderingRules(RuleSet set) : preset(set) {
 void RenderingRules::describe(ConfigVisitor& visitor) {
     RuleSet wanted = preset;
     visitor.choice("preset", wanted, rule_set_names(),
-                   "where the other rules start, each of which may be set apart; inria: reference "
-                   "code; khr: KHR_gaussian_splatting, i.e. order: distance and cut: 9");
+                   "where the other rules start; inria: reference code; khr: "
+                   "KHR_gaussian_splatting, i.e. order: distance and cut: 9");
     if (wanted != preset) {
         *this = RenderingRules(wanted);
     }
-    visitor.choice(
-        "order", order, splat_order_names(),
-        "order in which splats are blended; depth: view z (reference code, paper "
-        "Sec. II-A); distance: Euclidean distance to the camera (KHR_gaussian_splatting)");
+    visitor.choice("order", order, splat_order_names(),
+                   "order of blending; depth: view z (reference code, paper Sec. II-A); distance: "
+                   "Euclidean, to the camera");
     visitor.choice("antialiasing", antialiasing, antialiasing_names(),
-                   "opacity times sqrt(det before / det after the low-pass filter), as "
-                   "Mip-Splatting trains; scene: if the scene file says that it was trained so");
+                   "opacity times sqrt(det before / det after the low-pass filter); scene: if the "
+                   "file says that it was trained so");
+    visitor.real("low_pass", low_pass, 0, 10,
+                 "px^2 added to both variances of a splat; files of Mip-Splatting and Brush are "
+                 "trained with 0.1");
+    visitor.real("cut", cut, 0, kNoCut,
+                 "squared Mahalanobis distance at which a splat ends; 12: where alpha falls below "
+                 "1/255 (reference code); 9: KHR_gaussian_splatting");
     visitor.real(
-        "low_pass", low_pass, 0, 10,
-        "px^2 added to both variances of a splat; 0.3: reference code and gsplat; files of "
-        "Mip-Splatting and Brush are trained with 0.1");
-    visitor.real(
-        "cut", cut, 0, kNoCut,
-        "squared Mahalanobis distance q at which every splat ends, the limit included; 12: "
-        "where alpha falls below 1/255, which is at q = 2 ln 255 = 11.08 or before "
-        "(reference code); 9: KHR_gaussian_splatting");
-    visitor.real("near", near, 0, kFarthestNearPlane,
-                 "scene units; Gaussians whose mean lies at or before this view z are not drawn; "
-                 "0.2: original rasteriser; gsplat trains with 0.01, and small scenes need as "
-                 "little");
+        "near", near, 0, kFarthestNearPlane,
+        "scene units; means at or before this view z are not drawn; gsplat trains with 0.01");
 }
 
 ProjectionOptions RenderingRules::options(bool antialiased,

@@ -130,8 +130,7 @@ void NumberSet::describe(ConfigVisitor& visitor) {
                    "pixel of n = 0: the span's first, or the nearest to x_c");
     visitor.choice("multiplier", multiplier, {"whole", "half_lookup"}, "of integers n and n(n-1)");
     visitor.integer("lookup_bits", lookup_bits, 1, 15,
-                    "bits of the lower half of an integer with half_lookup; 4 hold every n within "
-                    "a segment of 16 px [assumed]");
+                    "bits of the lower half of an integer with half_lookup [assumed]");
     visitor.choice("exponent", exponent, {"natural", "binary"},
                    "q counts nats of exp(-q/2), or orders of 2^-q");
     exp.function = exponent == Exponent::Natural ? TableFunction::ExpHalf : TableFunction::Exp2;

@@ -10,13 +10,12 @@ void FeatureBuffer::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("entry_bytes", entry_bytes, 1, 256,
                     "bytes per splat: A, three colours, tag [assumed]");
     visitor.integer("fill_cycles", fill.cycles, 0, 1024,
-                    "cycles that writing an entry takes, with which its first span waits unless "
-                    "the Packing Unit's pipeline hides it; 0: it is there at once [assumed]");
+                    "cycles that writing an entry takes; its first span waits as far as the "
+                    "Packing Unit's pipeline does not hide them [assumed]");
     fill.ports.describe(visitor,
                         "splats written, and splats read by the tasks of a packet, per cycle and "
                         "SRAM bank; 0: unlimited [assumed]",
-                        "SRAM banks of an Issue Bank's part; entries are dealt to them in turn "
-                        "[assumed]");
+                        "SRAM banks of an Issue Bank's part [assumed]");
 }
 
 FeatureBuffer::FeatureBuffer(int entries, int open_splats, int streams, const Fill& fill)

@@ -6,10 +6,9 @@ namespace degs {
 void IssueBank::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("banks", banks, 1, 64,
                     "Issue Banks, Packing Units and array slices (paper Table III)");
-    visitor.integer(
-        "queue_segments_per_pe", queue_segments_per_pe, 0, kMostSegmentsPerPe,
-        "segments waiting per bank and PE of its slice; a fixed 32 starves wide banks; 0: what "
-        "packing.bytes leaves beside packing.lead_packets [assumed]");
+    visitor.integer("queue_segments_per_pe", queue_segments_per_pe, 0, kMostSegmentsPerPe,
+                    "segments waiting per bank and PE of its slice; 0: what packing.bytes leaves "
+                    "beside packing.lead_packets [assumed]");
     visitor.integer(
         "segment_bytes", segment_bytes, 1, 256,
         "bytes per waiting segment, part of packing.bytes: g0 4, d0 4, G_ID 2, mask and "
@@ -18,16 +17,14 @@ void IssueBank::Config::describe(ConfigVisitor& visitor) {
                     "px, stride of the Segmenter (paper: 1 x 16)");
     visitor.integer("segments_per_cycle", segments_per_cycle, 1, 64,
                     "segments cut and queued per bank and cycle [assumed]");
-    visitor.integer(
-        "issue_width", issue_width, 1, 64,
-        "segments issued per bank and cycle; one per four PEs keeps the prefix sum short "
-        "[assumed]");
+    visitor.integer("issue_width", issue_width, 1, 64,
+                    "segments issued per bank and cycle [assumed]");
     visitor.integer(
         "reuse_cycles", reuse_cycles, 1, 64,
         "cycles between two updates of a segment (paper: 4); not below array.writeback_cycles");
     visitor.boolean("scoreboard", scoreboard,
-                    "enforce reuse_cycles; false shows what it is for: a pixel that comes again "
-                    "before its write-back reads the older state, and the image is wrong");
+                    "enforce reuse_cycles; false: a pixel that comes again before its write-back "
+                    "reads the older state, and the image is wrong");
     visitor.choice(
         "termination", termination, {"segment", "task", "pixel"},
         "what is skipped: all segments of a region of segment_length pixels that has ended "

@@ -10,8 +10,7 @@ void PackingUnit::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("task_bytes", task_bytes, 1, 256,
                     "bytes per task: G_ID, x, y, n, g0, d0, tags [assumed]");
     visitor.integer("lead_packets", lead_packets, 1, 65536,
-                    "packets of a bank that may wait for its array slice; packed tasks cannot be "
-                    "dropped, so a longer lead adds terminated ones [assumed]");
+                    "packets of a bank that may wait for its array slice [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 64,
                     "cycles from issue to execution: prefix sum and shift, buffer read [assumed]");
     visitor.integer(
@@ -19,11 +18,10 @@ void PackingUnit::Config::describe(ConfigVisitor& visitor) {
         "packets of a bank that can be written per cycle; a segment that completes more keeps the "
         "next ones waiting, and the array executes one per cycle [assumed]");
     visitor.boolean("reorganisation", reorganisation,
-                    "compact tasks of different spans into one packet (paper, Sec. IV-B); false, "
-                    "for ablations: a packet has tasks of one span only");
-    segment_ports.describe(visitor,
-                           "segments written and segments read per cycle and bank; packets lie in "
-                           "a memory of their own; 0: unlimited [assumed]");
+                    "compact tasks of different spans into one packet (paper, Sec. IV-B); false: "
+                    "for ablations");
+    segment_ports.describe(
+        visitor, "segments written and segments read per cycle and bank; 0: unlimited [assumed]");
 }
 
 } // namespace degs

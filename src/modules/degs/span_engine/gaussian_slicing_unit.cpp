@@ -16,30 +16,22 @@ constexpr int kUnlimited = std::numeric_limits<int>::max();
 } // namespace
 
 void GaussianSlicingUnit::Config::describe(ConfigVisitor& visitor) {
-    visitor.integer(
-        "count", count, 1, 64,
-        "units (paper Table III: 1, 2, 4, 8); divides the Span Units unless they share out the "
-        "splats");
+    visitor.integer("count", count, 1, 64, "units (paper Table III: 1, 2, 4, 8)");
     visitor.integer("interleave", interleave, 1, 16,
-                    "tile streams: tiles that are sliced and blended at once, each with as many of "
-                    "the units; the paper shows overlapping tiles but no rule, so 1 [assumed]");
+                    "tile streams: tiles that are sliced and blended at once [assumed]");
     visitor.integer("rows_per_cycle", rows_per_cycle, 1, 64,
-                    "scanlines per unit and cycle; 8 x 2 units keep 8 Span Units fed although a "
-                    "splat's last cycle is rarely full [assumed]");
+                    "scanlines per unit and cycle [assumed]");
     visitor.integer("splats_per_cycle", splats_per_cycle, 1, 16,
-                    "splats that a unit takes per cycle at most; they share its rows_per_cycle "
-                    "[assumed]");
-    visitor.choice(
-        "distribution", distribution, {"broadcast", "broadcast_skip", "splats"},
-        "what units share: the rows of every splat, each unit spending a cycle on it; the same, "
-        "without a cycle where it has no row; or the splats of a tile [assumed]");
-    visitor.choice(
-        "rows", rows, {"splat", "tile"},
-        "scanlines of a splat: all that its ellipse meets (paper: y_min..y_max), or those "
-        "inside the tile's columns, found by binning with the exact tile test");
+                    "splats per unit and cycle at most, which share its rows_per_cycle [assumed]");
+    visitor.choice("distribution", distribution, {"broadcast", "broadcast_skip", "splats"},
+                   "what units share: the rows of every splat, each unit spending a cycle on it, "
+                   "or none where it has no row; or the splats of a tile [assumed]");
+    visitor.choice("rows", rows, {"splat", "tile"},
+                   "scanlines of a splat: all that its ellipse meets (paper: y_min..y_max), or "
+                   "those inside the tile's columns");
     visitor.boolean("skip_dead_rows", skip_dead_rows,
                     "leave out rows whose segments below the splat have all ended; the paper's "
-                    "feedback reaches the Issue Banks only, so false");
+                    "feedback reaches the Issue Banks only");
     visitor.integer("feedback_cycles", feedback_cycles, 1, 4096,
                     "cycles from the array to the region mask of skip_dead_rows [assumed]");
     if (!skip_dead_rows) {

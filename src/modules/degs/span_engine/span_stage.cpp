@@ -8,11 +8,11 @@ namespace degs {
 void SpanStage::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("count", count, 1, 256, "units (paper Table III: 4, 8, 16, 32)");
     visitor.boolean("parsing", parsing,
-                    "solve rows (paper, Sec. III-A); false, for ablations: a row is as wide as the "
-                    "splat's bounding box, and the PEs test every pixel (paper, Sec. II-B)");
-    visitor.choice("rows", rows, {"fixed", "pool"},
-                   "the unit that solves row y of a tile: y modulo their number, or any that is "
-                   "free; the paper does not say it [assumed]");
+                    "solve rows (paper, Sec. III-A); false, for ablations: PEs test every pixel of "
+                    "the splat's bounding box");
+    visitor.choice(
+        "rows", rows, {"fixed", "pool"},
+        "the unit of row y of a tile: y modulo their number, or any that is free [assumed]");
     visitor.integer("rows_per_cycle", rows_per_cycle, 1, 64,
                     "scanlines that a unit takes per cycle (paper, Sec. IV-A: one)");
     visitor.integer("cycles_per_row", cycles_per_row, 1, 64,
@@ -20,8 +20,7 @@ void SpanStage::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("latency_cycles", latency_cycles, 1, 256,
                     "cycles from row item to Span Vector: dy, square, LUT, two sums [assumed]");
     visitor.integer("crossbar_depth", crossbar_depth, 1, 1024,
-                    "Span Vectors that wait between a unit and a bank; those in the pipeline have "
-                    "its registers [assumed]");
+                    "Span Vectors that wait between a unit and a bank [assumed]");
     visitor.integer("crossbar_width", crossbar_width, 0, 64,
                     "Span Vectors that a bank takes from the crossbar per cycle; 0: as many as it "
                     "can cut [assumed]");

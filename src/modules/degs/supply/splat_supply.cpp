@@ -10,17 +10,16 @@ namespace degs {
 
 void SplatSupply::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("splats_per_cycle", splats_per_cycle, 0, 4096,
-                    "splat records that are delivered to all clusters together per cycle, whole "
-                    "chunks, to clusters in turn; 0: unlimited");
+                    "splat records delivered to all clusters together per cycle; 0: unlimited");
     visitor.integer("fifo_splats", fifo_splats, 1, 65536,
-                    "splats that wait between the memory and the Gaussian Buffer of a cluster, "
-                    "shared by its fetchers, at least a chunk each [assumed]");
+                    "splats that wait in front of the Gaussian Buffer of a cluster, at least a "
+                    "chunk for each fetcher [assumed]");
     visitor.integer("multicast_window", multicast_window, 0, 4096,
-                    "list entries; a record that is read for one tile is captured for every other "
-                    "tile in work that has it among its next so many; 0: no multicast");
+                    "list entries; a record is captured for every tile in work that has it among "
+                    "its next so many; 0: no multicast");
     visitor.integer("cache_bytes", cache_bytes, 0, 1 << 30,
-                    "bytes; splat records that all clusters keep together, the least recently "
-                    "used is replaced; 0: none");
+                    "bytes of splat records that all clusters keep together, least recently used "
+                    "first out; 0: none");
     if (!built()) {
         visitor.unused("fifo_splats", "splats_per_cycle",
                        "fetchers read by themselves while no other key of its section is set");

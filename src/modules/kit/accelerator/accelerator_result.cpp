@@ -44,7 +44,7 @@ void describe_timing(const AcceleratorResult& run, StatsVisitor& v) {
            "Last pixel of each frame in memory.");
     v.real("throughput_fps", steady_fps(run), "frames/s",
            "Steady state: (frames - 2) / time from the first frame's end to that of the last but "
-           "one, since nothing is preprocessed while the last is blended; null below 3 frames.");
+           "one; null below 3 frames.");
     v.truth("array_only", run.array_only,
             "The run was of the rasterisation array alone (--array-only).");
     v.end_section();
@@ -66,7 +66,7 @@ void describe_slots(const AcceleratorResult& run, StatsVisitor& v) {
     v.begin_section("slots", "Where the PE-cycles of the blending window went.");
     v.count("pes", run.pes, "PEs", "Processing elements.");
     v.count("total", run.slots.total(), "PE-cycles",
-            "PEs x timing.blending_cycles, and the sum of the classes that follow.");
+            "PEs x timing.blending_cycles: the sum of the classes that follow.");
     run.slots.describe(v);
     v.real("utilization", share(run.slots[Slot::Useful], run.slots.total()), "share",
            "useful / total; null if nothing was blended.");
@@ -97,14 +97,13 @@ void describe_dram(const AcceleratorResult& run, StatsVisitor& v) {
     v.count("bytes_written", written, "bytes", "Bytes written.");
     v.count("window_cycles",
             limited ? std::optional<std::uint64_t>(run.memory_window) : std::nullopt, "cycles",
-            "Over which this section counts: the run, or up to the memory's last answer if that is "
-            "later; null with --array-only.");
+            "Over which this section counts; null with --array-only.");
     v.real("peak_gb_per_s", if_limited(run.memory_gb_per_s), "GB/s",
-           "Configured bandwidth; null with --array-only, when memory is unlimited.");
+           "Configured bandwidth; null with --array-only.");
     v.real("utilization", if_limited(run.memory_utilization), "share",
-           "Share of the window in which the data bus was occupied; null with --array-only.");
+           "Share of the window in which the data bus was occupied; null likewise.");
     v.real("row_hit_rate", run.row_hit_rate, "share",
-           "Accesses that found their row open; null with the model bus, which has no rows.");
+           "Accesses that found their row open; null with the model bus.");
     if (v.wants(run.dram_energy.has_value())) {
         v.section("energy_nj", run.dram_energy.value_or(dram::Energy()),
                   "Energy of the DRAM by event; null with the model bus.");

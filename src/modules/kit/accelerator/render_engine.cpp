@@ -26,11 +26,10 @@ void AcceleratorConfig::describe_common(ConfigVisitor& visitor) {
     visitor.text("name", name, "what reports call this accelerator");
     visitor.real("clock_ghz", clock_ghz, 0.01, 10.0, "GHz (paper: 1.0)");
     visitor.integer("frames_in_flight", frames_in_flight, 1, 64,
-                    "frames being preprocessed or rendered at a time; 2: preprocessing overlaps "
-                    "rendering of the frame before [assumed]");
+                    "frames that are preprocessed or rendered at a time [assumed]");
     visitor.choice("tile_order", tile_order, {"raster", "longest_list"},
-                   "order in which tiles are sorted and rendered; longest_list: by falling length "
-                   "of their lists, sorted in no time and on no area [assumed]");
+                   "order of sorting and rendering; longest_list: by falling length of the lists, "
+                   "in no time and on no area [assumed]");
     visitor.section("frame_end", frame_end, "background pixels, and who waits for a frame");
 }
 

@@ -14,8 +14,7 @@ struct FrameEndConfig {
         visitor.integer("background_cycles_per_write", background_cycles_per_write, 1, 1024,
                         "cycles from one write of background pixels to the next [assumed]");
         visitor.integer("gate_latency_cycles", gate_latency_cycles, 1, 1024,
-                        "cycles from the last report of a frame to who waits for its end "
-                        "[assumed]");
+                        "cycles from a frame's last report to who waits for it [assumed]");
     }
 };
 

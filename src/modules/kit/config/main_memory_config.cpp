@@ -6,18 +6,16 @@ namespace degs {
 void MainMemoryConfig::describe(ConfigVisitor& visitor) {
     visitor.choice(
         "model", model, {"bus", "lpddr5"},
-        "bus: one data bus with latency, bandwidth_gb_per_s and latency_ns count; lpddr5: "
-        "channels, banks and rows, the section of that name counts");
+        "bus: one data bus with latency; lpddr5: channels, banks and rows, with keys of its own");
     Memory::Config::describe(visitor);
     visitor.choice("layout", layout, {"index", "morton"},
                    "order of splat records in memory: that of the Gaussians, or of the Morton code "
-                   "of their positions; only addresses depend on it");
+                   "of their positions");
     visitor.choice("priority", priority, {"age", "blending"},
-                   "which reads enter the queues of a channel first: the older, or those of the "
-                   "frame that is blended; a bus has no queues");
+                   "reads that enter a channel's queues first: the older, or those of the frame "
+                   "that is blended");
     visitor.real("urgent_share", urgent_share, 0.0, 1.0,
-                 "share of a channel's read queue that priority: blending keeps free for the frame "
-                 "that is blended [assumed]");
+                 "share of a channel's read queue that priority: blending keeps free [assumed]");
     visitor.section("lpddr5", lpddr5, "the keys of configs/memory/*.yaml");
     if (priority == ReadPriority::Age) {
         visitor.unused("urgent_share", "priority", "memory.priority is age");

@@ -17,27 +17,23 @@ const std::vector<std::string>& record_formats_of(Records records) {
 void PipelineConfig::describe(ConfigVisitor& visitor) {
     visitor.choice("numbers", numbers, arithmetic_names(),
                    "arithmetic of spans, alpha and blending: the machine's fp32 or fp64 (also "
-                   "ideal), or a number set; configs/degs-*.yaml say paper or tuned");
+                   "ideal), or a number set");
     visitor.choice(
         "stop_rule", stop_rule, {"refuse", "after"},
         "refuse: the splat that would push T under 1e-4 is not blended (reference code); "
         "after: it is, then the pixel ends (paper, Sec. II-A)");
-    visitor.choice(
-        "tiles", tiles, {"exact", "reference"},
-        "tiles that list a splat; exact: those that the ellipse touches, whose rows and columns "
-        "preprocessing knows for span parsing [assumed]; reference: those of the 3-sigma square, "
-        "radius ceil(3 sqrt(lambda_max)) (paper, Sec. II-A; reference code)");
+    visitor.choice("tiles", tiles, {"exact", "reference"},
+                   "tiles that list a splat; exact: those that the ellipse touches [assumed]; "
+                   "reference: those of the 3-sigma square (paper, Sec. II-A; reference code)");
     visitor.section("rules", rules,
                     "what renderers of the same Gaussians disagree about; the defaults are those "
                     "of the reference code");
-    visitor.choice(
-        "records", records, record_set_names(),
-        "formats of a Gaussian's values in memory, from which traffic.geometry_bytes and "
-        "sh_value_bytes follow: 44 B and 4 B per SH value, 22 B and 2 B, 27 B and 2 B");
+    visitor.choice("records", records, record_set_names(),
+                   "formats of Gaussians in memory, from which traffic.geometry_bytes and "
+                   "sh_value_bytes follow: 44 B and 4 B per SH value, 22 B and 2 B, 27 B and 2 B");
     visitor.boolean("round_records", round_records,
-                    "are Gaussians rounded to these formats before projection? With means in FP16 "
-                    "images reach 45 dB (docs/numbers.md); no paper says that it rounds, so that "
-                    "records only count as bytes [assumed]");
+                    "round Gaussians to these formats before projection; no paper says that it "
+                    "rounds, so records only count as bytes [assumed]");
     NumberSet set = round_records ? number_set(set_of(numbers).name, record_formats_of(records))
                                   : set_of(numbers);
     visitor.begin_section("formats",

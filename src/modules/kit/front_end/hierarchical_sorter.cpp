@@ -21,22 +21,18 @@ std::uint64_t levels(std::uint64_t keys, std::uint64_t limit) {
 } // namespace
 
 void HierarchicalSorter::Config::describe(ConfigVisitor& visitor) {
-    visitor.integer(
-        "count", count, 1, 64,
-        "units; 8 quick-sort and 4 bitonic units (Lee et al., ASPLOS 2024) count as 4 sorting "
-        "cores");
+    visitor.integer("count", count, 1, 64, "units; four sorting cores of Lee et al. (ASPLOS 2024)");
     visitor.integer("chunk", chunk, 2, 65536,
                     "keys of a chunk that is sorted exactly; about 256 (Lee et al.)");
     visitor.integer("keys_per_cycle", keys_per_cycle, 1, 1024,
-                    "keys per cycle, unit and coarse level; two quick-sort units per sorting core "
-                    "move a key each [assumed]");
+                    "keys per cycle, unit and coarse level: one per quick-sort unit [assumed]");
     visitor.integer("lists_ahead", lists_ahead, 1, 64,
                     "lists that wait for each step, loaded or partitioned [assumed]");
     visitor.integer("memory_levels", memory_levels, 0, 16,
-                    "coarse levels of every list that go through memory at least, written and read "
-                    "once each; 0: of those that do not fit the buffer only [assumed]");
+                    "least number of coarse levels of a list that go through memory; 0: those that "
+                    "do not fit the buffer [assumed]");
     visitor.integer("fine_cycles_per_key", fine_cycles_per_key, 1, 1024,
-                    "cycles per key and unit of the exact step; log2(16) / 2 for a 16-wide bitonic "
+                    "cycles per key and unit of the exact step: log2(16) / 2 of a 16-wide bitonic "
                     "unit [assumed]");
 }
 

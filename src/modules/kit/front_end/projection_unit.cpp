@@ -10,13 +10,13 @@ namespace degs {
 void ProjectionUnit::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("count", count, 1, 64, "units (paper Table I: 4)");
     visitor.integer("chunk", chunk, 1, 4096,
-                    "Gaussians per geometry request; 64 x 22 B keeps bursts long [assumed]");
+                    "Gaussians per geometry request, for long bursts [assumed]");
     visitor.integer("chunks_in_flight", chunks_in_flight, 1, 256,
-                    "geometry requests outstanding per unit; 4 cover a 100 ns memory [assumed]");
+                    "geometry requests outstanding per unit; 4 cover 100 ns [assumed]");
     visitor.integer("chunks_ahead", chunks_ahead, 1, 256,
                     "projected chunks of a unit that wait for the binner [assumed]");
     visitor.integer("cycles_per_gaussian", cycles_per_gaussian, 1, 1024,
-                    "cycles; one Gaussian per cycle and unit, so that bandwidth limits [assumed]");
+                    "cycles per Gaussian and unit, so that bandwidth limits [assumed]");
     visitor.integer("cycles_per_colour", cycles_per_colour, 1, 1024,
                     "cycles per visible Gaussian for its SH colour [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 4096,

@@ -10,7 +10,7 @@ namespace degs {
 void SplatFetcher::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("chunk", chunk, 1, 1024, "splat records per request [assumed]");
     visitor.integer("chunks_in_flight", chunks_in_flight, 1, 1024,
-                    "record requests outstanding per fetcher; covers a 100 ns memory [assumed]");
+                    "record requests outstanding per fetcher; 8 cover 100 ns [assumed]");
 }
 
 SplatFetcher::SplatFetcher(const sc_core::sc_module_name& name, const Config& config,

@@ -9,21 +9,18 @@
 namespace degs {
 
 void TileBinner::Config::describe(ConfigVisitor& visitor) {
-    visitor.integer(
-        "pairs_per_cycle", pairs_per_cycle, 1, 1024,
-        "tile-list entries per cycle; 8 x 8 B keeps one 64 B burst per cycle [assumed]");
+    visitor.integer("pairs_per_cycle", pairs_per_cycle, 1, 1024,
+                    "tile-list entries per cycle; 8 are a burst of 64 B [assumed]");
     visitor.integer("writes_in_flight", writes_in_flight, 1, 1024,
                     "chunk writes not yet acknowledged by memory [assumed]");
     visitor.choice("entries", entries, {"stream", "combined", "entries"},
-                   "how list entries reach memory; stream: one behind the other in whole bursts, "
-                   "the least that any design can do [assumed]; combined: grouped by tile in "
-                   "buffer_bytes; entries: each by itself, a burst each");
+                   "how list entries reach memory; stream: one behind the other in whole bursts "
+                   "[assumed]; combined: grouped by tile in buffer_bytes; entries: a burst each");
     visitor.integer("buffer_bytes", buffer_bytes, 64, 1 << 24,
-                    "bytes for entries that wait to be grouped, in two halves; 8 KB are 2 x 512 "
-                    "entries [assumed]");
+                    "bytes for entries that wait to be grouped, in two halves [assumed]");
     visitor.integer("head_bytes", head_bytes, 0, 1 << 24,
                     "bytes on the chip for the ends of the lists, 4 per tile; those of further "
-                    "tiles are read and written back in memory; 16 KB are 4096 tiles [assumed]");
+                    "tiles are in memory [assumed]");
     if (entries != ListWriting::Combined) {
         visitor.unused("buffer_bytes", "entries", "only combined entries wait to be grouped");
     }
@@ -31,8 +28,8 @@ void TileBinner::Config::describe(ConfigVisitor& visitor) {
         visitor.unused("head_bytes", "entries", "a stream needs no ends of lists");
     }
     visitor.boolean("keep_lists", keep_lists,
-                    "do sorted lists stay in memory for the next frame, so that only entries that "
-                    "are new in a tile are written and sorted? (Neo, ASPLOS 2026) [assumed: no]");
+                    "sorted lists stay in memory for the next frame, so that only new entries are "
+                    "written and sorted (Neo, ASPLOS 2026) [assumed: no]");
 }
 
 int TileBinner::Config::sram_bytes() const {

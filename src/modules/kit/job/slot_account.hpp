@@ -29,12 +29,10 @@ inline constexpr std::array<SlotClass, 9> kSlotClasses{{
     {Slot::Terminated, "terminated",
      "The task was inside, but its pixel had ended or refused the splat."},
     {Slot::Conflict, "conflict", "No task: all that waited were within the reuse distance."},
-    {Slot::Ports, "ports",
-     "No task: the ports of an SRAM took no more in this cycle; 0 if ports are unlimited."},
+    {Slot::Ports, "ports", "No task: the ports of an SRAM took no more in this cycle."},
     {Slot::Padding, "padding",
      "No task: the shape of a product of matrices left the PE out, or the array filled and "
-     "drained; 0 where no matrices "
-     "are multiplied.",
+     "drained.",
      true},
     {Slot::Starved, "starved", "No task: none waited, or the issue width let no more through."},
     {Slot::Blocked, "blocked",

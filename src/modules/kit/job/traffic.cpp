@@ -13,13 +13,12 @@ void TrafficConfig::describe(ConfigVisitor& visitor) {
                     "bytes per Gaussian read by projection; 0: as the formats of pipeline.records "
                     "need");
     visitor.integer("sh_value_bytes", sh_value_bytes, 0, 8,
-                    "bytes per SH value, 0: as the formats need; a second array, so that culled "
-                    "Gaussians cost no colour");
+                    "bytes per SH value; 0: as the formats need");
     visitor.choice("sh", sh, {"visible", "all"},
                    "whose SH coefficients are read; all: with the geometry, before culling");
     visitor.integer("splat_bytes", splat_bytes, 1, 1024, "bytes per projected splat record");
     visitor.integer("list_entry_bytes", list_entry_bytes, 1, 64,
-                    "bytes per tile-list entry; depth key 4 + index 4, as in tile-based designs");
+                    "bytes per tile-list entry: depth key and index");
     visitor.integer("pixel_bytes", pixel_bytes, 4, 8,
                     "bytes per frame-buffer pixel; 4 is RGBA8, 8 is RGBA16F");
     visitor.integer("burst_bytes", burst_bytes, 1, 4096,

@@ -38,21 +38,18 @@ void encode(const PixelValue& pixel, int pixel_bytes, unsigned char* bytes) {
 
 void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("bytes", bytes, 1, 1 << 30, "bytes of tile contexts (paper Table I: 16 KB)");
-    visitor.integer(
-        "state_bytes", state_bytes, 0, 64,
-        "bytes per pixel; 16 = T and RGB in single precision fills 16 KB with one 32 x 32 "
-        "tile [assumed]; 0: as many bits as T and RGB have in the formats of pipeline.numbers");
+    visitor.integer("state_bytes", state_bytes, 0, 64,
+                    "bytes per pixel: 16 are T and RGB in single precision [assumed]; 0: what they "
+                    "take in the formats of pipeline.numbers");
     visitor.choice("release", release, {"tile", "bank"},
                    "when a context may hold the next tile: once all slices have finished, or each "
                    "bank's rows on their own [assumed]");
     visitor.integer("rows_per_cycle", rows_per_cycle, 1, 2,
-                    "rows of pixels of a tile that leave for memory per cycle; the memory takes no "
-                    "more than two requests of a port in a cycle [assumed]");
+                    "rows of pixels of a tile that leave for memory per cycle [assumed]");
     visitor.integer("writes_in_flight", writes_in_flight, 1, 1024,
-                    "tile writes not yet acknowledged by memory; 4 hide its latency behind short "
-                    "tiles [assumed]");
+                    "tile writes not yet acknowledged by memory; 4 hide its latency [assumed]");
     visitor.integer("readout_pixels", readout_pixels, 1, 4096,
-                    "pixels per cycle when a finished tile is read out; one per PE [assumed]");
+                    "pixels per cycle when a finished tile is read out [assumed]");
 }
 
 void PixelBuffer::Config::require_tiles(ConfigVisitor& visitor, const std::string& section,
