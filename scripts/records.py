@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""records.py records|lists|rows|joint|rounding [FOLDER]: tables of docs/readings.md and docs/numbers.md
+"""records.py records|lists|rows|joint|rounding [--quick] [FOLDER]: tables of docs/readings.md and docs/numbers.md
 as Markdown, on what records, tile lists and Row Generation are worth; measured with
 build/release/sim/degs.
 
@@ -8,7 +8,8 @@ build/release/sim/degs.
   lists     cycles of DeGS and GSCore by how list entries reach memory
   rows      utilisation of the arrays of GBU by the rows that an engine solves per cycle, at 2K
   joint     latency per mm2 over DeGS with the files of configs/readings, and DeGS by single keys
-  rounding  PSNR of images whose Gaussians are rounded to their records, at 720p and 8K
+  rounding  PSNR of images by number set whose Gaussians are rounded to records of FP16 and of 27 B,
+            from 720p to 8K; with --quick of one small synthetic scene at 720p
 
 Reports stay in FOLDER, and what is there already is not run again. Environment variables:
 DEGS_PROGRAM, DEGS_SCENES, and lists of words: SCENES (of `records` and `lists`), TRAINED (of
@@ -39,6 +40,9 @@ LISTS = {"stream (shipped)": (),
          "a burst per entry": ("binning.entries=entries",),
          "a burst per entry, ends in memory": ("binning.entries=entries", "binning.head_bytes=0")}
 PASSES = {"degs-64": "sorting.memory_passes=2", "gscore-64": "sorting.memory_levels=2"}
+NUMBERS = ("ideal", "fp32", "fp16", "paper", "tuned")
+RECORDS = ("fp16", "tuned")
+SIZES = ("720p", "1080p", "2k", "4k", "8k")
 STREAMS = ("tile_lists_written", "tile_lists_sorted", "list_heads")
 
 
@@ -129,29 +133,38 @@ def joint(out):
         print(f"| `{key}` | {' | '.join(cells)} |", flush=True)
 
 
-def rounding(out):
-    """PSNR by records: arithmetic in double, and that of `tuned` and `paper`."""
-    sets = ["paper", "tuned", "ideal:records=fp16", "paper:records=fp16", "ideal:records=tuned",
-            "paper:records=tuned", "tuned:records=tuned"]
-    out = out / "rounding"
+def psnr_of(out, scene, resolution):
+    """PSNR in dB by number set and records, of one image of a scene."""
+    out = out / f"rounding-{Path(scene).name.replace(':', '_')}-{resolution}"
+    names = [f"{numbers}:records={kind}" for numbers in NUMBERS for kind in RECORDS]
     if not (out / "accuracy.json").exists():
-        subprocess.run([PROGRAM, "accuracy", "--scene", ",".join(path_of(s) for s in TRAINED), "--camera", CAMERA,
-                        "--resolution", "720p,8k", "--no-error-images", "--out", out, "--numbers", ",".join(sets)],
-                       check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([PROGRAM, "accuracy", "--scene", path_of(scene), "--camera", CAMERA, "--resolution", resolution,
+                        "--no-error-images", "--out", out, "--numbers", ",".join(names)],
+                       check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     rows = json.loads((out / "accuracy.json").read_text())
-    print("| scene | resolution | `paper` | `tuned` | double, FP16 | `paper`, FP16 | double, 27 B | `paper`, 27 B | "
-          "`tuned`, 27 B |\n|---|---|--:|--:|--:|--:|--:|--:|--:|")
-    for first in range(0, len(rows), len(sets)):
-        some = rows[first:first + len(sets)]
-        print(f"| {some[0]['scene']} | {some[0]['resolution']} | " +
-              " | ".join(f"{row['psnr_db']:.1f}" for row in some) + " |")
+    return {name: row["psnr_db"] for name, row in zip(names, rows)}
+
+
+def rounding(out, quick):
+    """PSNR of every number set with both kinds of records, by resolution."""
+    scenes, sizes = (["synthetic:object,gaussians=2000"], ["720p"]) if quick else (TRAINED, SIZES)
+    found = {(scene, size): psnr_of(out, scene, size) for size in sizes for scene in scenes}
+    print("| FP16 / 27 B | scene | " + " | ".join(sizes) + " |\n|---|---|" + "--:|" * len(sizes))
+    for numbers in NUMBERS:
+        for scene in scenes:
+            cells = [" / ".join(f"{found[scene, size][f'{numbers}:records={kind}']:.1f}" for kind in RECORDS)
+                     for size in sizes]
+            print(f"| `{numbers}` | {scene} | {' | '.join(cells)} |")
 
 
 def main():
     tables = {"records": records, "lists": lists, "rows": rows, "joint": joint, "rounding": rounding}
-    if len(sys.argv) not in (2, 3) or sys.argv[1] not in tables:
+    words = [word for word in sys.argv[1:] if word != "--quick"]
+    quick = len(words) < len(sys.argv) - 1
+    if len(words) not in (1, 2) or words[0] not in tables or (quick and words[0] != "rounding"):
         sys.exit(__doc__)
-    tables[sys.argv[1]](Path(sys.argv[2] if len(sys.argv) == 3 else tempfile.mkdtemp()))
+    out = Path(words[1] if len(words) == 2 else tempfile.mkdtemp())
+    tables[words[0]](out, *([quick] if words[0] == "rounding" else []))
 
 
 main()

@@ -29,7 +29,7 @@ WHOLE = ["degs-64", "gscore-64", "gbu-64", "gcc-64"]
 RESOLUTIONS = {"720p": 1280, "1080p": 1920, "2k": 2560, "4k": 3840, "8k": 7680}
 SHOWN = ["720p", "2k", "8k"]
 COUNTS = ["visible", "pairs_per_tile", "fragments_per_pixel", "fragments_per_splat", "footprint_p50", "ended",
-          "covered"]
+          "covered", "gini"]
 
 
 def call(*arguments):
@@ -43,6 +43,11 @@ def scene_of(row, most):
     return f"synthetic:{row['synthetic']},gaussians={gaussians}", gaussians
 
 
+def view_of(scene, row, width):
+    """Statistics of the synthetic view."""
+    return json.loads(call("scene", "info", scene, "--camera", row["camera"], "--width", width, "--json"))["view"]
+
+
 def size_of(row):
     width = row["pixels"].split("x")[0]
     return ["--camera", row["camera"], "--width", width]
@@ -51,10 +56,12 @@ def size_of(row):
 def counts_of(row, most):
     """The counts of the synthetic view; visible splats as a share, because --gaussians changes their number."""
     scene, gaussians = scene_of(row, most)
-    view = json.loads(call("scene", "info", scene, *size_of(row), "--json"))["view"]
+    view = view_of(scene, row, row["pixels"].split("x", maxsplit=1)[0])
     width, height = (int(side) for side in row["pixels"].split("x"))
     tiles = -(-width // 16) * -(-height // 16)
-    return {"visible": 100 * view["visible"] / gaussians, "pairs_per_tile": view["tile_pairs"] / tiles,
+    # The captures' Gini coefficients are of images 960 pixels wide.
+    gini = 100 * view_of(scene, row, "960")["footprint_gini"] if row["gini"] else 0
+    return {"gini": gini, "visible": 100 * view["visible"] / gaussians, "pairs_per_tile": view["tile_pairs"] / tiles,
             "fragments_per_pixel": view["fragments_per_pixel"], "fragments_per_splat": view["fragments_per_splat"],
             "footprint_p50": view["footprint_px"]["p50"], "ended": 100 * view["terminated_share"],
             "covered": 100 * view["covered_share"]}
@@ -85,13 +92,14 @@ def print_table(rows, names, measure, relative):
     found = {name: [] for name in names}
     for row in rows:
         made = measure(row)
-        measured = {name: float(row[name]) for name in names}
+        measured = {name: float(row[name]) for name in names if row[name]}
         if "visible" in measured:
             measured["visible"] *= 100 / int(row["gaussians"])
-        cells = [cell(measured[name], made[name], relative) for name in names]
+        cells = [cell(measured[name], made[name], relative) if name in measured else "" for name in names]
         view = f"{row['measured']} {row['view']} {row['pixels']}"
         for name, text in zip(names, cells):
-            found[name].append((measured[name], int(text.split(" / ")[2]), view))
+            if text:
+                found[name].append((measured[name], int(text.split(" / ")[2]), view))
         print(f"| {view} | " + " | ".join(cells) + " |", flush=True)
     print(f"\n| | measured | difference, {'%' if relative else 'points'} | largest |\n| --- | --- | --- | --- |")
     for name in names:

@@ -71,6 +71,7 @@ std::string view_info(const ViewStatistics& v, const Camera& camera) {
                               percent(v.covered_share) + " % are covered by more than half"},
                {"footprint", quantile_words(v.footprint) +
                                  "  px diameter; 10, 50, 90, 99 % of the splats are below"},
+               {"Gini", three_digits(v.footprint_gini) + ", of the areas of the footprints"},
            });
 }
 

@@ -173,7 +173,8 @@ SceneJson view_info_json(const ViewStatistics& v, const Camera& camera) {
             {"candidates_per_pixel", v.candidates_per_pixel},
             {"terminated_share", v.terminated_share},
             {"covered_share", v.covered_share},
-            {"footprint_px", quantiles_json(v.footprint)}};
+            {"footprint_px", quantiles_json(v.footprint)},
+            {"footprint_gini", v.footprint_gini}};
 }
 
 CullCounts write_preview(const Scene& scene, const Camera& camera, const ProjectionOptions& options,

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "base/gini.hpp"
 #include "base/ratio.hpp"
 #include "sim/text/words.hpp"
 
@@ -57,18 +58,6 @@ double footprint(const ProjectedSplat& splat) {
 }
 
 } // namespace
-
-double gini(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    double total = 0;
-    double ranked = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        total += values[i];
-        ranked += static_cast<double>(i + 1) * values[i];
-    }
-    const auto n = static_cast<double>(values.size());
-    return total > 0 ? 2 * ranked / (n * total) - (n + 1) / n : 0;
-}
 
 std::string changes_words(const FrameChanges& changes) {
     std::string words;

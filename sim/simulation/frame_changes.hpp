@@ -27,8 +27,4 @@ FrameChanges frame_changes(const std::vector<const FrameWorkload*>& frames);
 /// what is missing is left out.
 std::string changes_words(const FrameChanges& changes);
 
-/// The Gini coefficient of values that are not negative: 0 if all are the same, near 1 if a few
-/// have nearly all. 0 for an empty list and for zeros alone.
-double gini(std::vector<double> values);
-
 } // namespace degs::sim

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/gini.hpp"
 #include "base/ratio.hpp"
 #include "splat/model/angles.hpp"
 #include "splat/reference/reference_renderer.hpp"
@@ -162,12 +163,16 @@ ViewStatistics measure_view(const GaussianCloud& cloud, const Camera& camera,
     out.tile_pairs = work.tile_pairs();
     out.fragments = counts.fragments;
     Values footprint;
+    Values areas;
     footprint.reserve(work.splats.size());
+    areas.reserve(work.splats.size());
     for (const ProjectedSplat& splat : work.splats) {
         out.candidates += pixels_inside(splat, camera);
-        footprint.push_back(2 * std::sqrt(ellipse_area(splat) / 3.14159265358979323846));
+        areas.push_back(ellipse_area(splat));
+        footprint.push_back(2 * std::sqrt(areas.back() / 3.14159265358979323846));
     }
     out.footprint = quantiles_of(footprint);
+    out.footprint_gini = gini(std::move(areas));
     out.fragments_per_pixel = ratio_of(out.fragments, pixels);
     out.candidates_per_pixel = ratio_of(out.candidates, pixels);
     out.terminated_share = ratio_of(counts.terminated, pixels);

@@ -56,6 +56,7 @@ struct ViewStatistics {
     double terminated_share = 0;     ///< pixels that stopped early
     double covered_share = 0;        ///< pixels with transmittance below one half
     Quantiles footprint;             ///< diameter of the circle of the ellipse's area, px
+    double footprint_gini = 0;       ///< Gini coefficient of the ellipses' areas
 };
 
 /// Renders the view once with the reference renderer.

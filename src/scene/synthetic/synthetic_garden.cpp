@@ -64,17 +64,26 @@ void add_house(SyntheticPlace& place) {
     }
     place.sheet({-0.55, -2.3, kSide - 0.06}, {0, 2.3, 0}, {1.1, 0, 0}, kDoor, 1.5);
     place.box({-0.8, -0.14, kSide - 0.6}, {0.8, 0, kSide}, kStone);
-    // Garden walls of brick at both sides and behind, with ivy over them.
+}
+
+// Garden walls of brick stand at both sides and behind, with ivy over them.
+void add_walls(SyntheticPlace& place) {
     place.sheet({-kSide, -3.4, -kSide}, {0, 3.4, 0}, {0, 0, 2 * kSide}, kBrick);
     place.sheet({kSide, -3.4, -kSide}, {0, 0, 2 * kSide}, {0, 3.4, 0}, kBrick);
     place.sheet({-kSide, -1.3, -kSide}, {2 * kSide, 0, 0}, {0, 1.3, 0}, kBrick);
     place.sheet({-kSide + 0.12, -3.3, -1}, {0, 2.4, 0}, {0, 0, 4.5}, kIvy);
     place.sheet({kSide - 0.12, -3.3, -3}, {0, 0, 4.0}, {0, 2.6, 0}, kIvy);
-    // Houses beyond the side walls.
+}
+
+void add_houses_beyond(SyntheticPlace& place) {
     place.sheet({-8, -9, -6}, {0, 9, 0}, {0, 0, 12}, kWall, 0.4);
     place.sheet({8, -9, -6}, {0, 0, 12}, {0, 9, 0}, kWall, 0.4);
     place.sheet({-9, -11, 8}, {0, 11, 0}, {18, 0, 0}, kBrick, 0.3);
     place.box({-7, -6, -16}, {7, 0, -10}, kBrick, 0.85);
+}
+
+void add_low_wall(SyntheticPlace& place) {
+    place.sheet({-kSide, -1.3, kSide}, {0, 1.3, 0}, {2 * kSide, 0, 0}, kBrick);
 }
 
 void add_tree(SyntheticPlace& place, double x, double z, double high, const Material& crown) {
@@ -116,7 +125,17 @@ void make_garden(const SyntheticSpec& spec, SyntheticScene& scene) {
                                     {{2.2, -2.3, -4.7}, {-0.6, -1.1, 2.0}, 0.8}}});
     SyntheticPlace place(spec, courtyard::levels());
     courtyard::add_ground(place);
-    courtyard::add_house(place);
+    // With a sky the garden is open: a low wall stands where the house is, and nothing beyond it.
+    const bool is_open = spec.sky > 0;
+    if (is_open) {
+        courtyard::add_low_wall(place);
+    } else {
+        courtyard::add_house(place);
+    }
+    courtyard::add_walls(place);
+    if (!is_open) {
+        courtyard::add_houses_beyond(place);
+    }
     courtyard::add_plants(place);
     place.fill(scene.cloud, scene.cameras, 25);
 }

@@ -17,6 +17,10 @@ using Axis = MeasuredDistribution::Axis;
 constexpr double kLensClearance = 0.45; ///< nothing nearer to a camera, scene units
 constexpr double kFloaters = 0.06;      ///< share of splats that hang before their surface
 constexpr double kFloaterReach = 0.35;  ///< scene units
+/// Median standard deviation of a sky splat as an angle, times the root of how many there are. With
+/// it 30 to 40 splats are drawn on a pixel of the sky, however many there are.
+constexpr double kSkyReach = 3.0;
+constexpr double kMostSkyAngle = 0.6; ///< rad
 
 /// Between two levels by the logarithm of the number of Gaussians; the outer slopes continue.
 PlaceLevel level_at(double gaussians, const std::vector<PlaceLevel>& levels) {
@@ -171,11 +175,14 @@ void SyntheticPlace::add_sky(SyntheticBuilder& builder, double far) const {
     SyntheticRandom& random = builder.random();
     glm::dvec3 d = random.direction();
     d.y = -std::abs(d.y);
-    static const MeasuredDistribution sizes(Axis::Logarithmic, {0.03, 0.06, 0.12, 0.25, 0.4, 0.6});
+    static const MeasuredDistribution spread(Axis::Logarithmic, {0.25, 0.5, 1, 2.1, 3.3, 5});
     static const MeasuredDistribution faint(Axis::Linear, {0.004, 0.008, 0.04, 0.2, 0.6, 0.9});
-    const double size = far * sizes.sample(random);
+    const double many = std::max(1.0, spec_.sky * static_cast<double>(spec_.gaussians));
+    const double angle =
+        std::min(kMostSkyAngle, kSkyReach / std::sqrt(many) * spread.sample(random));
     const double opacity = faint.sample(random);
     const double distance = far * random.uniform(1, 2);
+    const double size = distance * angle;
     const glm::dvec3 rgb = glm::mix(glm::dvec3(0.80, 0.86, 0.92), {0.35, 0.55, 0.85}, -d.y);
     builder.add_exact(distance * d, {size, 0.7 * size, 0.1 * size}, builder.facing(-d), opacity,
                       rgb, 0.01F);

@@ -78,6 +78,26 @@ TEST(SyntheticPlaces, HaveAnyShareOfSkyOfLargeFaintSplats) {
     EXPECT_NEAR(quantiles_of(faint).p50, 0.04, 0.005);
 }
 
+// Upward from the courtyard: the whole image is sky. docs/regime.md names the capture with a sky.
+TEST(SyntheticPlaces, NoPixelUnderTheSkyEndsEarly) {
+    for (const char* const text :
+         {"garden,gaussians=20000,sky=0.25", "garden,gaussians=300000,sky=0.1"}) {
+        const SyntheticScene scene = make_synthetic(parse_synthetic(text));
+        Camera camera = scene.cameras.at(1);
+        camera.position = {0, -4.5, 0};
+        constexpr double kHalf = 0.70710678118654752;
+        camera.camera_to_world = glm::dmat3(1, 0, 0, 0, kHalf, kHalf, 0, -kHalf, kHalf);
+        camera.width = 640;
+        camera.height = 360;
+        camera.fx = camera.fy = 512;
+        const ViewStatistics view = measure_view(scene.cloud, camera);
+        EXPECT_LE(view.terminated_share, 0.01) << text;
+        EXPECT_GT(view.covered_share, 0.6) << text;
+        EXPECT_GT(view.fragments_per_pixel, 25) << text;
+        EXPECT_LT(view.fragments_per_pixel, 60) << text;
+    }
+}
+
 TEST(SyntheticPlaces, RefuseHostileParametersInOneSentence) {
     for (const char* const text :
          {"interior,gaussians=0", "interior,sky=2", "garden,sky=-0.1", "garden,sky=nan",

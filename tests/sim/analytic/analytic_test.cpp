@@ -107,6 +107,23 @@ TEST(AnalyticCommand, FollowsTheSizeOfTheArray) {
     }
 }
 
+// Two of the four tiles fill the bound on what is drawn, and they are not typical.
+TEST(AnalyticCommand, DrawsSeveralTilesOfAFewLongLists) {
+    const Folder folder;
+    const std::vector<std::string> view{"--scene", "synthetic:object,gaussians=60000", "--width",
+                                        "640"};
+    std::vector<std::string> arguments{
+        "run", analytic_config("gcc-256"), "--no-reference", "--no-cache", "--out", folder / "out"};
+    arguments.insert(arguments.end(), view.begin(), view.end());
+    expect_success(degs(arguments));
+    const double cycles = cycles_of(json::parse(read_file(folder / "out/report.json")));
+    EXPECT_NEAR(cycles_of(analytic_of(analytic_config("gcc-256"), view)), cycles, 0.2 * cycles);
+    for (const std::string design : {"degs-1024", "gscore-1024", "gbu-1024", "gcc-256"}) {
+        const json sample = analytic_of(analytic_config(design), view)["sample"];
+        EXPECT_GE(sample["tiles_drawn"], std::min<int>(8, sample["tiles"])) << design;
+    }
+}
+
 TEST(AnalyticCommand, FitsTheTerminal) {
     const Folder folder;
     const Outcome outcome =

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/gini.hpp"
 #include "sim/simulation/frame_changes.hpp"
 
 #include <cmath>

@@ -14,6 +14,8 @@ namespace {
 
 /// Entries of lists and rows of splats that are looked at, which bounds the time: some 20 ns each.
 constexpr double kVisits = 200e3;
+/// A view of few and long lists exceeds kVisits rather than rest on fewer tiles than these.
+constexpr double kLeastTiles = 8;
 /// Chains of tiles that are followed one after the other; blocks of work for the host's processors.
 constexpr std::size_t kChains = 2;
 
@@ -49,22 +51,23 @@ int rows_apart(const AnalyticModel& model, const EntrySizes& sizes, double entri
 
 /// A systematic sample, in the order of the lengths of the lists, in which the chance of a tile
 /// follows the root of its length: long lists are dearer to draw and differ more among themselves.
-/// Their places in `tiles`.
+/// It has as many tiles as kVisits affords, and kLeastTiles of them or all in any case, so that
+/// they are spread over the lengths. Their places in `tiles`.
 std::vector<std::size_t> choose(const std::vector<Listed>& tiles, double visits_per_entry) {
-    const auto visits = [&](double apart) {
-        double sum = 0;
+    const double least = std::min(kLeastTiles, static_cast<double>(tiles.size()));
+    const auto is_too_many = [&](double apart) {
+        double visits = 0, drawn = 0;
         for (const Listed& tile : tiles) {
-            sum += std::min(1.0, std::sqrt(tile.entries) / apart) * tile.entries;
+            const double chance = std::min(1.0, std::sqrt(tile.entries) / apart);
+            drawn += chance;
+            visits += chance * tile.entries * visits_per_entry;
         }
-        return sum * visits_per_entry;
+        return visits > kVisits && drawn > least;
     };
     double apart = 1e-9, most = 1e9; // between two chosen tiles, in roots of lengths
-    for (int step = 0; step < 40 && visits(apart) > kVisits; ++step) {
+    for (int step = 0; step < 40 && is_too_many(apart) && most / apart > 1.01; ++step) {
         const double middle = std::sqrt(apart * most);
-        (visits(middle) > kVisits ? apart : most) = middle;
-        if (most / apart < 1.01) {
-            apart = most;
-        }
+        (is_too_many(middle) ? apart : most) = middle;
     }
     std::vector<std::size_t> chosen;
     double place = 0.5;
