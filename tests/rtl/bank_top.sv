@@ -49,7 +49,8 @@ module bank_top #(
     current_n = current;
     for (c = 0; c < CUT; c++) begin
       if (c_valid[c] && c_item[c*8 +: 8] != 8'hff) current_n = s_tag[c_item[c*8 +: 8]*TAG +: TAG];
-      cut_tag[c*TAG +: TAG] = current_n;
+      // the lowest bits say which segment of the row it is
+      cut_tag[c*TAG +: TAG] = {current_n[TAG-1:3], 3'(c_domain[c*NB +: NB] % PER_ROW)};
     end
     if (c_open != 8'hff) current_n = s_tag[c_open*TAG +: TAG];
     for (k = 0; k < ISSUE; k++) begin

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,13 +11,37 @@
 
 namespace degs::test {
 
-/// An event: its numbers by name, and the groups of its list.
-struct LoggedEvent {
-    std::string kind;
+/// An event. Its kind belongs to the log, which must outlive it.
+class LoggedEvent {
+public:
+    const EventLog::Kind* form = nullptr;
     Cycle now = 0;
-    std::map<std::string, std::int64_t> numbers;
-    std::vector<std::map<std::string, std::int64_t>> parts;
-    std::int64_t operator[](const std::string& name) const { return numbers.at(name); }
+    std::vector<std::int64_t> numbers; ///< fields, then the groups of the list one after another
+    std::size_t parts = 0;             ///< groups
+
+    const std::string& kind() const { return form->name; }
+    bool has(const std::string& name) const { return place_of(name) < form->fields.size(); }
+    std::int64_t operator[](const std::string& name) const {
+        const std::size_t place = place_of(name);
+        if (place == form->fields.size()) {
+            throw std::out_of_range("an event " + kind() + " has no field " + name);
+        }
+        return numbers[place];
+    }
+    /// A field of a group, by its place in the group.
+    std::int64_t part(std::size_t group, std::size_t field) const {
+        const std::size_t fields = form->fields.back().parts.size();
+        return numbers[form->fields.size() - 1 + group * fields + field];
+    }
+
+private:
+    std::size_t place_of(const std::string& name) const {
+        std::size_t place = 0;
+        while (place < form->fields.size() && form->fields[place].name != name) {
+            ++place;
+        }
+        return place;
+    }
 };
 
 class EventReader {
@@ -27,19 +50,18 @@ public:
         : kinds_(kinds), bytes_(bytes) {}
     bool more() const { return place_ < bytes_.size(); }
     LoggedEvent next() {
-        const EventLog::Kind& kind = kinds_.at(static_cast<std::size_t>(number()));
+        LoggedEvent event;
+        event.form = &kinds_.at(static_cast<std::size_t>(number()));
         now_ += static_cast<Cycle>(number());
-        LoggedEvent event{kind.name, now_, {}, {}};
-        for (const EventLog::Field& field : kind.fields) {
-            if (field.parts.empty()) {
-                event.numbers[field.name] = number();
-                continue;
+        event.now = now_;
+        for (const EventLog::Field& field : event.form->fields) {
+            std::size_t more = 1;
+            if (!field.parts.empty()) {
+                event.parts = static_cast<std::size_t>(number());
+                more = event.parts * field.parts.size();
             }
-            event.parts.resize(static_cast<std::size_t>(number()));
-            for (auto& part : event.parts) {
-                for (const std::string& name : field.parts) {
-                    part[name] = number();
-                }
+            for (; more > 0; --more) {
+                event.numbers.push_back(number());
             }
         }
         return event;
@@ -63,12 +85,16 @@ private:
     Cycle now_ = 0;
 };
 
-inline std::vector<LoggedEvent> events_of(const EventLog& log) {
+inline std::vector<LoggedEvent> events_of(const std::vector<EventLog::Kind>& kinds,
+                                          const std::string& bytes) {
     std::vector<LoggedEvent> events;
-    for (EventReader reader(log.kinds(), log.bytes()); reader.more();) {
+    for (EventReader reader(kinds, bytes); reader.more();) {
         events.push_back(reader.next());
     }
     return events;
+}
+inline std::vector<LoggedEvent> events_of(const EventLog& log) {
+    return events_of(log.kinds(), log.bytes());
 }
 
 } // namespace degs::test

@@ -2,64 +2,10 @@
 // --block-log: the logs of blocks that face each other agree, and a naive bank follows them on
 // trained scenes.
 #include "tests/modules/degs/scheduler/naive_log.hpp"
-#include "tests/sim/process/child.hpp"
+#include "tests/sim/trace/block_log.hpp"
 
 namespace degs::sim_test {
 namespace {
-
-using nlohmann::json;
-
-struct BlockLog {
-    json about;
-    std::vector<degs::test::LoggedEvent> events;
-
-    std::map<std::string, std::int64_t> facts() const {
-        return about["facts"].get<std::map<std::string, std::int64_t>>();
-    }
-    std::size_t count(const std::string& kind) const {
-        return std::count_if(events.begin(), events.end(),
-                             [&](const auto& event) { return event.kind == kind; });
-    }
-};
-
-BlockLog read_log(const std::string& path) {
-    const std::string text = read_file(path);
-    const std::size_t end = text.find('\n');
-    BlockLog log{json::parse(text.substr(0, end)), {}};
-    std::vector<EventLog::Kind> kinds;
-    for (const json& kind : log.about["events"]) {
-        kinds.push_back({kind["name"], {}});
-        for (const json& field : kind["fields"]) {
-            if (field.is_string()) {
-                kinds.back().fields.push_back({field, {}});
-            } else {
-                kinds.back().fields.push_back(
-                    {field.begin().key(), field.begin().value().get<std::vector<std::string>>()});
-            }
-        }
-    }
-    const std::string bytes = text.substr(end + 1);
-    EXPECT_EQ(log.about["bytes"], bytes.size());
-    for (degs::test::EventReader reader(kinds, bytes); reader.more();) {
-        log.events.push_back(reader.next());
-    }
-    return log;
-}
-
-BlockLog logged(const std::vector<std::string>& view, const std::string& design,
-                const std::string& block) {
-    const Folder folder;
-    std::vector<std::string> arguments{"run", config(design)};
-    arguments.insert(arguments.end(), view.begin(), view.end());
-    for (const std::string& word :
-         {std::string("--no-reference"), std::string("--array-only"), std::string("--out"),
-          folder / "out", std::string("--block-log"), block, folder / "log"}) {
-        arguments.push_back(word);
-    }
-    const Outcome outcome = degs(arguments);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    return read_log(folder / "log");
-}
 
 const std::vector<std::string> kSmall{"--scene", "synthetic:object,gaussians=1000", "--width",
                                       "160"};
@@ -76,12 +22,12 @@ TEST(SmallRunBlockLog, NeighboursAgree) {
     EXPECT_EQ(bank.count("span"), span.count("span"));
     std::vector<std::int64_t> sent, taken;
     for (const auto& event : bank.events) {
-        if (event.kind == "packet" && event["tasks"] != 0) {
+        if (event.kind() == "packet" && event["tasks"] != 0) {
             sent.push_back(event["slot"]);
         }
     }
     for (const auto& event : slice.events) {
-        if (event.kind == "packet" && event["tasks"] != 0) {
+        if (event.kind() == "packet" && event["tasks"] != 0) {
             taken.push_back(static_cast<std::int64_t>(event.now)); // it executes then
         }
     }
@@ -134,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"kind", {"degs-64", "blender:0"}, "--block-log blender:0: degs-64 has no such"},
         Refused{"empty", {"degs-64", ""}, "has no such block"},
         Refused{"design", {"gcc-64", "bank:0"}, "gcc-64 has no block that writes a log."},
-        Refused{"folder", {"degs-64", "bank:0", "/nowhere/log"}, "/nowhere"},
+        Refused{"folder", {"degs-64", "bank:0", "/dev/null/log"}, "/dev/null"},
         Refused{"sample",
                 {"degs-64", "bank:0", "log", "--fidelity", "sampled:50%"},
                 "--block-log needs every tile"},

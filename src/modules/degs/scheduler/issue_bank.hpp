@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -116,6 +117,7 @@ private:
     void end_of_elaboration() override;
     void start_of_simulation() override;
     void start_log();
+    void log_tile(std::size_t event, TileNumber number, std::initializer_list<int> more) const;
     void run();
     /// `single`: one tile stream from one Span Unit, whose loop asks for no others.
     template <bool single>
@@ -206,7 +208,7 @@ private:
     IssueTrace* trace_ = nullptr;
     IssueTrace logged_issues_;
     EventLog* log_ = nullptr;
-    std::size_t tile_event_ = 0;
+    std::size_t tile_event_ = 0, over_event_ = 0;
     SpanUnit* unit_ = nullptr;
     // Where a DrawnBank runs, the bank and what passes its input.
     std::unique_ptr<DrawnSpans> drawn_spans_;

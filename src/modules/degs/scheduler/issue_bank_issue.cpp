@@ -144,6 +144,7 @@ void IssueBank::finish_tiles(BankStream& stream) {
         if (tile.waiting() != 0 || (segmenter_.cutting() && cut_tile_ == &tile)) {
             break;
         }
+        log_tile(over_event_, tile.number(), {tile.context()});
         packing_.end_tile(self_, tile.number(), tile.context());
         tiles_.count(tile.number());
         queue_.clear(tile);

@@ -24,10 +24,10 @@ public:
     NaiveBank(const NaiveFacts& facts, const std::vector<LoggedEvent>& events)
         : facts_(facts), streams_(facts["streams"]) {
         for (const LoggedEvent& event : events) {
-            if (event.kind == "tile") {
+            if (event.kind() == "tile") {
                 widths_[event["tile"]] = event["width"];
-            } else if (event.numbers.count("waited") != 0) { // it came in
-                inputs_[event.kind][event["port"]].push_back(
+            } else if (event.has("waited")) { // it came in
+                inputs_[event.kind()][event["port"]].push_back(
                     {event, Number(event.now) - event["waited"]});
             }
         }
@@ -36,7 +36,7 @@ public:
             stream.turns.resize(facts_["inputs"]);
         }
     }
-    /// Lines "span", "issue" and "packet" in their order, each with its cycle.
+    /// Lines "span", "issue", "over" and "packet" in their order, each with its cycle.
     const std::vector<std::string>& run() {
         for (; !over(); ++now_) {
             cycle();
@@ -331,6 +331,7 @@ private:
             if (tile.waiting != 0 || (left_ > 0 && cut_tile_ == &tile)) {
                 return;
             }
+            lines_.say(now_, "over", {tile.number, tile.context});
             packing_.end_tile(tile.number, tile.context);
             stream.tiles.erase(stream.oldest);
         }

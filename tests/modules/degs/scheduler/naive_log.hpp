@@ -15,20 +15,21 @@ inline std::vector<std::string> lines_of(const std::vector<LoggedEvent>& events)
     NaiveLines lines;
     for (const LoggedEvent& e : events) {
         const auto now = static_cast<Number>(e.now);
-        if (e.kind == "span") {
+        if (e.kind() == "span") {
             lines.say(now, "span", {e["port"], e["tile"], e["end"], e["splat"], e["row"]});
-        } else if (e.kind == "issue") {
+        } else if (e.kind() == "issue") {
             lines.say(now, "issue", {e["slot"], e["ready"], e["context"], e["domain"], e["mask"]});
-        } else if (e.kind == "packet" && e["tasks"] == 0) {
+        } else if (e.kind() == "over") {
+            lines.say(now, "over", {e["tile"], e["context"]});
+        } else if (e.kind() == "packet" && e["tasks"] == 0) {
             lines.say(now, "packet", {0, e["ended_tile"], e["ended_context"]});
-        } else if (e.kind == "packet") {
+        } else if (e.kind() == "packet") {
             const bool ends = e["ends_tile"] != 0;
             std::vector<Number> packet{e["tasks"], ends ? e["ended_tile"] : -1,
                                        ends ? e["ended_context"] : -1, e["slot"]};
-            for (const auto& run : e.parts) {
-                for (const char* field :
-                     {"tile", "context", "domain", "splat", "row", "column", "mask", "part"}) {
-                    packet.push_back(run.at(field));
+            for (std::size_t run = 0; run < e.parts; ++run) { // all fields of TaskRun
+                for (std::size_t field = 0; field < e.form->fields.back().parts.size(); ++field) {
+                    packet.push_back(e.part(run, field));
                 }
             }
             lines.say(now, "packet", packet);

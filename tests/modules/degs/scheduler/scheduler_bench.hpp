@@ -180,7 +180,7 @@ struct SchedulerBench {
         run(feeds);
         std::vector<Cycle> takes;
         for (const LoggedEvent& event : events_of(log)) {
-            if (event.kind == "span" && event["end"] == 0) {
+            if (event.kind() == "span" && event["end"] == 0) {
                 takes.push_back(event.now);
             }
         }
