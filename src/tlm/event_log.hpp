@@ -14,7 +14,7 @@ namespace degs {
 
 /// What happens at a block, event after event, in the form of docs/block-log.md. An event has a
 /// kind, a cycle and whole numbers, whose names the kind knows; the last of them may be a list of
-/// groups of numbers. The log is kept in memory: about ten bytes per event.
+/// groups of numbers. The log is kept in memory: about twenty bytes per event.
 class EventLog {
 public:
     /// A number; with `parts` a list of groups of them.
@@ -26,7 +26,7 @@ public:
         std::string name;
         std::vector<Field> fields;
     };
-    /// Of the block: what somebody who replays the log has to know.
+    /// A fact about the block, which somebody who replays the log has to know.
     void set(std::string name, std::int64_t value) { facts_.emplace_back(std::move(name), value); }
     /// Adds a kind, or finds it if there is one of that name.
     std::size_t kind(const std::string& name, const std::vector<Field>& fields);

@@ -71,7 +71,7 @@ private:
         int row, x0, length, tile, width;
         std::uint32_t tag;
     };
-    /// Of a cycle, in the order of the log.
+    /// What a cycle has in the log, in its order.
     struct Expected {
         std::vector<const LoggedEvent*> issues, packets, ended_pixels;
         std::vector<int> taken, contexts, over; // by stream

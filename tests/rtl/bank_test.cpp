@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The RTL of an Issue Bank with its Packing Unit against logs of strict runs of trained scenes.
+#include <systemc>
+using sc_core::sc_time_stamp; // headers of Verilator want it where SystemC is in use
+
 #include "Vbank_64.h"
 #include "Vbank_x_64.h"
 
@@ -26,7 +29,7 @@ void expect_same(const BankShape& shape, const char* design, const View& view) {
                      << sim_test::trained_scenes() << "; set DEGS_SCENES";
     }
     const sim_test::BlockLog log = sim_test::logged(
-        {"--scene", scene.string(), "--camera", view.camera, "--width", "480"}, design, view.bank);
+        {"--scene", scene.string(), "--camera", view.camera, "--width", "800"}, design, view.bank);
     BankBench<Rtl> bench(shape, log);
     const Compared done = bench.run();
     EXPECT_EQ(done.differences, 0U) << done.first;

@@ -16,7 +16,7 @@ void DrawnBank::run() {
     finish();
 }
 
-// Of the span's next segment.
+// The pixels of the span's next segment.
 inline std::uint32_t DrawnBank::cut_mask() const {
     const std::uint64_t high = std::uint64_t{1} << std::min(left_, segment_length_);
     return static_cast<std::uint32_t>(high - low_);

@@ -38,7 +38,7 @@ inline __attribute__((always_inline)) std::uint64_t DrawnBank::find(const Tile& 
     return found >= DomainLanes::kTop ? kNothing : found;
 }
 
-// A single stream; see IssueBank::issue_segments().
+// For a single stream; see IssueBank::issue_segments().
 template <bool in_turn>
 inline __attribute__((always_inline)) int DrawnBank::issue_in_order() {
     Tile* const* const first = started_.data();
@@ -122,7 +122,7 @@ inline __attribute__((always_inline)) std::size_t DrawnBank::least_ready(Cycle s
     return chosen;
 }
 
-// Of several streams; see IssueBank::issue_segments().
+// For several streams; see IssueBank::issue_segments().
 template <bool in_turn>
 inline __attribute__((always_inline)) int DrawnBank::issue_from_all() {
     int issued = 0;

@@ -54,7 +54,8 @@ public:
         const Cycle waiting = unwritten(now);
         return waiting == 0 || waiting + complete <= writes_;
     }
-    /// The same for the packets that `tasks` tasks more complete. It does not divide.
+    /// Like can_write_packets(), for the packets that `tasks` tasks more complete. It does not
+    /// divide.
     bool can_write(Cycle now, int tasks) const {
         const Cycle waiting = unwritten(now);
         return waiting == 0 || waiting * width_ + (tasks_ + tasks) < most_;
