@@ -328,7 +328,7 @@ private:
         for (; stream.oldest < stream.entering && stream.oldest < stream.startable;
              ++stream.oldest) {
             const Tile& tile = stream.tiles[stream.oldest];
-            if (tile.waiting != 0 || (left_ > 0 && cut_tile_ == &tile)) {
+            if (tile.waiting != 0) {
                 return;
             }
             lines_.say(now_, "over", {tile.number, tile.context});
