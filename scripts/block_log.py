@@ -19,7 +19,7 @@ def header(data):
         about = json.loads(data[:end])
     except ValueError:
         about = {}
-    if end < 0 or about.get("format") != "degs block log":
+    if end < 0 or about.get("format") != "degs-block-log":
         raise ValueError("it is not a log of degs run --block-log")
     if about["version"] != 1:
         raise ValueError(f"it has version {about['version']}, and this program reads version 1")

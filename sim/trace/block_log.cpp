@@ -26,7 +26,7 @@ void check_block_log(const BlockLogRequest& request) {
 std::string block_log_text(const std::string& design, const std::string& block,
                            const EventLog& log) {
     nlohmann::ordered_json header;
-    header["format"] = "degs block log";
+    header["format"] = "degs-block-log";
     header["version"] = 1;
     header["design"] = design;
     header["block"] = block;

@@ -29,7 +29,7 @@ void expect_same(const BankShape& shape, const char* design, const View& view) {
                      << sim_test::trained_scenes() << "; set DEGS_SCENES";
     }
     const sim_test::BlockLog log = sim_test::logged(
-        {"--scene", scene.string(), "--camera", view.camera, "--width", "800"}, design, view.bank);
+        {"--scene", scene.string(), "--camera", view.camera, "--width", "810"}, design, view.bank);
     BankBench<Rtl> bench(shape, log);
     const Compared done = bench.run();
     EXPECT_EQ(done.differences, 0U) << done.first;

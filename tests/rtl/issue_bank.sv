@@ -253,7 +253,7 @@ module issue_bank #(
       stop = 0;
       for (x = 0; x < SLOTS; x++) begin
         slot = s * SLOTS + oldest_n[s];
-        go = closed_n[s] != 0 && startable_n[s] != 0 && !(left_n != 0 && cut_n / DOMAINS == slot);
+        go = closed_n[s] != 0 && startable_n[s] != 0;
         for (i = 0; i < N; i++) if (i / DOMAINS == slot && waits_n[i]) go = 0;
         if (!go) stop = 1;
         if (!stop) begin

@@ -260,7 +260,18 @@ TEST_P(SmallRunFidelity, ExactIsStrict) {
     expect_exact_is_strict(GetParam(), draw, config);
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, SmallRunFidelity, ::testing::Range(0U, 600U));
+INSTANTIATE_TEST_SUITE_P(Random, SmallRunFidelity, ::testing::Range(0U, 300U));
+
+/// More of them, which do not run under the sanitizers as well.
+class MoreRunsFidelity : public SmallRunFidelity {};
+
+TEST_P(MoreRunsFidelity, ExactIsStrict) {
+    Draw draw(GetParam());
+    const DegsConfig config = draw.config(GetParam());
+    expect_exact_is_strict(GetParam(), draw, config);
+}
+
+INSTANTIATE_TEST_SUITE_P(Random, MoreRunsFidelity, ::testing::Range(300U, 600U));
 
 class PlainRunFidelity : public ::testing::TestWithParam<unsigned> {};
 

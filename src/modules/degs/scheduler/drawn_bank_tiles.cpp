@@ -238,7 +238,7 @@ void DrawnBank::finish_tiles() {
 void DrawnBank::finish_tiles(BankStream& stream) {
     while (stream.oldest < stream.entering && stream.oldest < stream.startable) {
         const Tile& tile = tile_at(stream, stream.oldest);
-        if (tile.waiting != 0 || (left_ > 0 && cut_tile_ == &tile)) {
+        if (tile.waiting != 0) {
             break;
         }
         end_tile(tile);

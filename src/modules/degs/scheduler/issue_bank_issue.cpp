@@ -141,7 +141,7 @@ bool IssueBank::finish_tiles() {
 void IssueBank::finish_tiles(BankStream& stream) {
     while (stream.oldest < stream.entering && stream.oldest < stream.startable) {
         SegmentQueue::Tile& tile = tile_at(stream, stream.oldest);
-        if (tile.waiting() != 0 || (segmenter_.cutting() && cut_tile_ == &tile)) {
+        if (tile.waiting() != 0) {
             break;
         }
         log_tile(over_event_, tile.number(), {tile.context()});

@@ -22,7 +22,7 @@ namespace degs::test {
 class NaiveBank {
 public:
     NaiveBank(const NaiveFacts& facts, const std::vector<LoggedEvent>& events)
-        : facts_(facts), streams_(facts["streams"]) {
+        : facts_(facts), streams_(facts.streams) {
         for (const LoggedEvent& event : events) {
             if (event.kind() == "tile") {
                 widths_[event["tile"]] = event["width"];
@@ -32,8 +32,8 @@ public:
             }
         }
         for (Stream& stream : streams_) {
-            stream.startable = facts_["contexts"];
-            stream.turns.resize(facts_["inputs"]);
+            stream.startable = facts_.contexts;
+            stream.turns.resize(facts_.inputs);
         }
     }
     /// Lines "span", "issue", "over" and "packet" in their order, each with its cycle.
@@ -43,7 +43,7 @@ public:
         }
         for (packing_.send_due(now_); packing_.open(); packing_.send_due(++now_)) {
         }
-        if (facts_["granted"] != 0) {
+        if (facts_.granted != 0) {
             packing_.end_tile(kNobody, 0);
         }
         return lines_.lines();
@@ -103,7 +103,7 @@ private:
             end_pixels(take("terminated", 0));
         }
         for (Stream& stream : streams_) {
-            while (stream.startable < stream.oldest + facts_["contexts"] &&
+            while (stream.startable < stream.oldest + facts_.contexts &&
                    arrived("context_free", index_of(stream))) {
                 take("context_free", index_of(stream));
                 ++stream.startable;
@@ -118,7 +118,7 @@ private:
     }
 
     std::uint32_t live(const Domain& domain) const { // a grain of 0: whole regions
-        return facts_["termination"] != 0 || domain.ended == kAll ? ~domain.ended : kAll;
+        return facts_.termination != 0 || domain.ended == kAll ? ~domain.ended : kAll;
     }
     void end_pixels(const LoggedEvent& message) {
         for (Stream& stream : streams_) {
@@ -144,18 +144,18 @@ private:
     }
 
     Number per_row() const {
-        return (facts_["tile_size"] + facts_["segment_length"] - 1) / facts_["segment_length"];
+        return (facts_.tile_size + facts_.segment_length - 1) / facts_.segment_length;
     }
     Number domain_of(Number row, Number column) const {
-        return row / facts_["banks"] * per_row() + column / facts_["segment_length"];
+        return row / facts_.banks * per_row() + column / facts_.segment_length;
     }
     bool may_enter(const Stream& stream) const {
-        return stream.entering < (streams_.size() == 1 ? stream.oldest + facts_["tiles_in_flight"]
-                                                       : stream.startable);
+        return stream.entering <
+               (streams_.size() == 1 ? stream.oldest + facts_.tiles_in_flight : stream.startable);
     }
     void take_in() {
-        Number spans = facts_["spans_per_cycle"];
-        for (Number i = 0; i < facts_["segments_per_cycle"]; ++i) {
+        Number spans = facts_.spans_per_cycle;
+        for (Number i = 0; i < facts_.segments_per_cycle; ++i) {
             if (left_ <= 0 && (spans-- == 0 || !take_span())) {
                 return;
             }
@@ -178,7 +178,7 @@ private:
         for (;;) {
             Number source = -1;
             for (Number i = 0; i < Number(stream.turns.size()); ++i) {
-                const Number port = index_of(stream) * facts_["inputs"] + i;
+                const Number port = index_of(stream) * facts_.inputs + i;
                 if (may_enter(stream) && stream.turns[i] == stream.entering &&
                     arrived("span", port) &&
                     (source < 0 || inputs_["span"][port].front().readable <
@@ -204,12 +204,12 @@ private:
             if (!end) {
                 span_ = item;
                 cut_tile_ = &stream.tiles[stream.entering];
-                column_ = item["x0"] / facts_["segment_length"] * facts_["segment_length"];
+                column_ = item["x0"] / facts_.segment_length * facts_.segment_length;
                 left_ = item["x0"] + item["length"] - column_;
                 return true;
             }
-            ++stream.turns[source % facts_["inputs"]];
-            if (++stream.ends == facts_["inputs"] && item["tile"] != kNobody) {
+            ++stream.turns[source % facts_.inputs];
+            if (++stream.ends == facts_.inputs && item["tile"] != kNobody) {
                 while (!stream.open.empty()) {
                     features_.close_oldest(stream.open, now_);
                 }
@@ -222,14 +222,14 @@ private:
     void enter(Stream& stream, Number number) {
         Tile& tile = stream.tiles[stream.entering];
         tile.number = number;
-        tile.context = facts_["first_context"] + index_of(stream) * facts_["contexts"] +
-                       stream.entering % facts_["contexts"];
-        for (Number row = facts_["bank"]; row < facts_["tile_size"]; row += facts_["banks"]) {
+        tile.context = facts_.first_context + index_of(stream) * facts_.contexts +
+                       stream.entering % facts_.contexts;
+        for (Number row = facts_.bank; row < facts_.tile_size; row += facts_.banks) {
             for (Number s = 0; s < per_row(); ++s) {
                 tile.domains.emplace_back();
                 for (Number i = 0; i < 32; ++i) { // pixels outside of the image have ended
-                    const bool inside = i < facts_["segment_length"] &&
-                                        s * facts_["segment_length"] + i < widths_[number];
+                    const bool inside = i < facts_.segment_length &&
+                                        s * facts_.segment_length + i < widths_[number];
                     tile.domains.back().ended |= inside ? 0 : 1U << static_cast<unsigned>(i);
                 }
             }
@@ -240,12 +240,12 @@ private:
         const Number number = domain_of(span_["row"], column_);
         Domain& domain = cut_tile_->domains[number];
         std::uint32_t mask = 0;
-        for (Number i = 0; i < facts_["segment_length"]; ++i) {
+        for (Number i = 0; i < facts_.segment_length; ++i) {
             const bool covered = column_ + i >= span_["x0"] && i < left_;
             mask |= covered ? 1U << static_cast<unsigned>(i) : 0;
         }
         if ((mask & live(domain)) != 0) {
-            if (waiting_ == facts_["queue_depth"]) {
+            if (waiting_ == facts_.queue_depth) {
                 return false;
             }
             const Number entry = features_.current().entry;
@@ -255,15 +255,15 @@ private:
             ++cut_tile_->waiting;
             ++waiting_;
         }
-        column_ += facts_["segment_length"];
-        left_ -= facts_["segment_length"];
+        column_ += facts_.segment_length;
+        left_ -= facts_.segment_length;
         return true;
     }
 
     std::uint64_t rank(const Domain& domain) const { // the lowest goes first
         const std::uint64_t oldest = domain.waiting.front().sequence;
         const std::uint64_t length = domain.waiting.size();
-        return facts_["scan"] == 2 ? oldest + ((65535 - length) << 48U) : oldest;
+        return facts_.scan == 2 ? oldest + ((65535 - length) << 48U) : oldest;
     }
     // A ready domain in the stream's oldest tile that has one.
     Pick find(Stream& stream) {
@@ -272,13 +272,13 @@ private:
             Tile& tile = stream.tiles[turn];
             const Number domains = Number(tile.domains.size());
             for (Number i = 0; i < domains; ++i) {
-                const Number d = facts_["scan"] == 0 ? (tile.cursor + i) % domains : i;
+                const Number d = facts_.scan == 0 ? (tile.cursor + i) % domains : i;
                 const Domain& domain = tile.domains[d];
                 if (domain.waiting.empty() || domain.ready > packing_.next_slot()) {
                     continue;
                 }
                 if (pick.domain < 0 ||
-                    (facts_["scan"] != 0 && rank(domain) < rank(tile.domains[pick.domain]))) {
+                    (facts_.scan != 0 && rank(domain) < rank(tile.domains[pick.domain]))) {
                     pick = {&stream, &tile, d};
                 }
             }
@@ -289,7 +289,7 @@ private:
         Pick best;
         for (std::size_t i = 1; i <= streams_.size(); ++i) {
             const Pick pick = find(streams_[(issued_stream_ + i) % streams_.size()]);
-            const bool first = best.domain < 0 || (facts_["scan"] != 0 && pick.domain >= 0 &&
+            const bool first = best.domain < 0 || (facts_.scan != 0 && pick.domain >= 0 &&
                                                    rank(pick.tile->domains[pick.domain]) <
                                                        rank(best.tile->domains[best.domain]));
             best = pick.domain >= 0 && first ? pick : best;
@@ -297,7 +297,7 @@ private:
         return best;
     }
     void issue() {
-        for (Number i = 0; i < facts_["issue_width"]; ++i) {
+        for (Number i = 0; i < facts_.issue_width; ++i) {
             const Pick pick = choose();
             if (pick.domain < 0) {
                 return;
@@ -305,7 +305,7 @@ private:
             Domain& domain = pick.tile->domains[pick.domain];
             NaiveSegment segment = domain.waiting.front();
             const std::uint32_t wanted = segment.mask & live(domain);
-            if (facts_["termination"] != 1 || wanted == 0) { // 1: one takes the others along
+            if (facts_.termination != 1 || wanted == 0) { // 1: one takes the others along
                 segment.mask = wanted;
             }
             const Number tasks = __builtin_popcount(segment.mask);
@@ -315,8 +315,8 @@ private:
             const Number slot = packing_.next_slot();
             Number ready = now_;
             if (tasks != 0) {
-                ready = packing_.pack(segment) + facts_["reuse_cycles"];
-                domain.ready = facts_["scoreboard"] != 0 ? ready : 0;
+                ready = packing_.pack(segment) + facts_.reuse_cycles;
+                domain.ready = facts_.scoreboard != 0 ? ready : 0;
             }
             lines_.say(now_, "issue", {slot, ready, segment.context, segment.domain, segment.mask});
             leave(*pick.tile, domain, ready);
@@ -328,7 +328,7 @@ private:
         for (; stream.oldest < stream.entering && stream.oldest < stream.startable;
              ++stream.oldest) {
             const Tile& tile = stream.tiles[stream.oldest];
-            if (tile.waiting != 0 || (left_ > 0 && cut_tile_ == &tile)) {
+            if (tile.waiting != 0) {
                 return;
             }
             lines_.say(now_, "over", {tile.number, tile.context});

@@ -17,8 +17,8 @@ public:
     using Open = std::deque<Splat>; ///< splats of a stream of which more rows may come
 
     explicit NaiveFeatures(const NaiveFacts& facts)
-        : facts_(facts), entries_(facts["feature_entries"]),
-          write_ports_(facts["fill_ports"] * facts["fill_sram_banks"]) {
+        : facts_(facts), entries_(facts.feature_entries),
+          write_ports_(facts.fill_ports * facts.fill_sram_banks) {
         for (std::size_t i = 0; i < entries_.size(); ++i) {
             free_.push_back({Number(i), 0});
         }
@@ -31,8 +31,8 @@ public:
                 return true;
             }
         }
-        const Number share = Number(entries_.size()) / facts_["streams"];
-        if (Number(open.size()) == std::min(facts_["open_splats"], share)) {
+        const Number share = Number(entries_.size()) / facts_.streams;
+        if (Number(open.size()) == std::min(facts_.open_splats, share)) {
             close_oldest(open, now);
         }
         if (free_.empty() || free_.front().from > now) {
@@ -70,13 +70,13 @@ private:
         Number entry, from;
     };
     Number fill(Number entry, Number now) {
-        if (write_ports_.empty() || facts_["fill_cycles"] == 0) {
-            return now + facts_["fill_cycles"];
+        if (write_ports_.empty() || facts_.fill_cycles == 0) {
+            return now + facts_.fill_cycles;
         }
         const auto first =
-            write_ports_.begin() + entry % facts_["fill_sram_banks"] * facts_["fill_ports"];
-        Number& port = *std::min_element(first, first + facts_["fill_ports"]);
-        port = std::max(port, now) + facts_["fill_cycles"];
+            write_ports_.begin() + entry % facts_.fill_sram_banks * facts_.fill_ports;
+        Number& port = *std::min_element(first, first + facts_.fill_ports);
+        port = std::max(port, now) + facts_.fill_cycles;
         return port;
     }
 

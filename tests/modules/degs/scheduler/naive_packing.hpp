@@ -14,18 +14,18 @@ public:
     NaivePacking(const NaiveFacts& facts, NaiveLines& lines) : facts_(facts), lines_(lines) {}
     void begin_cycle(Number now) {
         now_ = now;
-        unwritten_ = std::max<Number>(0, unwritten_ - facts_["packets_per_cycle"]);
+        unwritten_ = std::max<Number>(0, unwritten_ - facts_.packets_per_cycle);
     }
     bool open() const { return tasks_ != 0; }
     /// Date at which the next task executes.
-    Number next_slot() const { return std::max(now_ + facts_["packet_latency"], slot_); }
+    Number next_slot() const { return std::max(now_ + facts_.packet_latency, slot_); }
     bool has_room(const NaiveSegment& segment, Number tasks) const {
-        const Number width = facts_["packet_tasks"];
+        const Number width = facts_.packet_tasks;
         const Number total = (joins(segment) ? tasks_ : width) + tasks;
-        const Number before = next_slot() - (now_ + facts_["packet_latency"]);
-        const bool fits = before + (total + width - 1) / width <= facts_["packets_waiting"];
+        const Number before = next_slot() - (now_ + facts_.packet_latency);
+        const bool fits = before + (total + width - 1) / width <= facts_.packets_waiting;
         const bool written =
-            unwritten_ == 0 || unwritten_ + total / width <= facts_["packets_per_cycle"];
+            unwritten_ == 0 || unwritten_ + total / width <= facts_.packets_per_cycle;
         return tasks == 0 || (fits && written);
     }
     /// Packs the tasks of a segment, at least one. Returns the date of the last one.
@@ -39,12 +39,12 @@ public:
                 slot_ = next_slot();
             }
             std::uint32_t part = 0;
-            for (; rest != 0 && tasks_ < facts_["packet_tasks"]; ++tasks_, rest &= rest - 1) {
+            for (; rest != 0 && tasks_ < facts_.packet_tasks; ++tasks_, rest &= rest - 1) {
                 part |= rest & (~rest + 1);
             }
             runs_.push_back({segment, part});
             last = slot_;
-            if (tasks_ == facts_["packet_tasks"]) {
+            if (tasks_ == facts_.packet_tasks) {
                 send();
             }
         }
@@ -53,7 +53,7 @@ public:
     /// A packet that is not full goes at the last date at which it still comes in time.
     void send_due(Number now) {
         now_ = now;
-        if (open() && slot_ - facts_["packet_latency"] <= now_) {
+        if (open() && slot_ - facts_.packet_latency <= now_) {
             send();
         }
     }
@@ -76,7 +76,7 @@ private:
         std::uint32_t part;
     };
     bool joins(const NaiveSegment& segment) const {
-        if (facts_["reorganisation"] != 0 || !open()) {
+        if (facts_.reorganisation != 0 || !open()) {
             return true;
         }
         const NaiveSegment& first = runs_.front().segment;
