@@ -11,7 +11,7 @@
 #     SCENES      trained scenes in DEGS_SCENES (default ../shared/scenes), or
 #                 synthetic:NAME,gaussians=N
 #                 (default: flowers st-peter)
-#     RESOLUTION  of the views of utilisation and speed-ups (default 1080p)
+#     RESOLUTION  of the views of utilisation and speed-ups, or their width (default 1080p)
 #     CAMERAS     (default: 2 1; close-ups, and the same scenes small)
 #     GAUSSIANS   of the synthetic outdoor scene (default: 1000000 3000000 6000000)
 #     KINDS       which measurements (default: speed utilization small-tiles frames)
@@ -22,7 +22,7 @@ folder=${DEGS_SCENES:-../shared/scenes}
 scenes="flowers st-peter" resolution=${RESOLUTION:-1080p} cameras="2 1" gaussians="1000000 3000000 6000000" run=yes
 while [[ ${1:-} == --* ]]; do
     case $1 in
-    --quick) scenes=synthetic:object,gaussians=500 resolution=${RESOLUTION:-720p} cameras=1 gaussians=500 ;;
+    --quick) scenes=synthetic:object,gaussians=500 resolution=${RESOLUTION:-320} cameras=1 gaussians=500 ;;
     --tables) run=no ;;
     *) echo "ranges.sh: $1 is no option; there are --quick and --tables." >&2 && exit 2 ;;
     esac
@@ -157,9 +157,10 @@ readings_small-tiles() { # the paper's Table II: tiles of 16 px, 64 PEs
 readings_frames() { printf '%s\n' "degs | degs-64 | shipped |" "gscore | gscore-64 | shipped |" \
     "gbu | gbu-64 | shipped |" "gcc | gcc-64 | shipped |"; }
 
-# measure KIND SCENE CAMERA RESOLUTION [OPTION…]: one view of all readings of a kind.
+# measure KIND SCENE CAMERA RESOLUTION|WIDTH [OPTION…]: one view of all readings of a kind.
 measure() {
-    local kind=$1 scene=$2 path files=() sets=() name file class settings setting
+    local kind=$1 scene=$2 size=--resolution path files=() sets=() name file class settings setting
+    [[ $4 == *[!0-9]* ]] || size=--width
     path=$out/$kind-${scene//[:,=]/-}-camera$3
     [[ $run == yes && ! -e $path/compare.csv ]] || return 0
     [[ $scene == synthetic:* ]] || scene=$folder/$scene/scene.ply
@@ -170,7 +171,7 @@ measure() {
         done
     done < <("readings_$kind")
     rm -rf "$path.part"
-    "$program" compare "${files[@]}" "${sets[@]}" --scene "$scene" --camera "$3" --resolution "$4" --jobs 1 \
+    "$program" compare "${files[@]}" "${sets[@]}" --scene "$scene" --camera "$3" "$size" "$4" --jobs 1 \
         --no-reference "${@:5}" --out "$path.part" > /dev/null
     mv "$path.part" "$path"
 }

@@ -5,7 +5,9 @@
 docs/regime.csv has the real ones. Without an option the views are measured with `degs scene info`; --utilization runs
 three designs on each view. --only TEXT takes the rows whose first word contains TEXT, --gaussians N draws every scene
 with that many Gaussians at most. --figures has the paper's figures on both scenes with camera 1 and a million Gaussians
-each: utilization from 720p to 8K, and latency per mm2 over that of DeGS-64 by bandwidth. --large measures cameras 1 and
+each: utilization from 720p to 8K, and latency per mm2 over that of DeGS-64 by bandwidth. --path FILE runs whole
+accelerators with a million Gaussians along 8 views of a camera file, which scripts/camera_path.py moves into the scenes
+that --only names; --quick takes 2 small views of 20 000. --large measures cameras 1 and
 2 of the trained scenes in DEGS_SCENES_LARGE (default ../shared/scenes-large) at 1080p instead. Runs DEGS_PROGRAM
 (default: degs of the search path, else build/release/sim/degs)."""
 import argparse
@@ -14,10 +16,12 @@ import json
 import os
 import pathlib
 import shutil
+import statistics
 import subprocess
 import sys
 import tempfile
 
+from camera_path import SPACES, moved_path
 from join_sog import join
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -102,7 +106,7 @@ def print_table(rows, names, measure, relative):
                 found[name].append((measured[name], int(text.split(" / ")[2]), view))
         print(f"| {view} | " + " | ".join(cells) + " |", flush=True)
     print(f"\n| | measured | difference, {'%' if relative else 'points'} | largest |\n| --- | --- | --- | --- |")
-    for name in names:
+    for name in filter(found.get, names):
         measured, differences, _ = zip(*found[name])
         farthest = max(found[name], key=lambda entry: abs(entry[1]))
         print(f"| {name} | {min(measured):.3g} to {max(measured):.3g} | {min(differences):+d} to {max(differences):+d} | "
@@ -149,6 +153,28 @@ def print_figures(only, gaussians):
             print(f"| {name} | {bandwidth} | {' | '.join(' · '.join(column) for column in columns)} |", flush=True)
 
 
+def print_path(file, only, gaussians, quick):
+    """Least, median and largest value over the views of a real path, for each scene and design."""
+    most, views, width = (20_000, 2, "320") if quick else (gaussians or 1_000_000, 8, "1920")
+    print("| scene | | useful slots, % | latency, ms |\n| --- | --- | ---: | ---: |")
+    for name in [name for name in SPACES if only in name]:
+        with tempfile.TemporaryDirectory() as folder:
+            cameras = pathlib.Path(folder, "path.json")
+            cameras.write_text(json.dumps(moved_path(file, name, views)), encoding="utf-8")
+            call("compare", *[str(ROOT / f"configs/{design}.yaml") for design in DESIGNS], "--scene",
+                 f"synthetic:{name},gaussians={most}", "--camera-file", str(cameras), "--camera", "all", "--width",
+                 width, "--no-reference", "--out", folder + "/out")
+            with open(folder + "/out/compare.csv", encoding="utf-8") as rows:
+                found = list(csv.DictReader(rows))
+        for design in DESIGNS:
+            mine = [row for row in found if row["config"] == design]
+            cells = []
+            for key, factor, form in (("slots.utilization", 100, ".1f"), ("latency_ms", 1, ".2f")):
+                values = [factor * float(row[key]) for row in mine]
+                cells.append(" / ".join(format(of(values), form) for of in (min, statistics.median, max)))
+            print(f"| {name} | {design} | {' | '.join(cells)} |", flush=True)
+
+
 def print_large(only):
     """Views of the large trained scenes; those that came in parts are joined first."""
     folders = [folder for folder in sorted(LARGE.glob("*")) if folder.is_dir() and only in folder.name]
@@ -172,11 +198,16 @@ def main():
     parser.add_argument("--utilization", action="store_true")
     parser.add_argument("--figures", action="store_true")
     parser.add_argument("--large", action="store_true")
+    parser.add_argument("--path", metavar="FILE")
+    parser.add_argument("--quick", action="store_true")
     parser.add_argument("--only", default="")
     parser.add_argument("--gaussians", type=int, default=0)
     options = parser.parse_args()
     if options.large:
         print_large(options.only)
+        return
+    if options.path:
+        print_path(options.path, options.only, options.gaussians, options.quick)
         return
     if options.figures:
         print_figures(options.only, options.gaussians)
