@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""mutations.py [--build FOLDER] [--only N ...]: can the comparison of the bank's RTL with the model miss an error?
+"""mutations.py [--build FOLDER] [--only N ...]: can the comparisons of the RTL with the model miss an error?
 
-Changes one place of the RTL at a time, makes the models of Verilator again and runs rtl/bank_test on one view per
-design. Every change must be found. Takes ten minutes on a processor; needs a release build with tests and DEGS_SCENES.
+Changes one place of the RTL at a time, makes the models of Verilator again and runs the tests of that block, of a bank
+on one view per design. Every change must be found. Takes fifteen minutes on a processor; needs a release build with
+tests and DEGS_SCENES.
 """
 
 import argparse
@@ -15,7 +16,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 BANK, PACKING, TOP = "issue_bank.sv", "packing_unit.sv", "bank_top.sv"
-# What is changed, where, from and to, and for which bank.
+NUMBERS, TABLES, SPAN, PE = "arithmetic.sv", "tables.sv", "span_unit.sv", "pe.sv"
+# What is changed, where, from and to, and for which block.
 MUTATIONS = [
     ("a domain is ready a cycle later", BANK, "cool_n[i] <= rel_n)", "cool_n[i] < rel_n)", "64"),
     ("the reuse distance is one longer", BANK, "/ WIDTH + REUSE;", "/ WIDTH + REUSE + 1;", "64"),
@@ -40,55 +42,92 @@ MUTATIONS = [
     ("the youngest head goes first", BANK, "- best) < 0)", "- best) > 0)", "x_64"),
     ("ended pixels are issued", BANK, "PIXELS ? mask_n[entry] & ~gone_n[pick]", "PIXELS ? mask_n[entry]", "x_64"),
     ("spans come from one stream first", BANK, "turn_n = turn_n + 1 == STREAMS ? 0 : turn_n + 1;", "turn_n = 0;", "x_64"),
+    ("ties are rounded up", NUMBERS, "half & (finer | whole[0])}", "half}", "span_1"),
+    ("ties of floats are rounded up", NUMBERS, "half & (finer | shifted[L-1-M])}", "half}", "pe_0"),
+    ("subnormals are flushed", NUMBERS, "assign mantissa = {!subnormal, code[M-1:0]};",
+     "assign mantissa = subnormal ? {W{1'b0}} : {1'b1, code[M-1:0]};", "pe_0"),
+    ("a fixed sum wraps", NUMBERS, "| (mantissa != 0 && high >= VALUE) | rounded > MOST;", ";", "pe_1"),
+    ("saturation is not symmetric", NUMBERS, "FORMAT[30] ? -magnitude :", "FORMAT[30] ? (over ? ~magnitude : -magnitude) :", "span_0"),
+    ("a sum forgets what it shifts out", NUMBERS, "moved[0] | lost}", "moved[0]}", "pe_0"),
+    ("infinity less infinity is infinite", NUMBERS, "(ai & bi & as != b_sign)", "1'b0", "pe_0"),
+    ("zero times infinity is infinite", NUMBERS, "a_nan | b_nan | (a_infinite & b == 0)", "a_nan | b_nan", "span_0"),
+    ("the last cell of the root is not the last", TABLES, "cell_now > 255 ? 8'd255 : ", "", "span_0"),
+    ("the root's part is cut", TABLES, "whole + (rest > 3072 || (rest == 3072 && whole[0]))", "whole", "span_1"),
+    ("log2(e) / 2 has 12 bits", TABLES, "24'd12102203", "24'd12103680", "pe_0"),
+    ("alpha is not limited", TABLES, "above_3 || shifted > MOST ? MOST : shifted", "shifted", "pe_1"),
+    ("a row with x = 1 misses", SPAN, "x_3 <= (TUNED", "x_3 < (TUNED", "span_1"),
+    ("delta is 1 at half a pixel", NUMBERS, "x > y);", "x >= y);", "span_0"),
+    ("delta is 0", SPAN, "n_6 | i_6 | beyond", "1'b0", "span_0"),
+    ("the right end is cut a column early", SPAN, "$signed({1'b0, columns_8}) - 1", "$signed({1'b0, columns_8}) - 2", "span_0"),
+    ("half pixels are rounded up", SPAN, "half & (finer | floor_centre[0])", "half", "span_1"),
+    ("a cut does not lower the limit", SPAN, "(27'd134122994, cut_1,", "(27'd134122994, 21'd0,", "span_1"),
+    ("T of a stopping pixel is a unit off", PE, "18'd27 : 16'h068e", "18'd27 : 16'h068f", "pe_0"),
+    ("T of a stopping pixel is a unit off", PE, "18'd27 : 16'h068e", "18'd28 : 16'h068e", "pe_1"),
+    ("the rule `after` refuses", PE, "(stops_after_10 | !stops)", "!stops", "pe_1"),
+    ("the low half of n has five bits", PE, "n < 0 ? -{1'b0, magnitude[3:0]} : {1'b0, magnitude[3:0]}",
+     "n < 0 ? -{1'b0, magnitude[3:0]} : magnitude[4:0]", "pe_0"),
+    ("a pixel with T = 1 has T = 0", PE, "{live_8 & t_8 == 0, t_8}", "{1'b0, t_8}", "pe_1"),
+    ("T is written back a stage early", PE, "t <= valid_10 & blends ? after_10 : before_10;",
+     "t <= valid_10 & blends ? after : before_10;", "pe_1"),
 ]
 X_64 = ["STREAMS=3", "SLOTS=1", "CONTEXTS=1", "DOMAINS=16", "DEPTH=96", "CUT=4", "SPANS=4", "ISSUE=4", "WIDTH=16",
         "PIXELS=1", "OLDEST=1", "MESSAGES=16"]
-PARAMETERS = {"64": ["MESSAGES=8"], "x_64": X_64}
-TESTS = {"64": "Scenes/Bank64.*/0", "x_64": "Scenes/BankX64.*/0"}
+# Top module, sources, parameters and tests of each block.
+BLOCKS = {
+    "64": ("bank_top", (TOP, BANK, PACKING), ["MESSAGES=8"], "Scenes/Bank64.*/0"),
+    "x_64": ("bank_top", (TOP, BANK, PACKING), X_64, "Scenes/BankX64.*/0"),
+    "span_0": ("span_unit", (NUMBERS, TABLES, SPAN), ["TUNED=0"], "SpanUnitRtl.*Paper*"),
+    "span_1": ("span_unit", (NUMBERS, TABLES, SPAN), ["TUNED=1"], "SpanUnitRtl.Solves*Tuned*"),
+    "pe_0": ("pe", (NUMBERS, TABLES, PE), ["TUNED=0"], "PeRtl.*Paper*"),
+    "pe_1": ("pe", (NUMBERS, TABLES, PE), ["TUNED=1"], "PeRtl.*Tuned*"),
+}
+LIBRARIES = ["cost", "tlm", "splat", "stats", "config", "base"]
 
 
 def run(command, **more):
     return subprocess.run(command, capture_output=True, text=True, **more)
 
 
-def verilate(folder, bank):
+def verilate(folder, block):
     """The library of the changed model."""
+    top, sources, parameters, _ = BLOCKS[block]
+    prefix = f"Vbank_{block}" if top == "bank_top" else f"V{block}"
     made = run(["verilator", "--cc", "--build", "-O3", "--x-assign", "fast", "--x-initial", "fast", "--unroll-count", "256",
-                "--unroll-stmts", "100000", "-Wno-WIDTH", "--top-module", "bank_top", "--prefix", f"Vbank_{bank}",
-                "--Mdir", str(folder / "model"), "-CFLAGS", "-O1", *(f"-G{one}" for one in PARAMETERS[bank]),
-                *(str(folder / name) for name in (TOP, BANK, PACKING))])
+                "--unroll-stmts", "100000", "-Wno-WIDTH", "--top-module", top, "--prefix", prefix,
+                "--Mdir", str(folder / "model"), "-CFLAGS", "-O1", *(f"-G{one}" for one in parameters),
+                *(str(folder / name) for name in sources)])
     if made.returncode != 0:
         sys.exit(f"mutations.py: Verilator refuses the change:\n{made.stderr[-2000:]}")
-    return folder / "model" / f"Vbank_{bank}__ALL.a"
+    return folder / "model" / f"{prefix}__ALL.a"
 
 
 def try_mutation(build, number):
     """True if the tests find it."""
-    what, name, old, new, bank = MUTATIONS[number]
+    what, name, old, new, block = MUTATIONS[number]
     folder = build / "mutations" / str(number)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    for source in (BANK, PACKING, TOP):
+    for source in BLOCKS[block][1]:
         text = (HERE / source).read_text()
         if source == name:
             if text.count(old) != 1:
                 sys.exit(f"mutations.py: '{old}' stands {text.count(old)} times in {source}, not once.")
             text = text.replace(old, new)
         (folder / source).write_text(text)
-    library = verilate(folder, bank)
+    library = verilate(folder, block)
     objects = sorted((build / "tests/CMakeFiles/degs_rtl_tests.dir").rglob("*.o"))
     linked = run(["g++", *map(str, objects), str(library), str(build / "tests/rtl/libdegs_rtl_models.a"),
-                  str(build / "libdegs_tlm.a"), str(build / "libdegs_stats.a"), str(build / "libdegs_config.a"),
-                  str(build / "libdegs_base.a"), "-lgmock", "-lgtest", "-lsystemc", "-lyaml-cpp", "-lpthread", "-latomic",
+                  *(str(build / f"libdegs_{one}.a") for one in LIBRARIES), "-lgmock", "-lgtest", "-lsystemc",
+                  "-lyaml-cpp", "-lpthread", "-latomic",
                   "-o", str(folder / "test")])
     if linked.returncode != 0:
         sys.exit(f"mutations.py: the test cannot be linked:\n{linked.stderr[-2000:]}")
-    tested = run([str(folder / "test"), f"--gtest_filter={TESTS[bank]}"])
+    tested = run([str(folder / "test"), f"--gtest_filter={BLOCKS[block][3]}"])
     if "SKIPPED" in tested.stdout or "[ RUN " not in tested.stdout:
         sys.exit("mutations.py: the test did not run: " + tested.stdout[-500:])
     found = tested.returncode != 0
-    first = next((line.strip() for line in tested.stdout.splitlines() if line.strip().startswith("cycle ")), "")
-    print(f"| {number + 1} | {what} | {bank.replace('_', '-')} | {'found' if found else 'MISSED'} | {first} |", flush=True)
+    first = next((line.strip() for line in tested.stdout.splitlines() if line.strip().startswith(("cycle ", "RTL:", "EXPECT"))), "")
+    print(f"| {number + 1} | {what} | {block.replace('_', '-')} | {'found' if found else 'MISSED'} | {first} |", flush=True)
     return found
 
 
@@ -97,7 +136,7 @@ def main():
     parser.add_argument("--build", type=Path, default=ROOT / "build/release")
     parser.add_argument("--only", type=int, action="append", help="number of a change; all if none is named")
     options = parser.parse_args()
-    print("| | change | bank | | first difference |\n|--:|---|---|---|---|")
+    print("| | change | block | | first difference |\n|--:|---|---|---|---|")
     numbers = [one - 1 for one in options.only] if options.only else range(len(MUTATIONS))
     missed = [number + 1 for number in numbers if not try_mutation(options.build, number)]
     if missed:
