@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-CEILINGS = {"words": 89_350, "prose": 45_950, "longest page of prose": 2_150}
+CEILINGS = {"words": 90_150, "prose": 46_350, "longest page of prose": 2_150}
 
 
 def prose_words(text):
