@@ -31,7 +31,7 @@ MUTATIONS = [
     ("an ended region keeps its segments", BANK, "          if (&gone_n[i]) begin", "          if (0) begin", "64"),
     ("a segment of an ended region is queued", BANK, ": !(&gone_n[cut_n]);", ": 1;", "64"),
     ("a full queue keeps an ended segment", BANK, "if (go && full) stop = 1;", "if (full) stop = 1;", "64"),
-    ("a column outside of the image lives", BANK, "+ j >= s_width[", "+ j > s_width[", "64"),
+    ("the last column of the image has ended", BANK, "+ j >= s_width[", "+ j + 1 >= s_width[", "x_64"),
     ("a context that comes back is not seen", BANK, "startable[s] + {2'b0, context_free[s*2 +: 2]};", "startable[s];", "64"),
     ("an open packet carries two ends", BANK, "if (tasks_n != 0 && carries_n) begin", "if (0) begin", "64"),
     ("a tile starts without a context", BANK, "x < startable_n[s] && ", "", "64"),

@@ -98,6 +98,7 @@ private:
         c.packing.latency_cycles = among({1, 2, 2, 5});
         c.packing.lead_packets = among({5, 3, 17, 1000});
         c.packing.packets_per_cycle = among({1, 1, 2, 64});
+        c.scheduler.tiles = among({0, 0, 1, 3});
         c.array.writeback_cycles = among({4, 4, 1, 3});
     }
     void buffers(DegsConfig& c) {

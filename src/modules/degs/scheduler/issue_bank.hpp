@@ -45,7 +45,9 @@ public:
         int segments_per_cycle = 2; ///< cut and accepted per cycle
         int issue_width = 2;        ///< segments issued per cycle
         int reuse_cycles = 4;       ///< between two updates of a pixel
-        bool scoreboard = true;     ///< reuse_cycles are kept
+        int tiles =
+            0; ///< of a stream whose segments may wait; 0: at least 2, and those with a context
+        bool scoreboard = true; ///< reuse_cycles are kept
         TerminationGrain termination = TerminationGrain::Segment;
         DomainScan scan = DomainScan::RoundRobin;
         // What follows from the blocks around the bank; their own sections have the keys.

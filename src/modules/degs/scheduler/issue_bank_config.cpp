@@ -22,6 +22,10 @@ void IssueBank::Config::describe(ConfigVisitor& visitor) {
     visitor.integer(
         "reuse_cycles", reuse_cycles, 1, 64,
         "cycles between two updates of a segment (paper: 4); not below array.writeback_cycles");
+    visitor.integer("tiles", tiles, 0, 64,
+                    "tiles whose segments may wait in a bank, with one tile stream; 0: as many as "
+                    "have a context, and at least 2, so that the next tile waits there for its "
+                    "context [assumed]");
     visitor.boolean("scoreboard", scoreboard,
                     "enforce reuse_cycles; false: a pixel that comes again before its write-back "
                     "reads the older state, and the image is wrong");
