@@ -18,9 +18,7 @@ void add_block_log_option(CLI::App& command, BlockLogRequest& request) {
 }
 
 void check_block_log(const BlockLogRequest& request) {
-    if (request.given()) {
-        check_writable(request.file());
-    }
+    check_writable(request.file());
 }
 
 std::string block_log_text(const std::string& design, const std::string& block,

@@ -19,7 +19,7 @@ struct BlockLogRequest {
 };
 
 void add_block_log_option(CLI::App& command, BlockLogRequest& request);
-/// Throws InputError if the file cannot be written, before a long run.
+/// For a request that is given: throws InputError if the file cannot be written, before a long run.
 void check_block_log(const BlockLogRequest& request);
 /// The file, in the form of docs/block-log.md.
 std::string block_log_text(const std::string& design, const std::string& block,

@@ -10,7 +10,8 @@ void PackingUnit::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("task_bytes", task_bytes, 1, 256,
                     "bytes per task: G_ID, x, y, n, g0, d0, tags [assumed]");
     visitor.integer("lead_packets", lead_packets, 1, 65536,
-                    "packets of a bank that may wait for its array slice [assumed]");
+                    "packets of a bank that may wait for its array slice; limits nothing while "
+                    "packets_per_cycle is 1 [assumed]");
     visitor.integer("latency_cycles", latency_cycles, 1, 64,
                     "cycles from issue to execution: prefix sum and shift, buffer read [assumed]");
     visitor.integer(
