@@ -13,6 +13,7 @@ import concurrent.futures
 import csv
 import hashlib
 import json
+import math
 import os
 import pathlib
 import re
@@ -30,13 +31,14 @@ KEPT = ROOT / "docs/synthesis.csv"
 LIMIT_S = 180      # of a processor, for yosys and for ABC; what takes longer has no area
 CYCLE_FO4 = 40     # delay target of all points, about 1 GHz in a process of 45 nm
 FLOP_AREA = 96.0   # of DFFPOSX1, in units of the library
-PARAMETERS = ["n", "k", "serial", "depth", "cut", "issue", "width", "writes", "tag", "tuned"]
+PARAMETERS = ["n", "k", "serial", "depth", "cut", "issue", "width", "writes", "tag", "tuned", "in", "out", "pairs"]
 ARITHMETIC = ["arithmetic.sv", "tables.sv"]
 SOURCES = {"select_in_turn": ["synthesis/select_in_turn.sv"], "select_oldest": ["synthesis/select_oldest.sv"],
            "segment_queue": ["synthesis/segment_queue.sv"], "domain_state": ["synthesis/domain_state.sv"],
            "packing_registers": ["packing_unit.sv", "synthesis/packing_registers.sv"],
            "pixel_loop": ARITHMETIC + ["synthesis/pixel_loop.sv"], "pe": ARITHMETIC + ["pe.sv"],
-           "span_unit": ARITHMETIC + ["span_unit.sv"]}
+           "span_unit": ARITHMETIC + ["span_unit.sv"], "row_crossbar": ["synthesis/row_crossbar.sv"],
+           "tile_walk": ["synthesis/tile_walk.sv"]}
 
 
 def points_of(top, names, *values):
@@ -53,7 +55,9 @@ POINTS = (
     points_of("domain_state", "N ISSUE", (16, 2), (48, 4), (64, 2), (32, 8)) +
     points_of("packing_registers", "WIDTH ISSUE WRITES TAG", (8, 1, 1, 16), (8, 2, 1, 16), (8, 2, 4, 16), (8, 2, 1, 32),
               (16, 2, 1, 16), (16, 4, 1, 16), (32, 1, 1, 16)) +
-    points_of("segment_queue", "DEPTH N CUT ISSUE", (32, 16, 1, 1), (32, 16, 2, 2), (64, 16, 2, 2), (32, 16, 4, 4)))
+    points_of("segment_queue", "DEPTH N CUT ISSUE", (32, 16, 1, 1), (32, 16, 2, 2), (64, 16, 2, 2), (32, 16, 4, 4)) +
+    points_of("row_crossbar", "IN OUT TAG", (3, 12, 64), (8, 4, 64), (12, 4, 64), (12, 4, 128), (16, 8, 64)) +
+    points_of("tile_walk", "PAIRS", (1,), (4,), (8,), (16,), (32,)))
 QUICK = (points_of("select_in_turn", "N K SERIAL WIDTH", (8, 1, 0, 8)) + points_of("select_oldest", "N K", (8, 2)) +
          points_of("domain_state", "N ISSUE", (8, 1)))
 
@@ -196,6 +200,19 @@ LAWS = [
     ("Packing Unit", lambda top, p: top == "packing_registers", True,
      {"(L + W) B": lambda p: (lanes_of(p) + p["WIDTH"]) * (p["TAG"] + 5),
       "R B": lambda p: reach_of(p) * (p["TAG"] + 5), "R": reach_of}),
+    ("crossbar", lambda top, p: top == "row_crossbar", True,
+     {"(I + 1) O B": lambda p: (p["IN"] + 1) * p["OUT"] * p["TAG"], "(I + O) B": lambda p: (p["IN"] + p["OUT"]) * p["TAG"]}),
+    ("tiles of a splat", lambda top, p: top == "tile_walk", True, {"": lambda p: 1, "P": lambda p: p["PAIRS"]}),
+]
+DELAYS = [
+    ("selection in turn, one date", lambda top, p: top == "select_in_turn" and not p["SERIAL"],
+     {"": lambda p: 1, "K log₂ N": lambda p: p["K"] * math.log2(p["N"])}),
+    ("selection in turn, serial dates", lambda top, p: top == "select_in_turn" and p["SERIAL"],
+     {"log₂ N": lambda p: math.log2(p["N"]), "(K − 1) log₂ N": lambda p: (p["K"] - 1) * math.log2(p["N"])}),
+    ("selection of the oldest", lambda top, p: top == "select_oldest", {"": lambda p: 1, "K": lambda p: p["K"]}),
+    ("segment queue", lambda top, p: top == "segment_queue",
+     {"C": lambda p: p["CUT"], "log₂ DEPTH": lambda p: math.log2(p["DEPTH"])}),
+    ("Packing Unit", lambda top, p: top == "packing_registers", {"": lambda p: 1, "K": lambda p: p["ISSUE"]}),
 ]
 
 
@@ -219,24 +236,40 @@ def fit(rows, terms):
     return solve(normal, [sum(row[i] for row in scaled) for i in range(len(terms))])
 
 
+def words_of(coefficients, terms):
+    """A law as a reader writes it."""
+    words = " + ".join(f"{c:.{1 if abs(c) >= 10 else 2}f} {term}".strip() for c, term in zip(coefficients, terms))
+    return words.replace("+ -", "− ")
+
+
+def law_of(name, mine, terms):
+    """Prints the law through (parameters, number) of some points, and gives what it says of each of them."""
+    coefficients = fit(mine, terms)
+    said = [sum(c * term(p) for c, term in zip(coefficients, terms.values())) for p, _ in mine]
+    worst = max(abs(law / number - 1) for law, (_, number) in zip(said, mine))
+    print(f"| {name} | {words_of(coefficients, terms)} | {len(mine)} | {100 * worst:.1f} % |")
+    return said, worst
+
+
 def laws_of(points, results):
-    """Prints the laws and gives (area of the law, residual) of every point that has one."""
-    found = {}
-    print("| law | area, library units | points | largest residual |\n|---|---|--:|--:|")
+    """Prints the laws. Gives (area of the law, residual) of every point that has one, and the residuals of delays."""
+    found, delays = {}, {}
+    print("| law | area in library units, or FO4 | points | largest residual |\n|---|---|--:|--:|")
     for name, fits, registers, terms in LAWS:
         mine = [(point, results[name_of(point)]) for point in points if fits(*point) and "area" in results[name_of(point)]]
         if len(mine) <= len(terms):
             continue
         areas = [result["area"] - (0 if registers else result["flops"] * FLOP_AREA) for _, result in mine]
-        coefficients = fit([(point[1], area) for (point, _), area in zip(mine, areas)], terms)
-        for (point, _), area in zip(mine, areas):
-            law = sum(c * term(point[1]) for c, term in zip(coefficients, terms.values()))
+        said, _ = law_of(name, [(point[1], area) for (point, _), area in zip(mine, areas)], terms)
+        for (point, _), area, law in zip(mine, areas, said):
             found[name_of(point)] = (law, law / area - 1)
-        worst = max(abs(found[name_of(point)][1]) for point, _ in mine)
-        words = " + ".join(f"{c:.1f} {term}" for c, term in zip(coefficients, terms))
-        print(f"| {name} | {words.replace('+ -', '− ')} | {len(mine)} | {100 * worst:.1f} % |")
+    for name, fits, terms in DELAYS:
+        mine = [(point[1], results[name_of(point)]["fo4"]) for point in points
+                if fits(*point) and "fo4" in results[name_of(point)]]
+        if len(mine) > len(terms):
+            delays[name] = ("", law_of(name + ", FO4", mine, terms)[1])
     print()
-    return found
+    return found, delays
 
 
 def cells_of(point, result, laws, pe):
@@ -287,15 +320,15 @@ def kept_points():
 
 def print_tables(points, results):
     """Prints the laws and the points, and gives the laws and the area of a PE."""
-    laws = laws_of(points, results)
+    laws, delays = laws_of(points, results)
     pe = results.get("pe-tuned0", {}).get("area")
     show(points, results, laws, pe)
-    return laws, pe
+    return laws, delays, pe
 
 
-def refuse_far(laws):
+def refuse_far(laws, delays):
     """Fails if a point is not what its law says."""
-    far = [f"{name}: {100 * law[1]:+.1f} %" for name, law in laws.items() if abs(law[1]) > 0.15]
+    far = [f"{name}: {100 * law[1]:+.1f} %" for name, law in (laws | delays).items() if abs(law[1]) > 0.15]
     if far:
         sys.exit("further than 15 % from its law: " + ", ".join(far))
 
@@ -308,7 +341,7 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "build/synthesis")
     options = parser.parse_args()
     if options.table:
-        refuse_far(print_tables(*kept_points())[0])
+        refuse_far(*print_tables(*kept_points())[:2])
         return
     missing = [tool for tool in ("yosys", "sta") if not shutil.which(tool)] + [str(LIBERTY)] * (not LIBERTY.exists())
     if missing:
@@ -323,10 +356,10 @@ def main():
             made = list(pool.map(lambda point: make(point, fo4_ns, out), points))
     results = {name_of(point): result for point, result in zip(points, made)}
     print(f"FO4 = {1000 * fo4_ns:.1f} ps; all points take {sum(result['seconds'] for result in made):.0f} s, one after the other.\n")
-    laws, pe = print_tables(points, results)
+    laws, delays, pe = print_tables(points, results)
     if not options.quick:
         keep(points, results, laws, pe)
-    refuse_far(laws)
+    refuse_far(laws, delays)
 
 
 if __name__ == "__main__":

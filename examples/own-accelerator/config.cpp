@@ -91,7 +91,7 @@ cost::BillOfMaterials Config::bill() const {
                   count * buffer.bytes,
                   kReadAndWritten * (arrays.count * traffic.splat_bytes +
                                      sorting.count * traffic.list_entry_bytes));
-    add_binning_buffer(bill, cost_rows.sram);
+    add_binning(bill, cost_rows.sram);
     bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."}, cost_rows.sram,
                   count * pixel_buffer.bytes, kReadAndWritten * pes() * pixel_bytes());
     return bill;

@@ -129,9 +129,9 @@ std::string costs(const RunConfig& config, const ConfigOptions& options) {
     }
     const AcceleratorConfig& accelerator = config.accelerator();
     const cost::BillOfMaterials bill = accelerator.bill();
-    return options.format == "json"       ? cost_json(accelerator.name, bill)
+    return options.format == "json"       ? cost_json(accelerator.name, bill, accelerator.clock())
            : options.format == "markdown" ? cost_markdown(bill)
-                                          : cost_text(bill);
+                                          : cost_text(bill, accelerator.clock());
 }
 
 void run(const ConfigOptions& options) {

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
 #include "stats/statistics_document.hpp"
@@ -61,12 +62,16 @@ std::string markdown_line(const Cells& cells) {
 
 } // namespace
 
-std::string cost_text(const cost::BillOfMaterials& bill) {
+std::string cost_text(const cost::BillOfMaterials& bill, const cost::ClockEstimate& clock) {
     TextTable table(heading(bill.technology().node));
     for (Cells& row : rows_of(bill)) {
         table.add(std::move(row));
     }
-    return table.text();
+    const std::string warning = clock.warning();
+    return table.text() +
+           (warning.empty()
+                ? ""
+                : folded("warning: the clock reaches " + warning, output_columns()) + "\n");
 }
 
 std::string cost_markdown(const cost::BillOfMaterials& bill) {
@@ -77,11 +82,14 @@ std::string cost_markdown(const cost::BillOfMaterials& bill) {
     return table;
 }
 
-std::string cost_json(const std::string& name, const cost::BillOfMaterials& bill) {
+std::string cost_json(const std::string& name, const cost::BillOfMaterials& bill,
+                      const cost::ClockEstimate& clock) {
     nlohmann::ordered_json json;
     json["name"] = name;
-    json.update(statistics_json(
-        list_statistics([&bill](StatsVisitor& visitor) { visitor.section("area", bill, ""); })));
+    json.update(statistics_json(list_statistics([&](StatsVisitor& visitor) {
+        visitor.section("area", bill, "");
+        visitor.section("clock", clock, "");
+    })));
     return json.dump(2) + "\n";
 }
 

@@ -139,6 +139,7 @@ void describe_host(const RunResult& result, StatsVisitor& v) {
 void describe_outcome(const RunResult& result, StatsVisitor& v) {
     v.section("energy", result.accelerator.energy, "Energy of the accelerator and its memory.");
     v.section("area", result.config.accelerator().bill(), "What the design costs.");
+    v.section("clock", result.config.accelerator().clock(), "What clock its logic allows.");
     describe_image(result, v);
 }
 

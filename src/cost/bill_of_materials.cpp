@@ -35,7 +35,9 @@ double shape_factor(const Technology::Sram& sram, const PortedSramRow& row,
     }
     const auto of_ports = [&sram](int ports) { return 1 + sram.port_share * (ports - 1); };
     const double banks = rate_of(shape.banks, row.sram_banks);
-    return (1 + sram.bank_share * (banks - 1)) * of_ports(shape.ports) / of_ports(row.ports);
+    const double factor =
+        (1 + sram.bank_share * (banks - 1)) * of_ports(shape.ports) / of_ports(row.ports);
+    return 1 + shape.share * (factor - 1);
 }
 
 } // namespace

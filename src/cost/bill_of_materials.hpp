@@ -36,8 +36,9 @@ struct Block {
 
 /// SRAM banks and ports of a buffer, if the design limits them.
 struct SramShape {
-    int ports = 0; ///< 0: not limited, the area is that of the row
-    int banks = 1; ///< of each part of the buffer
+    int ports = 0;    ///< 0: not limited, the area is that of the row
+    int banks = 1;    ///< of each part of the buffer
+    double share = 1; ///< of its bytes, that have these ports and banks
 };
 
 /// The blocks of a design with their costs.

@@ -6,16 +6,7 @@
 namespace degs::cost {
 namespace {
 
-constexpr double kMostArea = 1e4;  // mm2
-constexpr double kMostPower = 1e3; // W
 constexpr double kWPerMw = 1e-3;
-
-void describe_row(Row& row, ConfigVisitor& visitor) {
-    visitor.real("area_mm2", row.area_mm2, 0, kMostArea, "mm2");
-    visitor.real("power_w", row.power_w, 0, kMostPower, "W, with leakage");
-}
-
-/// A row whose leakage is more than its power would have a negative energy per operation.
 
 } // namespace
 
@@ -25,6 +16,7 @@ RowSection::RowSection(const char* name, const char* doc, const Technology& tech
     visitor_.begin_section(name, doc);
 }
 
+// A row whose leakage is more than its power would have a negative energy per operation.
 void RowSection::end() {
     visitor_.end_section();
     for (const auto& [key, row] : rows_) {
@@ -36,24 +28,6 @@ void RowSection::end() {
                                                    config_words::number(leakage),
                                                    {area.c_str(), "leakage_mw_per_mm2"}});
     }
-}
-
-void UnitRow::describe(ConfigVisitor& visitor) {
-    describe_row(*this, visitor);
-    visitor.integer("units", units, 1, 1 << 20, "units of the row");
-}
-
-void SramRow::describe(ConfigVisitor& visitor) {
-    describe_row(*this, visitor);
-    visitor.integer("bytes", bytes, 1, 1 << 30, "bytes of the row");
-    visitor.integer("bytes_per_cycle", bytes_per_cycle, 1, 1 << 20,
-                    "bytes moved while every user works [assumed]");
-}
-
-void PortedSramRow::describe(ConfigVisitor& visitor) {
-    SramRow::describe(visitor);
-    visitor.integer("ports", ports, 1, 64, "of an SRAM bank, within the area [assumed]");
-    visitor.integer("sram_banks", sram_banks, 1, 4096, "of a part, within the area [assumed]");
 }
 
 void Technology::Sram::describe(ConfigVisitor& visitor) {
@@ -103,6 +77,12 @@ void Technology::describe(ConfigVisitor& visitor) {
     visitor.section("sram", sram, "how the area of a buffer follows its banks and ports");
     visitor.section("pe", pe, "number formats of PEs");
     visitor.section("dram", dram, "main memory");
+    visitor.section("logic", logic, "logic whose cost follows a width, by synthesis");
+    const double leakage = kWPerMw * leakage_mw_per_mm2 * logic.pe.area_mm2;
+    visitor.require(logic.pe.power_w >= leakage, {"logic.pe.power_w",
+                                                  "must not be below the leakage of its area",
+                                                  config_words::number(leakage),
+                                                  {"logic.pe.area_mm2", "leakage_mw_per_mm2"}});
 }
 
 double Technology::leakage_w(double area_mm2) const {

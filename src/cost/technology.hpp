@@ -8,38 +8,10 @@
 #include <vector>
 
 #include "config/config.hpp"
+#include "cost/logic_laws.hpp"
+#include "cost/rows.hpp"
 
 namespace degs::cost {
-
-/// A row of Table I: area, and power when everything in it works at Technology::activity.
-struct Row {
-    double area_mm2 = 0, power_w = 0;
-};
-
-/// A row of units that are alike.
-struct UnitRow : Row {
-    int units = 1;
-    UnitRow(double area, double power, int count) : Row{area, power}, units(count) {}
-    void describe(ConfigVisitor& visitor);
-};
-
-/// A row of SRAM.
-struct SramRow : Row {
-    int bytes = 1;           ///< capacity
-    int bytes_per_cycle = 1; ///< moved while all of its users work: read and written
-    SramRow(double area, double power, int capacity, int moved)
-        : Row{area, power}, bytes(capacity), bytes_per_cycle(moved) {}
-    void describe(ConfigVisitor& visitor);
-};
-
-/// A row of SRAM whose design has keys for its ports.
-struct PortedSramRow : SramRow {
-    int ports = 1;      ///< that its area contains
-    int sram_banks = 1; ///< that the area of each part contains
-    PortedSramRow(const SramRow& row, int ported, int banked)
-        : SramRow(row), ports(ported), sram_banks(banked) {}
-    void describe(ConfigVisitor& visitor);
-};
 
 /// What the arithmetic of a PE costs, relative to the row of its accelerator.
 struct PeFactors {
@@ -82,6 +54,7 @@ struct Technology {
     Sram sram;
     Pe pe;
     Dram dram;
+    LogicLaws logic;
 
     void describe(ConfigVisitor& visitor);
 
@@ -110,6 +83,11 @@ public:
     void row(const char* key, AnyRow& row, const char* doc) {
         visitor_.section(key, row, doc);
         rows_.emplace_back(key, &row);
+    }
+    template <class Choice>
+    void choice(const char* key, Choice& value, const std::vector<const char*>& names,
+                const char* doc) {
+        visitor_.choice(key, value, names, doc);
     }
     /// A share of a row, 0 to 1.
     void share(const char* key, double& value, const char* doc) {

@@ -44,7 +44,7 @@ cost::BillOfMaterials Config::bill() const {
                   queue_bytes(), kReadAndWritten * pes() * engines.entry_bytes);
     bill.add_sram({"reuse_cache", "Splat records that come again."}, rows.sram, reuse_cache.bytes,
                   engines.count * traffic.splat_bytes);
-    add_binning_buffer(bill, rows.sram);
+    add_binning(bill, rows.sram);
     bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."}, rows.sram,
                   pixel_buffer.bytes, kReadAndWritten * pes() * pixel_bytes());
     return bill;

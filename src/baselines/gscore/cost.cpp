@@ -36,7 +36,7 @@ cost::BillOfMaterials Config::bill() const {
                   std::int64_t{clusters} * shared_bytes(),
                   kReadAndWritten * (clusters * traffic.splat_bytes +
                                      kSortingSteps * sorting.count * traffic.list_entry_bytes));
-    add_binning_buffer(bill, rows.sram);
+    add_binning(bill, rows.sram);
     bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."}, rows.sram,
                   std::int64_t{clusters} * pixel_buffer.bytes,
                   kReadAndWritten * pes() * pixel_bytes());

@@ -48,7 +48,7 @@ cost::BillOfMaterials Config::bill() const {
                   std::int64_t{cores.count} * scratchpad.bytes,
                   cores.count * scratchpad.value_bytes *
                       (array.rows + kReadAndWritten * array.columns));
-    add_binning_buffer(bill, rows.sram);
+    add_binning(bill, rows.sram);
     bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."}, rows.sram,
                   pixel_buffer.bytes,
                   kReadAndWritten * cores.count * pixel_bytes() * cores.vector.lanes /

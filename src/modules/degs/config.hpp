@@ -68,6 +68,7 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
     /// had to wait for a free one.
     std::vector<std::string> idle_window_keys(std::uint64_t high_water, double feature_waits) const;
     cost::BillOfMaterials bill() const override;
+    std::vector<cost::ClockLimit> clock_limits() const override;
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
     std::unique_ptr<AnalyticModel> analytic() const override;
@@ -104,6 +105,7 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
         const int waiting = (units + scheduler.banks - 1) / scheduler.banks * span.crossbar_depth;
         return waiting + units * span.rows_per_cycle * stages;
     }
+    BankShape bank_shape() const;
     /// Bytes of a bank's share of the Packing Buffer, and of a packet in it.
     int packing_share() const { return packing.bytes / scheduler.banks; }
     int packet_bytes() const { return packing.task_bytes * array.pes_per_bank; }
@@ -155,8 +157,16 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
         return clusters * sort_share().bytes_of(gaussian_buffer.bytes) / traffic.list_entry_bytes;
     }
 
+    /// A row may go to any Span Unit, and its span to any bank.
+    bool spans_cross() const { return span.rows == RowAssignment::Pool; }
+
 private:
     void describe_rows(ConfigVisitor& visitor) override;
+    // Area by the laws of cost.logic.
+    double bank_ratio() const; ///< over the bank of the paper's 64-PE design
+    cost::SramShape segment_shape() const;
+    double span_crossbar_area() const;
+    double cluster_dispatch_area() const;
     /// The key that limits how many segments wait in a bank.
     const char* queue_key() const;
     /// Packets in which a segment may lie at most.

@@ -10,9 +10,10 @@ void DegsCostRows::describe(cost::RowSection& section) {
     section.row("span_engine", span_engine,
                 "Gaussian Slicing Units and Span Units, 2 + 8, which weigh the same [assumed]");
     section.row("packing_scheduler", packing_scheduler, "Issue Banks with Packing Units");
-    section.share("scheduler_width_share", scheduler_width_share,
-                  "share of an Issue Bank that follows array.pes_per_bank; 0: Table I counts banks "
-                  "[assumed]");
+    section.choice(
+        "segment_queue", segment_queue, {"sram", "flip_flops"},
+        "where masks and links of waiting segments lie: in the Packing Buffer, as part of "
+        "scheduler.segment_bytes, or in flip-flops of the bank [assumed]");
     section.row("blending", blending, "Blending Array");
     section.row("gaussian_buffer", gaussian_buffer, "Gaussian Buffer");
     section.row("feature_buffer", feature_buffer, "Feature Buffer");
@@ -29,8 +30,7 @@ void DegsConfig::describe_rows(ConfigVisitor& visitor) {
 
 cost::BillOfMaterials DegsConfig::bill() const {
     const DegsCostRows& rows = cost_rows;
-    const double width = array.pes_per_bank * rows.packing_scheduler.units;
-    const double share = rows.scheduler_width_share;
+    const cost::LogicLaws& laws = cost.logic;
     const auto shape = [](const BankedSramPorts& ports) {
         return cost::SramShape{ports.ports, ports.sram_banks};
     };
@@ -45,7 +45,7 @@ cost::BillOfMaterials DegsConfig::bill() const {
     bill.add_units({"span", "Span Units; one for each row that a unit takes per cycle."},
                    rows.span_engine, clusters * span.count * span.rows_per_cycle);
     bill.add_units({"packing", "Issue Banks with their Packing Units."}, rows.packing_scheduler,
-                   clusters * scheduler.banks, 1 - share + share * width / rows.blending.units);
+                   clusters * scheduler.banks, bank_ratio());
     bill.add_units({"blending", "PEs of the Blending Array."}, rows.blending, pes(), 1,
                    cost.pe_factors(pipeline.precision()));
     bill.add_sram({"gaussian_buffer", "Sorted splats and lists being sorted."},
@@ -53,7 +53,15 @@ cost::BillOfMaterials DegsConfig::bill() const {
                   kReadAndWritten * (clusters * slicing.count * traffic.splat_bytes +
                                      sorting.count * traffic.list_entry_bytes),
                   shape(gaussian_buffer.ports));
-    add_binning_buffer(bill, rows.gaussian_buffer, cost::SramShape{});
+    add_binning(bill, rows.gaussian_buffer, cost::SramShape{});
+    if (spans_cross()) {
+        bill.add_units({"span_crossbar", "Rows to any Span Unit, and its spans to any bank."},
+                       laws.pe, clusters * span.count, laws.share_of(span_crossbar_area()));
+    }
+    if (clusters > 1) {
+        bill.add_units({"cluster_dispatch", "Requests and pixels of the clusters to one memory."},
+                       laws.pe, clusters, laws.share_of(cluster_dispatch_area()));
+    }
     if (front.built()) {
         const int moved = front.splats_per_cycle != 0 ? front.splats_per_cycle
                                                       : clusters * fetchers() * fetching.chunk;
@@ -74,11 +82,73 @@ cost::BillOfMaterials DegsConfig::bill() const {
                   many * packing.bytes,
                   kReadAndWritten * clusters * scheduler.banks *
                       (packet_bytes() + scheduler.segment_bytes),
-                  {packing.segment_ports.ports});
+                  segment_shape());
     bill.add_sram({"pixel_buffer", "State of the pixels of the tiles in flight."},
                   rows.pixel_buffer, many * pixel_buffer.bytes,
                   kReadAndWritten * pes() * pixel_bytes(), shape(pixel_buffer.ports));
     return bill;
+}
+
+BankShape DegsConfig::bank_shape() const {
+    BankShape shape;
+    const int tiles = streams() == 1 ? scheduler.tiles_of(contexts()) : contexts();
+    shape.domains =
+        tiles * Segmenter::domains_per_tile(tile_size, scheduler.segment_length, scheduler.banks);
+    shape.depth = queue_depth();
+    shape.cut = packing.segment_ports.of(scheduler.segments_per_cycle);
+    shape.issued = packing.segment_ports.of(scheduler.issue_width);
+    shape.packets = packing.packets_per_cycle;
+    shape.length = scheduler.segment_length;
+    shape.width = array.pes_per_bank;
+    shape.scan = scheduler.scan;
+    shape.memory = cost_rows.segment_queue;
+    return shape;
+}
+
+// Table I is of the design that the defaults are.
+double DegsConfig::bank_ratio() const {
+    if (!cost.logic.widths) {
+        return 1;
+    }
+    DegsConfig table;
+    table.cost_rows.segment_queue = cost_rows.segment_queue;
+    return bank_shape().area(cost.logic) / table.bank_shape().area(cost.logic);
+}
+
+// Waiting segments have as many ports as are cut or issued in a cycle, unless a key says how many.
+cost::SramShape DegsConfig::segment_shape() const {
+    const BankShape bank = bank_shape();
+    const bool wide = cost.logic.widths && bank.memory == QueueMemory::Sram;
+    const int needed = wide ? std::max(bank.cut, bank.issued) : 0;
+    cost::SramShape shape;
+    shape.ports = packing.segment_ports.limited() ? packing.segment_ports.ports : needed;
+    shape.share = rate_of(std::int64_t{queue_depth()} * scheduler.segment_bytes, packing_share());
+    return shape;
+}
+
+// Of a Span Unit: what it takes from any lane, and what the banks take from it.
+double DegsConfig::span_crossbar_area() const {
+    constexpr int kBitsPerByte = 8;
+    const int units = span.count * span.rows_per_cycle;
+    const int taken = span.crossbar_width == 0 ? scheduler.segments_per_cycle : span.crossbar_width;
+    const cost::LogicLaws& laws = cost.logic;
+    return (laws.area_crossbar(span_lanes() * streams(), units,
+                               kBitsPerByte * span_buffer.row_bytes) +
+            laws.area_crossbar(units, scheduler.banks * taken,
+                               kBitsPerByte * scheduler.segment_bytes)) /
+           span.count;
+}
+
+// Of a cluster: a request of any fetcher is chosen per cycle, and one burst of pixels.
+double DegsConfig::cluster_dispatch_area() const {
+    constexpr int kBitsPerByte = 8;
+    constexpr int kAddressBits = 48;
+    const int requesters = clusters * fetchers();
+    const cost::LogicLaws& laws = cost.logic;
+    return (laws.area_in_turn(requesters, 1, false) +
+            laws.area_crossbar(requesters, 1, kAddressBits) +
+            laws.area_crossbar(clusters, 1, kBitsPerByte * traffic.burst_bytes)) /
+           clusters;
 }
 
 void Degs::collect_activity(AcceleratorResult& result) const {
@@ -102,6 +172,13 @@ void Degs::collect_activity(AcceleratorResult& result) const {
     add_activity(result, "slicing", sum_of(blocks_.slicing, &G::busy));
     add_activity(result, "span", rows * c.span.cycles_per_row);
     add_activity(result, "packing", sum_of(blocks_.banks, &B::busy));
+    if (c.spans_cross()) {
+        add_activity(result, "span_crossbar", rate_of(rows, 1));
+    }
+    if (c.clusters > 1) {
+        add_activity(result, "cluster_dispatch",
+                     rate_of(sum_of(blocks_.fetchers, &SplatFetcher::Stats::records), 1));
+    }
     add_activity(result, "blending", result.slots.executed());
     add_activity(result, "gaussian_buffer",
                  bytes(splats, c.traffic.splat_bytes) +

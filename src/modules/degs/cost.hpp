@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cost/technology.hpp"
+#include "modules/degs/bank_logic.hpp"
 
 namespace degs {
 
@@ -9,7 +10,7 @@ namespace degs {
 struct DegsCostRows {
     cost::UnitRow projection{0.92, 0.60, 4}, sorting{0.02, 0.01, 4}, span_engine{0.17, 0.09, 10};
     cost::UnitRow packing_scheduler{0.07, 0.04, 8}, blending{0.88, 0.23, 64};
-    double scheduler_width_share = 0; ///< of an Issue Bank, that follows the PEs it feeds
+    QueueMemory segment_queue = QueueMemory::Sram;
     cost::PortedSramRow gaussian_buffer{{0.31, 0.01, 72 * 1024, 192}, 1, 4};
     cost::PortedSramRow feature_buffer{{0.03, 0.001, 8 * 1024, 256}, 1, 8};
     cost::PortedSramRow span_buffer{{0.04, 0.001, 2 * 1024, 128}, 1, 1};

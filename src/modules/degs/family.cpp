@@ -26,7 +26,7 @@ void DegsConfig::scale_to(int pes) {
                         "must be a multiple of its Issue Banks, which are the power of two next "
                         "to its square root, and at most 2048",
                         [](int number) { return number % banks_of(number) == 0; });
-    constexpr int kBanksPerSlicer = 4, kPesPerSegment = 4;
+    constexpr int kBanksPerSlicer = 4;
     const int banks = banks_of(pes);
     const int rows_of_unit = span_buffer.bytes / span.count; // bytes; every unit keeps its share
     const int splats_of_bank = feature_buffer.bytes / scheduler.banks;
@@ -38,7 +38,9 @@ void DegsConfig::scale_to(int pes) {
     span.count = banks;
     scheduler.banks = banks;
     array.pes_per_bank = pes / banks;
-    scheduler.segments_per_cycle = ceil_div(array.pes_per_bank, kPesPerSegment);
+    // What fills a packet, to the nearest segment, and one more: spans are shorter than segments.
+    const int length = scheduler.segment_length;
+    scheduler.segments_per_cycle = 1 + (array.pes_per_bank + length / 2) / length;
     scheduler.issue_width = scheduler.segments_per_cycle;
     span_buffer.bytes = rows_of_unit * span.count;
     feature_buffer.bytes = splats_of_bank * banks;

@@ -95,15 +95,14 @@ TEST(TableOne, TheTotalsAreThoseOfThePaperToRounding) {
 
 // The sums of docs/cost.md: shaded rows by their own column of Table III, buffers by their bytes.
 TEST(TableTwo, AreaFollowsItsColumns) {
-    EXPECT_NEAR(bill_of("degs-16").area_mm2(), 1.695, 1e-9);
-    EXPECT_NEAR(bill_of("degs-256").area_mm2(), 6.51, 1e-9);
-    EXPECT_NEAR(bill_of("degs-1024").area_mm2(), 21.05, 1e-9);
-    EXPECT_NEAR(bill_of("degs-64-tuned").area_mm2(), 2.772, 5e-4); // more in dear buffers
-    EXPECT_NEAR(bill_of("degs-256-tuned").area_mm2(), 6.56, 5e-4);
-    EXPECT_NEAR(bill_of("degs-1024-tuned").area_mm2(), 21.25, 5e-4);
-    const std::vector<std::string> wide{"cost.degs.scheduler_width_share=1"};
-    EXPECT_NEAR(bill_of("degs-64", wide).area_mm2(), 2.72, 1e-9);
-    EXPECT_NEAR(bill_of("degs-1024", wide).area_mm2(), 21.05 + 3 * 0.28, 1e-9);
+    const std::vector<std::string> table{"cost.logic.widths=false"};
+    EXPECT_NEAR(bill_of("degs-16", table).area_mm2(), 1.695, 1e-9);
+    EXPECT_NEAR(bill_of("degs-256", table).area_mm2(), 6.51, 1e-9);
+    EXPECT_NEAR(bill_of("degs-1024", table).area_mm2(), 21.05, 1e-9);
+    EXPECT_NEAR(bill_of("degs-64-tuned", table).area_mm2(), 2.772, 5e-4); // more in dear buffers
+    EXPECT_NEAR(bill_of("degs-256-tuned", table).area_mm2(), 6.56, 5e-4);
+    EXPECT_NEAR(bill_of("degs-1024-tuned", table).area_mm2(), 21.25, 5e-4);
+    EXPECT_NEAR(bill_of("degs-64").area_mm2(), bill_of("degs-64", table).area_mm2(), 1e-9);
     for (const int pes : {16, 64, 256, 1024}) {
         const std::string n = std::to_string(pes);
         EXPECT_NEAR(bill_of("gscore-" + n).area_mm2(), 0.89 + 3.06 * pes / 64, 1e-9);
@@ -225,7 +224,7 @@ TEST(CostCommand, PrintsTheBillInThreeForms) {
     EXPECT_NEAR(bill["area"]["mm2"], 4.44, 1e-9);
     EXPECT_EQ(bill["area"]["blocks"]["row_pes"]["units"], 64);
     const Outcome sized = degs({"config", "degs", "--pes", "256", "--cost"});
-    EXPECT_NE(sized.out.find("6.510"), std::string::npos) << sized.out;
+    EXPECT_NE(sized.out.find("6.618"), std::string::npos) << sized.out;
     expect_mistake(degs({"config", config("gbu-64"), "--cost", "--format", "yaml"}), "json");
     expect_mistake(degs({"config", config("gbu-64"), "--format", "json"}), "--cost");
 }

@@ -73,7 +73,7 @@ TEST(SharedKeys, CostsAreARowForEachBlock) {
         std::string::npos)
         << table;
     EXPECT_EQ(paths(keys("degs", "own")).count("cost.degs.span_engine.area_mm2"), 0U);
-    EXPECT_EQ(paths(keys("degs", "own")).count("cost.degs.scheduler_width_share"), 1U);
+    EXPECT_EQ(paths(keys("degs", "own")).count("cost.degs.segment_queue"), 1U);
 }
 
 TEST(SharedKeys, OfAFileHaveItsValues) {

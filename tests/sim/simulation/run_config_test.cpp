@@ -175,8 +175,8 @@ TEST(Configs, ScalingPointsAreThoseOfThePaper) {
         EXPECT_EQ(config.span.count, row.spans);
         EXPECT_EQ(config.scheduler.banks, row.banks);
         EXPECT_EQ(config.array.pes_per_bank, row.width);
-        EXPECT_EQ(config.scheduler.issue_width, std::max(1, row.width / 4));
-        EXPECT_EQ(config.scheduler.segments_per_cycle, std::max(1, row.width / 4));
+        EXPECT_EQ(config.scheduler.issue_width, 1 + (row.width + 8) / 16);
+        EXPECT_EQ(config.scheduler.segments_per_cycle, 1 + (row.width + 8) / 16);
         EXPECT_EQ(config.pixel_buffer.bytes, row.pes * 256);
         EXPECT_EQ(config.contexts(), 2);
         EXPECT_EQ(config.span_lane_depth(), 32);

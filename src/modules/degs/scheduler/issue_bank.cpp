@@ -10,11 +10,6 @@
 namespace degs {
 namespace {
 
-// A queue may hold the next tile's segments while its context is still taken.
-int tiles_of(const IssueBank::Config& config, int contexts) {
-    return config.tiles == 0 ? std::max(2, contexts) : config.tiles;
-}
-
 // The queue holds more when they come.
 constexpr int kFirstTiles = 2;
 
@@ -33,7 +28,7 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
     : sc_core::sc_module(name), in("in", inputs * config.streams), terminated("terminated"),
       context_free("context_free", config.streams), config_(within_ports(config)), job_(job),
       index_(index), packing_(packing), contexts_(contexts),
-      tiles_in_flight_(tiles_of(config, contexts)),
+      tiles_in_flight_(config.tiles_of(contexts)),
       by_task_(config.termination == TerminationGrain::Task),
       sees_pixels_(config.termination != TerminationGrain::Segment),
       fills_(config.fill.cycles != 0), streams_(config.streams), stream_count_(streams_.size()),

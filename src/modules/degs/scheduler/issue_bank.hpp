@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <initializer_list>
 #include <memory>
 #include <vector>
@@ -62,6 +63,9 @@ public:
         /// memory of their own [assumed], see PackingUnit::Config::packets_per_cycle.
         SramPorts segment_ports;
         FeatureBuffer::Fill fill;
+        /// Tiles of a stream that the bank works on, if the Pixel Buffer has `contexts` of them: a
+        /// queue may hold segments of the next tile while its context is still taken.
+        int tiles_of(int contexts) const { return tiles == 0 ? std::max(2, contexts) : tiles; }
         void describe(ConfigVisitor& visitor);
     };
     struct Stats {

@@ -8,6 +8,7 @@
 #include <systemc>
 
 #include "cost/bill_of_materials.hpp"
+#include "cost/clock_limits.hpp"
 #include "modules/kit/accelerator/accelerator_result.hpp"
 #include "modules/kit/accelerator/analytic_model.hpp"
 #include "modules/kit/accelerator/loss_keys.hpp"
@@ -134,6 +135,10 @@ struct AcceleratorConfig {
     virtual TrafficConfig records() const = 0;
     /// The blocks of the design and what they cost. A run reports the activity of each of them.
     virtual cost::BillOfMaterials bill() const = 0;
+    /// Logic that limits the clock, where it has been synthesised (docs/synthesis.md).
+    virtual std::vector<cost::ClockLimit> clock_limits() const { return {}; }
+    /// The clock that the design can reach.
+    cost::ClockEstimate clock() const { return {clock_limits(), cost.logic.fo4_per_ns, clock_ghz}; }
     /// How splat records lie in memory.
     virtual RecordOrder record_order() const { return RecordOrder::Index; }
     /// Switches to the scene as a platform's memory holds it: values of 4 B, see

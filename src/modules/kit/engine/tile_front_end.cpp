@@ -131,6 +131,9 @@ void TileFrontEnd::collect(AcceleratorResult& result) const {
     add_stage(result,
               {"sorting", "Hierarchical Sorters; the two steps overlap, the busier counts."},
               hierarchical_.size(), hierarchical, Counters().add(hierarchical_));
+    if (binner_->config().more_pairs() != 0) {
+        add_activity(result, "binning", rate_of(binner_->stats().busy, 1) * binner_->config().more_pairs());
+    }
     if (binner_->config().sram_bytes() != 0) {
         BufferUse& buffer =
             add_buffer(result, {"binning_buffer", "List entries that wait, and ends of lists."},

@@ -45,12 +45,17 @@ struct TiledConfig : AcceleratorConfig {
     double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
 
 protected:
-    /// Adds the SRAM of the Tile Binner, if it has any, to a bill; `row` and what may follow it are
-    /// those of the other buffers (cost::BillOfMaterials::add_sram).
+    /// Adds what the Tile Binner has beyond published rows to a bill, and its SRAM, if it has any;
+    /// `row` and what may follow it are those of the other buffers
+    /// (cost::BillOfMaterials::add_sram).
     template <class Row, class... Shape>
-    void add_binning_buffer(cost::BillOfMaterials& bill, const Row& row,
-                            const Shape&... shape) const {
+    void add_binning(cost::BillOfMaterials& bill, const Row& row, const Shape&... shape) const {
         constexpr int kReadAndWritten = 2;
+        if (binning.more_pairs() != 0) {
+            const cost::LogicLaws& laws = cost.logic;
+            bill.add_units({"binning", "Tiles that the binner finds per cycle beyond 8.", true},
+                           laws.pe, binning.more_pairs(), laws.share_of(laws.tile_walk.b));
+        }
         if (binning.sram_bytes() != 0) {
             bill.add_sram({"binning_buffer", "List entries that wait, and the ends of the lists."},
                           row, binning.sram_bytes(),

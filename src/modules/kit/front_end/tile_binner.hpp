@@ -31,6 +31,11 @@ public:
         int head_bytes = 16384;  ///< ends of lists on the chip, those of the first tiles
         bool keep_lists = false; ///< only what is new in a frame is written
         void describe(ConfigVisitor& visitor);
+        /// Entries per cycle beyond those of the binner that published rows contain [assumed].
+        int more_pairs() const {
+            constexpr int kPublished = 8;
+            return std::max(0, pairs_per_cycle - kPublished);
+        }
         /// Bytes of SRAM: none for a stream.
         int sram_bytes() const;
     };

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The logic of DeGS that a register cannot divide, or whose division costs cycles that a key has.
+#include <cmath>
+
+#include "modules/degs/config.hpp"
+
+namespace degs {
+namespace {
+
+/// The assignment with which a path of `fo4` has enough cycles, of which `spent` are needed for
+/// something else.
+std::string cure_of(const char* key, double fo4, double fo4_per_cycle, int spent = 0) {
+    return std::string(key) + "=" +
+           std::to_string(spent + static_cast<int>(std::ceil(fo4 / fo4_per_cycle)));
+}
+
+} // namespace
+
+std::vector<cost::ClockLimit> DegsConfig::clock_limits() const {
+    const cost::LogicLaws& laws = cost.logic;
+    const double cycle = laws.fo4_per_ns / clock_ghz;
+    const BankShape bank = bank_shape();
+    const double loop =
+        pipeline.numbers == Arithmetic::Tuned ? laws.tuned_pixel_loop_fo4 : laws.pixel_loop_fo4;
+    const double packed = laws.fo4_packing(bank.issued);
+    constexpr int kReadCycles = 1; // of packing.latency_cycles
+    std::vector<cost::ClockLimit> limits;
+    limits.push_back({"loop of a pixel", loop, scheduler.reuse_cycles,
+                      cure_of("scheduler.reuse_cycles", loop, cycle)});
+    limits.push_back({"choice of segments", bank.selection_fo4(laws), 1, ""});
+    limits.push_back({"Packing Unit", packed, std::max(1, packing.latency_cycles - kReadCycles),
+                      cure_of("packing.latency_cycles", packed, cycle, kReadCycles)});
+    limits.push_back({"segment queue", laws.fo4_queue(bank.depth, bank.cut), 1, ""});
+    return limits;
+}
+
+} // namespace degs
