@@ -261,9 +261,10 @@ TEST_P(SmallRunFidelity, ExactIsStrict) {
     expect_exact_is_strict(GetParam(), draw, config);
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, SmallRunFidelity, ::testing::Range(0U, 300U));
+INSTANTIATE_TEST_SUITE_P(Random, SmallRunFidelity, ::testing::Range(0U, 100U));
 
-/// More of them, which do not run under the sanitizers as well.
+/// More designs of the same kind. They do not run under the sanitizers as well, where one
+/// takes several times as long.
 class MoreRunsFidelity : public SmallRunFidelity {};
 
 TEST_P(MoreRunsFidelity, ExactIsStrict) {
@@ -272,7 +273,7 @@ TEST_P(MoreRunsFidelity, ExactIsStrict) {
     expect_exact_is_strict(GetParam(), draw, config);
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, MoreRunsFidelity, ::testing::Range(300U, 600U));
+INSTANTIATE_TEST_SUITE_P(Random, MoreRunsFidelity, ::testing::Range(100U, 600U));
 
 class PlainRunFidelity : public ::testing::TestWithParam<unsigned> {};
 
