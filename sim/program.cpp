@@ -65,6 +65,7 @@ void add_commands(CLI::App& program) {
     add_render_command(program);
     add_scene_command(program);
     add_memory_command(program);
+    add_workload_command(program);
     add_soc_command(program);
     add_config_command(program);
     add_accuracy_command(program);

@@ -36,6 +36,10 @@ void Digest::add(const std::string& text) {
     XXH3_128bits_update(state_.get(), text.data(), text.size());
 }
 
+void Digest::add_bytes(const std::string& bytes) {
+    XXH3_128bits_update(state_.get(), bytes.data(), bytes.size());
+}
+
 void Digest::add_file(const std::string& name) {
     constexpr std::size_t kBlock = 1U << 20;
     std::uint64_t size = 0;

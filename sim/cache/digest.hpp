@@ -14,6 +14,8 @@ public:
     Digest();
     /// Texts that follow each other are kept apart.
     void add(const std::string& text);
+    /// Bytes as they are: their digest is that of XXH3 in 128 bits.
+    void add_bytes(const std::string& bytes);
     /// The content of a file; one that is no regular file or cannot be read has
     /// none.
     void add_file(const std::string& name);

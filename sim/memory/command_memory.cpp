@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// degs memory: bandwidth and latency of a memory alone.
+// degs memory: bandwidth and latency of a memory alone, under a pattern or a trace.
 #include <memory>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "config/config_source.hpp"
 #include "degs/error.hpp"
 #include "sim/memory/memory_report.hpp"
+#include "sim/memory/trace_replay.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/output_folder.hpp"
@@ -18,6 +20,8 @@ namespace degs::sim {
 namespace {
 
 struct MemoryOptions {
+    std::string trace;               ///< file; empty: none
+    std::optional<double> trace_ghz; ///< of its cycles
     std::string config;
     std::vector<std::string> overrides;
     TrafficShape shape;
@@ -34,8 +38,12 @@ dram::Config load(const MemoryOptions& options) {
         config.controller.read_queue = options.queue;
         config.controller.write_queue = options.queue;
     }
-    // The traffic itself bounds what waits in a closed loop; with an offered load nothing does.
-    config.waiting_requests = traffic_window(config, options.shape.request_bytes);
+    // The traffic itself bounds what waits in a closed loop; with an offered load, or the dates of
+    // a trace, nothing does.
+    constexpr int kMostTraceRequests = 65536;
+    config.waiting_requests = options.trace.empty()
+                                  ? traffic_window(config, options.shape.request_bytes)
+                                  : kMostTraceRequests;
     return config;
 }
 
@@ -56,7 +64,7 @@ void measure_curve(MemoryTraffic& traffic, const MemoryOptions& options, MemoryF
 
 void write_results(const MemoryOptions& options, const MemoryFacts& facts,
                    const OutputFolder& out) {
-    if (!options.no_curve) {
+    if (!facts.curve.empty()) {
         std::vector<LoadPoint> points;
         for (const TrafficResult& each : facts.curve) {
             points.push_back(point_of(each, facts.memory));
@@ -69,14 +77,8 @@ void write_results(const MemoryOptions& options, const MemoryFacts& facts,
     out.write_json("memory.json", memory_json(facts));
 }
 
-void run(const MemoryOptions& options) {
-    const Stopwatch wall;
-    MemoryFacts facts;
-    facts.memory = load(options);
-    facts.shape = options.shape;
+void measure(const MemoryOptions& options, dram::Lpddr5& memory, MemoryFacts& facts) {
     const dram::Config& config = facts.memory;
-    const OutputFolder out(options.out, {"memory.json", "latency.svg"});
-    dram::Lpddr5 memory("memory", config, Timebase(), config.channels);
     if (std::uint64_t{4} * options.shape.request_bytes > memory.channels().mapping().capacity()) {
         throw InputError("Requests of " + std::to_string(options.shape.request_bytes) +
                          " bytes are too large for this memory.");
@@ -86,6 +88,37 @@ void run(const MemoryOptions& options) {
     facts.saturated = traffic.measure(options.requests, 0);
     if (!options.no_curve) {
         measure_curve(traffic, options, facts, progress);
+    }
+}
+
+void replay(const MemoryOptions& options, dram::Lpddr5& memory, MemoryFacts& facts) {
+    TraceReader reader(options.trace, memory.channels().mapping().capacity());
+    TraceFacts trace;
+    trace.file = options.trace;
+    trace.totals = total_of(reader);
+    trace.dated = reader.dated();
+    if (options.trace_ghz && !trace.dated) {
+        throw InputError("--trace-ghz: the trace " + options.trace + " has no cycles.");
+    }
+    trace.clock_ghz = options.trace_ghz.value_or(reader.clock_ghz().value_or(1.0));
+    TraceReplay traffic("traffic", memory, facts.memory, reader, trace.clock_ghz);
+    Progress progress("memory trace");
+    facts.saturated = traffic.run(trace.totals.accesses(), progress);
+    facts.trace = trace;
+}
+
+void run(const MemoryOptions& options) {
+    const Stopwatch wall;
+    MemoryFacts facts;
+    facts.memory = load(options);
+    facts.shape = options.shape;
+    const dram::Config& config = facts.memory;
+    const OutputFolder out(options.out, {"memory.json", "latency.svg"});
+    dram::Lpddr5 memory("memory", config, Timebase(), config.channels);
+    if (!options.trace.empty()) {
+        replay(options, memory, facts);
+    } else {
+        measure(options, memory, facts);
     }
     facts.wall_s = wall.seconds();
     out.replace([&] { write_results(options, facts, out); });
@@ -113,12 +146,32 @@ void add_traffic_options(CLI::App& command, TrafficShape& shape) {
     command.add_option("--seed", shape.seed, "seed of the random numbers")->capture_default_str();
 }
 
+/// The options of a pattern have no meaning beside a trace.
+void add_replay_options(CLI::App& command, MemoryOptions& options) {
+    CLI::Option* trace =
+        command
+            .add_option("--trace", options.trace,
+                        "replay the requests of a file in place of a pattern: LoadStoreTrace of "
+                        "Ramulator 2, or STL of DRAMSys")
+            ->type_name("FILE");
+    for (const char* other : {"--pattern", "--request-bytes", "--stride-bytes", "--reads-per-write",
+                              "--seed", "--requests", "--no-curve"}) {
+        trace->excludes(command.get_option(other));
+    }
+    command
+        .add_option("--trace-ghz", options.trace_ghz,
+                    "clock of the cycles of an STL trace; default: the one that the trace names, "
+                    "or 1")
+        ->check(CLI::Range(0.001, 100.0))
+        ->needs(trace);
+}
+
 } // namespace
 
 void add_memory_command(CLI::App& program) {
     auto options = std::make_shared<MemoryOptions>();
     CLI::App* command = program.add_subcommand(
-        "memory", "measure bandwidth and latency of a memory under synthetic traffic");
+        "memory", "measure bandwidth and latency of a memory under synthetic traffic or a trace");
     command->add_option("config", options->config, "configuration file of a memory (YAML)")
         ->type_name("FILE")
         ->required();
@@ -131,6 +184,7 @@ void add_memory_command(CLI::App& program) {
         ->check(CLI::Range(std::uint64_t{1000}, std::uint64_t{1} << 40U))
         ->capture_default_str();
     command->add_flag("--no-curve", options->no_curve, "do not measure latency over load");
+    add_replay_options(*command, *options);
     add_out_option(*command, options->out, "folder for memory.json and latency.svg");
     add_overrides_option(*command, options->overrides);
     command->callback([options] { run(*options); });

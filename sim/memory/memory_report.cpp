@@ -25,20 +25,38 @@ double mean_power_w(const TrafficResult& result) {
     return 1e-9 * result.energy.total_nj() / result.seconds;
 }
 
+void describe_trace(const TraceFacts& trace, StatsVisitor& v) {
+    v.text("file", trace.file, "Of the trace; what follows exists for traces only.");
+    v.truth("dated", trace.dated, "Requests leave at the cycles of the trace.");
+    v.real("clock_ghz", trace.dated ? std::optional(trace.clock_ghz) : std::nullopt, "GHz",
+           "Of these cycles.");
+    v.count("reads", trace.totals.reads, "requests", "Reads, cut where a line of 64 B ends.");
+    v.count("writes", trace.totals.writes, "requests", "Writes, cut in the same way.");
+    v.count("bytes_read", trace.totals.bytes_read, "bytes", "Bytes of the reads.");
+    v.count("bytes_written", trace.totals.bytes_written, "bytes", "Bytes of the writes.");
+}
+
 void describe_traffic(const MemoryFacts& facts, StatsVisitor& v) {
     const TrafficShape& shape = facts.shape;
     const dram::ControllerConfig& controller = facts.memory.controller;
     v.begin_section("traffic", "Requests of the measurement.");
-    v.text("pattern", shape.pattern, "Sequence of addresses (--pattern).");
-    v.count("request_bytes", shape.request_bytes, "bytes", "Size of a request.");
-    v.count("reads_per_write", shape.reads_per_write, "reads", "On average; 0 means reads only.");
+    v.text("pattern", facts.trace ? "trace" : shape.pattern,
+           "Sequence of addresses (--pattern); trace: that of a file (--trace).");
+    if (v.wants(!facts.trace)) {
+        v.count("request_bytes", shape.request_bytes, "bytes", "Size of a request.");
+        v.count("reads_per_write", shape.reads_per_write, "reads",
+                "On average; 0 means reads only.");
+        v.count("seed", shape.seed, "", "Of the random numbers.");
+    }
     v.count("read_queue", controller.read_queue, "accesses", "Depth of a channel's read queue.");
     v.count("write_queue", controller.write_queue, "accesses", "Depth of its write queue.");
     v.count("requests", facts.saturated.requests, "requests", "Measured after the warm-up.");
-    v.count("seed", shape.seed, "", "Of the random numbers.");
     if (v.wants(shape.pattern == "strided")) {
         v.count("stride_bytes", shape.stride_bytes, "bytes",
                 "Distance of two requests; with the pattern strided only.");
+    }
+    if (v.wants(facts.trace.has_value())) {
+        describe_trace(facts.trace.value_or(TraceFacts()), v);
     }
     v.end_section();
 }
@@ -56,7 +74,9 @@ void describe_results(const MemoryFacts& facts, StatsVisitor& v) {
     const TrafficResult& result = facts.saturated;
     describe_traffic(facts, v);
     v.real("peak_gb_per_s", facts.memory.peak_gb_per_s(), "GB/s", "Data rate x width of the bus.");
-    v.real("bandwidth_gb_per_s", result.gb_per_s(), "GB/s", "Bytes of the requests / time.");
+    v.count("bytes", result.bytes, "bytes",
+            "Of the measured requests; of a trace in whole bursts.");
+    v.real("bandwidth_gb_per_s", result.gb_per_s(), "GB/s", "bytes / simulated_us.");
     v.real("bandwidth_fraction", point_of(result, facts.memory).carried, "share",
            "bandwidth_gb_per_s / peak_gb_per_s.");
     v.real("simulated_us", result.seconds * 1e6, "us", "Time of the measurement.");
@@ -90,6 +110,19 @@ std::string mix_words(const TrafficShape& shape) {
     return shape.reads_per_write == 0
                ? "reads only"
                : std::to_string(shape.reads_per_write) + " read(s) per write";
+}
+
+std::string traffic_words(const MemoryFacts& facts) {
+    if (facts.trace) {
+        const TraceFacts& trace = *facts.trace;
+        return "trace · " + grouped(trace.totals.reads) + " reads and " +
+               grouped(trace.totals.writes) + " writes of up to 64 B · " +
+               (trace.dated ? "at its cycles of " + decimal_text(trace.clock_ghz) + " GHz"
+                            : "as fast as the memory takes them") +
+               " · " + three_digits(facts.saturated.seconds * 1e6) + " us";
+    }
+    return facts.shape.pattern + " · " + std::to_string(facts.shape.request_bytes) + " B · " +
+           mix_words(facts.shape) + " · " + grouped(facts.saturated.requests) + " requests";
 }
 
 } // namespace
@@ -138,9 +171,8 @@ std::string memory_words(const MemoryFacts& facts) {
     std::string text = layout(
         {{"memory", facts.memory.name + " · " + std::to_string(memory.channels) + " channels · " +
                         decimal_text(memory.peak_gb_per_s()) + " GB/s"},
-         {"traffic", facts.shape.pattern + " · " + std::to_string(facts.shape.request_bytes) +
-                         " B · " + mix_words(facts.shape) + " · " + grouped(result.requests) +
-                         " requests · queues of " + std::to_string(memory.controller.read_queue)},
+         {"traffic",
+          traffic_words(facts) + " · queues of " + std::to_string(memory.controller.read_queue)},
          {"bandwidth", three_digits(result.gb_per_s()) + " GB/s · " +
                            percent(point_of(result, memory).carried) + " % of the peak"},
          {"latency", "mean " + three_digits(latency.mean_ns()) + " ns · 95 % within " +

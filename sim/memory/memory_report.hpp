@@ -2,19 +2,30 @@
 // Results of degs memory, as JSON and as text.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "sim/memory/memory_traffic.hpp"
+#include "sim/memory/trace_reader.hpp"
 #include "sim/plot/plot_svg.hpp"
 
 namespace degs::sim {
 
+/// A trace that is replayed in place of a pattern.
+struct TraceFacts {
+    std::string file;
+    bool dated = false;
+    double clock_ghz = 1; ///< if it has dates
+    TraceTotals totals;   ///< as they stand in the file
+};
+
 struct MemoryFacts {
     dram::Config memory;
     TrafficShape shape;
+    std::optional<TraceFacts> trace;
     TrafficResult saturated;
     std::vector<TrafficResult> curve; ///< by offered load
     double wall_s = 0;

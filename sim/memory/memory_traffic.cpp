@@ -6,7 +6,6 @@
 
 #include "sim/process/stopwatch.hpp"
 #include "tlm/has_process.hpp"
-#include "tlm/memory.hpp"
 #include "tlm/set_access.hpp"
 
 namespace degs::sim {
@@ -118,14 +117,12 @@ bool MemoryTraffic::send(std::size_t line) {
     } else if (!sending_ || lines_[line].under_way >= window_ || !dealer_.next_of(line, item)) {
         return false;
     }
-    tlm::tlm_generic_payload* payload = new_payload();
-    payload->acquire();
-    payload->get_extension<Birth>()->date = date;
-    set_access(*payload, item.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND, item.address,
+    tlm::tlm_generic_payload& payload = payloads_.acquire(date);
+    set_access(payload, item.write ? tlm::TLM_WRITE_COMMAND : tlm::TLM_READ_COMMAND, item.address,
                no_data_.data(), shape_.request_bytes);
     tlm::tlm_phase phase = tlm::BEGIN_REQ;
     sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-    const auto answer = out[line]->nb_transport_fw(*payload, phase, delay);
+    const auto answer = out[line]->nb_transport_fw(payload, phase, delay);
     lines_[line].requesting = answer == tlm::TLM_ACCEPTED;
     ++lines_[line].under_way;
     return true;
@@ -148,7 +145,7 @@ tlm::tlm_sync_enum MemoryTraffic::backward(int line, tlm::tlm_generic_payload& p
 
 void MemoryTraffic::answered(const tlm::tlm_generic_payload& payload) {
     ++answered_;
-    const sc_core::sc_time made = payload.get_extension<Birth>()->date;
+    const sc_core::sc_time made = TrafficPayloads::date_of(payload);
     if (start_ && !end_ && made >= start_->time) {
         const double ns = (sc_core::sc_time_stamp() - made).to_seconds() * 1e9;
         (payload.is_read() ? reads_ : writes_).add(ns);
@@ -166,19 +163,6 @@ void MemoryTraffic::watch() {
 
 MemoryTraffic::Snapshot MemoryTraffic::snapshot() {
     return {sc_core::sc_time_stamp(), answered_, memory_->commands(), memory_->energy()};
-}
-
-tlm::tlm_generic_payload* MemoryTraffic::new_payload() {
-    if (!manager_.free_list.empty()) {
-        tlm::tlm_generic_payload* payload = manager_.free_list.back();
-        manager_.free_list.pop_back();
-        return payload;
-    }
-    payloads_.push_back(std::make_unique<tlm::tlm_generic_payload>(&manager_));
-    tlm::tlm_generic_payload* payload = payloads_.back().get();
-    payload->set_extension(new Birth);
-    payload->set_extension(new TimingOnly);
-    return payload;
 }
 
 } // namespace degs::sim

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <deque>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "base/ratio.hpp"
 #include "dram/lpddr5.hpp"
 #include "sim/memory/memory_pattern.hpp"
+#include "sim/memory/traffic_payloads.hpp"
 
 namespace degs::sim {
 
@@ -49,20 +49,6 @@ public:
     TrafficResult measure(std::uint64_t requests, double offered);
 
 private:
-    struct Manager : tlm::tlm_mm_interface {
-        void free(tlm::tlm_generic_payload* payload) override {
-            payload->reset(); // of extensions that belong to whoever it passed
-            free_list.push_back(payload);
-        }
-        std::vector<tlm::tlm_generic_payload*> free_list;
-    };
-    struct Birth : tlm::tlm_extension<Birth> { // when a request was made
-        sc_core::sc_time date;
-        tlm_extension_base* clone() const override { return new Birth(*this); }
-        void copy_from(const tlm_extension_base& other) override {
-            *this = static_cast<const Birth&>(other);
-        }
-    };
     struct Line {                // one initiator
         bool requesting = false; // between BEGIN_REQ and END_REQ
         int under_way = 0;       // not answered
@@ -83,7 +69,6 @@ private:
     bool send(std::size_t line);
     void send_all(std::size_t line);
     void answered(const tlm::tlm_generic_payload& payload);
-    tlm::tlm_generic_payload* new_payload();
     Snapshot snapshot();
 
     dram::Lpddr5* memory_;
@@ -92,8 +77,7 @@ private:
     int window_;
     TrafficDealer dealer_;
     std::vector<Line> lines_;
-    Manager manager_;
-    std::vector<std::unique_ptr<tlm::tlm_generic_payload>> payloads_;
+    TrafficPayloads payloads_;
     std::vector<unsigned char> no_data_;
 
     double offered_ = 0;

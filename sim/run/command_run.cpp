@@ -19,6 +19,7 @@
 #include "sim/simulation/warnings.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/trace/block_log.hpp"
+#include "sim/trace/memory_trace.hpp"
 #include "sim/trace/tile_maps.hpp"
 #include "sim/trace/trace_file.hpp"
 #include "sim/trace/trace_options.hpp"
@@ -41,7 +42,8 @@ struct RunOptions {
     bool explain = false;
     TraceRequest trace;
     BlockLogRequest block_log;
-    std::string maps; ///< folder; empty: none
+    std::string maps;         ///< folder; empty: none
+    std::string memory_trace; ///< file; empty: none
 };
 
 /// What needs every tile cannot come from a sample.
@@ -61,6 +63,9 @@ std::optional<SamplingRequest> wanted_sampling(const RunOptions& options) {
     if (options.block_log.given()) {
         refuse("--block-log");
     }
+    if (!options.memory_trace.empty()) {
+        refuse("--memory-trace");
+    }
     if (!options.maps.empty()) {
         refuse("--maps");
     }
@@ -75,10 +80,14 @@ const std::string kAnalytic = "analytic";
 /// An estimate has neither an image nor dates.
 void refuse_beside_analytic(const RunOptions& options) {
     const std::pair<bool, const char*> asked[] = {
-        {options.within.has_value(), "--within"},  {!options.trace.file.empty(), "--trace"},
-        {!options.maps.empty(), "--maps"},         {options.path.frames > 1, "--frames"},
-        {options.array_only, "--array-only"},      {options.explain, "--explain"},
-        {options.block_log.given(), "--block-log"}};
+        {options.within.has_value(), "--within"},
+        {!options.trace.file.empty(), "--trace"},
+        {!options.maps.empty(), "--maps"},
+        {options.path.frames > 1, "--frames"},
+        {options.array_only, "--array-only"},
+        {options.explain, "--explain"},
+        {options.block_log.given(), "--block-log"},
+        {!options.memory_trace.empty(), "--memory-trace"}};
     for (const auto& [given, option] : asked) {
         if (given) {
             throw InputError(std::string(option) +
@@ -132,6 +141,22 @@ RunResult simulate(const RunRequest& request, CachedView& view, const Stopwatch&
     return result;
 }
 
+/// Calls simulate(); the requests to memory go to the file `trace` if it has a name.
+RunResult simulate_traced(const std::string& trace, RunRequest& request, CachedView& view,
+                          const Stopwatch& since_start) {
+    if (trace.empty()) {
+        return simulate(request, view, since_start);
+    }
+    std::optional<RunResult> result;
+    const AcceleratorConfig& design = request.config.accelerator();
+    write_memory_trace(trace, design.name, design.clock_ghz, [&](RequestListener& listener) {
+        request.build.requests = &listener;
+        result.emplace(simulate(request, view, since_start));
+        request.build.requests = nullptr;
+    });
+    return std::move(*result);
+}
+
 void write_results(const RunOptions& options, const RunRequest& request, const RunResult& result,
                    const OutputFolder& out, const std::optional<OutputFolder>& maps) {
     const AcceleratorResult& run = result.accelerator;
@@ -179,11 +204,18 @@ void run(const RunOptions& options) {
         request.recording.block = options.block_log.block();
         request.recording.log = &log;
     }
-    const RunResult result = simulate(request, view, since_start);
-    out.replace([&] { write_results(options, request, result, out, maps); },
-                old_tile_maps(out, maps));
-    print_warnings(result.warnings);
-    print(summary(result, out.path("image.exr")) + (options.explain ? explanation(result) : ""));
+    if (!options.memory_trace.empty()) {
+        check_memory_trace(options.memory_trace);
+    }
+    std::optional<RunResult> result;
+    out.replace(
+        [&] {
+            result.emplace(simulate_traced(options.memory_trace, request, view, since_start));
+            write_results(options, request, *result, out, maps);
+        },
+        old_tile_maps(out, maps));
+    print_warnings(result->warnings);
+    print(summary(*result, out.path("image.exr")) + (options.explain ? explanation(*result) : ""));
 }
 
 } // namespace
@@ -216,6 +248,7 @@ void add_run_command(CLI::App& program) {
         "unlimited");
     add_trace_options(*command, options->trace);
     add_block_log_option(*command, options->block_log);
+    add_memory_trace_option(*command, options->memory_trace);
     command
         ->add_option("--maps", options->maps,
                      "folder for maps of the tiles: list length, fragments, cycles, and PE-cycles "

@@ -16,6 +16,7 @@ void add_explore_command(CLI::App& program);
 void add_render_command(CLI::App& program);
 void add_scene_command(CLI::App& program);
 void add_memory_command(CLI::App& program);
+void add_workload_command(CLI::App& program);
 void add_soc_command(CLI::App& program);
 void add_config_command(CLI::App& program);
 void add_accuracy_command(CLI::App& program);

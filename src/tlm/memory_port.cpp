@@ -14,6 +14,9 @@ Completion MemoryPort::access(Process& process, tlm::tlm_command command, std::u
     if (bytes == 0) {
         return process.local();
     }
+    if (listener_ != nullptr) {
+        announce(process.local(), command, address, bytes, records);
+    }
     tlm::tlm_generic_payload payload;
     if (data == nullptr) {
         scratch_.resize(std::max<std::size_t>(scratch_.size(), bytes));
@@ -72,6 +75,20 @@ Completion MemoryPort::access(Process& process, tlm::tlm_command command, std::u
         watcher_(asked, complete);
     }
     return complete;
+}
+
+// A process may be a cycle behind the kernel, and its request is not.
+void MemoryPort::announce(Cycle local, tlm::tlm_command command, std::uint64_t address,
+                          std::uint64_t bytes, const ScatteredRecords* records) const {
+    const Cycle date = std::max(local, clock_->floor(sc_core::sc_time_stamp()));
+    const auto tell = [&](std::uint64_t begin, std::uint64_t count) {
+        listener_->request({date, begin, count, initiator_, command == tlm::TLM_WRITE_COMMAND});
+    };
+    if (records != nullptr) {
+        records->for_each_run(tell);
+    } else {
+        tell(address, bytes);
+    }
 }
 
 void MemoryPort::poke(std::uint64_t address, const std::vector<unsigned char>& data) {

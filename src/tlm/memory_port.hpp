@@ -12,6 +12,7 @@
 #include <tlm_utils/simple_initiator_socket.h>
 
 #include "tlm/memory.hpp"
+#include "tlm/memory_request.hpp"
 #include "tlm/process.hpp"
 #include "tlm/scattered_records.hpp"
 #include "tlm/urgent.hpp"
@@ -78,6 +79,13 @@ public:
     using Watcher = std::function<void(Cycle asked, Cycle complete)>;
     void watch(Watcher watcher) { watcher_ = std::move(watcher); }
 
+    /// Tells `listener`, which must outlive the simulation, of every request as it leaves, run by
+    /// run; this port is its initiator of that number. Before the simulation starts.
+    void tell(RequestListener& listener, std::size_t initiator) {
+        listener_ = &listener;
+        initiator_ = initiator;
+    }
+
     /// Writes real bytes without taking time (debug transport). Throws std::runtime_error
     /// if the memory takes fewer.
     void poke(std::uint64_t address, const std::vector<unsigned char>& data);
@@ -86,6 +94,9 @@ private:
     Completion access(Process& process, tlm::tlm_command command, std::uint64_t address,
                       unsigned char* data, std::uint64_t bytes,
                       const ScatteredRecords* records = nullptr);
+
+    void announce(Cycle local, tlm::tlm_command command, std::uint64_t address, std::uint64_t bytes,
+                  const ScatteredRecords* records) const;
 
     const ClockDomain* clock_;
     std::vector<unsigned char> scratch_;
@@ -97,6 +108,8 @@ private:
     Scattered scattered_;
     Observer observer_;
     Watcher watcher_;
+    RequestListener* listener_ = nullptr;
+    std::size_t initiator_ = 0;
 };
 
 } // namespace degs

@@ -161,5 +161,59 @@ TEST(MemoryPort, AnErrorResponseThrowsWhoWhatAndWhere) {
     EXPECT_THAT(message, ::testing::HasSubstr("4711"));
 }
 
+/// Keeps what a port announces.
+struct Announced : RequestListener {
+    std::vector<MemoryRequest> requests;
+    void initiator(const std::string& /*name*/) override {}
+    void request(const MemoryRequest& request) override { requests.push_back(request); }
+};
+
+TEST(MemoryPort, TellsOfEveryRunAsItLeaves) {
+    PortBench bench;
+    Announced announced;
+    bench.port.tell(announced, 7);
+    const std::vector<std::uint32_t> numbers{9, 1};
+    const Script script("script", [&] {
+        bench.self.advance(30);
+        bench.port.write(bench.self, 0x140, 200);
+        EXPECT_EQ(announced.requests.size(), 1U) << "before the answer is awaited";
+        bench.self.advance(5);
+        ScatteredRecords records;
+        records.base = 4096;
+        records.stride = records.bytes = 24;
+        records.burst = 32;
+        records.numbers = numbers.data();
+        records.count = numbers.size();
+        bench.port.read(bench.self, records);
+        bench.port.read(bench.self, 0, 0);
+    });
+    sc_core::sc_start();
+    ASSERT_EQ(announced.requests.size(), 3U);
+    const std::vector<MemoryRequest> expected{
+        {30, 0x140, 200, 7, true}, {35, 4096 + 192, 64, 7, false}, {35, 4096, 64, 7, false}};
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        const MemoryRequest& told = announced.requests[i];
+        EXPECT_EQ(told.date, expected[i].date);
+        EXPECT_EQ(told.address, expected[i].address);
+        EXPECT_EQ(told.bytes, expected[i].bytes);
+        EXPECT_EQ(told.initiator, expected[i].initiator);
+        EXPECT_EQ(told.write, expected[i].write);
+    }
+}
+
+// A process may wake late; its requests leave in the cycle of the kernel.
+TEST(MemoryPort, TellsOfNoRequestBeforeThePresentCycle) {
+    PortBench bench;
+    Announced announced;
+    bench.port.tell(announced, 0);
+    const Script script("script", [&] {
+        sc_core::wait(sc_core::sc_time(50.5, sc_core::SC_NS));
+        bench.port.write(bench.self, 0, 64);
+    });
+    sc_core::sc_start();
+    ASSERT_EQ(announced.requests.size(), 1U);
+    EXPECT_EQ(announced.requests.front().date, 50U);
+}
+
 } // namespace
 } // namespace degs

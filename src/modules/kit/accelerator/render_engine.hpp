@@ -22,6 +22,7 @@
 namespace degs {
 
 class MainMemory;
+class RequestListener;
 
 /// An accelerator with its memory: built for a job, run by the kernel, and read out when no event
 /// is left.
@@ -56,6 +57,8 @@ struct BuildOptions {
     /// Memory of somebody else, e.g. of a platform; nullptr: the accelerator gets the memory that
     /// its configuration describes.
     MainMemory* memory = nullptr;
+    /// Is told of every request to memory; nullptr: nobody is.
+    RequestListener* requests = nullptr;
 };
 
 /// Something of a design that makes the time of a tile depend on which other tiles run before it or

@@ -20,6 +20,12 @@ void MemoryStreams::build(const char* name, const MainMemoryConfig& config, cons
         }
     }
     memory_->connect(streams_);
+    if (options.requests != nullptr) {
+        for (std::size_t i = 0; i < streams_.size(); ++i) {
+            options.requests->initiator(streams_[i].kind.name);
+            streams_[i].port->tell(*options.requests, i);
+        }
+    }
     if (time.timeline != nullptr) {
         watched_.resize(streams_.size());
         for (std::size_t i = 0; i < streams_.size(); ++i) {

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/trace/memory_trace.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cinttypes>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <tuple>
+
+#include "degs/error.hpp"
+#include "scene/files/input_file.hpp"
+#include "scene/files/output_file.hpp"
+#include "sim/text/words.hpp"
+#include "sim/trace/trace_options.hpp"
+
+namespace degs::sim {
+namespace {
+
+constexpr std::uint64_t kLineBytes = 64;
+
+bool ends_with(const std::string& text, const std::string& end) {
+    return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+} // namespace
+
+MemoryTraceForm memory_trace_form(const std::string& file) {
+    if (ends_with(file, ".stl")) {
+        return MemoryTraceForm::Stl;
+    }
+    if (ends_with(file, ".ldst")) {
+        return MemoryTraceForm::LoadStore;
+    }
+    throw InputError("--memory-trace: the name '" + file +
+                     "' must end in .stl, the form of DRAMSys, or in .ldst, that of Ramulator 2.");
+}
+
+bool MemoryTrace::Pending::operator>(const Pending& other) const {
+    return std::tie(request.date, request.initiator, sequence) >
+           std::tie(other.request.date, other.request.initiator, other.sequence);
+}
+
+MemoryTrace::MemoryTrace(std::ostream& out, MemoryTraceForm form, const std::string& design,
+                         double clock_ghz)
+    : out_(&out), form_(form), clock_(clock_ghz) {
+    if (form == MemoryTraceForm::Stl) { // The other form has no comments.
+        out << "# " << design << "\n# clock_ghz " << decimal_text(clock_ghz) << "\n";
+    }
+}
+
+// A process may be ahead of the kernel, so requests come out of order; none comes that is dated
+// before the kernel's cycle.
+void MemoryTrace::request(const MemoryRequest& request) {
+    if (request.date < written_) {
+        throw std::logic_error("the model is broken, a request of cycle " +
+                               std::to_string(request.date) + " comes after cycle " +
+                               std::to_string(written_));
+    }
+    pending_.push({request, sequence_++});
+    write_before(clock_.floor(sc_core::sc_time_stamp()));
+}
+
+void MemoryTrace::close() {
+    write_before(kNever);
+}
+
+void MemoryTrace::write_before(Cycle date) {
+    written_ = std::max(written_, date);
+    while (!pending_.empty() && pending_.top().request.date < date) {
+        write(pending_.top().request);
+        pending_.pop();
+    }
+}
+
+void MemoryTrace::write(const MemoryRequest& request) {
+    const std::uint64_t end = request.address + request.bytes;
+    for (std::uint64_t at = request.address; at < end;) {
+        const std::uint64_t next = std::min(end, at / kLineBytes * kLineBytes + kLineBytes);
+        write_line(request, at, next);
+        at = next;
+    }
+}
+
+void MemoryTrace::write_line(const MemoryRequest& request, std::uint64_t begin, std::uint64_t end) {
+    std::array<char, 96> line{};
+    if (form_ == MemoryTraceForm::LoadStore) {
+        std::snprintf(line.data(), line.size(), "%s 0x%" PRIx64 "\n", request.write ? "ST" : "LD",
+                      begin / kLineBytes * kLineBytes);
+        *out_ << line.data();
+        return;
+    }
+    std::snprintf(line.data(), line.size(), "%" PRIu64 ": (%" PRIu64 ") %s 0x%" PRIx64 " # ",
+                  request.date, end - begin, request.write ? "write" : "read", begin);
+    *out_ << line.data() << names_[request.initiator] << '\n';
+}
+
+void add_memory_trace_option(CLI::App& command, std::string& file) {
+    command
+        .add_option("--memory-trace", file,
+                    "file for every request to memory: name.stl, as DRAMSys reads it, or "
+                    "name.ldst, as Ramulator 2 does")
+        ->type_name("FILE");
+}
+
+void check_memory_trace(const std::string& file) {
+    memory_trace_form(file);
+    check_writable(file);
+}
+
+void write_memory_trace(const std::string& file, const std::string& design, double clock_ghz,
+                        const std::function<void(RequestListener& trace)>& run) {
+    write_atomically(file, [&](const std::string& temporary) {
+        std::ofstream out(temporary, std::ios::binary);
+        MemoryTrace trace(out, memory_trace_form(file), design, clock_ghz);
+        run(trace);
+        trace.close();
+        out.close();
+        if (!out) {
+            fail_file(file, "writing failed; the disk may be full.");
+        }
+    });
+}
+
+} // namespace degs::sim
