@@ -4,7 +4,9 @@
 using sc_core::sc_time_stamp; // headers of Verilator want it where SystemC is in use
 
 #include "Vbank_64.h"
+#include "Vbank_64_select.h"
 #include "Vbank_x_64.h"
+#include "Vbank_x_64_select.h"
 
 #include "tests/rtl/bank_bench.hpp"
 
@@ -16,6 +18,7 @@ struct View {
     const char* scene;
     const char* camera;
     const char* bank;
+    const char* select_cycles = "0";
 };
 std::ostream& operator<<(std::ostream& out, const View& view) {
     return out << view.scene << " " << view.bank;
@@ -28,8 +31,10 @@ void expect_same(const BankShape& shape, const char* design, const View& view) {
         GTEST_SKIP() << "the trained scene " << view.scene << " is not in "
                      << sim_test::trained_scenes() << "; set DEGS_SCENES";
     }
-    const sim_test::BlockLog log = sim_test::logged(
-        {"--scene", scene.string(), "--camera", view.camera, "--width", "810"}, design, view.bank);
+    const sim_test::BlockLog log =
+        sim_test::logged({"--scene", scene.string(), "--camera", view.camera, "--width", "810",
+                          "--set", std::string("scheduler.select_cycles=") + view.select_cycles},
+                         design, view.bank);
     BankBench<Rtl> bench(shape, log);
     const Compared done = bench.run();
     EXPECT_EQ(done.differences, 0U) << done.first;
@@ -50,6 +55,15 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Bank64,
                                          View{"st-peter", "2", "bank:3"},
                                          View{"guitar", "1", "bank:5"}));
 
+class PipelinedBank64 : public testing::TestWithParam<View> {};
+
+TEST_P(PipelinedBank64, DoesInEveryCycleWhatTheModelDoes) {
+    expect_same<Vbank_64_select>({1, 2, 8, 2, 8, 16, 2, 6, 8}, "degs-64", GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PipelinedBank64,
+                         testing::Values(View{"flowers", "2", "bank:0", "2"}));
+
 class BankX64 : public testing::TestWithParam<View> {};
 
 TEST_P(BankX64, DoesInEveryCycleWhatTheModelDoes) {
@@ -60,6 +74,15 @@ INSTANTIATE_TEST_SUITE_P(Scenes, BankX64,
                          testing::Values(View{"flowers", "2", "bank:0"},
                                          View{"st-peter", "2", "bank:3"},
                                          View{"guitar", "1", "bank:1"}));
+
+class PipelinedBankX64 : public testing::TestWithParam<View> {};
+
+TEST_P(PipelinedBankX64, DoesInEveryCycleWhatTheModelDoes) {
+    expect_same<Vbank_x_64_select>({3, 1, 16, 4, 16, 16, 1, 6, 16}, "degs-x-64", GetParam());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PipelinedBankX64,
+                         testing::Values(View{"st-peter", "2", "bank:3", "3"}));
 
 } // namespace
 } // namespace degs::rtl_test

@@ -5,7 +5,7 @@ module bank_top #(
   parameter STREAMS = 1, parameter SLOTS = 2, parameter CONTEXTS = 2, parameter DOMAINS = 8,
   parameter PER_ROW = 2, parameter SEG = 16, parameter DEPTH = 32, parameter CUT = 2,
   parameter SPANS = 2, parameter ISSUE = 2, parameter WIDTH = 8, parameter PACKETS = 5,
-  parameter WRITES = 1, parameter REUSE = 4, parameter PIXELS = 0, parameter OLDEST = 0,
+  parameter WRITES = 1, parameter REUSE = 4, parameter SELECT = 0, parameter PIXELS = 0, parameter OLDEST = 0,
   parameter ITEMS = 6, parameter MESSAGES = 4, parameter TAG = 32,
   parameter N = STREAMS * SLOTS * DOMAINS, parameter NB = $clog2(N + 1),
   parameter EB = $clog2(DEPTH + 1), parameter XB = 8, parameter TB = 8, parameter DB = 8,
@@ -36,7 +36,7 @@ module bank_top #(
   logic flush;
   issue_bank #(.STREAMS(STREAMS), .SLOTS(SLOTS), .CONTEXTS(CONTEXTS), .DOMAINS(DOMAINS), .PER_ROW(PER_ROW), .SEG(SEG),
     .DEPTH(DEPTH), .CUT(CUT), .SPANS(SPANS), .ISSUE(ISSUE), .WIDTH(WIDTH), .PACKETS(PACKETS), .WRITES(WRITES),
-    .REUSE(REUSE), .PIXELS(PIXELS), .OLDEST(OLDEST), .ITEMS(ITEMS), .MESSAGES(MESSAGES), .XB(XB), .TB(TB), .DB(DB))
+    .REUSE(REUSE), .SELECT(SELECT), .PIXELS(PIXELS), .OLDEST(OLDEST), .ITEMS(ITEMS), .MESSAGES(MESSAGES), .XB(XB), .TB(TB), .DB(DB))
   bank (.*);
 
   // What a task needs beside its pixel lies in a memory, by the place of its segment.

@@ -18,6 +18,7 @@ module issue_bank #(
   parameter PACKETS = 5,   // packets that wait for the array
   parameter WRITES = 1,    // packets written per cycle
   parameter REUSE = 4,     // cycles between two updates of a domain
+  parameter SELECT = 0,    // cycles from the choice of segments to their packing; 0: one after the other in one cycle
   parameter PIXELS = 0,    // 1: tasks of ended pixels are not issued (termination: pixel)
   parameter OLDEST = 0,    // 1: the oldest head goes first (scan: oldest); 0: domains in turn
   parameter ITEMS = 6,     // spans and ends of tiles of a stream that are offered in a cycle
@@ -72,6 +73,10 @@ module issue_bank #(
   logic [5:0] rel;
   logic [7:0] tasks, unwritten;          // of the open packet; complete packets
   logic carries;                         // the open packet has the end of a tile
+  // Groups of domains that were chosen and are not packed yet, the oldest group first.
+  localparam GROUPS = SELECT == 0 ? 1 : SELECT;
+  logic [ISSUE-1:0] chosen [0:GROUPS-1];
+  logic [ISSUE*NB-1:0] picks [0:GROUPS-1];
 
   logic [SEG-1:0] gone_n [0:N-1];
   logic [5:0] cool_n [0:N-1];
@@ -93,6 +98,8 @@ module issue_bank #(
   logic [NB-1:0] cut_n;
   logic [5:0] rel_n;
   logic carries_n;
+  logic [ISSUE-1:0] chosen_n [0:GROUPS-1];
+  logic [ISSUE*NB-1:0] picks_n [0:GROUPS-1];
 
   logic [3:0] taken [0:STREAMS-1];
   logic stop, found, full, go, ready, older;
@@ -103,7 +110,44 @@ module issue_bank #(
   logic [7:0] total, complete;
   logic [NB-1:0] pick;
   logic [15:0] best;
-  integer c, d, e, i, j, k, s, t, x;
+  logic picked [0:N-1];                  // the domain is in a group
+  integer c, d, e, g, i, j, k, s, t, x;
+
+  // The next domain to pick, if one is found: of the oldest tile of a stream that has a ready one.
+  task choose;
+    found = 0; pick = 0; best = 0; s_now = last_n;
+    for (t = 0; t < STREAMS; t++) begin
+      s_now = s_now + 1 == STREAMS ? 0 : s_now + 1;
+      for (s = 0; s < STREAMS; s++) if (s_now == s && (OLDEST || !found)) begin
+        older = 0; // a tile of the stream that is older has a ready domain
+        for (x = 0; x < SLOTS; x++) begin
+          slot = oldest_n[s] + x;
+          slot = s * SLOTS + (slot >= SLOTS ? slot - SLOTS : slot);
+          ready = 0;
+          for (d = 0; d < DOMAINS; d++) begin
+            from = OLDEST ? d : (cursor_n[slot] + d >= DOMAINS ? cursor_n[slot] + d - DOMAINS : cursor_n[slot] + d);
+            i = slot * DOMAINS + from;
+            if (!older && x < startable_n[s] && x < closed_n[s] + entered_n[s] && waits_n[i] && cool_n[i] <= rel_n &&
+                (SELECT == 0 || !picked[i])) begin
+              if (!found || (OLDEST && $signed(born_n[head_n[i]] - best) < 0)) begin
+                pick = i; best = born_n[head_n[i]];
+                found = 1;
+              end
+              ready = 1;
+            end
+          end
+          older = older | ready;
+        end
+      end
+    end
+  endtask
+
+  // The turn goes on behind the pick.
+  task move_on;
+    slot = pick / DOMAINS;
+    cursor_n[slot] = pick % DOMAINS + 1 == DOMAINS ? 0 : pick % DOMAINS + 1;
+    last_n = slot / SLOTS;
+  endtask
 
   always_comb begin
     for (i = 0; i < N; i++) begin
@@ -117,7 +161,7 @@ module issue_bank #(
     end
     for (s = 0; s < STREAMS; s++) begin
       oldest_n[s] = oldest[s]; closed_n[s] = closed[s]; entered_n[s] = entered[s];
-      startable_n[s] = startable[s] + {2'b0, context_free[s*2 +: 2]};
+      startable_n[s] = startable[s];
       taken[s] = 0;
     end
     order_n = order; turn_n = turn; last_n = last; left_n = left; skip_n = skip; item_n = 8'hff; cut_n = cut;
@@ -127,7 +171,29 @@ module issue_bank #(
     ended = 0; flush = 0; stop = 0; found = 0; full = 0; go = 0; ready = 0; older = 0; slot = 0; place = 0; s_now = 0;
     from = 0; entry = 0; following = 0; want = 0; total = 0; complete = 0; pick = 0; best = 0; spans = SPANS;
 
-    // Ended pixels. A domain without live pixels loses its segments.
+    // A pipelined bank chooses from registers, a group for one date, unless the oldest group waits for room. Chosen in
+    // the cycle in which it is packed (SELECT = 1) or before.
+    for (g = 0; g < GROUPS; g++) begin
+      chosen_n[g] = chosen[g]; picks_n[g] = picks[g];
+    end
+    for (i = 0; i < N; i++) picked[i] = 0;
+    if (SELECT != 0 && chosen[0] == 0) begin
+      for (g = 0; g < GROUPS - 1; g++) begin
+        chosen_n[g] = chosen[g+1]; picks_n[g] = picks[g+1];
+        for (k = 0; k < ISSUE; k++) if (chosen_n[g][k]) picked[picks_n[g][k*NB +: NB]] = 1;
+      end
+      chosen_n[GROUPS-1] = 0;
+      for (k = 0; k < ISSUE; k++) begin
+        choose;
+        if (found) begin
+          chosen_n[GROUPS-1][k] = 1; picks_n[GROUPS-1][k*NB +: NB] = pick; picked[pick] = 1;
+          move_on;
+        end
+      end
+    end
+    for (s = 0; s < STREAMS; s++) startable_n[s] = startable[s] + {2'b0, context_free[s*2 +: 2]};
+
+    // Ended pixels. A domain without live pixels loses its segments, and its place in a group.
     for (t = 0; t < MESSAGES; t++)
       for (i = 0; i < N; i++)
         if (t_valid[t] && live[i / DOMAINS] && tile[i / DOMAINS] == t_tile[t*TB +: TB] &&
@@ -136,6 +202,8 @@ module issue_bank #(
           if (&gone_n[i]) begin
             waits_n[i] = 0;
             for (e = 0; e < DEPTH; e++) if (at_n[e] == i) used_n[e] = 0;
+            for (g = 0; g < GROUPS; g++)
+              for (k = 0; k < ISSUE; k++) if (picks_n[g][k*NB +: NB] == i) chosen_n[g][k] = 0;
           end
         end
 
@@ -194,32 +262,12 @@ module issue_bank #(
       end
     end
 
-    // Issue: one pick after the other, each for the date at which its first task will execute.
+    // Issue: one pick after the other, each for the date at which its first task will execute, or the oldest group.
     stop = 0;
     for (k = 0; k < ISSUE; k++) begin
-      found = 0; pick = 0; best = 0; s_now = last_n;
-      for (t = 0; t < STREAMS; t++) begin
-        s_now = s_now + 1 == STREAMS ? 0 : s_now + 1;
-        for (s = 0; s < STREAMS; s++) if (s_now == s && (OLDEST || !found)) begin
-          older = 0; // a tile of the stream that is older has a ready domain
-          for (x = 0; x < SLOTS; x++) begin
-            slot = oldest_n[s] + x;
-            slot = s * SLOTS + (slot >= SLOTS ? slot - SLOTS : slot);
-            ready = 0;
-            for (d = 0; d < DOMAINS; d++) begin
-              from = OLDEST ? d : (cursor_n[slot] + d >= DOMAINS ? cursor_n[slot] + d - DOMAINS : cursor_n[slot] + d);
-              i = slot * DOMAINS + from;
-              if (!older && x < startable_n[s] && x < closed_n[s] + entered_n[s] && waits_n[i] && cool_n[i] <= rel_n) begin
-                if (!found || (OLDEST && $signed(born_n[head_n[i]] - best) < 0)) begin
-                  pick = i; best = born_n[head_n[i]];
-                  found = 1;
-                end
-                ready = 1;
-              end
-            end
-            older = older | ready;
-          end
-        end
+      if (SELECT == 0) choose;
+      else begin
+        found = chosen_n[0][k]; pick = picks_n[0][k*NB +: NB];
       end
       entry = head_n[pick];
       want = PIXELS ? mask_n[entry] & ~gone_n[pick] : mask_n[entry];
@@ -229,8 +277,9 @@ module issue_bank #(
       // Room in the Packing Buffer, and for writing what becomes complete.
       go = want == 0 || (rel_n + (total + WIDTH - 1) / WIDTH <= PACKETS &&
                          (unwritten_n == 0 || unwritten_n + complete <= WRITES));
-      if (!found || !go) stop = 1;
-      if (!stop) begin
+      if (SELECT == 0 ? !found || !go : found && !go) stop = 1;
+      if (found && !stop) begin
+        chosen_n[0][k] = 0;
         i_valid[k] = 1; i_entry[k*EB +: EB] = entry; i_mask[k*SEG +: SEG] = want; i_domain[k*NB +: NB] = pick;
         if (want != 0) begin
           cool_n[pick] = rel_n + (total - 1) / WIDTH + REUSE;
@@ -242,9 +291,7 @@ module issue_bank #(
         following = next_n[entry];
         used_n[entry] = 0;
         if (tail_n[pick] == entry) waits_n[pick] = 0; else head_n[pick] = following;
-        slot = pick / DOMAINS;
-        cursor_n[slot] = pick % DOMAINS + 1 == DOMAINS ? 0 : pick % DOMAINS + 1;
-        last_n = slot / SLOTS;
+        if (SELECT == 0) move_on;
       end
     end
 
@@ -292,6 +339,9 @@ module issue_bank #(
     for (s = 0; s < STREAMS; s++) begin
       oldest[s] <= rst ? 0 : oldest_n[s]; closed[s] <= rst ? 0 : closed_n[s];
       startable[s] <= rst ? CONTEXTS : startable_n[s]; entered[s] <= rst ? 0 : entered_n[s];
+    end
+    for (g = 0; g < GROUPS; g++) begin
+      chosen[g] <= rst ? 0 : chosen_n[g]; picks[g] <= picks_n[g];
     end
     order <= rst ? 0 : order_n; turn <= rst ? 0 : turn_n; last <= rst ? 0 : last_n; left <= rst ? 0 : left_n;
     skip <= skip_n; cut <= cut_n; item <= item_n; rel <= rst ? 0 : rel_n; tasks <= rst ? 0 : tasks_n;

@@ -19,11 +19,11 @@ BANK, PACKING, TOP = "issue_bank.sv", "packing_unit.sv", "bank_top.sv"
 NUMBERS, TABLES, SPAN, PE = "arithmetic.sv", "tables.sv", "span_unit.sv", "pe.sv"
 # What is changed, where, from and to, and for which block.
 MUTATIONS = [
-    ("a domain is ready a cycle later", BANK, "cool_n[i] <= rel_n)", "cool_n[i] < rel_n)", "64"),
+    ("a domain is ready a cycle later", BANK, "cool_n[i] <= rel_n &&", "cool_n[i] < rel_n &&", "64"),
     ("the reuse distance is one longer", BANK, "/ WIDTH + REUSE;", "/ WIDTH + REUSE + 1;", "64"),
     ("the turn stays at the domain that issued", BANK, "cursor_n[slot] = pick % DOMAINS + 1 == DOMAINS ? 0 : pick % DOMAINS + 1;",
      "cursor_n[slot] = pick % DOMAINS;", "64"),
-    ("the younger tile goes first", BANK, "            slot = oldest_n[s] + x;", "            slot = oldest_n[s] + SLOTS - 1 - x;", "64"),
+    ("the younger tile goes first", BANK, "          slot = oldest_n[s] + x;", "          slot = oldest_n[s] + SLOTS - 1 - x;", "64"),
     ("two packets may wait", BANK, "(total + WIDTH - 1) / WIDTH <= PACKETS", "(total + WIDTH - 1) / WIDTH <= 2", "64"),
     ("any number of packets is written", BANK, "(unwritten_n == 0 || unwritten_n + complete <= WRITES)", "1", "64"),
     ("a packet waits for none before it", BANK, "unwritten_n + complete <= WRITES", "0", "64"),
@@ -42,6 +42,9 @@ MUTATIONS = [
     ("the youngest head goes first", BANK, "- best) < 0)", "- best) > 0)", "x_64"),
     ("ended pixels are issued", BANK, "PIXELS ? mask_n[entry] & ~gone_n[pick]", "PIXELS ? mask_n[entry]", "x_64"),
     ("spans come from one stream first", BANK, "turn_n = turn_n + 1 == STREAMS ? 0 : turn_n + 1;", "turn_n = 0;", "x_64"),
+    ("a chosen domain is chosen again", BANK, "(SELECT == 0 || !picked[i])", "1", "64_select"),
+    ("a group leaves the one before that waits for room", BANK, "if (SELECT != 0 && chosen[0] == 0)", "if (SELECT != 0)", "64_select"),
+    ("an ended region keeps its place in a group", BANK, "== i) chosen_n[g][k] = 0;", "== i && rst) chosen_n[g][k] = 0;", "64_select"),
     ("ties are rounded up", NUMBERS, "half & (finer | whole[0])}", "half}", "span_1"),
     ("ties of floats are rounded up", NUMBERS, "half & (finer | shifted[L-1-M])}", "half}", "pe_0"),
     ("subnormals are flushed", NUMBERS, "assign mantissa = {!subnormal, code[M-1:0]};",
@@ -75,6 +78,7 @@ X_64 = ["STREAMS=3", "SLOTS=1", "CONTEXTS=1", "DOMAINS=16", "DEPTH=96", "CUT=4",
 # Top module, sources, parameters and tests of each block.
 BLOCKS = {
     "64": ("bank_top", (TOP, BANK, PACKING), ["MESSAGES=8"], "Scenes/Bank64.*/0"),
+    "64_select": ("bank_top", (TOP, BANK, PACKING), ["MESSAGES=8", "SELECT=2"], "Scenes/PipelinedBank64.*/0"),
     "x_64": ("bank_top", (TOP, BANK, PACKING), X_64, "Scenes/BankX64.*/0"),
     "span_0": ("span_unit", (NUMBERS, TABLES, SPAN), ["TUNED=0"], "SpanUnitRtl.*Paper*"),
     "span_1": ("span_unit", (NUMBERS, TABLES, SPAN), ["TUNED=1"], "SpanUnitRtl.Solves*Tuned*"),

@@ -45,6 +45,7 @@ public:
             c.span.count = c.scheduler.banks;
             c.scheduler.scan = DomainScan::RoundRobin;
             c.scheduler.scoreboard = true;
+            c.scheduler.select_cycles = 0;
             c.packing.reorganisation = true;
             c.feature_buffer.fill = FeatureBuffer::Fill();
             c.pixel_buffer.ports.ports = 0;
@@ -73,6 +74,7 @@ private:
         c.memory.bandwidth_gb_per_s = bandwidth[upto(4)];
         const double latency[] = {100, 100, 0, 3.3, 1000};
         c.memory.latency_ns = latency[upto(4)];
+        c.scheduler.select_cycles = among({0, 0, 1, 2, 3});
         return c;
     }
     void arithmetic(DegsConfig& c, unsigned index) {
@@ -168,7 +170,8 @@ std::string describe(const DegsConfig& c) {
     return std::to_string(c.tile_size) + " px tiles, " + std::to_string(c.slicing.count) + "/" +
            std::to_string(c.span.count) + "/" + std::to_string(c.scheduler.banks) + "/" +
            std::to_string(c.array.pes_per_bank) + ", " + std::to_string(c.contexts()) +
-           " contexts, scan " + std::to_string(static_cast<int>(c.scheduler.scan)) + ", " +
+           " contexts, scan " + std::to_string(static_cast<int>(c.scheduler.scan)) + ", chosen " +
+           std::to_string(c.scheduler.select_cycles) + " cycles before, " +
            std::to_string(c.clusters) + " clusters of " + std::to_string(c.streams()) +
            " streams, " + (c.span.rows == RowAssignment::Pool ? "pool of " : "fixed ") +
            std::to_string(c.span.rows_per_cycle) + " per " + std::to_string(c.span.cycles_per_row) +

@@ -95,9 +95,10 @@ struct Followed {
     const char* camera;
     const char* design;
     const char* bank;
+    const char* select_cycles = "0";
 };
 std::ostream& operator<<(std::ostream& out, const Followed& followed) {
-    return out << followed.scene << " " << followed.design;
+    return out << followed.scene << " " << followed.design << " " << followed.select_cycles;
 }
 
 class TrainedBlockLog : public testing::TestWithParam<Followed> {};
@@ -109,8 +110,10 @@ TEST_P(TrainedBlockLog, IsThatOfANaiveBank) {
         GTEST_SKIP() << "the trained scene " << f.scene << " is not in " << trained_scenes()
                      << "; set DEGS_SCENES";
     }
-    const BlockLog log = logged({"--scene", scene.string(), "--camera", f.camera, "--width", "360"},
-                                f.design, f.bank);
+    const BlockLog log =
+        logged({"--scene", scene.string(), "--camera", f.camera, "--width", "360", "--set",
+                std::string("scheduler.select_cycles=") + f.select_cycles},
+               f.design, f.bank);
     EXPECT_GT(log.count("packet"), 10000U);
     degs::test::NaiveBank naive(degs::test::NaiveFacts(log.facts()), log.events);
     EXPECT_EQ(degs::test::first_difference(degs::test::lines_of(log.events), naive.run()), "");
@@ -119,6 +122,7 @@ TEST_P(TrainedBlockLog, IsThatOfANaiveBank) {
 INSTANTIATE_TEST_SUITE_P(Scenes, TrainedBlockLog,
                          testing::Values(Followed{"flowers", "2", "degs-64", "bank:0"},
                                          Followed{"flowers", "2", "degs-x-64", "bank:1"},
+                                         Followed{"flowers", "2", "degs-64", "bank:0", "2"},
                                          Followed{"st-peter", "2", "degs-64", "bank:3"},
                                          Followed{"st-peter", "2", "degs-64-tuned", "bank:6"},
                                          Followed{"guitar", "1", "degs-64", "bank:5"},

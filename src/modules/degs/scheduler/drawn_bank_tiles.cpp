@@ -32,7 +32,7 @@ int domains_of(const DrawnBank::Parts& parts) {
 } // namespace
 
 bool DrawnBank::can_run(const Parts& parts) {
-    return parts.packing.counts() && parts.config.scoreboard &&
+    return parts.packing.counts() && parts.config.scoreboard && parts.config.select_cycles == 0 &&
            parts.config.queue_depth <= kMostSegments &&
            parts.streams.size() * places_of(parts) * domains_of(parts) <= kMostDomains;
 }

@@ -38,6 +38,7 @@ IssueBank::IssueBank(const sc_core::sc_module_name& name, const Config& config,
       queue_(config.queue_depth, kFirstTiles,
              Segmenter::domains_per_tile(job.tile_size, config.segment_length, config.banks),
              config.scan, config.streams),
+      pipeline_(config.select_cycles, config_.issue_width),
       features_(config.feature_entries, config.open_splats, config.streams, config.fill),
       next_stream_(&streams_.front()), issued_stream_(&streams_.front()),
       tiles_(job, config.granted ? config.streams : 0),
@@ -105,8 +106,12 @@ void IssueBank::run_cycles() {
         see_terminations();
         see_contexts();
         accept<single>(now);
-        const bool worked = issue(now);
+        bool worked = issue(now);
         finish_tiles();
+        if (pipeline_.exists()) {
+            choose(now);
+            worked = worked || !pipeline_.empty();
+        }
         over = this->over();
         if (packing_.due(now)) {
             packing_.send_due(self_, idle_cause());
@@ -194,6 +199,10 @@ void IssueBank::end_pixels(const Termination& message) {
             features_.release(segment.feature, self_.local());
             stats_.drop(segment.run.task.mask);
             queue_.pop(tile, domain);
+        }
+        if (pipeline_.exists()) {
+            queue_.let_go(tile, domain);
+            pipeline_.remove({stream.index, turn, domain});
         }
     }
 }

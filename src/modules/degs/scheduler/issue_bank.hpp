@@ -14,6 +14,7 @@
 #include "modules/degs/scheduler/bank_stream.hpp"
 #include "modules/degs/scheduler/issue_trace.hpp"
 #include "modules/degs/scheduler/packing_unit.hpp"
+#include "modules/degs/scheduler/pick_pipeline.hpp"
 #include "modules/degs/scheduler/segment_queue.hpp"
 #include "modules/degs/scheduler/segmenter.hpp"
 #include "modules/degs/span_engine/span_unit.hpp"
@@ -45,6 +46,7 @@ public:
         int segment_length = 16;    ///< px, stride of the Segmenter
         int segments_per_cycle = 2; ///< cut and accepted per cycle
         int issue_width = 2;        ///< segments issued per cycle
+        int select_cycles = 0;      ///< from the choice of segments to their packing
         int reuse_cycles = 4;       ///< between two updates of a pixel
         int tiles =
             0; ///< of a stream whose segments may wait; 0: at least 2, and those with a context
@@ -160,6 +162,9 @@ private:
     // Issue.
     bool issue(Cycle now);
     int issue_segments(Cycle now);
+    [[gnu::noinline]] int issue_chosen(Cycle now);
+    [[gnu::noinline]] void choose(Cycle now);
+    BankStream* choose_stream(Cycle slot);
     bool find_ready(BankStream& stream, Cycle slot);
     BankStream* first_ready(Cycle slot);
     BankStream* least_ready(Cycle slot);
@@ -198,6 +203,7 @@ private:
     Process self_;
     Segmenter segmenter_;
     SegmentQueue queue_;
+    PickPipeline pipeline_;
     FeatureBuffer features_;
     SegmentQueue::Tile* cut_tile_ = nullptr; // of the span that is cut
     BankStream* next_stream_;                // whose span is taken next

@@ -19,6 +19,9 @@ void IssueBank::Config::describe(ConfigVisitor& visitor) {
                     "segments cut and queued per bank and cycle [assumed]");
     visitor.integer("issue_width", issue_width, 1, 64,
                     "segments issued per bank and cycle [assumed]");
+    visitor.integer("select_cycles", select_cycles, 0, 8,
+                    "cycles from the choice of the segments of a cycle to their packing; 0: they "
+                    "are chosen and packed one after the other in one cycle [assumed]");
     visitor.integer(
         "reuse_cycles", reuse_cycles, 1, 64,
         "cycles between two updates of a segment (paper: 4); not below array.writeback_cycles");

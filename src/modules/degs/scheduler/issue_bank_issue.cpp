@@ -45,7 +45,7 @@ inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, Segme
 // True if anything was issued.
 bool IssueBank::issue(Cycle now) {
     no_room_ = false;
-    const int issued = issue_segments(now);
+    const int issued = pipeline_.exists() ? issue_chosen(now) : issue_segments(now);
     width_limited_ = issued == config_.issue_width;
     stats_.busy += issued != 0 ? 1 : 0;
     return issued != 0;
@@ -54,7 +54,6 @@ bool IssueBank::issue(Cycle now) {
 // Picks one segment after the other, each for the date at which its first task will execute.
 // Nothing overtakes what waits for room. Returns the number of segments issued.
 int IssueBank::issue_segments(Cycle now) {
-    const bool in_turn = config_.scan == DomainScan::RoundRobin;
     int issued = 0;
     for (Cycle date = 0; issued < config_.issue_width; ++issued) {
         const Cycle slot = packing_.next_execution(now);
@@ -64,7 +63,7 @@ int IssueBank::issue_segments(Cycle now) {
                 stream.ready = -1;
             }
         }
-        BankStream* const chosen = in_turn ? first_ready(slot) : least_ready(slot);
+        BankStream* const chosen = choose_stream(slot);
         if (chosen == nullptr) {
             break;
         }
@@ -77,6 +76,56 @@ int IssueBank::issue_segments(Cycle now) {
         issued_stream_ = chosen;
     }
     return issued;
+}
+
+// Packs the oldest group of a pipelined bank. What finds no room keeps what was chosen after it
+// where it is. Returns the number of segments issued.
+int IssueBank::issue_chosen(Cycle now) {
+    int issued = 0;
+    while (const PickPipeline::Pick* const pick = pipeline_.front()) {
+        SegmentQueue::Tile& tile = queue_.tile(pick->turn, pick->stream);
+        const int domain = pick->domain;
+        queue_.turn_to(tile, packing_.next_execution(now)); // set_ready_at() wants it
+        if (!issue_one(now, tile, domain)) {
+            break;
+        }
+        queue_.let_go(tile, domain);
+        pipeline_.pop();
+        ++issued;
+    }
+    return issued;
+}
+
+// The last action of a cycle in a pipelined bank: chooses the next group, for the first execution
+// date of the next cycle as far as it is known. Nothing is chosen while the oldest group waits for
+// room.
+void IssueBank::choose(Cycle now) {
+    if (pipeline_.front() != nullptr) {
+        return;
+    }
+    pipeline_.shift();
+    const Cycle slot = packing_.next_execution(now + 1);
+    for (BankStream& stream : streams_) {
+        stream.ready = -1;
+    }
+    for (int picks = 0; picks < config_.issue_width; ++picks) {
+        BankStream* const chosen = choose_stream(slot);
+        if (chosen == nullptr) {
+            return;
+        }
+        SegmentQueue::Tile& tile = *started_[chosen->issuing];
+        const std::size_t place = chosen->issuing - chosen->first_started;
+        pipeline_.add({chosen->index, chosen->oldest + place, chosen->ready});
+        queue_.hold_back(tile, chosen->ready);
+        queue_.took(tile, chosen->ready);
+        chosen->ready = -1;
+        issued_stream_ = chosen;
+    }
+}
+
+// The stream whose ready domain goes next, by the rule `scan`; nullptr: there is none.
+inline __attribute__((always_inline)) BankStream* IssueBank::choose_stream(Cycle slot) {
+    return config_.scan == DomainScan::RoundRobin ? first_ready(slot) : least_ready(slot);
 }
 
 // Looks for a domain of the stream that may issue, in its oldest tile that has one. False if there
@@ -160,7 +209,10 @@ Slot IssueBank::idle_cause() const {
     }
     for (const SegmentQueue::Tile* const tile : started_) {
         if (tile->waiting() != 0) {
-            return width_limited_ ? width_cause_ : no_room_ ? Slot::Blocked : Slot::Conflict;
+            const bool chosen = !pipeline_.empty() && !no_room_;
+            return width_limited_ || chosen ? width_cause_
+                   : no_room_               ? Slot::Blocked
+                                            : Slot::Conflict;
         }
     }
     return Slot::Blocked;
@@ -205,7 +257,8 @@ bool IssueBank::watch_inputs(Cycle now) {
 Cycle IssueBank::next_date(Cycle now) {
     const Cycle next = now + 1;
     Cycle limit = packing_.open_until();
-    const Cycle latency = packing_.next_execution(now) - now;
+    // A pipelined bank chooses for the date of the next cycle.
+    const Cycle latency = packing_.next_execution(now) - now + (pipeline_.exists() ? 1 : 0);
     const Cycle ready = next_ready(now);
     if (ready != kNever) {
         limit = std::min(limit, std::max(next, ready > latency ? ready - latency : 0));

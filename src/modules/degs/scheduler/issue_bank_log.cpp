@@ -18,6 +18,7 @@ void IssueBank::start_log() {
         {"segments_per_cycle", config_.segments_per_cycle},
         {"spans_per_cycle", spans_per_cycle_},
         {"issue_width", config_.issue_width},
+        {"select_cycles", config_.select_cycles},
         {"reuse_cycles", config_.reuse_cycles},
         {"scoreboard", config_.scoreboard},
         {"termination", static_cast<int>(config_.termination)},

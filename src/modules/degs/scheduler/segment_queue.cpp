@@ -20,7 +20,7 @@ SegmentQueue::SegmentQueue(int depth, int tiles_in_flight, int domains_per_tile,
 }
 
 void SegmentQueue::add_tiles(Ring& ring, std::size_t count) {
-    const std::size_t sets = words_ * (2 + kWheel);
+    const std::size_t sets = words_ * (3 + kWheel);
     const std::size_t domains = domains_;
     Block& block = blocks_.emplace_back();
     block.bits.resize(count * sets);
@@ -32,7 +32,8 @@ void SegmentQueue::add_tiles(Ring& ring, std::size_t count) {
         tile.keys_ = &block.keys[t * domains];
         tile.occupied_ = &block.bits[t * sets];
         tile.cooling_ = tile.occupied_ + words_;
-        tile.wheel_ = tile.occupied_ + 2 * words_;
+        tile.held_back_ = tile.occupied_ + 2 * words_;
+        tile.wheel_ = tile.occupied_ + 3 * words_;
         clear_lists(tile);
     }
     ring.mask = ring.tiles.size() - 1;

@@ -65,7 +65,9 @@ public:
 
     private:
         friend class SegmentQueue;
-        std::uint64_t ready(std::size_t word) const { return occupied_[word] & ~cooling_[word]; }
+        std::uint64_t ready(std::size_t word) const {
+            return occupied_[word] & ~cooling_[word] & ~held_back_[word];
+        }
 
         TileNumber number_ = kNoTile;
         std::int16_t context_ = 0;
@@ -77,7 +79,9 @@ public:
         std::uint64_t* keys_ = nullptr;
         std::uint64_t* occupied_ = nullptr; // has segments
         std::uint64_t* cooling_ = nullptr;  // within the reuse distance
-        std::uint64_t* wheel_ = nullptr;    // kWheel sets: released at date mod kWheel
+        // Chosen by a pipelined bank, and not packed yet.
+        std::uint64_t* held_back_ = nullptr;
+        std::uint64_t* wheel_ = nullptr; // kWheel sets: released at date mod kWheel
     };
 
     /// `tiles_in_flight`: of each stream, a power of two; see hold().
@@ -111,6 +115,19 @@ public:
     /// The array may touch the domain again from `date` on; at most kWheel - 1 cycles after the
     /// execution date of the next pick().
     void set_ready_at(Tile& tile, int domain, Cycle date) const;
+    /// The domain is not found until let_go().
+    void hold_back(Tile& tile, int domain) const {
+        tile.held_back_[word_of(domain)] |= bit_of(domain);
+    }
+    void let_go(Tile& tile, int domain) const {
+        tile.held_back_[word_of(domain)] &= ~bit_of(domain);
+    }
+    /// A segment of the tile is packed at `date` without a find() at this date.
+    void turn_to(Tile& tile, Cycle date) const {
+        if (date > tile.turned_) {
+            turn_wheel(tile, date);
+        }
+    }
 
     /// A domain of `tile` that has a segment and may execute at `date`, chosen by the scan rule; -1
     /// if none. Dates of successive calls do not fall.

@@ -59,6 +59,7 @@ private:
     struct Domain {
         std::uint32_t ended = 0;
         Number ready = 0;
+        bool chosen = false; // by a pipelined bank, and not packed yet
         std::deque<NaiveSegment> waiting;
     };
     struct Tile {
@@ -110,11 +111,14 @@ private:
             }
         }
         take_in();
-        issue();
+        const bool held = facts_.select_cycles == 0 ? issue(), false : !pack_chosen();
         for (Stream& stream : streams_) {
             end_tiles(stream);
         }
         packing_.send_due(now_);
+        if (facts_.select_cycles != 0 && !held) {
+            choose_group();
+        }
     }
 
     std::uint32_t live(const Domain& domain) const { // a grain of 0: whole regions
@@ -131,6 +135,9 @@ private:
                 domain.ended |= static_cast<std::uint32_t>(message["mask"]);
                 while (domain.ended == kAll && !domain.waiting.empty()) {
                     leave(tile, domain, now_);
+                }
+                if (domain.waiting.empty()) {
+                    forget(domain);
                 }
             }
         }
@@ -265,8 +272,8 @@ private:
         const std::uint64_t length = domain.waiting.size();
         return facts_.scan == 2 ? oldest + ((65535 - length) << 48U) : oldest;
     }
-    // A ready domain in the stream's oldest tile that has one.
-    Pick find(Stream& stream) {
+    // A domain ready at `date` in the stream's oldest tile that has one.
+    Pick find(Stream& stream, Number date) {
         Pick pick;
         for (Number turn = stream.oldest; turn < stream.started() && pick.domain < 0; ++turn) {
             Tile& tile = stream.tiles[turn];
@@ -274,7 +281,7 @@ private:
             for (Number i = 0; i < domains; ++i) {
                 const Number d = facts_.scan == 0 ? (tile.cursor + i) % domains : i;
                 const Domain& domain = tile.domains[d];
-                if (domain.waiting.empty() || domain.ready > packing_.next_slot()) {
+                if (domain.waiting.empty() || domain.chosen || domain.ready > date) {
                     continue;
                 }
                 if (pick.domain < 0 ||
@@ -285,10 +292,10 @@ private:
         }
         return pick;
     }
-    Pick choose() {
+    Pick choose(Number date) {
         Pick best;
         for (std::size_t i = 1; i <= streams_.size(); ++i) {
-            const Pick pick = find(streams_[(issued_stream_ + i) % streams_.size()]);
+            const Pick pick = find(streams_[(issued_stream_ + i) % streams_.size()], date);
             const bool first = best.domain < 0 || (facts_.scan != 0 && pick.domain >= 0 &&
                                                    rank(pick.tile->domains[pick.domain]) <
                                                        rank(best.tile->domains[best.domain]));
@@ -296,33 +303,70 @@ private:
         }
         return best;
     }
-    void issue() {
+    void issue() { // one after the other, nothing overtakes what finds no room
         for (Number i = 0; i < facts_.issue_width; ++i) {
-            const Pick pick = choose();
-            if (pick.domain < 0) {
+            const Pick pick = choose(packing_.next_slot());
+            if (pick.domain < 0 || !pack(pick)) {
                 return;
             }
-            Domain& domain = pick.tile->domains[pick.domain];
-            NaiveSegment segment = domain.waiting.front();
-            const std::uint32_t wanted = segment.mask & live(domain);
-            if (facts_.termination != 1 || wanted == 0) { // 1: one takes the others along
-                segment.mask = wanted;
-            }
-            const Number tasks = __builtin_popcount(segment.mask);
-            if (!packing_.has_room(segment, tasks)) {
-                return; // nothing overtakes it
-            }
-            const Number slot = packing_.next_slot();
-            Number ready = now_;
-            if (tasks != 0) {
-                ready = packing_.pack(segment) + facts_.reuse_cycles;
-                domain.ready = facts_.scoreboard != 0 ? ready : 0;
-            }
-            lines_.say(now_, "issue", {slot, ready, segment.context, segment.domain, segment.mask});
-            leave(*pick.tile, domain, ready);
-            pick.tile->cursor = pick.domain + 1;
-            issued_stream_ = index_of(*pick.stream);
+            move_on(pick);
         }
+    }
+    bool pack_chosen() { // false: the rest of the oldest group waits, and all behind it
+        for (; !groups_.front().empty(); groups_.front().pop_front()) {
+            const Pick pick = groups_.front().front();
+            if (!pack(pick)) {
+                return false;
+            }
+            pick.tile->domains[pick.domain].chosen = false;
+        }
+        groups_.pop_front();
+        return true;
+    }
+    void choose_group() { // all at one date
+        std::deque<Pick>& group = groups_.emplace_back();
+        for (Number i = 0; i < facts_.issue_width; ++i) {
+            const Pick pick = choose(packing_.next_slot(now_ + 1));
+            if (pick.domain >= 0) {
+                pick.tile->domains[pick.domain].chosen = true;
+                group.push_back(pick);
+                move_on(pick);
+            }
+        }
+    }
+    void forget(const Domain& emptied) {
+        for (std::deque<Pick>& group : groups_) {
+            for (std::size_t i = group.size(); i-- > 0;) {
+                if (&group[i].tile->domains[group[i].domain] == &emptied) {
+                    group.erase(group.begin() + static_cast<std::ptrdiff_t>(i));
+                }
+            }
+        }
+    }
+    void move_on(const Pick& pick) {
+        pick.tile->cursor = pick.domain + 1;
+        issued_stream_ = index_of(*pick.stream);
+    }
+    bool pack(const Pick& pick) { // false: it has no room
+        Domain& domain = pick.tile->domains[pick.domain];
+        NaiveSegment segment = domain.waiting.front();
+        const std::uint32_t wanted = segment.mask & live(domain);
+        if (facts_.termination != 1 || wanted == 0) { // 1: one takes the others along
+            segment.mask = wanted;
+        }
+        const Number tasks = __builtin_popcount(segment.mask);
+        if (!packing_.has_room(segment, tasks)) {
+            return false;
+        }
+        const Number slot = packing_.next_slot();
+        Number ready = now_;
+        if (tasks != 0) {
+            ready = packing_.pack(segment) + facts_.reuse_cycles;
+            domain.ready = facts_.scoreboard != 0 ? ready : 0;
+        }
+        lines_.say(now_, "issue", {slot, ready, segment.context, segment.domain, segment.mask});
+        leave(*pick.tile, domain, ready);
+        return true;
     }
     void end_tiles(Stream& stream) {
         for (; stream.oldest < stream.entering && stream.oldest < stream.startable;
@@ -349,6 +393,8 @@ private:
     LoggedEvent span_; // that is cut, from column_ on
     Tile* cut_tile_ = nullptr;
     Number column_ = 0, left_ = 0;
+    // What a pipelined bank has chosen and not packed, the oldest group first.
+    std::deque<std::deque<Pick>> groups_{std::size_t(facts_.select_cycles)};
 };
 
 } // namespace degs::test

@@ -39,6 +39,7 @@ public:
     Number reuse_cycles = fact("reuse_cycles");
     Number scan = fact("scan");
     Number scoreboard = fact("scoreboard");
+    Number select_cycles = fact("select_cycles");
     Number segment_length = fact("segment_length");
     Number segments_per_cycle = fact("segments_per_cycle");
     Number spans_per_cycle = fact("spans_per_cycle");

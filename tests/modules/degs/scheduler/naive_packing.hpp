@@ -18,7 +18,9 @@ public:
     }
     bool open() const { return tasks_ != 0; }
     /// Date at which the next task executes.
-    Number next_slot() const { return std::max(now_ + facts_.packet_latency, slot_); }
+    Number next_slot() const { return next_slot(now_); }
+    /// If it is packed at `now`, as far as it is known.
+    Number next_slot(Number now) const { return std::max(now + facts_.packet_latency, slot_); }
     bool has_room(const NaiveSegment& segment, Number tasks) const {
         const Number width = facts_.packet_tasks;
         const Number total = (joins(segment) ? tasks_ : width) + tasks;

@@ -25,6 +25,7 @@ struct SchedulerBench {
         int queue = 64;
         int segments_per_cycle = 4;
         int issue_width = 4;
+        int select_cycles = 0;
         int packets = 64;
         int spans_per_cycle = 0;
         int segment_ports = 0;
@@ -89,6 +90,7 @@ struct SchedulerBench {
         c.segments_per_cycle = s.segments_per_cycle;
         c.spans_per_cycle = s.spans_per_cycle;
         c.issue_width = s.issue_width;
+        c.select_cycles = s.select_cycles;
         c.segment_ports.ports = s.segment_ports;
         c.fill.cycles = s.fill_cycles;
         c.reuse_cycles = s.reuse;
@@ -185,6 +187,19 @@ struct SchedulerBench {
             }
         }
         return takes;
+    }
+    /// Row and cycle of every segment that run() issues.
+    std::vector<std::pair<int, Cycle>> run_and_list_issues(const std::vector<Feed>& feeds) {
+        EventLog log;
+        bank.log_to(log);
+        run(feeds);
+        std::vector<std::pair<int, Cycle>> issues;
+        for (const LoggedEvent& event : events_of(log)) {
+            if (event.kind() == "issue") {
+                issues.emplace_back(static_cast<int>(event["domain"]), event.now);
+            }
+        }
+        return issues;
     }
     const ArraySlice::Stats& stats() const { return slice.stats(); }
     /// The slots between first and last execution: executed tasks and idle ones.
