@@ -76,7 +76,7 @@ void describe_results(const MemoryFacts& facts, StatsVisitor& v) {
     v.real("peak_gb_per_s", facts.memory.peak_gb_per_s(), "GB/s", "Data rate x width of the bus.");
     v.count("bytes", result.bytes, "bytes",
             "Of the measured requests; of a trace in whole bursts.");
-    v.real("bandwidth_gb_per_s", result.gb_per_s(), "GB/s", "bytes / simulated_us.");
+    v.real("bandwidth_gb_per_s", result.gb_per_s(), "GB/s", "bytes / simulated_us / 1000.");
     v.real("bandwidth_fraction", point_of(result, facts.memory).carried, "share",
            "bandwidth_gb_per_s / peak_gb_per_s.");
     v.real("simulated_us", result.seconds * 1e6, "us", "Time of the measurement.");

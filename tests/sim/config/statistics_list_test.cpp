@@ -146,6 +146,12 @@ TEST(StatisticsOfMemory, AreThoseOfItsReport) {
     json each; // entry of the curve
     each["*"] = report["curve"].at(0);
     report["curve"] = each;
+    // A trace that is replayed in place of a pattern has statistics of its own.
+    std::ofstream(folder / "one.stl") << "5: (32) read 0x40\n";
+    expect_success(degs({"memory", config("memory/lpddr5-3200x128"), "--trace", folder / "one.stl",
+                         "--out", folder / "trace"}));
+    const json replayed = json::parse(read_file(folder / "trace/memory.json"));
+    report["traffic"].update(replayed["traffic"]);
     EXPECT_EQ(collected(report), listed_by({"--of", "memory"}));
 }
 
