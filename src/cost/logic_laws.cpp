@@ -31,6 +31,8 @@ void LogicLaws::describe(ConfigVisitor& visitor) {
                     "bits of a task that the shift network moves beside its pixel [assumed]");
     visitor.section("in_turn", in_turn, "K of N domains in turn, one date: a N + b N K");
     visitor.section("serial", serial, "the same, serial dates: a N K + b N (K - 1)");
+    visitor.section("pipelined", pipelined,
+                    "the same in n cycles, each a register of picks: a N K + b N K (n - 1)");
     visitor.section("oldest", oldest, "the K oldest of N: a N N + b N N K");
     visitor.section("queue", queue, "queue of F flip-flops, C cut, K issued: a F + b F (C + K)");
     visitor.section("domains", domains, "dates and ended pixels of N domains: a N + b N K");
@@ -41,6 +43,9 @@ void LogicLaws::describe(ConfigVisitor& visitor) {
     visitor.section("tile_walk", tile_walk, "P list entries per cycle: a + b P");
     visitor.section("in_turn_fo4", in_turn_fo4, "FO4: a + b K log2 N");
     visitor.section("serial_fo4", serial_fo4, "FO4: a log2 N + b (K - 1) log2 N");
+    visitor.real("by_dates_fo4", by_dates_fo4, 0, kMost, "FO4 / log2 N K of a choice by dates");
+    visitor.real("chosen_fo4", chosen_fo4, 0, kMost, "the same among registered ready domains");
+    visitor.real("group_fo4", group_fo4, 0, kMost, "FO4 / log2 N K of the dates after a group");
     visitor.section("oldest_fo4", oldest_fo4, "FO4: a + b K");
     visitor.section("queue_fo4", queue_fo4, "FO4: a C + b log2 depth");
     visitor.section("packing_fo4", packing_fo4, "FO4: a + b K");
@@ -56,6 +61,23 @@ double LogicLaws::area_in_turn(int waiting, int picks, bool each_date) const {
 double LogicLaws::fo4_in_turn(int waiting, int picks, bool each_date) const {
     const double steps = std::log2(std::max(2, waiting));
     return each_date ? serial_fo4.of(steps, (picks - 1) * steps) : in_turn_fo4.of(1, picks * steps);
+}
+
+double LogicLaws::area_pipelined(int waiting, int picks, int cycles) const {
+    const double pairs = double(waiting) * picks;
+    return pipelined.of(pairs, pairs * (cycles - 1));
+}
+
+double LogicLaws::fo4_group(int waiting, int picks) const {
+    return group_fo4 * std::log2(std::max(2, waiting * picks));
+}
+
+double LogicLaws::fo4_pipelined(int waiting, int picks, int cycles) const {
+    const double steps = std::log2(std::max(2, waiting * picks));
+    const double group = fo4_group(waiting, picks);
+    return cycles == 1   ? by_dates_fo4 * steps + group
+           : cycles == 2 ? std::max(by_dates_fo4 * steps, group)
+                         : std::max(chosen_fo4 * steps, group);
 }
 
 double LogicLaws::area_oldest(int waiting, int picks) const {

@@ -30,8 +30,10 @@ struct LogicLaws {
     Law packing{117.0, 4.27};
     double packing_reach = 145.9;
     Law crossbar{42.5, 64.1}, tile_walk{29850.1, 19789.5};
+    Law pipelined{776, 96};
     Law in_turn_fo4{14.7, 3.49}, serial_fo4{6.80, 8.26}, oldest_fo4{8.2, 7.87};
     Law queue_fo4{7.15, 5.76}, packing_fo4{19.9, 52.3};
+    double by_dates_fo4 = 5.74, chosen_fo4 = 4.68, group_fo4 = 5.76;
     double pixel_loop_fo4 = 253, tuned_pixel_loop_fo4 = 131;
 
     void describe(ConfigVisitor& visitor);
@@ -40,6 +42,12 @@ struct LogicLaws {
     /// the date that those before it have moved. Area without registers.
     double area_in_turn(int waiting, int picks, bool each_date) const;
     double fo4_in_turn(int waiting, int picks, bool each_date) const;
+    /// The same by a pipeline in which a choice is made `cycles` before it is used. The area is
+    /// without the registers of dates; the delay is that of its slowest cycle.
+    double area_pipelined(int waiting, int picks, int cycles) const;
+    double fo4_pipelined(int waiting, int picks, int cycles) const;
+    /// Of the dates that follow from a group of picks.
+    double fo4_group(int waiting, int picks) const;
     /// Choice of the `picks` oldest of `waiting`, by an age matrix.
     double area_oldest(int waiting, int picks) const;
     double fo4_oldest(int picks) const;

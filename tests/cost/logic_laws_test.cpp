@@ -85,6 +85,29 @@ TEST(LogicLaws, SelectionsAreThoseOfTheSynthesis) {
     });
 }
 
+TEST(LogicLaws, AChoiceInSeveralCyclesIsThatOfTheSynthesis) {
+    const LogicLaws laws;
+    for (const Point& p : points_of("choose_by_dates")) {
+        const int n = number(p, "n");
+        const int k = number(p, "k");
+        const double gates = std::stod(p.at("area")) - kFlipFlop * std::stod(p.at("flops"));
+        EXPECT_NEAR(laws.area_pipelined(n, k, 1) / gates, 1, kMostResidual);
+    }
+    const auto expect_fo4 = [](const char* block, double per_step) {
+        const std::vector<Point> points = points_of(block);
+        EXPECT_EQ(points.size(), 2U) << block;
+        for (const Point& p : points) {
+            const double steps = std::log2(number(p, "n") * number(p, "k"));
+            EXPECT_NEAR(per_step * steps / std::stod(p.at("fo4")), 1, kMostResidual) << block;
+        }
+    };
+    expect_fo4("choose_by_dates", laws.by_dates_fo4);
+    expect_fo4("choose_in_turn", laws.chosen_fo4);
+    expect_fo4("group_dates", laws.group_fo4);
+    EXPECT_EQ(laws.fo4_pipelined(16, 2, 1),
+              5 * (laws.by_dates_fo4 + laws.group_fo4)); // both in one cycle
+}
+
 TEST(LogicLaws, StateOfABankIsThatOfTheSynthesis) {
     const LogicLaws laws;
     expect_points("domain_state", true, [&](const Point& p) -> AreaAndDelay {

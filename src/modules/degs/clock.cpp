@@ -14,6 +14,17 @@ std::string cure_of(const char* key, double fo4, double fo4_per_cycle, int spent
            std::to_string(spent + static_cast<int>(std::ceil(fo4 / fo4_per_cycle)));
 }
 
+/// The fewest cycles before packing in which a bank chooses its segments fast enough.
+std::string selection_cure(const BankShape& bank, const cost::LogicLaws& laws, double cycle) {
+    constexpr int kMost = 3; // more registers have nothing left to divide
+    for (int cycles = 1; cycles <= kMost; ++cycles) {
+        if (bank.selection_fo4(laws, cycles) <= cycle) {
+            return "scheduler.select_cycles=" + std::to_string(cycles);
+        }
+    }
+    return "";
+}
+
 } // namespace
 
 std::vector<cost::ClockLimit> DegsConfig::clock_limits() const {
@@ -27,7 +38,8 @@ std::vector<cost::ClockLimit> DegsConfig::clock_limits() const {
     std::vector<cost::ClockLimit> limits;
     limits.push_back({"loop of a pixel", loop, scheduler.reuse_cycles,
                       cure_of("scheduler.reuse_cycles", loop, cycle)});
-    limits.push_back({"choice of segments", bank.selection_fo4(laws), 1, ""});
+    limits.push_back({"choice of segments", bank.selection_fo4(laws, bank.select_cycles), 1,
+                      selection_cure(bank, laws, cycle)});
     limits.push_back({"Packing Unit", packed, std::max(1, packing.latency_cycles - kReadCycles),
                       cure_of("packing.latency_cycles", packed, cycle, kReadCycles)});
     limits.push_back({"segment queue", laws.fo4_queue(bank.depth, bank.cut), 1, ""});

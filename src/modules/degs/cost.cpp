@@ -98,6 +98,7 @@ BankShape DegsConfig::bank_shape() const {
     shape.cut = packing.segment_ports.of(scheduler.segments_per_cycle);
     shape.issued = packing.segment_ports.of(scheduler.issue_width);
     shape.packets = packing.packets_per_cycle;
+    shape.select_cycles = scheduler.select_cycles;
     shape.length = scheduler.segment_length;
     shape.width = array.pes_per_bank;
     shape.scan = scheduler.scan;

@@ -32,7 +32,7 @@ TEST(BankLogic, ABankIsTheSumOfItsParts) {
     flops.memory = QueueMemory::FlipFlops;
     const double segments = 32 * (1 + 16 + 5 + 4);
     EXPECT_NEAR(flops.area(laws) - BankShape().area(laws), segments * (135.7 + 58.9 * 4), 1);
-    EXPECT_NEAR(BankShape().selection_fo4(laws), 6.80 * 4 + 8.26 * 4, 1e-9);
+    EXPECT_NEAR(BankShape().selection_fo4(laws, 0), 6.80 * 4 + 8.26 * 4, 1e-9);
 }
 
 TEST(BankLogic, TheDesignOfTableOneIsItsRow) {
@@ -89,6 +89,10 @@ TEST(ClockLimits, TheLoopOfAPixelNeedsItsReuseDistance) {
     far.emplace_back("scheduler.reuse_cycles=7");
     EXPECT_EQ(design(far).clock().warning().find("loop of a pixel"), std::string::npos);
     EXPECT_NEAR(feasible({"pipeline.numbers=paper"}), 40 / (19.9 + 2 * 52.3), 1e-9);
+    // Two registers divide the choice of two of 16 domains.
+    EXPECT_NE(design({}).clock().warning().find("scheduler.select_cycles=2"), std::string::npos);
+    EXPECT_EQ(design({"scheduler.select_cycles=2"}).clock().warning().find("choice of segments"),
+              std::string::npos);
     // Twice as slow a clock has twice the logic in a cycle.
     EXPECT_EQ(design({"clock_ghz=0.3"}).clock().warning(), "");
 }
