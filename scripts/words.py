@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-CEILINGS = {"words": 90_150, "prose": 45_500, "longest page of prose": 2_050}
+CEILINGS = {"words": 90_950, "prose": 45_950, "longest page of prose": 2_050}
 
 
 def prose_words(text):
