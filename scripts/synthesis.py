@@ -39,6 +39,7 @@ SOURCES = {"select_in_turn": ["synthesis/select_in_turn.sv"], "select_oldest": [
            "pixel_loop": ARITHMETIC + ["synthesis/pixel_loop.sv"], "pe": ARITHMETIC + ["pe.sv"],
            "span_unit": ARITHMETIC + ["span_unit.sv"], "row_crossbar": ["synthesis/row_crossbar.sv"],
            "tile_walk": ["synthesis/tile_walk.sv"]}
+SOURCES |= dict.fromkeys(("ready_vector", "choose_in_turn", "choose_by_dates", "group_dates"), ["synthesis/pipelined_select.sv"])
 
 
 def points_of(top, names, *values):
@@ -52,6 +53,8 @@ POINTS = (
     points_of("select_in_turn", "N K SERIAL WIDTH", (16, 1, 0, 8), (16, 2, 0, 8), (48, 4, 0, 16), (128, 2, 0, 8),
               (128, 8, 0, 32), (16, 1, 1, 8), (16, 2, 1, 8), (48, 4, 1, 16), (64, 2, 1, 8)) +
     points_of("select_oldest", "N K", (16, 2), (16, 4), (32, 2), (32, 4), (48, 2)) +
+    points_of("ready_vector", "N", (16,), (48,)) + points_of("choose_in_turn", "N K", (16, 2), (48, 4)) +
+    points_of("choose_by_dates", "N K", (16, 2), (48, 4)) + points_of("group_dates", "N K WIDTH", (16, 2, 8), (48, 4, 16)) +
     points_of("domain_state", "N ISSUE", (16, 2), (48, 4), (64, 2), (32, 8)) +
     points_of("packing_registers", "WIDTH ISSUE WRITES TAG", (8, 1, 1, 16), (8, 2, 1, 16), (8, 2, 4, 16), (8, 2, 1, 32),
               (16, 2, 1, 16), (16, 4, 1, 16), (32, 1, 1, 16)) +

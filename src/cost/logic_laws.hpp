@@ -30,10 +30,10 @@ struct LogicLaws {
     Law packing{117.0, 4.27};
     double packing_reach = 145.9;
     Law crossbar{42.5, 64.1}, tile_walk{29850.1, 19789.5};
-    Law pipelined{776, 96};
+    Law pipelined{772.1, 96};
     Law in_turn_fo4{14.7, 3.49}, serial_fo4{6.80, 8.26}, oldest_fo4{8.2, 7.87};
     Law queue_fo4{7.15, 5.76}, packing_fo4{19.9, 52.3};
-    double by_dates_fo4 = 5.74, chosen_fo4 = 4.68, group_fo4 = 5.76;
+    double by_dates_fo4 = 5.74, chosen_fo4 = 4.68, group_fo4 = 5.75;
     double pixel_loop_fo4 = 253, tuned_pixel_loop_fo4 = 131;
 
     void describe(ConfigVisitor& visitor);

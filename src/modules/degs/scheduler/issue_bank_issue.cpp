@@ -46,7 +46,8 @@ inline __attribute__((always_inline)) bool IssueBank::issue_one(Cycle now, Segme
 bool IssueBank::issue(Cycle now) {
     no_room_ = false;
     const int issued = pipeline_.exists() ? issue_chosen(now) : issue_segments(now);
-    width_limited_ = issued == config_.issue_width;
+    // What has been chosen and waits for its cycle is limited like what exceeds the width.
+    width_limited_ = issued == config_.issue_width || (!pipeline_.empty() && !no_room_);
     stats_.busy += issued != 0 ? 1 : 0;
     return issued != 0;
 }
@@ -209,10 +210,7 @@ Slot IssueBank::idle_cause() const {
     }
     for (const SegmentQueue::Tile* const tile : started_) {
         if (tile->waiting() != 0) {
-            const bool chosen = !pipeline_.empty() && !no_room_;
-            return width_limited_ || chosen ? width_cause_
-                   : no_room_               ? Slot::Blocked
-                                            : Slot::Conflict;
+            return width_limited_ ? width_cause_ : no_room_ ? Slot::Blocked : Slot::Conflict;
         }
     }
     return Slot::Blocked;

@@ -33,11 +33,14 @@ TEST_P(SelectCycles, LengthenTheDistanceByAllButOne) {
     const Issues issues =
         bench.run_and_list_issues({{10, 0, 3}, {10, 1, 3}, {10, 2, 3}, {10, 3, 3}});
     const auto cycles = static_cast<Cycle>(GetParam());
-    const Cycle first = 10 + cycles, distance = 4 + (cycles == 0 ? 0 : cycles - 1);
+    const Cycle more = cycles == 0 ? 0 : cycles - 1;
+    const Cycle first = 10 + cycles, distance = 4 + more;
     EXPECT_EQ(issues, (Issues{{3, first},
                               {3, first + distance},
                               {3, first + 2 * distance},
                               {3, first + 3 * distance}}));
+    EXPECT_EQ(bench.packing.idle()[Slot::Conflict], 3 * 3 * 16U);
+    EXPECT_EQ(bench.packing.idle()[Slot::Starved], 3 * more * 16);
     EXPECT_EQ(bench.accounted(), bench.window_slots());
 }
 
