@@ -60,7 +60,7 @@ void Engine::build_array(int cluster) {
     auto& state = add_wire(state_rings_, "tile_state", time_, writeback);
     array.tile_state.bind(state);
     monitors_.back()->in[0].bind(state);
-    auto& free = add_wire(context_rings_, "context_free", time_, 1);
+    auto& free = add_wire(context_rings_, "context_free", time_, config_.image_buffer.free_cycles);
     image_buffers_.back()->context_free[0].bind(free);
     array.context_free.bind(free);
     array.in[0].bind(add_ring(splat_rings_, "splats", time_, config_.chunks_ahead(), 1));
@@ -143,8 +143,8 @@ void Engine::build_grants() {
     source_->sorted.bind(all);
     dispatcher_->in[0].bind(all);
     for (std::size_t cluster = 0; cluster < arrays_.size(); ++cluster) {
-        auto& request = add_ring(request_rings_, "request", time_, 2, 1);
-        auto& grant = add_ring(grant_rings_, "grant", time_, 2, 1);
+        auto& request = add_ring(request_rings_, "request", time_, 2, config_.grant_cycles);
+        auto& grant = add_ring(grant_rings_, "grant", time_, 2, config_.grant_cycles);
         dispatcher_->request[cluster].bind(request);
         dispatcher_->out[cluster].bind(grant);
         if (grouping_) {

@@ -69,9 +69,9 @@ void DegsBackEnd::build_fetchers() {
 
 // Fetchers ask the supply, which writes to the Gaussian Buffer in their place.
 void DegsBackEnd::connect_supply(int fetcher) {
-    auto& requests = ring(request_rings_, "splat_requests", 2, 1);
+    auto& requests = ring(request_rings_, "splat_requests", 2, config_.front.request_cycles);
     fetchers_[fetcher]->out[0].bind(requests);
-    auto& taken = wire(place_rings_, "chunk_taken", 1);
+    auto& taken = wire(place_rings_, "chunk_taken", config_.front.request_cycles);
     const int number = index_ * config_.fetchers() + fetcher;
     supply_->in[number].bind(requests);
     supply_->taken[number].bind(taken);

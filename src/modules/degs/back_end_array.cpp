@@ -95,7 +95,7 @@ void DegsBackEnd::connect_slice(int bank) {
         auto& state = wire(state_rings_, "tile_state", writeback);
         slices_[b]->tile_state[m].bind(state);
         monitors_[m]->in[b].bind(state);
-        auto& contexts = wire(context_rings_, "context_free", 1);
+        auto& contexts = wire(context_rings_, "context_free", config_.pixel_buffer.free_cycles);
         pixels.context_free[b / parts].bind(contexts);
         banks_[b]->context_free[m].bind(contexts);
     }

@@ -98,7 +98,8 @@ void Degs::build_back_ends() {
                                      supply_.get(), drawing_.get(), options_};
     const auto grant_tiles = [&] {
         if (config_.granted()) {
-            grants_ = std::make_unique<TileGrants>(*front_end_, blocks_.fetchers, time_, job_);
+            grants_ = std::make_unique<TileGrants>(*front_end_, blocks_.fetchers,
+                                                   config_.grant_cycles, time_, job_);
         }
     };
     if (config_.clusters == 1) {

@@ -20,8 +20,13 @@ void SplatSupply::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("cache_bytes", cache_bytes, 0, 1 << 30,
                     "bytes of splat records that all clusters keep together, least recently used "
                     "first out; 0: none");
+    visitor.integer("request_cycles", request_cycles, 1, 1024,
+                    "cycles of a fetcher's request to the supply, and of the word that a chunk has "
+                    "left [assumed]");
     if (!built()) {
         visitor.unused("fifo_splats", "splats_per_cycle",
+                       "fetchers read by themselves while no other key of its section is set");
+        visitor.unused("request_cycles", "splats_per_cycle",
                        "fetchers read by themselves while no other key of its section is set");
     }
 }

@@ -32,6 +32,7 @@ public:
     struct Config {
         int splats_per_cycle = 0;     ///< of the bus; 0: unlimited
         int fifo_splats = 32;         ///< of a cluster
+        int request_cycles = 1;       ///< of a fetcher's request, and of the answer
         int multicast_window = 0;     ///< list entries; 0: no multicast
         std::int64_t cache_bytes = 0; ///< of all clusters together; 0: no cache
         void describe(ConfigVisitor& visitor);

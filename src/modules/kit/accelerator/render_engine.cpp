@@ -27,6 +27,9 @@ void AcceleratorConfig::describe_common(ConfigVisitor& visitor) {
     visitor.real("clock_ghz", clock_ghz, 0.01, 10.0, "GHz (paper: 1.0)");
     visitor.integer("frames_in_flight", frames_in_flight, 1, 64,
                     "frames that are preprocessed or rendered at a time [assumed]");
+    visitor.integer("grant_cycles", grant_cycles, 1, 1024,
+                    "cycles of a request for a tile, and of its grant, where several engines or "
+                    "streams take tiles in turn [assumed]");
     visitor.choice("tile_order", tile_order, {"raster", "longest_list"},
                    "order of sorting and rendering; longest_list: by falling length of the lists, "
                    "in no time and on no area [assumed]");

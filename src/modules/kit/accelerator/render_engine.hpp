@@ -96,6 +96,7 @@ struct AcceleratorConfig {
     std::string name;
     double clock_ghz = 1.0;
     int frames_in_flight = 2; ///< frames between the first Gaussian read and the last pixel written
+    int grant_cycles = 1;     ///< from a request for a tile to who grants it, and back
     TileOrder tile_order = TileOrder::Raster;
     FrameEndConfig frame_end;
     cost::Technology cost; ///< constants of area, power and energy

@@ -6,7 +6,7 @@
 namespace degs {
 
 TileGrants::TileGrants(TileFrontEnd& front_end,
-                       const std::vector<std::unique_ptr<SplatFetcher>>& fetchers,
+                       const std::vector<std::unique_ptr<SplatFetcher>>& fetchers, int cycles,
                        const Timebase& time, const RenderJob& job) {
     const std::size_t sorters = front_end.sorted.size();
     dispatcher_ =
@@ -22,10 +22,10 @@ TileGrants::TileGrants(TileFrontEnd& front_end,
         dispatcher_->in[i].bind(complete);
     }
     for (std::size_t e = 0; e < fetchers.size(); ++e) {
-        auto& requests = add_ring(request_rings_, "request", time, 2, 1);
+        auto& requests = add_ring(request_rings_, "request", time, 2, cycles);
         fetchers[e]->request[0].bind(requests);
         dispatcher_->request[e].bind(requests);
-        auto& grants = add_ring(grant_rings_, "grant", time, 2, 1);
+        auto& grants = add_ring(grant_rings_, "grant", time, 2, cycles);
         dispatcher_->out[e].bind(grants);
         fetchers[e]->sorted.bind(grants);
     }

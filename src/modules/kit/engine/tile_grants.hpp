@@ -18,7 +18,7 @@ class TileGrants {
 public:
     /// Binds `sorted` of the front end, and `sorted` and `request` of the fetchers.
     TileGrants(TileFrontEnd& front_end, const std::vector<std::unique_ptr<SplatFetcher>>& fetchers,
-               const Timebase& time, const RenderJob& job);
+               int cycles, const Timebase& time, const RenderJob& job);
 
     const TileDispatcher& dispatcher() const { return *dispatcher_; }
 

@@ -62,7 +62,8 @@ void TiledAccelerator::build_engines() {
         bind_cancel(e, 0, fetchers_[index]->cancel);
         build_pixel_buffer(e);
     }
-    grants_ = std::make_unique<TileGrants>(*front_end_, fetchers_, time_, job_);
+    grants_ =
+        std::make_unique<TileGrants>(*front_end_, fetchers_, parts_.grant_cycles, time_, job_);
 }
 
 // Without memory time nothing depends on what is cached.
@@ -104,7 +105,8 @@ void TiledAccelerator::build_pixel_buffer(int engine) {
         options_.array_only));
     PixelBuffer& pixels = *pixel_buffers_.back();
     pixels.in[0].bind(add_wire(done_rings_, "tile_done", time_, parts_.writeback_cycles));
-    pixels.context_free[0].bind(add_wire(context_rings_, "context_free", time_, 1));
+    pixels.context_free[0].bind(
+        add_wire(context_rings_, "context_free", time_, parts_.pixel_buffer.free_cycles));
 }
 
 void TiledAccelerator::build_memory() {

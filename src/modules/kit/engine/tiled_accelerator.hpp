@@ -46,7 +46,8 @@ public:
         FrameEndConfig frame_end;
         bool granted = false; ///< tiles; several engines need it
         int engines = 1;
-        int contexts = 1; ///< tiles of one engine whose pixels are on chip
+        int grant_cycles = 1; ///< see AcceleratorConfig
+        int contexts = 1;     ///< tiles of one engine whose pixels are on chip
         int splat_chunks =
             1; ///< that each fetcher's share of the buffer in front of an engine holds
         const char* splat_rings = "splats"; ///< name of these rings in timelines
@@ -59,7 +60,8 @@ public:
         template <class Config>
         explicit Parts(const Config& config)
             : fetching(config.fetching), pixel_buffer(config.pixel_buffer), monitor(config.monitor),
-              memory(config.memory), frame_end(config.frame_end) {
+              memory(config.memory), frame_end(config.frame_end),
+              grant_cycles(config.grant_cycles) {
             front.projection = config.projection;
             front.binning = config.binning;
             front.hierarchical = config.sorting;

@@ -46,6 +46,8 @@ void PixelBuffer::Config::describe(ConfigVisitor& visitor) {
                    "bank's rows on their own [assumed]");
     visitor.integer("rows_per_cycle", rows_per_cycle, 1, 2,
                     "rows of pixels of a tile that leave for memory per cycle [assumed]");
+    visitor.integer("free_cycles", free_cycles, 1, 1024,
+                    "cycles until the array knows that a context is free again [assumed]");
     visitor.integer("writes_in_flight", writes_in_flight, 1, 1024,
                     "tile writes not yet acknowledged by memory; 4 hide its latency [assumed]");
     visitor.integer("readout_pixels", readout_pixels, 1, 4096,

@@ -39,6 +39,7 @@ public:
         int readout_pixels = 64;  ///< read out per cycle
         int writes_in_flight = 4; ///< tile writes not yet acknowledged
         int rows_per_cycle = 2;   ///< of pixels that leave for memory
+        int free_cycles = 1;      ///< from the end of a readout to the array
         ContextRelease release = ContextRelease::Tile;
         void describe(ConfigVisitor& visitor);
         /// Requires room for `tiles` contexts, and for no more than `most`; `section` is where
