@@ -73,8 +73,7 @@ MUTATIONS = [
     ("T is written back a stage early", PE, "t <= valid_10 & blends ? after_10 : before_10;",
      "t <= valid_10 & blends ? after : before_10;", "pe_1"),
 ]
-X_64 = ["STREAMS=3", "SLOTS=1", "CONTEXTS=1", "DOMAINS=16", "DEPTH=96", "CUT=4", "SPANS=4", "ISSUE=4", "WIDTH=16",
-        "PIXELS=1", "OLDEST=1", "MESSAGES=16"]
+X_64 = ["STREAMS=2", "SLOTS=1", "CONTEXTS=1", "DEPTH=48", "PIXELS=1", "OLDEST=1", "MESSAGES=8"]
 # Top module, sources, parameters and tests of each block.
 BLOCKS = {
     "64": ("bank_top", (TOP, BANK, PACKING), ["MESSAGES=8"], "Scenes/Bank64.*/0"),
