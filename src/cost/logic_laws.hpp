@@ -42,11 +42,11 @@ struct LogicLaws {
     /// the date that those before it have moved. Area without registers.
     double area_in_turn(int waiting, int picks, bool each_date) const;
     double fo4_in_turn(int waiting, int picks, bool each_date) const;
-    /// The same by a pipeline in which a choice is made `cycles` before it is used. The area is
+    /// A choice in turn by a pipeline, which makes it `cycles` before it is used. The area is
     /// without the registers of dates; the delay is that of its slowest cycle.
     double area_pipelined(int waiting, int picks, int cycles) const;
     double fo4_pipelined(int waiting, int picks, int cycles) const;
-    /// Of the dates that follow from a group of picks.
+    /// Delay of the dates that follow from a group of picks.
     double fo4_group(int waiting, int picks) const;
     /// Choice of the `picks` oldest of `waiting`, by an age matrix.
     double area_oldest(int waiting, int picks) const;

@@ -127,7 +127,7 @@ cost::SramShape DegsConfig::segment_shape() const {
     return shape;
 }
 
-// Of a Span Unit: what it takes from any lane, and what the banks take from it.
+// The share of a Span Unit: it takes from any lane, and the banks take from it.
 double DegsConfig::span_crossbar_area() const {
     constexpr int kBitsPerByte = 8;
     const int units = span.count * span.rows_per_cycle;
@@ -140,7 +140,7 @@ double DegsConfig::span_crossbar_area() const {
            span.count;
 }
 
-// Of a cluster: a request of any fetcher is chosen per cycle, and one burst of pixels.
+// The share of a cluster: a request of any fetcher is chosen per cycle, and a burst of pixels.
 double DegsConfig::cluster_dispatch_area() const {
     constexpr int kBitsPerByte = 8;
     constexpr int kAddressBits = 48;
