@@ -123,7 +123,10 @@ cost::SramShape DegsConfig::segment_shape() const {
     const int needed = wide ? std::max(bank.cut, bank.issued) : 0;
     cost::SramShape shape;
     shape.ports = packing.segment_ports.limited() ? packing.segment_ports.ports : needed;
-    shape.share = rate_of(std::int64_t{queue_depth()} * scheduler.segment_bytes, packing_share());
+    shape.share =
+        packing.segment_ports.limited()
+            ? 1
+            : rate_of(std::int64_t{queue_depth()} * scheduler.segment_bytes, packing_share());
     return shape;
 }
 

@@ -150,13 +150,25 @@ TEST(Area, FollowsTheKeysOfUnitsAndBytesAndNoOthers) {
     const std::vector<std::string> ports{"gaussian_buffer.ports=1", "span_buffer.ports=1",
                                          "packing.ports=1", "feature_buffer.ports=1",
                                          "pixel_buffer.ports=1"};
-    const std::set<std::string> degs{
-        "clusters",          "projection.count",   "sorting.count",
-        "slicing.count",     "span.count",         "span.rows_per_cycle",
-        "scheduler.banks",   "array.pes_per_bank", "gaussian_buffer.bytes",
-        "span_buffer.bytes", "packing.bytes",      "feature_buffer.bytes",
-        "pixel_buffer.bytes"};
-    std::set<std::string> limited = degs;
+    std::set<std::string> limited{"clusters",
+                                  "projection.count",
+                                  "sorting.count",
+                                  "slicing.count",
+                                  "span.count",
+                                  "span.rows_per_cycle",
+                                  "scheduler.banks",
+                                  "array.pes_per_bank",
+                                  "gaussian_buffer.bytes",
+                                  "span_buffer.bytes",
+                                  "packing.bytes",
+                                  "feature_buffer.bytes",
+                                  "pixel_buffer.bytes",
+                                  "binning.pairs_per_cycle",
+                                  "scheduler.queue_segments_per_pe",
+                                  "scheduler.segment_length",
+                                  "tile_size"};
+    std::set<std::string> degs = limited; // ports limit the width of a bank
+    degs.insert({"scheduler.issue_width", "scheduler.segments_per_cycle"});
     limited.insert({"gaussian_buffer.ports", "gaussian_buffer.sram_banks", "span_buffer.ports",
                     "packing.ports", "feature_buffer.ports", "feature_buffer.sram_banks",
                     "pixel_buffer.ports", "pixel_buffer.sram_banks"});
@@ -164,10 +176,11 @@ TEST(Area, FollowsTheKeysOfUnitsAndBytesAndNoOthers) {
         {"degs-64", degs},
         {"degs-64", limited, ports},
         {"gscore-64",
-         {"clusters", "projection.count", "sorting.count", "array.lanes", "buffer.bytes"}},
+         {"clusters", "projection.count", "sorting.count", "array.lanes", "buffer.bytes",
+          "binning.pairs_per_cycle"}},
         {"gbu-64",
-         {"projection.count", "sorting.count", "engines.count", "engines.row_pes",
-          "engines.queue_depth", "engines.rows_per_cycle", "engines.entry_bytes",
+         {"binning.pairs_per_cycle", "projection.count", "sorting.count", "engines.count",
+          "engines.row_pes", "engines.queue_depth", "engines.rows_per_cycle", "engines.entry_bytes",
           "list_buffer.bytes", "list_buffer.chunks", "fetching.chunk", "traffic.splat_bytes",
           "reuse_cache.bytes", "pixel_buffer.bytes"},
          {"engines.rows_per_cycle=4"}},

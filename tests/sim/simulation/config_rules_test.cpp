@@ -121,6 +121,7 @@ std::vector<Broken> make_broken_rules() {
          {"pipeline.formats.depth_key=ue4m12b3", "traffic.list_entry_bytes=3"},
          "traffic.list_entry_bytes"},
         {"degs-64", {"cost.leakage_mw_per_mm2=30"}, "cost.degs.span_buffer.power_w"},
+        {"gbu-64", {"cost.logic.pe.power_w=0.0001"}, "cost.logic.pe.power_w"},
         {"gscore-64", {"array.lanes=100"}, "array.lanes"},
         {"gscore-64", {"array.clusters=3"}, "array.clusters"},
         {"gscore-16",
