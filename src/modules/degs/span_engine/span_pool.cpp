@@ -192,16 +192,13 @@ bool SpanPool::send_end(Stream& stream) {
     return true;
 }
 
-// The next cycle in which a unit may have something to take.
+// The next cycle in which there may be something to take. Ends of tiles do not wait for a unit, so
+// it does not matter when one is free.
 Cycle SpanPool::next_date() {
-    const Cycle next = self_.local() + 1;
+    const Cycle from = self_.local() + 1;
     if (waiting_) {
-        return next;
+        return from;
     }
-    const Cycle free = config_.cycles_per_row == 1
-                           ? next
-                           : *std::min_element(free_from_.begin(), free_from_.end());
-    const Cycle from = std::max(next, free);
     watched_.clear();
     for (const Lane& lane : lanes_) {
         if (lane.turn == lane.stream->turn) {
