@@ -36,6 +36,17 @@ void SpanPool::end_of_elaboration() {
     watched_.reserve(lanes_.size());
 }
 
+void SpanPool::start_of_simulation() {
+    SpanStage::start_of_simulation();
+    if (log_ != nullptr) {
+        log_->set("pool", 1);
+        log_->set("module", share_.index);
+        log_->set("modules", share_.of);
+        log_->set("banks", share_.banks);
+        log_->set("streams", share_.streams);
+    }
+}
+
 void SpanPool::run() {
     while (!tiles_.over()) {
         waiting_ = false;
