@@ -74,6 +74,7 @@ public:
         : facts_(std::move(facts)) {
         for (const LoggedEvent& event : events) {
             const auto now = static_cast<Number>(event.now);
+            end_ = std::max(end_, now);
             if (event.kind() == "taken") {
                 taken_[event["port"]].push_back(now);
             } else if (event.has("waited")) { // it came in
@@ -82,7 +83,36 @@ public:
         }
     }
 
+    virtual ~NaiveBlock() = default;
+    /// Messages by port and cycle.
+    std::vector<std::string> run() {
+        try {
+            follow();
+        } catch (const Stuck&) {
+            lines_.say(now_, "waits for ever", 0, {});
+        }
+        return lines_.sorted();
+    }
+
 protected:
+    /// Thrown when the log has long ended.
+    struct Stuck {};
+    virtual void follow() = 0;
+    void next_cycle() {
+        if (++now_ > end_ + kPatience) {
+            throw Stuck();
+        }
+    }
+    void wait_for(const std::string& kind, Number port = 0) {
+        while (!arrived(kind, port)) {
+            next_cycle();
+        }
+    }
+    void wait_for_room(Number port) {
+        while (!room(port, 0)) {
+            next_cycle();
+        }
+    }
     struct Message {
         LoggedEvent event;
         Number readable;
@@ -130,6 +160,8 @@ protected:
     PortLines lines_;
 
 private:
+    static constexpr Number kPatience = 10000; // cycles
+    Number end_ = 0;                           // of the log
     std::map<std::string, Number> facts_;
     std::map<std::string, std::map<Number, std::deque<Message>>> messages_;
     std::map<Number, std::deque<Number>> taken_;

@@ -24,11 +24,12 @@ public:
             }
         }
     }
-    std::vector<std::string> run() {
+
+private:
+    void follow() override {
         Number streams_over = 0;
         while (left("packet")) {
-            for (; !arrived("packet"); ++now_) {
-            }
+            wait_for("packet");
             const LoggedEvent packet = take("packet");
             const bool executes = packet["tasks"] != 0;
             if (executes) {
@@ -45,10 +46,8 @@ public:
             send("tile_state", stream, {kNobody, 0});
             send("tile_done", stream, {kNobody, 0});
         }
-        return lines_.sorted();
     }
 
-private:
     struct Tile {
         Number live = 0; // pixels
         bool reported = false;

@@ -23,10 +23,12 @@ public:
             }
         }
     }
-    std::vector<std::string> run() {
+
+private:
+    void follow() override {
         for (Number tile = 0; left("chunk"); ++tile) {
             if (fact("granted") != 0) {
-                wait_for_chunk(0);
+                wait_for("chunk");
                 tile = messages("chunk").front().event["tile"];
             }
             slice(tile);
@@ -36,10 +38,8 @@ public:
             now_ = std::max(now_, over_); // then it is known that no tile follows
             end_lanes(kNobody);
         }
-        return lines_.sorted();
     }
 
-private:
     static constexpr Number kSkip = 1; // broadcast_skip
     struct Unit {
         Number splat, row, last_row; // `row` is sent next
@@ -48,15 +48,11 @@ private:
         bool done() const { return row > last_row; }
     };
 
-    void wait_for_chunk(Number port) {
-        for (; !arrived("chunk", port); ++now_) {
-        }
-    }
     void slice(Number tile) {
         ended_.clear();
         last_ = false;
         left_ = 0;
-        for (;; ++now_) {
+        for (;; next_cycle()) {
             dropped_ = false;
             reads_ = fact("splat_ports") == 0 ? 1000000 : fact("splat_ports");
             while (Number(units_.size()) < fact("units") && begin_splat(tile)) {
@@ -100,7 +96,7 @@ private:
             if (last_ || dropped_ || (!units_.empty() && !arrived("chunk", port))) {
                 return false;
             }
-            wait_for_chunk(port);
+            wait_for("chunk", port);
             const LoggedEvent chunk = take("chunk", port);
             last_ = chunk["last"] != 0;
             while (arrived("cancelled")) {
@@ -159,8 +155,7 @@ private:
                 return;
             }
             const Number lane = unit.row % (fact("lanes") * fact("modules")) / fact("modules");
-            for (; !room(lane, 0); ++now_) {
-            }
+            wait_for_room(lane);
             Writes& writes = writes_[lane];
             writes = writes.now == now_ ? writes : Writes{now_, 0};
             if (fact("row_ports") != 0 && writes.rows == fact("row_ports")) {
@@ -173,8 +168,7 @@ private:
     }
     void end_lanes(Number tile) {
         for (Number lane = 0; lane < fact("lanes"); ++lane) {
-            for (; !room(lane, 0); ++now_) {
-            }
+            wait_for_room(lane);
             fill("row", lane, {tile, 1, 0, 0}, 1);
         }
     }

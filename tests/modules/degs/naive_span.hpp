@@ -26,16 +26,16 @@ public:
         lanes_ = lanes_ / fact("streams"); // of a stream
         ports_ = fact("banks") / common();
     }
-    std::vector<std::string> run() {
+
+private:
+    void follow() override {
         if (fact("pool") == 0) {
             run_unit();
         } else {
             run_pool();
         }
-        return lines_.sorted();
     }
 
-private:
     struct Stream {
         Number ends = 0;         // lanes that have delivered the end of the tile
         Number port = -1;        // to which the end goes next; -1: no end has to be sent
@@ -63,8 +63,7 @@ private:
     // One unit with a lane and rows of its own.
     void run_unit() {
         while (left("row")) {
-            for (; !arrived("row"); ++now_) {
-            }
+            wait_for("row");
             const LoggedEvent row = take("row");
             if (row["end"] != 0) {
                 for (Number port = 0; port < ports_; ++port) {
@@ -81,10 +80,6 @@ private:
             now_ += fact("cycles_per_row");
         }
     }
-    void wait_for_room(Number port) {
-        for (; !room(port, 0); ++now_) {
-        }
-    }
 
     // Units that share lanes.
     void run_pool() {
@@ -93,7 +88,7 @@ private:
             stream.ended.resize(lanes_);
         }
         free_from_.resize(fact("units"));
-        for (; left("row") || ending(); ++now_) {
+        for (; left("row") || ending(); next_cycle()) {
             reads_.assign(fact("streams") * lanes_, 0);
             for (Number lane = 0; lane < Number(reads_.size()); ++lane) {
                 look_at(lane);
