@@ -60,7 +60,7 @@ inline std::vector<std::string> port_lines(const std::vector<LoggedEvent>& event
         const std::vector<Number> rest(event.numbers.begin() + (waited ? 2 : 1),
                                        event.numbers.end());
         if (event.kind() == "taken") {
-            lines.say(now - event["waited"], "readable", event["port"], rest);
+            lines.say(now - event["waited"], "readable", event["port"], {});
         } else {
             lines.say(now, event.kind(), event["port"], rest);
         }
@@ -151,7 +151,7 @@ protected:
     void fill(const std::string& kind, Number port, const std::vector<Number>& numbers,
               Number latency) {
         send(kind, port, numbers);
-        lines_.say(now_ + latency, "readable", port, numbers);
+        lines_.say(now_ + latency, "readable", port, {});
         ++inside_[port];
     }
 

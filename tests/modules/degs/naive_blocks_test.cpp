@@ -36,18 +36,15 @@ private:
 
 class SmallRunNaiveBlocks : public ::testing::TestWithParam<unsigned> {};
 
-// There are two runs, because a side of a ring has one log, and the lanes of the Span Buffer belong
-// to both Slicing Units and Span Units.
 TEST_P(SmallRunNaiveBlocks, TakeAndSendTheSame) {
     test::Draw draw(GetParam());
     const DegsConfig config = draw.config(GetParam());
     SCOPED_TRACE(test::describe(config));
     const std::vector<FrameWorkload> frames = test::draw_frames(GetParam(), draw, config);
     const std::vector<const FrameWorkload*> list = test::pointers_to(frames);
-    const DegsRun one("one", config, list, Fidelity::Strict);
-    const DegsRun two("two", config, list, Fidelity::Strict);
-    const Logs spans(one.degs().spans()), slices(one.degs().slices());
-    const Logs slicing(two.degs().slicing());
+    const DegsRun run("strict", config, list, Fidelity::Strict);
+    const Logs slicing(run.degs().slicing()), spans(run.degs().spans());
+    const Logs slices(run.degs().slices());
     sc_core::sc_start();
     spans.expect_naive("span");
     slices.expect_naive("slice");

@@ -127,7 +127,7 @@ void GaussianSlicingUnit::start_of_simulation() {
     cancel.ring().log_takes(*log_, "cancelled");
     for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].ring().log_puts(*log_, "row", i);
-        out[i].ring().log_takes(*log_, "taken", i);
+        out[i].ring().log_departures(*log_, "taken", i);
     }
 }
 

@@ -49,7 +49,7 @@ void SpanStage::start_of_simulation() {
     }
     for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].ring().log_puts(*log_, "span", i);
-        out[i].ring().log_takes(*log_, "taken", i);
+        out[i].ring().log_departures(*log_, "taken", i);
     }
 }
 
