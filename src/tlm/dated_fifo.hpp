@@ -181,6 +181,13 @@ public:
     void log_takes(EventLog& log, const char* kind, std::size_t port = 0) {
         takes_ = logged(log, kind, port, true);
     }
+    /// Logs when the reader takes what was written, as events `kind` of port `port` of the writer,
+    /// which say no more than log_takes() does about dates.
+    void log_departures(EventLog& log, const char* kind, std::size_t port = 0) {
+        attended_ = true;
+        departures_ = {&log, log.kind(kind, {{"port", {}}, {"waited", {}}}),
+                       static_cast<std::int64_t>(port)};
+    }
 
     // Standard interfaces (TLM-1), for blocks that live in kernel time.
     void put(const T& value) override {
@@ -392,10 +399,11 @@ private:
     }
     __attribute__((noinline)) void show_take(const T& value, Cycle readable, Cycle now) const {
         announce();
+        if (departures_.log != nullptr) {
+            begin_take(departures_, readable, now);
+        }
         if (takes_.log != nullptr) {
-            takes_.log->begin(takes_.kind, now);
-            takes_.log->put(takes_.port);
-            takes_.log->put(static_cast<std::int64_t>(now - readable));
+            begin_take(takes_, readable, now);
             FieldValues values(*takes_.log);
             visit_fields(value, values);
         }
@@ -406,6 +414,11 @@ private:
         std::size_t kind = 0;
         std::int64_t port = 0;
     };
+    static void begin_take(const Logged& side, Cycle readable, Cycle now) {
+        side.log->begin(side.kind, now);
+        side.log->put(side.port);
+        side.log->put(static_cast<std::int64_t>(now - readable));
+    }
     Logged logged(EventLog& log, const char* kind, std::size_t port, bool takes) {
         std::vector<EventLog::Field> fields{{"port", {}}};
         if (takes) {
@@ -460,7 +473,7 @@ private:
     std::unique_ptr<Process> foreign_reader_;
     mutable bool foreign_listens_ = false; // somebody asked for ok_to_get() or ok_to_put()
     mutable bool attended_ = false;        // by foreign blocks or by a log
-    Logged puts_, takes_;
+    Logged puts_, takes_, departures_;
     mutable sc_core::sc_event foreign_item_;
     mutable sc_core::sc_event foreign_room_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // --block-log: the logs of blocks that face each other agree, and a naive bank follows them on
 // trained scenes.
-#include "tests/modules/degs/scheduler/naive_log.hpp"
+#include "tests/modules/degs/naive_blocks.hpp"
 #include "tests/sim/trace/block_log.hpp"
 
 namespace degs::sim_test {
@@ -32,6 +32,26 @@ TEST(SmallRunBlockLog, NeighboursAgree) {
         }
     }
     EXPECT_EQ(sent, taken);
+}
+
+// What a slice says is known to its bank when the pixels have been written back.
+TEST(SmallRunBlockLog, EndedPixelsAreKnownAfterTheWriteBack) {
+    const BlockLog bank = logged(kSmall, "degs-64", "bank:3");
+    const BlockLog slice = logged(kSmall, "degs-64", "slice:3");
+    std::vector<std::int64_t> said, known;
+    for (const auto& event : slice.events) {
+        if (event.kind() == "terminated") {
+            said.push_back(static_cast<std::int64_t>(event.now) +
+                           slice.facts().at("writeback_cycles"));
+        }
+    }
+    for (const auto& event : bank.events) {
+        if (event.kind() == "terminated") {
+            known.push_back(static_cast<std::int64_t>(event.now) - event["waited"]);
+        }
+    }
+    EXPECT_GT(said.size(), 0U);
+    EXPECT_EQ(said, known);
 }
 
 // The lanes that Slicing Units feed are those from which Span Units take rows.
@@ -127,6 +147,60 @@ INSTANTIATE_TEST_SUITE_P(Scenes, TrainedBlockLog,
                                          Followed{"st-peter", "2", "degs-64-tuned", "bank:6"},
                                          Followed{"guitar", "1", "degs-64", "bank:5"},
                                          Followed{"guitar", "1", "degs-1024", "bank:17"}));
+
+/// A design and one of its Slicing Units, Span Units or slices of the array.
+struct Other {
+    const char* design;
+    const char* block;
+    std::vector<std::string> settings;
+};
+std::ostream& operator<<(std::ostream& out, const Other& other) {
+    return out << other.design << " " << other.block << " " << other.settings.size();
+}
+
+std::vector<std::string> with_settings(std::vector<std::string> view, const Other& other) {
+    for (const std::string& setting : other.settings) {
+        view.insert(view.end(), {"--set", setting});
+    }
+    return view;
+}
+
+void expect_naive_block(const Other& other, const std::vector<std::string>& view,
+                        std::size_t least) {
+    const BlockLog log = logged(with_settings(view, other), other.design, other.block);
+    EXPECT_GT(log.events.size(), least);
+    EXPECT_EQ(degs::test::naive_difference(other.block, log.facts(), log.events), "");
+}
+
+class SmallRunNaiveBlock : public testing::TestWithParam<Other> {};
+
+TEST_P(SmallRunNaiveBlock, TakesAndSendsTheSame) {
+    expect_naive_block(GetParam(), kSmall, 100);
+}
+
+const Other kOthers[] = {
+    {"degs-64", "span:3", {}},        {"degs-64", "slicing:0", {}},
+    {"degs-64", "slice:3", {}},       {"degs-x-64", "span:0", {}},
+    {"degs-x-64", "slicing:1", {}},   {"degs-x-64", "slice:2", {}},
+    {"degs-64-tuned", "span:3", {}},  {"degs-64-tuned", "slicing:1", {}},
+    {"degs-64-tuned", "slice:5", {}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Designs, SmallRunNaiveBlock, testing::ValuesIn(kOthers));
+
+class TrainedNaiveBlock : public testing::TestWithParam<Other> {};
+
+TEST_P(TrainedNaiveBlock, TakesAndSendsTheSame) {
+    const fs::path scene = trained_scenes() / "flowers" / "scene.ply";
+    if (!fs::exists(scene)) {
+        GTEST_SKIP() << "the trained scene flowers is not in " << trained_scenes()
+                     << "; set DEGS_SCENES";
+    }
+    expect_naive_block(GetParam(), {"--scene", scene.string(), "--camera", "2", "--width", "360"},
+                       10000);
+}
+
+INSTANTIATE_TEST_SUITE_P(Flowers, TrainedNaiveBlock, testing::ValuesIn(kOthers));
 
 } // namespace
 } // namespace degs::sim_test

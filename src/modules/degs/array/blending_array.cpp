@@ -9,6 +9,21 @@
 #include "tlm/has_process.hpp"
 
 namespace degs {
+namespace {
+
+// Pixels of a segment that a packet ends.
+void log_ended(EventLog& log, Cycle now, const TaskRun& run, std::uint32_t ended) {
+    log.begin(
+        log.kind("ended", {{"tile", {}}, {"splat", {}}, {"row", {}}, {"column", {}}, {"mask", {}}}),
+        now);
+    for (const std::int64_t value :
+         {std::int64_t{run.tile}, std::int64_t{run.task.splat}, std::int64_t{run.task.row},
+          std::int64_t{run.task.column}, std::int64_t{ended}}) {
+        log.put(value);
+    }
+}
+
+} // namespace
 
 void ArraySlice::Config::describe(ConfigVisitor& visitor) {
     visitor.integer("pes_per_bank", pes_per_bank, 1, TaskPacket::kMaxRuns,
@@ -74,7 +89,11 @@ void ArraySlice::start_of_simulation() {
         {"writeback_cycles", config_.writeback_cycles},
         {"termination", static_cast<int>(config_.termination)},
         {"contexts", config_.contexts},
-        {"streams", config_.streams}};
+        {"first_context", config_.first_context},
+        {"streams", config_.streams},
+        {"granted", config_.granted},
+        {"segment_length", segment_length_},
+        {"region_listeners", config_.region_listeners}};
     for (const auto& [name, value] : facts) {
         log_->set(name, value);
     }
@@ -235,6 +254,14 @@ void ArraySlice::RecordedPump::pump() {
 
 void ArraySlice::start_tile(Context& context, TileNumber number) {
     const JobTile& tile = job_.tiles[number];
+    if (log_ != nullptr) {
+        log_->begin(log_->kind("tile", {{"tile", {}}, {"width", {}}, {"height", {}}}),
+                    self_.local());
+        for (const std::int64_t value :
+             {std::int64_t{number}, std::int64_t{tile.width}, std::int64_t{tile.height}}) {
+            log_->put(value);
+        }
+    }
     context.tile = number;
     context.live_pixels = 0;
     context.reported = false;
@@ -253,6 +280,9 @@ void ArraySlice::start_tile(Context& context, TileNumber number) {
 void ArraySlice::pixels_ended(Context& context, const TaskRun& run, std::uint32_t ended) {
     const std::size_t segment = run.domain;
     const int count = __builtin_popcount(ended);
+    if (log_ != nullptr) {
+        log_ended(*log_, self_.local(), run, ended);
+    }
     context.ended_in_segment[segment] |= ended;
     context.live_in_segment[segment] -= count;
     context.live_pixels -= count;

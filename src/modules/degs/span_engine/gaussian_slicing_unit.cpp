@@ -2,6 +2,7 @@
 #include "modules/degs/span_engine/gaussian_slicing_unit.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
 
 #include "tlm/has_process.hpp"
@@ -12,6 +13,22 @@ namespace {
 // Rows remember the ends of 63 segments; the last bit stands for all further ones and never ends.
 constexpr int kLastBit = 63;
 constexpr int kUnlimited = std::numeric_limits<int>::max();
+
+// A splat that a unit begins with. The ranges lie inside the tile; an empty one ends before it
+// begins.
+void log_splat(EventLog& log, Cycle now, std::initializer_list<std::int64_t> numbers) {
+    log.begin(log.kind("splat", {{"tile", {}},
+                                 {"entry", {}},
+                                 {"splat", {}},
+                                 {"first_row", {}},
+                                 {"last_row", {}},
+                                 {"first_column", {}},
+                                 {"last_column", {}}}),
+              now);
+    for (const std::int64_t number : numbers) {
+        log.put(number);
+    }
+}
 
 } // namespace
 
@@ -88,7 +105,16 @@ void GaussianSlicingUnit::start_of_simulation() {
         {"splats_per_cycle", config_.splats_per_cycle},
         {"distribution", static_cast<int>(config_.distribution)},
         {"rows", static_cast<int>(config_.rows)},
-        {"skip_dead_rows", config_.skip_dead_rows}};
+        {"skip_dead_rows", config_.skip_dead_rows},
+        {"segment_length", segment_length_},
+        {"inputs", static_cast<std::int64_t>(in.size())},
+        {"slices", static_cast<std::int64_t>(region_ended.size())},
+        {"lanes", static_cast<std::int64_t>(out.size())},
+        {"granted", config_.granted},
+        {"splat_ports",
+         config_.splat_ports.limited() ? config_.splat_ports.neighbours(kUnlimited) : 0},
+        {"row_ports", config_.row_ports.ports},
+        {"places", static_cast<std::int64_t>(out[0].ring().depth())}};
     for (const auto& [name, value] : facts) {
         log_->set(name, value);
     }
@@ -101,6 +127,7 @@ void GaussianSlicingUnit::start_of_simulation() {
     cancel.ring().log_takes(*log_, "cancelled");
     for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].ring().log_puts(*log_, "row", i);
+        out[i].ring().log_departures(*log_, "taken", i);
     }
 }
 
@@ -110,6 +137,9 @@ void GaussianSlicingUnit::run() {
         end_lanes(number);
     }
     if (config_.granted) {
+        if (log_ != nullptr) {
+            log_->begin(log_->kind("over", {}), self_.local());
+        }
         end_lanes(kNoTile);
     }
     self_.finish();
@@ -331,6 +361,12 @@ void GaussianSlicingUnit::begin(TileNumber number, Slice& slice) {
     // The first one of ours.
     slice.row = rows.first + (index_ - rows.first % modules_ + modules_) % modules_;
     slice.last = rows.last;
+    if (log_ != nullptr) {
+        const PixelRange columns = job_.path->columns(slice.splat).within(tile.columns());
+        log_splat(*log_, self_.local(),
+                  {number, static_cast<std::int64_t>(tile.first + place), slice.splat, rows.first,
+                   rows.last, columns.first - tile.x, columns.last - tile.x});
+    }
     slice.below = config_.skip_dead_rows ? segments_below(tile, slice.splat) : ~std::uint64_t{0};
     stats_.splats++;
     draw(number, place, slice);

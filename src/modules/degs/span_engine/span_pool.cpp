@@ -36,6 +36,17 @@ void SpanPool::end_of_elaboration() {
     watched_.reserve(lanes_.size());
 }
 
+void SpanPool::start_of_simulation() {
+    SpanStage::start_of_simulation();
+    if (log_ != nullptr) {
+        log_->set("pool", 1);
+        log_->set("module", share_.index);
+        log_->set("modules", share_.of);
+        log_->set("banks", share_.banks);
+        log_->set("streams", share_.streams);
+    }
+}
+
 void SpanPool::run() {
     while (!tiles_.over()) {
         waiting_ = false;
@@ -192,16 +203,13 @@ bool SpanPool::send_end(Stream& stream) {
     return true;
 }
 
-// The next cycle in which a unit may have something to take.
+// The next cycle in which there may be something to take. Ends of tiles do not wait for a unit, so
+// it does not matter when one is free.
 Cycle SpanPool::next_date() {
-    const Cycle next = self_.local() + 1;
+    const Cycle from = self_.local() + 1;
     if (waiting_) {
-        return next;
+        return from;
     }
-    const Cycle free = config_.cycles_per_row == 1
-                           ? next
-                           : *std::min_element(free_from_.begin(), free_from_.end());
-    const Cycle from = std::max(next, free);
     watched_.clear();
     for (const Lane& lane : lanes_) {
         if (lane.turn == lane.stream->turn) {

@@ -46,6 +46,7 @@ private:
     };
 
     void end_of_elaboration() override;
+    void start_of_simulation() override;
     void run();
     void take_rows();
     int take_for_unit();

@@ -38,6 +38,8 @@ void SpanStage::start_of_simulation() {
         {"units", config_.units_per_module()},
         {"rows_per_cycle", config_.rows_per_cycle},
         {"cycles_per_row", config_.cycles_per_row},
+        {"latency_cycles", config_.latency_cycles},
+        {"places", static_cast<std::int64_t>(out[0].ring().depth())},
         {"row_ports", config_.row_ports.ports}};
     for (const auto& [name, value] : facts) {
         log_->set(name, value);
@@ -47,6 +49,7 @@ void SpanStage::start_of_simulation() {
     }
     for (std::size_t i = 0; i < out.size(); ++i) {
         out[i].ring().log_puts(*log_, "span", i);
+        out[i].ring().log_departures(*log_, "taken", i);
     }
 }
 

@@ -8,7 +8,8 @@ namespace degs {
 
 SpanUnit::SpanUnit(const sc_core::sc_module_name& name, const Config& config, const Timebase& time,
                    const RenderJob& job, int index, int banks)
-    : SpanStage(name, config, job, 1, reachable(index, config.count, banks), 1), self_(time),
+    : SpanStage(name, config, job, 1, reachable(index, config.count, banks), 1), index_(index),
+      banks_(banks), self_(time),
       port_of_row_(ports_of_rows(job.tile_size, index, config.count, banks)) {
     DEGS_HAS_PROCESS(SpanUnit);
     if (self_.strict()) {
@@ -28,6 +29,17 @@ void SpanUnit::end_of_elaboration() {
         rings_.back()->connect_writer(self_);
     }
     connect_reports(self_);
+}
+
+void SpanUnit::start_of_simulation() {
+    SpanStage::start_of_simulation();
+    if (log_ != nullptr) {
+        log_->set("pool", 0);
+        log_->set("module", index_);
+        log_->set("modules", config_.count);
+        log_->set("banks", banks_);
+        log_->set("streams", 1);
+    }
 }
 
 std::unique_ptr<DrawnSpans> SpanUnit::hand_over(Process& bank) {

@@ -23,11 +23,13 @@ public:
 
 private:
     void end_of_elaboration() override;
+    void start_of_simulation() override;
     void run();
     void pump() override;
     void take();
     bool deliver();
 
+    int index_, banks_;
     Process self_;
     // The rings to which the ports are bound.
     DatedFifo<RowItem>* rows_ = nullptr;

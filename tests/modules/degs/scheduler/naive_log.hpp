@@ -46,7 +46,7 @@ inline std::string first_difference(const std::vector<std::string>& model,
         const std::string b = i < naive.size() ? naive[i] : "nothing";
         if (a != b) {
             return "line " + std::to_string(i) + ": the model has \"" + a +
-                   "\", the naive bank \"" + b + "\"";
+                   "\", the naive block \"" + b + "\"";
         }
     }
     return "";
