@@ -57,7 +57,8 @@ GROUPS = {
               ("longest list first", "degs-x-256", {"tile_order": "longest_list"}),
               ("records in Morton order", "degs-x-256", {"memory.layout": "morton"}),
               ("list entries of 6 B", "degs-x-256", {"traffic.list_entry_bytes": 6}),
-              ("SH of 1 B", "degs-x-256", {"traffic.sh_value_bytes": 1})],
+              ("SH of 1 B", "degs-x-256", {"traffic.sh_value_bytes": 1,
+                                            "pipeline.formats": "{ sh_dc: e4m3, sh_rest: e4m3 }"})],
     "4k": [(name, name, {}) for name in ("degs-64", "degs-x-64", "degs-256", "degs-x-256")],
 }
 SETTINGS = {"64": ["alone", "204.8", "102.4"], "256": ["alone", "204.8", "409.6"], "1024": ["819.2", "204.8"],

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/config_document.hpp"
 #include "sim/cache/cached_view.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/scene_words.hpp"
