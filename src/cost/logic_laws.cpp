@@ -97,8 +97,8 @@ double LogicLaws::fo4_queue(int depth, int cut) const {
     return queue_fo4.of(cut, std::log2(std::max(2, depth)));
 }
 
-double LogicLaws::area_domains(int count, int issued) const {
-    return domains.of(count, double(count) * issued);
+double LogicLaws::area_domains(int waiting, int issued) const {
+    return domains.of(waiting, double(waiting) * issued);
 }
 
 // A lane is one of the packets that a cycle may complete or write, and of the one behind them. A

@@ -54,8 +54,8 @@ struct LogicLaws {
     /// Lists of segments with `bits` flip-flops of state.
     double area_queue(int bits, int cut, int issued) const;
     double fo4_queue(int depth, int cut) const;
-    /// Dates and ended pixels of `domains`.
-    double area_domains(int domains, int issued) const;
+    /// Dates and ended pixels of `waiting` domains.
+    double area_domains(int waiting, int issued) const;
     /// A Packing Unit that takes `segments` of `length` pixels and writes `packets` of `width`
     /// tasks in a cycle.
     double area_packing(int segments, int length, int width, int packets) const;
