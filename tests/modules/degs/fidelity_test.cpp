@@ -72,7 +72,7 @@ TEST_P(SmallRunFidelity, ExactIsStrict) {
     expect_exact_is_strict(GetParam(), draw, config);
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, SmallRunFidelity, ::testing::Range(0U, 100U));
+INSTANTIATE_TEST_SUITE_P(Random, SmallRunFidelity, ::testing::Range(0U, 40U));
 
 /// More designs of the same kind. They do not run under the sanitizers as well, where one
 /// takes several times as long.
@@ -84,7 +84,7 @@ TEST_P(MoreRunsFidelity, ExactIsStrict) {
     expect_exact_is_strict(GetParam(), draw, config);
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, MoreRunsFidelity, ::testing::Range(100U, 600U));
+INSTANTIATE_TEST_SUITE_P(Random, MoreRunsFidelity, ::testing::Range(40U, 600U));
 
 class PlainRunFidelity : public ::testing::TestWithParam<unsigned> {};
 

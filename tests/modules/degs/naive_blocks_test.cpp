@@ -34,9 +34,10 @@ private:
     std::vector<EventLog> logs_;
 };
 
-class SmallRunNaiveBlocks : public ::testing::TestWithParam<unsigned> {};
+/// The sanitizers have the blocks of three designs (tests/sim/trace/block_log_test.cpp).
+class NaiveBlocks : public ::testing::TestWithParam<unsigned> {};
 
-TEST_P(SmallRunNaiveBlocks, TakeAndSendTheSame) {
+TEST_P(NaiveBlocks, TakeAndSendTheSame) {
     test::Draw draw(GetParam());
     const DegsConfig config = draw.config(GetParam());
     SCOPED_TRACE(test::describe(config));
@@ -51,7 +52,7 @@ TEST_P(SmallRunNaiveBlocks, TakeAndSendTheSame) {
     slicing.expect_naive("slicing");
 }
 
-INSTANTIATE_TEST_SUITE_P(Random, SmallRunNaiveBlocks, ::testing::Range(3000U, 3060U));
+INSTANTIATE_TEST_SUITE_P(Random, NaiveBlocks, ::testing::Range(3000U, 3060U));
 
 } // namespace
 } // namespace degs
