@@ -10,8 +10,8 @@ namespace degs::cost {
 
 void Law::describe(ConfigVisitor& visitor) {
     constexpr double kMost = 1e9;
-    visitor.real("a", a, -kMost, kMost, "factor of the first term");
-    visitor.real("b", b, -kMost, kMost, "factor of the second term");
+    visitor.real("a", a, 0, kMost, "factor of the first term");
+    visitor.real("b", b, 0, kMost, "factor of the second term");
 }
 
 void LogicLaws::describe(ConfigVisitor& visitor) {

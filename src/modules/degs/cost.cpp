@@ -113,7 +113,8 @@ double DegsConfig::bank_ratio() const {
     }
     DegsConfig table;
     table.cost_rows.segment_queue = cost_rows.segment_queue;
-    return bank_shape().area(cost.logic) / table.bank_shape().area(cost.logic);
+    const double published = table.bank_shape().area(cost.logic);
+    return published > 0 ? bank_shape().area(cost.logic) / published : 1; // laws may be all zero
 }
 
 // Waiting segments have as many ports as are cut or issued in a cycle, unless a key says how many.
