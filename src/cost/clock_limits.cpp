@@ -47,7 +47,8 @@ void ClockEstimate::describe(StatsVisitor& visitor) const {
                  "design has been synthesised.");
     visitor.text("limited_by", limits_.empty() ? "" : limits_.front().block,
                  "The logic that allows no more.");
-    visitor.text("cure", limits_.empty() ? "" : limits_.front().cure,
+    const bool slow = !limits_.empty() && ghz_of(limits_.front()) < clock_ghz_;
+    visitor.text("cure", slow ? limits_.front().cure : "",
                  "A value of a key with which it reaches clock_ghz; empty if it does, or if no key "
                  "helps.");
 }

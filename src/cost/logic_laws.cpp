@@ -29,6 +29,8 @@ void LogicLaws::describe(ConfigVisitor& visitor) {
         "[assumed]");
     visitor.integer("task_bits", task_bits, 1, 256,
                     "bits of a task that the shift network moves beside its pixel [assumed]");
+    visitor.integer("address_bits", address_bits, 1, 64,
+                    "bits of a request that clusters send to the memory [assumed]");
     visitor.section("in_turn", in_turn, "K of N domains in turn, one date: a N + b N K");
     visitor.section("serial", serial, "the same, serial dates: a N K + b N (K - 1)");
     visitor.section("pipelined", pipelined,

@@ -24,7 +24,7 @@ struct LogicLaws {
     UnitRow pe{0.01375, 0.00359375, 1}; ///< what `pe_area` takes in the rows' node
     double pe_area = 851993;            ///< library units
     double fo4_per_ns = 40;
-    int task_bits = 16;
+    int task_bits = 16, address_bits = 48;
     Law in_turn{280.8, 420.9}, serial{703.2, 465.1}, oldest{78.6, 48.3};
     Law queue{135.7, 58.9}, domains{4790.1, 1690.2};
     Law packing{117.0, 4.27};

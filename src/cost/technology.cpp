@@ -8,6 +8,18 @@ namespace {
 
 constexpr double kWPerMw = 1e-3;
 
+// A row whose leakage is more than its power would have a negative energy per operation.
+void require_power(const Technology& technology, const std::string& name, const Row& row,
+                   ConfigVisitor& visitor) {
+    const double leakage = kWPerMw * technology.leakage_mw_per_mm2 * row.area_mm2;
+    const std::string power = name + ".power_w";
+    const std::string area = name + ".area_mm2";
+    visitor.require(row.power_w >= leakage, {power.c_str(),
+                                             "must not be below the leakage of its area",
+                                             config_words::number(leakage),
+                                             {area.c_str(), "leakage_mw_per_mm2"}});
+}
+
 } // namespace
 
 RowSection::RowSection(const char* name, const char* doc, const Technology& technology,
@@ -16,17 +28,10 @@ RowSection::RowSection(const char* name, const char* doc, const Technology& tech
     visitor_.begin_section(name, doc);
 }
 
-// A row whose leakage is more than its power would have a negative energy per operation.
 void RowSection::end() {
     visitor_.end_section();
     for (const auto& [key, row] : rows_) {
-        const double leakage = kWPerMw * technology_.leakage_mw_per_mm2 * row->area_mm2;
-        const std::string power = name_ + "." + key + ".power_w";
-        const std::string area = name_ + "." + key + ".area_mm2";
-        visitor_.require(row->power_w >= leakage, {power.c_str(),
-                                                   "must not be below the leakage of its area",
-                                                   config_words::number(leakage),
-                                                   {area.c_str(), "leakage_mw_per_mm2"}});
+        require_power(technology_, name_ + "." + key, *row, visitor_);
     }
 }
 
@@ -78,11 +83,7 @@ void Technology::describe(ConfigVisitor& visitor) {
     visitor.section("pe", pe, "number formats of PEs");
     visitor.section("dram", dram, "main memory");
     visitor.section("logic", logic, "logic whose cost follows a width, by synthesis");
-    const double leakage = kWPerMw * leakage_mw_per_mm2 * logic.pe.area_mm2;
-    visitor.require(logic.pe.power_w >= leakage, {"logic.pe.power_w",
-                                                  "must not be below the leakage of its area",
-                                                  config_words::number(leakage),
-                                                  {"logic.pe.area_mm2", "leakage_mw_per_mm2"}});
+    require_power(*this, "logic.pe", logic.pe, visitor);
 }
 
 double Technology::leakage_w(double area_mm2) const {

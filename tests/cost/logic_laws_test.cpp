@@ -11,6 +11,7 @@
 
 #include "cost/clock_limits.hpp"
 #include "cost/logic_laws.hpp"
+#include "stats/statistics_document.hpp"
 
 namespace degs::cost {
 namespace {
@@ -159,6 +160,18 @@ TEST(ClockEstimate, TheSlowestLogicDecides) {
     EXPECT_EQ(ClockEstimate({{"even", 40, 1, ""}}, 40, 1).warning(), "");
     EXPECT_EQ(ClockEstimate({}, 40, 1).warning(), "");
     EXPECT_FALSE(ClockEstimate({}, 40, 1).feasible_ghz().has_value());
+}
+
+// A design that reaches its clock needs no cure, although its slowest logic has one.
+TEST(ClockEstimate, ReportsACureOnlyIfItIsNeeded) {
+    const auto cure = [](double clock_ghz) {
+        const ClockEstimate clock({{"slow", 200, 4, "key=5"}}, 40, clock_ghz);
+        const std::vector<Statistic> list =
+            list_statistics([&](StatsVisitor& visitor) { clock.describe(visitor); });
+        return std::get<std::string>(list.back().value);
+    };
+    EXPECT_EQ(cure(1), "key=5");
+    EXPECT_EQ(cure(0.8), "");
 }
 
 } // namespace

@@ -2,9 +2,6 @@
 // What an Issue Bank with its Packing Unit takes and how fast it can be, by its widths.
 #pragma once
 
-#include <vector>
-
-#include "cost/clock_limits.hpp"
 #include "cost/logic_laws.hpp"
 #include "modules/degs/scheduler/segment_queue.hpp"
 

@@ -8,10 +8,12 @@ namespace degs {
 namespace {
 
 /// The assignment with which a path of `fo4` has enough cycles, of which `spent` are needed for
-/// something else.
+/// something else; empty if the key does not go so far.
 std::string cure_of(const char* key, double fo4, double fo4_per_cycle, int spent = 0) {
-    return std::string(key) + "=" +
-           std::to_string(spent + static_cast<int>(std::ceil(fo4 / fo4_per_cycle)));
+    constexpr double kMostCycles = 64; // of both keys
+    const double cycles = spent + std::ceil(fo4 / fo4_per_cycle);
+    return cycles > kMostCycles ? ""
+                                : std::string(key) + "=" + std::to_string(static_cast<int>(cycles));
 }
 
 /// The fewest cycles before packing in which a bank chooses its segments fast enough.

@@ -147,11 +147,10 @@ double DegsConfig::span_crossbar_area() const {
 // The share of a cluster: a request of any fetcher is chosen per cycle, and a burst of pixels.
 double DegsConfig::cluster_dispatch_area() const {
     constexpr int kBitsPerByte = 8;
-    constexpr int kAddressBits = 48;
     const int requesters = clusters * fetchers();
     const cost::LogicLaws& laws = cost.logic;
     return (laws.area_in_turn(requesters, 1, false) +
-            laws.area_crossbar(requesters, 1, kAddressBits) +
+            laws.area_crossbar(requesters, 1, laws.address_bits) +
             laws.area_crossbar(clusters, 1, kBitsPerByte * traffic.burst_bytes)) /
            clusters;
 }

@@ -45,7 +45,8 @@ private:
     std::vector<Line> lines_;
 };
 
-/// What the block of a log has taken and sent, and from when on it could be read.
+/// The messages that the block of a log has taken and sent, with the dates from which they could be
+/// read.
 inline std::vector<std::string> port_lines(const std::vector<LoggedEvent>& events) {
     PortLines lines;
     for (const LoggedEvent& event : events) {

@@ -57,7 +57,7 @@ struct BuildOptions {
     /// Memory of somebody else, e.g. of a platform; nullptr: the accelerator gets the memory that
     /// its configuration describes.
     MainMemory* memory = nullptr;
-    /// Is told of every request to memory; nullptr: nobody is.
+    /// Hears of every request to memory; nullptr: nobody listens.
     RequestListener* requests = nullptr;
 };
 

@@ -45,7 +45,7 @@ struct TiledConfig : AcceleratorConfig {
     double pixel_bytes() const { return pixel_buffer.pixel_bytes(tile_pixels()); }
 
 protected:
-    /// Adds what the Tile Binner has beyond published rows to a bill, and its SRAM, if it has any;
+    /// Adds to a bill the logic of the Tile Binner that published rows do not have, and its SRAM;
     /// `row` and what may follow it are those of the other buffers
     /// (cost::BillOfMaterials::add_sram).
     template <class Row, class... Shape>
