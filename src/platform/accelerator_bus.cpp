@@ -77,7 +77,7 @@ tlm::tlm_response_status AcceleratorCore::write(std::uint32_t offset, std::uint3
 // the next frame in the same quantum.
 void AcceleratorCore::command(std::uint32_t bits, const sc_core::sc_time& delay) {
     if ((bits & kControlReset) != 0) {
-        request_stop(Stop::Reset);
+        request_stop(Stop::Reset, delay);
         stop_requested_.notify(delay);
         irq_changed_.notify(delay);
         return;
@@ -85,7 +85,7 @@ void AcceleratorCore::command(std::uint32_t bits, const sc_core::sc_time& delay)
     const std::uint32_t status = registers_.get(Register::Status);
     const bool busy = (status & (kStatusBusy | kStatusInReset)) != 0;
     if ((bits & kControlAbort) != 0 && (status & kStatusBusy) != 0) {
-        request_stop(Stop::Abort);
+        request_stop(Stop::Abort, delay);
         stop_requested_.notify(delay);
     }
     if ((bits & kControlClearError) != 0) {
@@ -107,7 +107,8 @@ void AcceleratorCore::command(std::uint32_t bits, const sc_core::sc_time& delay)
     registers_.set(Register::ErrorDetail, 0);
     request_fault_ = AcceleratorRequest::read(registers_, options_.limits, request_);
     started_ = true;
-    work_.notify(delay);
+    start_date_ = sc_core::sc_time_stamp() + delay;
+    work_.notify(sc_core::SC_ZERO_TIME);
 }
 
 // Moves whole words. Reads every register, and writes those that start nothing.

@@ -79,11 +79,25 @@ void AcceleratorCore::set_status(std::uint32_t set, std::uint32_t clear) {
     lines_.in_reset = (status & kStatusInReset) != 0;
 }
 
+// A start or a stop may have come before this process first ran, and its date may still be ahead.
+void AcceleratorCore::await_command() {
+    for (;;) {
+        const bool stops = stop_ != Stop::None;
+        const sc_core::sc_time due = stops ? stop_date_ : start_date_;
+        const sc_core::sc_time now = sc_core::sc_time_stamp();
+        if (!started_ && !stops) {
+            sc_core::wait(work_);
+        } else if (due > now) {
+            sc_core::wait(due - now, work_);
+        } else {
+            return;
+        }
+    }
+}
+
 void AcceleratorCore::run() {
     for (;;) {
-        while (!started_ && stop_ == Stop::None) {
-            sc_core::wait(work_);
-        }
+        await_command();
         const AcceleratorFault fault = stop_ == Stop::None ? serve() : AcceleratorFault{};
         started_ = false;
         if (stop_ == Stop::None) {

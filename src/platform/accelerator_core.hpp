@@ -46,10 +46,11 @@ private:
     tlm::tlm_response_status write(std::uint32_t offset, std::uint32_t value,
                                    const sc_core::sc_time& delay);
     void command(std::uint32_t bits, const sc_core::sc_time& delay);
+    void await_command();
 
     /// Why the present frame, if there is one, is given up.
     enum class Stop { None, Abort, Reset };
-    void request_stop(Stop why);
+    void request_stop(Stop why, const sc_core::sc_time& delay);
     void end_stop();
     void await_rest();
     bool held_in_reset() const { return shell_.reset_n.size() != 0 && !shell_.reset_n->read(); }
@@ -83,7 +84,8 @@ private:
     std::unique_ptr<RenderEngine> engine_;
     bool started_ = false; // a start waits for its date, or is being served
     Stop stop_ = Stop::None;
-    sc_core::sc_event work_; // of run(), at the date of a start or a stop
+    sc_core::sc_time start_date_, stop_date_; // which may lie ahead of the kernel's time
+    sc_core::sc_event work_;                  // wakes run(), which looks for what is due
     sc_core::sc_event stop_requested_, irq_changed_;
 };
 

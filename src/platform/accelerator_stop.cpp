@@ -4,6 +4,8 @@
 // The blocks are threads with state of their own. None of them knows how to give up a frame, so
 // they finish it, at no cost to the platform: the gateway stops touching the bus, and the clock
 // hurries.
+#include <algorithm>
+
 #include "platform/accelerator_core.hpp"
 
 namespace degs {
@@ -15,20 +17,25 @@ constexpr std::uint64_t kRestInterval = 128;
 } // namespace
 
 // Registers show it at once; the rest follows at its date, see begin_stop().
-void AcceleratorCore::request_stop(Stop why) {
+void AcceleratorCore::request_stop(Stop why, const sc_core::sc_time& delay) {
     if (why == Stop::Reset) {
         registers_ = AcceleratorRegisters();
         set_status(kStatusInReset, 0);
     }
+    const sc_core::sc_time date = sc_core::sc_time_stamp() + delay;
+    stop_date_ = stop_ == Stop::None ? date : std::min(stop_date_, date);
     stop_ = stop_ == Stop::Reset ? stop_ : why;
 }
 
 void AcceleratorCore::begin_stop() {
     if (held_in_reset()) {
-        request_stop(Stop::Reset);
+        request_stop(Stop::Reset, sc_core::SC_ZERO_TIME);
         irq_changed_.notify(sc_core::SC_ZERO_TIME);
     }
     if (stop_ == Stop::None || gateway_.detached()) { // it has been done, or is under way
+        return;
+    }
+    if (stop_date_ > sc_core::sc_time_stamp()) { // the first activation, or a change of reset_n
         return;
     }
     gateway_.detach();
@@ -54,13 +61,15 @@ void AcceleratorCore::await_rest() {
 
 void AcceleratorCore::end_stop() {
     do {
-        begin_stop(); // the frame may have ended before the date of the stop
+        await_command(); // the frame may have ended before the date of the stop
+        begin_stop();
         await_rest();
         gateway_.attach();
         if (const sc_core::sc_time edge = mapping_.resume(); edge > sc_core::sc_time_stamp()) {
             sc_core::wait(edge - sc_core::sc_time_stamp());
         }
     } while (gateway_.detached()); // once more
+    job_.first_since_reset = static_cast<std::uint32_t>(job_.frames.size());
     if (stop_ == Stop::Reset) {
         set_status(0, kStatusInReset);
     } else {

@@ -24,6 +24,9 @@
 
 namespace degs::test {
 
+constexpr std::uint64_t kSh = 0x10000, kWorkspace = 0x40000, kFrame = 0x80000;
+constexpr std::uint64_t kWorkspaceBytes = 0x40000, kMemoryBytes = 0xC0000;
+
 /// `Annotated`: returns at once with a delay of the latency. `Blocking`: waits for it itself.
 enum class Timing { Immediate, Annotated, Blocking };
 
@@ -45,6 +48,15 @@ public:
         if (has_debug) {
             in.register_transport_dbg(this, &PlainMemory::debug);
         }
+    }
+
+    /// The geometry of a scene at 0, its SH at kSh.
+    void put_scene(const GaussianCloud& cloud) {
+        std::vector<unsigned char> geometry;
+        std::vector<unsigned char> sh;
+        encode_scene(cloud, geometry, sh);
+        std::copy(geometry.begin(), geometry.end(), bytes.begin());
+        std::copy(sh.begin(), sh.end(), bytes.begin() + kSh);
     }
 
 private:
@@ -99,6 +111,8 @@ public:
     sc_core::sc_in<bool> irq;
     std::function<void(Host&)> script;
     bool finished = false;
+    sc_core::sc_time ahead; ///< of the kernel's time, for the next access
+    bool decoupled = false; ///< accesses take time of the host, not of the kernel
 
     explicit Host(const sc_core::sc_module_name& name)
         : sc_core::sc_module(name), out("out"), irq("irq") {
@@ -113,9 +127,11 @@ public:
         payload.set_data_ptr(static_cast<unsigned char*>(data));
         payload.set_data_length(length);
         payload.set_streaming_width(length);
-        sc_core::sc_time delay = sc_core::SC_ZERO_TIME;
-        out->b_transport(payload, delay);
-        sc_core::wait(delay);
+        out->b_transport(payload, ahead);
+        if (!decoupled) {
+            sc_core::wait(ahead);
+            ahead = sc_core::SC_ZERO_TIME;
+        }
         return payload.get_response_status();
     }
     void write(Register which, std::uint32_t value, std::uint32_t word = 0) {
@@ -169,9 +185,6 @@ private:
     }
 };
 
-constexpr std::uint64_t kSh = 0x10000, kWorkspace = 0x40000, kFrame = 0x80000;
-constexpr std::uint64_t kWorkspaceBytes = 0x40000, kMemoryBytes = 0xC0000;
-
 /// One accelerator, its host, its memory with a scene at 0.
 struct Platform {
     Platform(const char* name, const AcceleratorConfig& config, const GaussianCloud& cloud,
@@ -190,11 +203,7 @@ struct Platform {
         accelerator.mem.bind(monitor.in);
         if (memory) {
             mem().bind(memory->in);
-            std::vector<unsigned char> geometry;
-            std::vector<unsigned char> sh;
-            encode_scene(cloud, geometry, sh);
-            std::copy(geometry.begin(), geometry.end(), memory->bytes.begin());
-            std::copy(sh.begin(), sh.end(), memory->bytes.begin() + kSh);
+            memory->put_scene(cloud);
         }
     }
     Platform(const Platform&) = delete;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a start takes over, when the processor that writes it runs ahead of the kernel.
+#include <algorithm>
+#include <array>
+
 #include "modules/degs/config.hpp"
 #include "tests/platform/accelerator_bench.hpp"
 
@@ -84,6 +87,66 @@ TEST_F(SmallRunAcceleratorStart, TheFrameBeginsAtTheAnnotatedDate) {
     };
     sc_core::sc_start();
     EXPECT_TRUE(p.host.finished);
+}
+
+/// A platform whose parts are constructed in any order.
+struct Parts {
+    std::unique_ptr<Accelerator> accelerator;
+    std::unique_ptr<PlainMemory> memory;
+    std::unique_ptr<Host> host;
+    sc_core::sc_signal<bool> irq;
+    sc_core::sc_time first_access;
+    std::uint64_t cycles = 0;
+
+    Parts(const std::string& name, const std::array<int, 3>& order, const AcceleratorConfig& config)
+        : irq((name + "_irq").c_str()) {
+        for (const int part : order) {
+            if (part == 0) {
+                accelerator = std::make_unique<Accelerator>((name + "_gpu").c_str(), config);
+            } else if (part == 1) {
+                memory = std::make_unique<PlainMemory>((name + "_memory").c_str(), kMemoryBytes,
+                                                       Timing::Annotated);
+            } else {
+                host = std::make_unique<Host>((name + "_cpu").c_str());
+            }
+        }
+        accelerator->irq.bind(irq);
+        host->irq.bind(irq);
+        host->out.bind(accelerator->registers);
+        accelerator->mem.bind(memory->in);
+        memory->on_access = [this](std::uint64_t access) {
+            first_access = access == 1 ? sc_core::sc_time_stamp() : first_access;
+        };
+    }
+};
+
+// All of it in the first activation of the processor, which may be before or after that of the
+// accelerator, at kernel time zero.
+TEST_F(SmallRunAcceleratorStart, NoDateDependsOnTheOrderOfConstruction) {
+    std::vector<std::unique_ptr<Parts>> all;
+    std::array<int, 3> order{0, 1, 2};
+    do {
+        Parts& parts = *all.emplace_back(
+            std::make_unique<Parts>("p" + std::to_string(all.size()), order, config));
+        parts.memory->put_scene(cloud);
+        parts.host->script = [&](Host& host) {
+            host.ahead = sc_core::sc_time(500, sc_core::SC_NS);
+            host.decoupled = true;
+            program(host, cloud, camera);
+            host.write(Register::IrqEnable, kIrqDone | kIrqError);
+            host.write(Register::Control, kControlStart);
+            host.decoupled = false;
+            EXPECT_TRUE(host.await_irq());
+            parts.cycles = host.read_pair(Register::Cycles);
+        };
+    } while (std::next_permutation(order.begin(), order.end()));
+    sc_core::sc_start();
+    for (const auto& parts : all) {
+        EXPECT_TRUE(parts->host->finished);
+        EXPECT_GE(parts->first_access, sc_core::sc_time(500, sc_core::SC_NS));
+        EXPECT_EQ(parts->first_access, all.front()->first_access);
+        EXPECT_EQ(parts->cycles, all.front()->cycles);
+    }
 }
 
 } // namespace

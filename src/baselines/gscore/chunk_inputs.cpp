@@ -31,7 +31,7 @@ TileNumber ChunkInputs::next_of_job() {
 }
 
 void ChunkInputs::stop(TileNumber tile) {
-    stopped_[tile % ports_.size()] = true;
+    stopped_[ring_of(tile)] = true;
     ++stopped_count_;
 }
 

@@ -12,7 +12,7 @@
 namespace degs::gscore {
 
 /// The rings through which an array gets its tiles' splats. Either all tiles of the job come, tile
-/// t on ring t modulo their number, or tiles are granted: they come one by one, ascending, on the
+/// each on the ring of its sorter, or tiles are granted: they come one by one, ascending, on the
 /// only ring, until kNoTile. Chunks that still come for a tile that has stopped are dropped
 /// whenever the array looks here, so that it can work on tiles from other rings in the meantime.
 class ChunkInputs {
@@ -27,7 +27,7 @@ public:
     /// the start or when it joins, a granted one when its first chunk is there. kNoTile: that was
     /// all.
     TileNumber next_tile();
-    DatedFifo<SplatChunk>& of(TileNumber tile) { return ports_[tile % ports_.size()].ring(); }
+    DatedFifo<SplatChunk>& of(TileNumber tile) { return ports_[ring_of(tile)].ring(); }
     /// Drops the further chunks of `tile`, whose last chunk has not been taken.
     void stop(TileNumber tile);
     /// Moves the array to the date at which `wanted` has an item it may read, or to `limit`: false
@@ -39,6 +39,7 @@ public:
     std::uint64_t discarded() const { return discarded_; }
 
 private:
+    std::size_t ring_of(TileNumber tile) const { return job_.sorter_of(tile, ports_.size()); }
     TileNumber next_granted();
     TileNumber next_of_job();
     void discard_arrived();

@@ -19,6 +19,16 @@ int banks_of(int pes) {
     return banks;
 }
 
+// One for a bank of up to four PEs, and one more for every doubling: wide packets need several
+// segments, because spans are shorter than segments, but not in proportion.
+int segments_of(int pes_of_bank) {
+    int segments = 1;
+    for (int width = 8; width <= pes_of_bank; width *= 2) {
+        ++segments;
+    }
+    return segments;
+}
+
 } // namespace
 
 void DegsConfig::scale_to(int pes) {
@@ -38,9 +48,7 @@ void DegsConfig::scale_to(int pes) {
     span.count = banks;
     scheduler.banks = banks;
     array.pes_per_bank = pes / banks;
-    // What fills a packet, to the nearest segment, and one more: spans are shorter than segments.
-    const int length = scheduler.segment_length;
-    scheduler.segments_per_cycle = 1 + (array.pes_per_bank + length / 2) / length;
+    scheduler.segments_per_cycle = segments_of(array.pes_per_bank);
     scheduler.issue_width = scheduler.segments_per_cycle;
     span_buffer.bytes = rows_of_unit * span.count;
     feature_buffer.bytes = splats_of_bank * banks;

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <set>
+#include <stdexcept>
+#include <string>
 
 #include "tests/modules/degs/naive_block.hpp"
 
@@ -50,6 +52,7 @@ private:
 
     void slice(Number tile) {
         ended_.clear();
+        input_ = input_of(tile);
         last_ = false;
         left_ = 0;
         for (;; next_cycle()) {
@@ -66,6 +69,17 @@ private:
             }
             send_rows(tile);
         }
+    }
+    // The ring on which the tile's splats come, which its sorter decides.
+    Number input_of(Number tile) {
+        for (Number port = 0; port < fact("inputs"); ++port) {
+            for (const Message& message : messages("chunk", port)) {
+                if (message.event["tile"] == tile) {
+                    return port;
+                }
+            }
+        }
+        throw std::logic_error("no splats come for tile " + std::to_string(tile));
     }
     // The next splat of the tile that costs the unit something, if it is there.
     bool begin_splat(Number tile) {
@@ -91,13 +105,12 @@ private:
     }
     // Waits for a chunk only if there is nothing else to do.
     bool has_splat(Number tile) {
-        const Number port = tile % fact("inputs");
         while (left_ == 0) {
-            if (last_ || dropped_ || (!units_.empty() && !arrived("chunk", port))) {
+            if (last_ || dropped_ || (!units_.empty() && !arrived("chunk", input_))) {
                 return false;
             }
-            wait_for("chunk", port);
-            const LoggedEvent chunk = take("chunk", port);
+            wait_for("chunk", input_);
+            const LoggedEvent chunk = take("chunk", input_);
             last_ = chunk["last"] != 0;
             while (arrived("cancelled")) {
                 cancelled_before_ = std::max(cancelled_before_, take("cancelled")["value"] + 1);
@@ -180,7 +193,7 @@ private:
     std::set<std::pair<Number, Number>> ended_;              // segments of rows of the tile
     std::vector<Unit> units_;                                // in work, the oldest first
     std::map<Number, Writes> writes_;                        // by lane
-    Number cancelled_before_ = 0, left_ = 0, entry_ = 0, reads_ = 0, over_ = 0;
+    Number input_ = 0, cancelled_before_ = 0, left_ = 0, entry_ = 0, reads_ = 0, over_ = 0;
     bool last_ = false, dropped_ = false;
 };
 

@@ -163,10 +163,10 @@ TEST(Configs, SixtyFourPesHaveTheMemoryOfTableI) {
 // Table III, and two tile contexts as the Pixel Buffer scales with the PEs.
 TEST(Configs, ScalingPointsAreThoseOfThePaper) {
     struct Row {
-        int pes, tile, slicing, spans, banks, width;
+        int pes, tile, slicing, spans, banks, width, segments;
     };
-    for (const Row& row : {Row{16, 16, 1, 4, 4, 4}, Row{64, 32, 2, 8, 8, 8},
-                           Row{256, 64, 4, 16, 16, 16}, Row{1024, 128, 8, 32, 32, 32}}) {
+    for (const Row& row : {Row{16, 16, 1, 4, 4, 4, 1}, Row{64, 32, 2, 8, 8, 8, 2},
+                           Row{256, 64, 4, 16, 16, 16, 3}, Row{1024, 128, 8, 32, 32, 32, 4}}) {
         SCOPED_TRACE(row.pes);
         const DegsConfig config = load_degs("degs-" + std::to_string(row.pes));
         EXPECT_EQ(config.pes(), row.pes);
@@ -175,8 +175,8 @@ TEST(Configs, ScalingPointsAreThoseOfThePaper) {
         EXPECT_EQ(config.span.count, row.spans);
         EXPECT_EQ(config.scheduler.banks, row.banks);
         EXPECT_EQ(config.array.pes_per_bank, row.width);
-        EXPECT_EQ(config.scheduler.issue_width, 1 + (row.width + 8) / 16);
-        EXPECT_EQ(config.scheduler.segments_per_cycle, 1 + (row.width + 8) / 16);
+        EXPECT_EQ(config.scheduler.issue_width, row.segments);
+        EXPECT_EQ(config.scheduler.segments_per_cycle, row.segments);
         EXPECT_EQ(config.pixel_buffer.bytes, row.pes * 256);
         EXPECT_EQ(config.contexts(), 2);
         EXPECT_EQ(config.span_lane_depth(), 32);

@@ -27,10 +27,16 @@ FeatureBuffer::FeatureBuffer(int entries, int open_splats, int streams, const Fi
         stream.open.resize(std::min(open_splats, entries / streams));
         stream.size = stream.open.size();
     }
+    take_in_order();
+}
+
+// All are free.
+void FeatureBuffer::take_in_order() {
     std::uint16_t entry = 0;
     for (Free& place : free_) {
         place = {0, entry++};
     }
+    first_free_ = end_free_ = free_.data();
 }
 
 void FeatureBuffer::close(Cycle now, std::size_t stream) {

@@ -18,7 +18,9 @@ namespace degs {
 /// of its last row has been written back. A splat is open while more of its rows may come: until
 /// `open_splats` others of its tile stream have entered after it, as many as can send rows in turn.
 /// Open splats of a stream never take the share of another, so that no stream can lock another one
-/// out. Partitioned per bank, so that every array slice has its own read port [assumed].
+/// out. Entries are taken in the order in which they became free, and from the first on when all
+/// are free [assumed], so that a frame does not depend on those before it. Partitioned per bank, so
+/// that every array slice has its own read port [assumed].
 class FeatureBuffer {
 public:
     /// How the parameters of a splat come from the Gaussian Buffer. They are sent along with the
@@ -110,6 +112,7 @@ private:
     bool enter(std::uint64_t splat, Cycle now, std::size_t stream);
     void close_oldest(Stream& own, Cycle now);
     void retire(std::uint16_t entry, Cycle date);
+    void take_in_order();
     Cycle fill(std::uint16_t entry, Cycle now);
     Free* next(Free* place) { return place == &free_.back() ? &free_.front() : place + 1; }
 
@@ -168,6 +171,9 @@ inline __attribute__((always_inline)) bool FeatureBuffer::enter(std::uint64_t sp
     Stream& own = streams_[stream];
     if (own.count == own.size) {
         close_oldest(own, now);
+    }
+    if (free_count_ == entries_.size() && last_retired_ <= now) {
+        take_in_order();
     }
     if (next_free() > now) {
         stats_.waits += own.waiting ? 0 : 1;

@@ -160,7 +160,7 @@ TileNumber GaussianSlicingUnit::tile_after(TileNumber number) {
         return in[0]->arrive(self_).tile;
     }
     const TileNumber next = number + 1; // 0 after kNoTile
-    return job_.over(next) ? kNoTile : next;
+    return job_.has_tile(self_, next) ? next : kNoTile;
 }
 
 void GaussianSlicingUnit::slice_tile(TileNumber number) {
@@ -214,7 +214,8 @@ bool GaussianSlicingUnit::add_slice(TileNumber number) {
 // True if the tile has a splat at this date. Waits for one only if no unit has work. A chunk of a
 // cancelled tile takes the cycle.
 bool GaussianSlicingUnit::more_splats(TileNumber number) {
-    FifoPort<SplatChunk>& source = in[number % in.size()];
+    const std::size_t input = config_.granted ? 0 : job_.sorter_of(number, in.size());
+    FifoPort<SplatChunk>& source = in[input];
     while (dealt_ == chunk_.count) {
         if (chunk_.last || dropping_ || (!slices_.empty() && !self_.arrived(source.ring()))) {
             return false;
@@ -229,7 +230,7 @@ bool GaussianSlicingUnit::more_splats(TileNumber number) {
             see_ended_regions(number);
             expect_splats();
         }
-        open_chunks_.open(self_, number % in.size(), chunk_.count - dealt_);
+        open_chunks_.open(self_, input, chunk_.count - dealt_);
     }
     return true;
 }

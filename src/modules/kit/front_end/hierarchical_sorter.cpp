@@ -41,9 +41,10 @@ HierarchicalSorter::HierarchicalSorter(const sc_core::sc_module_name& name, cons
                                        const RenderJob& job, ListChanges& changes, TileNumber index,
                                        std::uint64_t capacity)
     : sc_core::sc_module(name), start("start"), cancel("cancel"), sorted("sorted"),
-      loader("loader", traffic, time, job, index, config.count), lists("lists", time),
-      chunks("chunks", time), config_(config), traffic_(traffic), job_(job), changes_(changes),
-      index_(index), capacity_(capacity), partitioner_(time), sorter_(time),
+      loader("loader", traffic, time, job, SorterTiles(job, index, config.count)),
+      lists("lists", time), chunks("chunks", time), config_(config), traffic_(traffic), job_(job),
+      changes_(changes), of_coarse_(job, index, config.count), of_fine_(of_coarse_),
+      capacity_(capacity), partitioner_(time), sorter_(time),
       loaded_("loaded", time, config.lists_ahead),
       partitioned_("partitioned", time, config.lists_ahead) {
     loader.start.bind(start);
@@ -71,8 +72,9 @@ std::uint64_t HierarchicalSorter::levels_outside(const JobTile& tile) const {
 void HierarchicalSorter::coarse() {
     const std::uint64_t entry = traffic_.list_entry_bytes;
     const std::uint64_t rate = config_.keys_per_cycle;
-    for (std::size_t t = index_; !job_.over(t); t += config_.count) {
+    while (of_coarse_.may_follow()) {
         const TileNumber number = loaded_.get(partitioner_);
+        of_coarse_.pass(number);
         const JobTile& tile = job_.tiles[number];
         const MemoryMap map = job_.map(tile.frame, traffic_);
         const Cycle level = ceil_div(changes_.written(tile), rate); // what is kept has its place
@@ -99,8 +101,10 @@ void HierarchicalSorter::coarse() {
 }
 
 void HierarchicalSorter::fine() {
-    for (std::size_t t = index_; !job_.over(t); t += config_.count) {
-        sort_chunks(partitioned_.get(sorter_));
+    while (of_fine_.may_follow()) {
+        const TileNumber number = partitioned_.get(sorter_);
+        of_fine_.pass(number);
+        sort_chunks(number);
     }
     sorted->put(sorter_, {kNoTile, 0});
     sorter_.finish();

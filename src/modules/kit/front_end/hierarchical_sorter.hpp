@@ -73,7 +73,7 @@ private:
     TrafficConfig traffic_;
     const RenderJob& job_;
     ListChanges& changes_;
-    TileNumber index_;
+    SorterTiles of_coarse_, of_fine_;
     std::uint64_t capacity_;
     Process partitioner_, sorter_;
     DatedFifo<TileNumber> loaded_, partitioned_;

@@ -4,13 +4,14 @@
 namespace degs {
 
 bool ListChanges::keeps(std::uint32_t frame) const {
-    if (!lists_are_kept_ || frame == 0) {
+    if (!lists_are_kept_ || frame == job_.first_since_reset) {
         return false;
     }
     const FrameWorkload& before = *job_.frames[frame - 1];
     const FrameWorkload& now = *job_.frames[frame];
     return before.gaussians == now.gaussians && before.tiles_x == now.tiles_x &&
-           before.tiles_y == now.tiles_y;
+           before.tiles_y == now.tiles_y &&
+           job_.bases[frame - 1].workspace == job_.bases[frame].workspace;
 }
 
 std::size_t ListChanges::grid_index(const JobTile& tile) const {

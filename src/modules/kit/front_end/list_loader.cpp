@@ -6,10 +6,9 @@
 namespace degs {
 
 ListLoader::ListLoader(const sc_core::sc_module_name& name, const TrafficConfig& traffic,
-                       const Timebase& time, const RenderJob& job, TileNumber first,
-                       TileNumber stride)
+                       const Timebase& time, const RenderJob& job, const SorterTiles& tiles)
     : sc_core::sc_module(name), start("start"), out("out"), lists("lists", time), traffic_(traffic),
-      job_(job), first_(first), stride_(stride), self_(time) {
+      job_(job), tiles_(tiles), self_(time) {
     DEGS_HAS_PROCESS(ListLoader);
     SC_THREAD(run);
     self_.show(*this);
@@ -23,8 +22,8 @@ void ListLoader::end_of_elaboration() {
 void ListLoader::run() {
     const std::uint64_t entry = traffic_.list_entry_bytes;
     std::uint32_t frames_started = 0;
-    for (TileNumber t = first_; job_.has_tile(self_, t); t += stride_) {
-        const JobTile& tile = job_.tiles[t];
+    while (tiles_.next(self_)) {
+        const JobTile& tile = job_.tiles[tiles_.tile()];
         while (frames_started <= tile.frame) {
             start->get(self_);
             ++frames_started;
@@ -33,7 +32,7 @@ void ListLoader::run() {
         out->reserve(self_);
         const Completion ready =
             lists.read(self_, map.lists + tile.first * entry, tile.count * entry);
-        out->put_at(self_, t, ready);
+        out->put_at(self_, tiles_.tile(), ready);
         self_.advance();
     }
     self_.finish();

@@ -3,6 +3,7 @@
 
 #include <systemc>
 
+#include "modules/kit/front_end/sorter_tiles.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "modules/kit/job/traffic.hpp"
 #include "tlm/dated_fifo.hpp"
@@ -10,17 +11,16 @@
 
 namespace degs {
 
-/// Reads the lists of every `stride`-th tile from memory, one ahead of the sorter. The lists of a
-/// frame are in memory when its token has come.
+/// Reads the lists of its tiles from memory, one ahead of the sorter. The lists of a frame are in
+/// memory when its token has come.
 class ListLoader : public sc_core::sc_module {
 public:
     FifoPort<std::uint32_t> start; ///< frame tokens from the binner
     FifoPort<TileNumber> out;      ///< tiles whose lists have been read
     MemoryPort lists;
 
-    /// Tiles first, first + stride, ...
     ListLoader(const sc_core::sc_module_name& name, const TrafficConfig& traffic,
-               const Timebase& time, const RenderJob& job, TileNumber first, TileNumber stride);
+               const Timebase& time, const RenderJob& job, const SorterTiles& tiles);
 
 private:
     void end_of_elaboration() override;
@@ -28,7 +28,7 @@ private:
 
     TrafficConfig traffic_;
     const RenderJob& job_;
-    TileNumber first_, stride_;
+    SorterTiles tiles_;
     Process self_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <systemc>
 
+#include "modules/kit/front_end/sorter_tiles.hpp"
 #include "modules/kit/job/render_job.hpp"
 #include "tlm/dated_fifo.hpp"
 #include "tlm/has_process.hpp"
@@ -17,7 +18,7 @@ public:
 
     ListSource(const sc_core::sc_module_name& name, const Timebase& time, const RenderJob& job,
                TileNumber index, TileNumber sources)
-        : sc_core::sc_module(name), sorted("sorted"), job_(job), index_(index), sources_(sources),
+        : sc_core::sc_module(name), sorted("sorted"), job_(job), tiles_(job, index, sources),
           self_(time) {
         DEGS_HAS_PROCESS(ListSource);
         SC_THREAD(run);
@@ -27,15 +28,15 @@ public:
 private:
     void end_of_elaboration() override { sorted->connect_writer(self_); }
     void run() {
-        for (TileNumber t = index_; job_.has_tile(self_, t); t += sources_) {
-            sorted->put(self_, {t, job_.tiles[t].count});
+        while (tiles_.next(self_)) {
+            sorted->put(self_, {tiles_.tile(), job_.tiles[tiles_.tile()].count});
         }
         sorted->put(self_, {kNoTile, 0});
         self_.finish();
     }
 
     const RenderJob& job_;
-    TileNumber index_, sources_;
+    SorterTiles tiles_;
     Process self_;
 };
 

@@ -26,9 +26,10 @@ SortingUnit::SortingUnit(const sc_core::sc_module_name& name, const Config& conf
                          const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
                          ListChanges& changes, TileNumber index, std::uint64_t sort_capacity)
     : sc_core::sc_module(name), start("start"), sorted("sorted"),
-      loader("loader", traffic, time, job, index, config.count), lists("lists", time),
-      config_(config), traffic_(traffic), job_(job), changes_(changes), index_(index),
-      sort_capacity_(sort_capacity), sorter_(time), loaded_("loaded", time, config.lists_ahead) {
+      loader("loader", traffic, time, job, SorterTiles(job, index, config.count)),
+      lists("lists", time), config_(config), traffic_(traffic), job_(job), changes_(changes),
+      tiles_(job, index, config.count), sort_capacity_(sort_capacity), sorter_(time),
+      loaded_("loaded", time, config.lists_ahead) {
     loader.start.bind(start);
     loader.out.bind(loaded_);
     DEGS_HAS_PROCESS(SortingUnit);
@@ -60,8 +61,9 @@ std::uint64_t SortingUnit::keys_moved(const JobTile& tile) {
 void SortingUnit::sort() {
     const std::uint64_t entry = traffic_.list_entry_bytes;
     const std::uint64_t rate = config_.keys_per_cycle;
-    for (std::size_t t = index_; !job_.over(t); t += config_.count) {
+    while (tiles_.may_follow()) {
         const TileNumber number = loaded_.get(sorter_);
+        tiles_.pass(number);
         const JobTile& tile = job_.tiles[number];
         const MemoryMap map = job_.map(tile.frame, traffic_);
         const std::uint64_t runs = (tile.count + sort_capacity_ - 1) / sort_capacity_;

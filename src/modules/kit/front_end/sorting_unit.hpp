@@ -58,7 +58,7 @@ private:
     TrafficConfig traffic_;
     const RenderJob& job_;
     ListChanges& changes_;
-    TileNumber index_;
+    SorterTiles tiles_;
     std::uint64_t sort_capacity_;
     Process sorter_;
     DatedFifo<TileNumber> loaded_;

@@ -28,11 +28,11 @@ void TileDispatcher::end_of_elaboration() {
 }
 
 void TileDispatcher::run() {
-    for (TileNumber number = 0; !job_.over(number); ++number) {
+    for (TileNumber number = 0; job_.has_tile(self_, number); ++number) {
         const Cycle ready = self_.local();
-        const SortedRun list = in[number % in.size()]->get(self_);
+        const SortedRun list = in[job_.sorter_of(number, in.size())]->get(self_);
         stats_.list_wait += self_.local() - ready;
-        if (number == 0 || job_.tiles[number - 1].last_of_frame) {
+        if (job_.tiles[number].turn == 0) {
             frame_begun_ = self_.local();
         }
         const std::size_t engine = next_engine();

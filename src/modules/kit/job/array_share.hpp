@@ -7,7 +7,7 @@ namespace degs {
 
 /// What one of several like arrays works on, and where its pixels are.
 struct ArrayShare {
-    std::size_t inputs = 1; ///< rings of splats; tile t comes on ring t modulo their number
+    std::size_t inputs = 1; ///< rings of splats, one per sorter
     int contexts = 1;       ///< an array's n-th tile lives in context first_context + n modulo this
     int first_context = 0;  ///< in the data path
     /// Tiles come one by one, ascending, on one ring, until kNoTile; else all tiles of the job

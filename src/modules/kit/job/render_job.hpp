@@ -28,6 +28,7 @@ struct JobTile {
     std::uint64_t first = 0;   ///< into the frame's tile_splats
     std::uint64_t count = 0;
     std::uint64_t before = 0; ///< entries of the frame's tiles that are taken earlier
+    TileNumber turn = 0;      ///< tiles of its frame before it; TileList counts them
     bool last_of_frame = false;
 
     PixelRange columns() const { return {x, x + width - 1}; } ///< of the image
@@ -43,7 +44,10 @@ public:
     const JobTile& operator[](std::size_t number) const { return *index_[number]; }
     JobTile& back() { return *index_.back(); }
     void push_back(const JobTile& tile) {
+        const bool first = tiles_.empty() || tiles_.back().frame != tile.frame;
+        const TileNumber turn = first ? 0 : tiles_.back().turn + 1;
         tiles_.push_back(tile);
+        tiles_.back().turn = turn;
         index_.push_back(&tiles_.back());
         size_ = index_.size();
     }
@@ -72,6 +76,8 @@ struct RenderJob {
     std::vector<std::vector<std::uint64_t>> pair_prefix;
     /// Per frame: where its streams live, if not where MemoryMap puts them.
     std::vector<MemoryBases> bases;
+    /// Memory holds nothing of frames before this one: the accelerator was reset, or gave one up.
+    std::uint32_t first_since_reset = 0;
     /// Set if slots are recorded with their dates and tiles.
     std::unique_ptr<SlotRecorder> recorder;
     /// Set while more frames, or tiles of them, may join; notified when one has.
@@ -88,6 +94,11 @@ struct RenderJob {
     bool has_more_frames_than(int count) const {
         const std::size_t limit = count;
         return frames.size() > limit;
+    }
+    /// Which of several like sorting units makes the list of a tile that has joined. They take
+    /// turns, anew in each frame, so that a frame does not depend on those before it.
+    std::size_t sorter_of(std::size_t tile, std::size_t sorters) const {
+        return tiles[tile].turn % sorters;
     }
     const FrameWorkload& frame_of(const JobTile& tile) const { return *frames[tile.frame]; }
     /// Bytes of a frame-buffer pixel.

@@ -35,6 +35,10 @@ public:
         if (Number(open.size()) == std::min(facts_.open_splats, share)) {
             close_oldest(open, now);
         }
+        if (free_.size() == entries_.size() && free_.back().from <= now) { // all are free
+            std::sort(free_.begin(), free_.end(),
+                      [](const Free& a, const Free& b) { return a.entry < b.entry; });
+        }
         if (free_.empty() || free_.front().from > now) {
             return false;
         }
