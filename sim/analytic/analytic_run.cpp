@@ -2,6 +2,7 @@
 #include "sim/analytic/analytic_run.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <nlohmann/json.hpp>
 
@@ -47,26 +48,54 @@ std::unique_ptr<AnalyticModel> analytic_model_of(const RunConfig& config) {
     return model;
 }
 
-AnalyticRun run_analytic(const RunConfig& config, CachedView& view) {
+AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
+                         const FrameWorkload& frame) {
     AnalyticRun run;
     run.config = config;
     const std::unique_ptr<AnalyticModel> model = analytic_model_of(config);
-    const std::vector<FrameWorkload> frames = view.frames(config.accelerator());
     const Stopwatch clock;
-    run.frame = estimate_frame(*model, frames.front(), config.accelerator().tile_order);
+    run.frame = estimate_frame(*model, frame, config.accelerator().tile_order);
     run.estimate_s = clock.seconds();
-    run.scene = view.facts();
-    run.camera = frames.front().camera;
-    run.workload = facts_of(frames.front());
-    run.warnings = view.facts().notes;
+    run.scene = scene;
+    run.camera = frame.camera;
+    run.workload = facts_of(frame);
+    run.warnings = scene.notes;
     run.warnings.insert(run.warnings.end(), config.warnings.begin(), config.warnings.end());
-    for (std::string& sentence : near_plane_warnings({&frames.front()})) {
+    for (std::string& sentence : near_plane_warnings({&frame})) {
         run.warnings.push_back(std::move(sentence));
     }
+    return run;
+}
+
+AnalyticRun run_analytic(const RunConfig& config, CachedView& view) {
+    analytic_model_of(config); // a mistake is found before the frame is made
+    const std::vector<FrameWorkload> frames = view.frames(config.accelerator());
+    AnalyticRun run = run_analytic(config, view.facts(), frames.front());
     run.load_s = view.load_s();
     run.workload_s = view.workload_s();
     view.keep(frames, nullptr);
     return run;
+}
+
+bool is_estimated(Measure measure) {
+    constexpr std::array<Measure, 9> kEstimated{
+        Measure::Cycles,       Measure::PreprocessingCycles, Measure::LatencyMs,
+        Measure::Fps,          Measure::Utilization,         Measure::AreaMm2,
+        Measure::LatencyRatio, Measure::LatencyRatioPerArea, Measure::SimS};
+    return std::find(kEstimated.begin(), kEstimated.end(), measure) != kEstimated.end();
+}
+
+Measures measures_of(const AnalyticRun& run) {
+    const double latency_ms = milliseconds(run);
+    Measures measures;
+    measures[Measure::Cycles] = run.frame.cycles;
+    measures[Measure::PreprocessingCycles] = run.frame.preparation;
+    measures[Measure::LatencyMs] = latency_ms;
+    measures[Measure::Fps] = 1000 / latency_ms;
+    measures[Measure::Utilization] = run.frame.utilization;
+    measures[Measure::AreaMm2] = run.config.accelerator().bill().area_mm2();
+    measures[Measure::SimS] = run.estimate_s;
+    return measures;
 }
 
 ordered_json analytic_json(const AnalyticRun& run) {

@@ -11,6 +11,7 @@
 
 #include "modules/kit/analytic/analytic_frame.hpp"
 #include "sim/cache/cached_view.hpp"
+#include "sim/report/measures.hpp"
 #include "sim/simulation/simulation.hpp"
 
 namespace degs::sim {
@@ -30,8 +31,17 @@ struct AnalyticRun {
 
 /// The model of the design. Throws InputError if its accelerator has none.
 std::unique_ptr<AnalyticModel> analytic_model_of(const RunConfig& config);
+/// A frame that was made for the design. The caller fills in the host times of earlier steps.
+/// Throws InputError likewise.
+AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
+                         const FrameWorkload& frame);
 /// The frame of the view on the design. Throws InputError likewise.
 AnalyticRun run_analytic(const RunConfig& config, CachedView& view);
+
+/// Whether an estimate, or a comparison of estimates, has the measure.
+bool is_estimated(Measure measure);
+/// Measures of an estimate by itself: those of is_estimated() without the ratios.
+Measures measures_of(const AnalyticRun& run);
 
 /// analytic.json
 nlohmann::ordered_json analytic_json(const AnalyticRun& run);

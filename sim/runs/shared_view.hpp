@@ -34,6 +34,8 @@ struct SharedView {
     /// In the child: the summary, as a message, of a run of the whole path, or of its first frame
     /// alone, which is compared with the reference.
     std::string run(const RunRequest& request, bool path) const;
+    /// In the child: the summary, as a message, of an estimate of the first frame.
+    std::string estimate(const RunConfig& config) const;
 };
 
 } // namespace degs::sim

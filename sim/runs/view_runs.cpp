@@ -197,8 +197,11 @@ void ViewRuns::start(const SharedView& shared, ViewRun run) {
     const bool path = run.path;
     run.clock = Stopwatch();
     started_.push_back(std::move(run));
-    interrupted_ = !pool_.start(
-        {started_.back().name, [&request, &shared, path] { return shared.run(request, path); }});
+    const bool analytic = request_.analytic;
+    interrupted_ = !pool_.start({started_.back().name, [&request, &shared, path, analytic] {
+                                     return analytic ? shared.estimate(request.config)
+                                                     : shared.run(request, path);
+                                 }});
 }
 
 void ViewRuns::show(const std::vector<std::size_t>& running) const {
