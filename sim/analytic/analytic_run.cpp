@@ -10,6 +10,7 @@
 #include "degs/error.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/report/report.hpp"
+#include "sim/report/what_if_words.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
@@ -67,10 +68,12 @@ AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
     return run;
 }
 
-AnalyticRun run_analytic(const RunConfig& config, CachedView& view) {
+AnalyticRun run_analytic(const RunConfig& config, CachedView& view,
+                         const std::vector<ChangedDesign>& changed) {
     analytic_model_of(config); // a mistake is found before the frame is made
     const std::vector<FrameWorkload> frames = view.frames(config.accelerator());
     AnalyticRun run = run_analytic(config, view.facts(), frames.front());
+    run.what_if = what_if(config, changed, frames.front(), view);
     run.load_s = view.load_s();
     run.workload_s = view.workload_s();
     view.keep(frames, nullptr);
@@ -117,6 +120,9 @@ ordered_json analytic_json(const AnalyticRun& run) {
     json["dram"] = {{"bytes", frame.bytes}};
     json["sample"] = {
         {"tiles", frame.tiles}, {"tiles_drawn", frame.drawn}, {"rows_apart", frame.rows_apart}};
+    if (!run.what_if.empty()) {
+        json["what_if"] = what_if_json(run.what_if);
+    }
     json["warnings"] = run.warnings;
     json["host"] = {{"fidelity", "analytic"},
                     {"load_s", run.load_s},
@@ -149,7 +155,7 @@ std::string analytic_text(const AnalyticRun& run) {
     say("The estimate rests on " + std::to_string(frame.drawn) + " of " +
         std::to_string(frame.tiles) + " tiles and took " + three_digits(1e3 * run.estimate_s) +
         " ms; there is no image.");
-    return text;
+    return text + what_if_text(run.what_if);
 }
 
 } // namespace degs::sim

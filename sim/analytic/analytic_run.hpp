@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "modules/kit/analytic/analytic_frame.hpp"
+#include "sim/analytic/what_if_run.hpp"
 #include "sim/cache/cached_view.hpp"
 #include "sim/report/measures.hpp"
 #include "sim/simulation/simulation.hpp"
@@ -25,6 +26,7 @@ struct AnalyticRun {
     RunConfig config;
     WorkloadFacts workload;
     AnalyticFrame frame;
+    std::vector<WhatIf> what_if;
     std::vector<std::string> warnings;
     double load_s = 0, workload_s = 0, estimate_s = 0; ///< host
 };
@@ -35,8 +37,10 @@ std::unique_ptr<AnalyticModel> analytic_model_of(const RunConfig& config);
 /// Throws InputError likewise.
 AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
                          const FrameWorkload& frame);
-/// The frame of the view on the design. Throws InputError likewise.
-AnalyticRun run_analytic(const RunConfig& config, CachedView& view);
+/// The frame of the view on the design, and what changes of the design are worth. Throws InputError
+/// likewise.
+AnalyticRun run_analytic(const RunConfig& config, CachedView& view,
+                         const std::vector<ChangedDesign>& changed = {});
 
 /// Whether an estimate, or a comparison of estimates, has the measure.
 bool is_estimated(Measure measure);

@@ -12,10 +12,6 @@
 
 namespace degs::sim {
 
-RuleKind rule_kind(const ProjectionOptions& options) {
-    return {options.order, options.compensated, options.dilation, options.cut, options.near_plane};
-}
-
 void SharedView::render_reference(TileMode mode) {
     const FrameWorkload& frame = frames.front();
     const decltype(reference_kind) kind{mode == TileMode::Exact ? 0 : frame.tile_size, mode,

@@ -7,13 +7,9 @@
 #include <tuple>
 #include <vector>
 
-#include "sim/simulation/simulation.hpp"
+#include "sim/simulation/frame_kind.hpp"
 
 namespace degs::sim {
-
-/// The rules that a projection and its reference are drawn by.
-using RuleKind = std::tuple<SplatOrder, bool, double, double, double>;
-RuleKind rule_kind(const ProjectionOptions& options);
 
 /// One view while it is compared: what its runs have in common, made once.
 struct SharedView {
