@@ -4,6 +4,7 @@
 #include <chrono>
 #include <map>
 
+#include "sim/sweep/search.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {
@@ -197,6 +198,36 @@ TEST(Estimates, RefuseWhatOnlyASimulationGives) {
     has(degs({"sweep", study, "--fidelity", "sampled:10%"}).err, "must be exact or analytic");
     has(degs({"sweep", study_in(folder, "fidelity: fast\n")}).err, "fidelity");
     EXPECT_FALSE(fs::exists(folder / "refused/reports"));
+}
+
+/// Cycles of the designs on a scene, in their order.
+std::vector<double> cycles_of_designs(const std::vector<std::string>& names,
+                                      const std::string& scene, const std::string& fidelity) {
+    const Folder folder;
+    std::vector<std::string> words{"compare"};
+    for (const std::string& name : names) {
+        words.push_back(config(name));
+    }
+    expect_no_failure(degs(and_more(words, {"--scene", scene, "--width", "480", "--no-reference",
+                                            "--fidelity", fidelity, "--out", folder / "out"})));
+    std::vector<double> cycles;
+    for (const Row& row : rows_of(folder / "out/compare.csv")) {
+        cycles.push_back(std::stod(row.at("cycles")));
+    }
+    EXPECT_EQ(cycles.size(), names.size());
+    return cycles;
+}
+
+TEST(Estimates, RankDesignsAsSimulationsDo) {
+    const std::vector<std::string> names{"degs-16",    "degs-64", "degs-256", "gscore-64",
+                                         "gscore-256", "gbu-64",  "gbu-256",  "gcc-64"};
+    for (const std::string scene :
+         {"synthetic:object,gaussians=6000", "synthetic:landscape,gaussians=6000"}) {
+        const auto correlation = sim::rank_correlation(cycles_of_designs(names, scene, "analytic"),
+                                                       cycles_of_designs(names, scene, "exact"));
+        ASSERT_TRUE(correlation) << scene;
+        EXPECT_GE(*correlation, 0.9) << scene;
+    }
 }
 
 /// Seconds of a sweep of estimates of 3 x `sizes` points.
