@@ -2,6 +2,7 @@
 #include "sim/analytic/analytic_run.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <nlohmann/json.hpp>
 
@@ -9,6 +10,7 @@
 #include "degs/error.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/report/report.hpp"
+#include "sim/report/what_if_words.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
@@ -47,26 +49,56 @@ std::unique_ptr<AnalyticModel> analytic_model_of(const RunConfig& config) {
     return model;
 }
 
-AnalyticRun run_analytic(const RunConfig& config, CachedView& view) {
+AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
+                         const FrameWorkload& frame) {
     AnalyticRun run;
     run.config = config;
     const std::unique_ptr<AnalyticModel> model = analytic_model_of(config);
-    const std::vector<FrameWorkload> frames = view.frames(config.accelerator());
     const Stopwatch clock;
-    run.frame = estimate_frame(*model, frames.front(), config.accelerator().tile_order);
+    run.frame = estimate_frame(*model, frame, config.accelerator().tile_order);
     run.estimate_s = clock.seconds();
-    run.scene = view.facts();
-    run.camera = frames.front().camera;
-    run.workload = facts_of(frames.front());
-    run.warnings = view.facts().notes;
+    run.scene = scene;
+    run.camera = frame.camera;
+    run.workload = facts_of(frame);
+    run.warnings = scene.notes;
     run.warnings.insert(run.warnings.end(), config.warnings.begin(), config.warnings.end());
-    for (std::string& sentence : near_plane_warnings({&frames.front()})) {
+    for (std::string& sentence : near_plane_warnings({&frame})) {
         run.warnings.push_back(std::move(sentence));
     }
+    return run;
+}
+
+AnalyticRun run_analytic(const RunConfig& config, CachedView& view,
+                         const std::vector<ChangedDesign>& changed) {
+    analytic_model_of(config); // a mistake is found before the frame is made
+    const std::vector<FrameWorkload> frames = view.frames(config.accelerator());
+    AnalyticRun run = run_analytic(config, view.facts(), frames.front());
+    run.what_if = what_if(config, changed, frames.front(), view);
     run.load_s = view.load_s();
     run.workload_s = view.workload_s();
     view.keep(frames, nullptr);
     return run;
+}
+
+bool is_estimated(Measure measure) {
+    constexpr std::array<Measure, 9> kEstimated{
+        Measure::Cycles,       Measure::PreprocessingCycles, Measure::LatencyMs,
+        Measure::Fps,          Measure::Utilization,         Measure::AreaMm2,
+        Measure::LatencyRatio, Measure::LatencyRatioPerArea, Measure::SimS};
+    return std::find(kEstimated.begin(), kEstimated.end(), measure) != kEstimated.end();
+}
+
+Measures measures_of(const AnalyticRun& run) {
+    const double latency_ms = milliseconds(run);
+    Measures measures;
+    measures[Measure::Cycles] = run.frame.cycles;
+    measures[Measure::PreprocessingCycles] = run.frame.preparation;
+    measures[Measure::LatencyMs] = latency_ms;
+    measures[Measure::Fps] = 1000 / latency_ms;
+    measures[Measure::Utilization] = run.frame.utilization;
+    measures[Measure::AreaMm2] = run.config.accelerator().bill().area_mm2();
+    measures[Measure::SimS] = run.estimate_s;
+    return measures;
 }
 
 ordered_json analytic_json(const AnalyticRun& run) {
@@ -88,6 +120,9 @@ ordered_json analytic_json(const AnalyticRun& run) {
     json["dram"] = {{"bytes", frame.bytes}};
     json["sample"] = {
         {"tiles", frame.tiles}, {"tiles_drawn", frame.drawn}, {"rows_apart", frame.rows_apart}};
+    if (!run.what_if.empty()) {
+        json["what_if"] = what_if_json(run.what_if);
+    }
     json["warnings"] = run.warnings;
     json["host"] = {{"fidelity", "analytic"},
                     {"load_s", run.load_s},
@@ -120,7 +155,7 @@ std::string analytic_text(const AnalyticRun& run) {
     say("The estimate rests on " + std::to_string(frame.drawn) + " of " +
         std::to_string(frame.tiles) + " tiles and took " + three_digits(1e3 * run.estimate_s) +
         " ms; there is no image.");
-    return text;
+    return text + what_if_text(run.what_if);
 }
 
 } // namespace degs::sim

@@ -10,7 +10,9 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "modules/kit/analytic/analytic_frame.hpp"
+#include "sim/analytic/what_if_run.hpp"
 #include "sim/cache/cached_view.hpp"
+#include "sim/report/measures.hpp"
 #include "sim/simulation/simulation.hpp"
 
 namespace degs::sim {
@@ -24,14 +26,26 @@ struct AnalyticRun {
     RunConfig config;
     WorkloadFacts workload;
     AnalyticFrame frame;
+    std::vector<WhatIf> what_if;
     std::vector<std::string> warnings;
     double load_s = 0, workload_s = 0, estimate_s = 0; ///< host
 };
 
 /// The model of the design. Throws InputError if its accelerator has none.
 std::unique_ptr<AnalyticModel> analytic_model_of(const RunConfig& config);
-/// The frame of the view on the design. Throws InputError likewise.
-AnalyticRun run_analytic(const RunConfig& config, CachedView& view);
+/// A frame that was made for the design. The caller fills in the host times of earlier steps.
+/// Throws InputError likewise.
+AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
+                         const FrameWorkload& frame);
+/// The frame of the view on the design, and what changes of the design are worth. Throws InputError
+/// likewise.
+AnalyticRun run_analytic(const RunConfig& config, CachedView& view,
+                         const std::vector<ChangedDesign>& changed = {});
+
+/// Whether an estimate, or a comparison of estimates, has the measure.
+bool is_estimated(Measure measure);
+/// Measures of an estimate by itself: those of is_estimated() without the ratios.
+Measures measures_of(const AnalyticRun& run);
 
 /// analytic.json
 nlohmann::ordered_json analytic_json(const AnalyticRun& run);

@@ -32,6 +32,7 @@ CompareRequest request_of(const CompareOptions& options) {
     request.sampling =
         sampling_for_runs(options.views.within, options.views.seed, request.path.frames);
     request.jobs = options.jobs;
+    check_estimates(request);
     cameras_by_scene(request); // a mistake is found before anything runs
     return request;
 }

@@ -16,6 +16,9 @@ ordered_json row_json(const Comparison& comparison, const ComparisonRow& row) {
     if (row.view < comparison.views.size()) {
         json["view"] = row.view;
     }
+    if (!row.fidelity.empty()) { // a mean has none
+        json["fidelity"] = row.fidelity;
+    }
     for_each_measure([&](Measure m) { put_measure(json, m, row.measures[m]); });
     put_sampling(json, row);
     return json;
@@ -63,7 +66,7 @@ ordered_json comparison_json(const Comparison& comparison) {
 }
 
 std::string comparison_csv(const Comparison& comparison) {
-    std::string text = "config,accelerator,pes,tile_size,scene,camera,width,height";
+    std::string text = "config,accelerator,pes,tile_size,scene,camera,width,height,fidelity";
     for_each_measure([&](Measure m) { text += "," + name_of(m); });
     const bool sampled = any_sampled(comparison.rows);
     text += (sampled ? sampling_headings() : "") + "\n";
@@ -74,7 +77,7 @@ std::string comparison_csv(const Comparison& comparison) {
                 std::to_string(config.pes.value_or(0)) + "," +
                 std::to_string(config.tile_size.value_or(0)) + "," + csv_cell(view.scene) + "," +
                 std::to_string(view.camera) + "," + std::to_string(view.width) + "," +
-                std::to_string(view.height);
+                std::to_string(view.height) + "," + csv_cell(row.fidelity);
         for_each_measure([&](Measure m) { text += "," + csv_number(row.measures[m]); });
         text += (sampled ? sampling_cells(row) : "") + "\n";
     }

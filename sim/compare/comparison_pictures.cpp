@@ -62,8 +62,10 @@ bool has_several_pe_counts(const Comparison& comparison) {
     return counts.size() > 1;
 }
 
-std::string with_array_note(const Comparison& comparison, const std::string& title) {
-    return title + (comparison.array_only ? " (arrays alone)" : "");
+std::string with_note(const Comparison& comparison, const std::string& title) {
+    return title + (comparison.is_estimated() ? " (estimated)"
+                    : comparison.array_only   ? " (arrays alone)"
+                                              : "");
 }
 
 } // namespace
@@ -74,7 +76,7 @@ std::string slots_picture(const Comparison& comparison) {
         SlotGroup group;
         group.heading = view_words(comparison.views[v]);
         for (const ComparisonRow& row : comparison.rows) {
-            if (row.view == v && row.measures[Measure::Utilization]) {
+            if (row.view == v && row.measures[slot_measure(Slot::Useful)]) {
                 group.bars.push_back(bar_of(comparison, row));
             }
         }
@@ -82,9 +84,8 @@ std::string slots_picture(const Comparison& comparison) {
             groups.push_back(std::move(group));
         }
     }
-    return groups.empty()
-               ? ""
-               : slots_svg(with_array_note(comparison, "Where the PE-cycles went"), groups);
+    return groups.empty() ? ""
+                          : slots_svg(with_note(comparison, "Where the PE-cycles went"), groups);
 }
 
 std::string utilization_picture(const Comparison& comparison) {
@@ -100,8 +101,7 @@ std::string utilization_picture(const Comparison& comparison) {
         }
         panels.push_back(std::move(panel));
     }
-    return utilization_svg(with_array_note(comparison, "PE utilization as the array grows"),
-                           panels);
+    return utilization_svg(with_note(comparison, "PE utilization as the array grows"), panels);
 }
 
 } // namespace degs::sim

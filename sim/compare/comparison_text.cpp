@@ -173,12 +173,13 @@ std::string means_table(const Comparison& comparison) {
     return table.text();
 }
 
-std::string heading(const ComparedView& view) {
+std::string heading(const ComparedView& view, bool estimated) {
     std::string words = view_words(view) + " · " + grouped(view.visible) + " of " +
                         grouped(view.gaussians) + " Gaussians visible";
     if (view.fragments) {
         words += " · " + scaled(*view.fragments) + " fragments";
     }
+    words += estimated ? " · estimated" : "";
     return folded(visible(words), output_columns(), 2) + "\n";
 }
 
@@ -206,6 +207,14 @@ std::string frames_words(const Comparison& comparison) {
 }
 
 std::string legend(const Comparison& comparison) {
+    if (comparison.is_estimated()) {
+        return folded(
+                   "all numbers are estimates of the analytic model, not simulations; speed: 1 / "
+                   "latency of one frame alone; " +
+                       visible(comparison.configs.front().name) + " = 1",
+                   output_columns(), 2) +
+               "\n";
+    }
     const std::string first = visible(comparison.configs.front().name);
     std::string words = "speed: 1 / latency of one frame alone; " + first + " = 1";
     if (comparison.frames > 1) {
@@ -221,10 +230,13 @@ std::string legend(const Comparison& comparison) {
 std::string views_text(const Comparison& comparison, std::size_t begin, std::size_t end) {
     std::string text;
     for (std::size_t v = begin; v < end; ++v) {
-        text += heading(comparison.views[v]) + changes_line(comparison.views[v]) +
-                time_table(comparison, v) + "\n" + limits_table(comparison, v) + "\n" +
-                energy_table(comparison, comparison.rows, v) + "\n" + slots_table(comparison, v) +
-                "\n";
+        text += heading(comparison.views[v], comparison.is_estimated()) +
+                changes_line(comparison.views[v]) + time_table(comparison, v) + "\n" +
+                limits_table(comparison, v) + "\n";
+        if (!comparison.is_estimated()) { // an estimate has neither energy nor classes of slots
+            text += energy_table(comparison, comparison.rows, v) + "\n" +
+                    slots_table(comparison, v) + "\n";
+        }
     }
     return text;
 }
@@ -236,8 +248,10 @@ std::string closing_text(const Comparison& comparison) {
     std::string text;
     if (!comparison.means.empty()) {
         text += "geometric means over " + std::to_string(comparison.views.size()) + " views\n" +
-                means_table(comparison) + "\n" +
-                energy_table(comparison, comparison.means, comparison.views.size()) + "\n";
+                means_table(comparison) + "\n";
+        if (!comparison.is_estimated()) {
+            text += energy_table(comparison, comparison.means, comparison.views.size()) + "\n";
+        }
     }
     for (const FailedRun& failed : comparison.failed) {
         text += "failed: " + visible(failed.sentence) + "\n";

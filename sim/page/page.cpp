@@ -102,6 +102,7 @@ ordered_json data_of(const PageFacts& facts, const Comparison& comparison) {
     ordered_json json = {{"version", tool_json()["version"]},
                          {"baseline", comparison.baseline},
                          {"swept", facts.swept},
+                         {"estimated", comparison.is_estimated()},
                          {"array_only", comparison.array_only},
                          {"missing", facts.missing},
                          {"keys", facts.keys},
@@ -148,12 +149,14 @@ std::string filled(const std::string& page, const std::map<std::string, std::str
 
 std::string study_page(const PageFacts& facts, const Comparison& comparison) {
     using namespace page_assets;
-    return filled(kPage, {{"title", html_escaped(facts.title)},
-                          {"css", kStyle},
-                          {"data", embedded(data_of(facts, comparison))},
-                          {"d3", kD3},
-                          {"plot", kPlot},
-                          {"js", kScript}});
+    return filled(
+        kPage,
+        {{"title", html_escaped(facts.title + (comparison.is_estimated() ? " (estimates)" : ""))},
+         {"css", kStyle},
+         {"data", embedded(data_of(facts, comparison))},
+         {"d3", kD3},
+         {"plot", kPlot},
+         {"js", kScript}});
 }
 
 } // namespace degs::sim

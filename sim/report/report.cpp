@@ -10,6 +10,7 @@
 #include "config/config_document.hpp"
 #include "scene/files/image_io.hpp"
 #include "sim/report/losses.hpp"
+#include "sim/report/what_if_words.hpp"
 #include "stats/statistics_document.hpp"
 
 namespace degs::sim {
@@ -270,6 +271,9 @@ ordered_json report(const RunResult& result) {
     }
     if (result.sampling) {
         json["sampling"] = sampling_json(*result.sampling);
+    }
+    if (!result.what_if.empty()) {
+        json["what_if"] = what_if_json(result.what_if);
     }
     json["warnings"] = result.warnings;
     json.update(statistics_json(

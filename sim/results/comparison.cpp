@@ -141,6 +141,7 @@ Comparison compare(const std::vector<std::string>& configs, const std::vector<Co
         }
         row.config = place->second;
         row.view = find_view(comparison.views, run.frame.view);
+        row.fidelity = run.frame.fidelity;
         row.measures = measures_of(run);
         row.first_task_ms = run.frame.first_task_ms;
         row.last_task_ms = run.frame.last_task_ms;
@@ -180,6 +181,11 @@ std::string family_of(const ComparedConfig& config) {
         }
     }
     return family;
+}
+
+bool Comparison::is_estimated() const {
+    return std::any_of(rows.begin(), rows.end(),
+                       [](const ComparisonRow& row) { return row.fidelity == "analytic"; });
 }
 
 bool Comparison::has_camera_path() const {

@@ -34,6 +34,7 @@ struct ComparedConfig {
 
 struct ComparisonRow {
     std::size_t view = 0, config = 0; ///< into Comparison
+    std::string fidelity;             ///< as in RunSummary
     Measures measures;
     std::optional<double> first_task_ms, last_task_ms; ///< of the frame, as what follows
     std::optional<double> sampled_share, cycles_low, cycles_high;
@@ -53,6 +54,8 @@ struct Comparison {
     double path_step_degrees = 0;     ///< of camera paths
     bool array_only = false;
 
+    /// Whether the numbers are estimates of the analytic model.
+    bool is_estimated() const;
     /// Whether the camera moves in one of the views.
     bool has_camera_path() const;
     /// Whether one of the scenes changes from frame to frame, before a camera that stands still.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/results/run_summary.hpp"
 
+#include <algorithm>
+
 #include "base/ratio.hpp"
 #include "sim/results/message_fields.hpp"
 
@@ -14,6 +16,7 @@ std::string heading() {
 /// The fields of a message, in its order: writing and reading use this one list.
 template <class Fields, class Summary>
 void each_field(Fields& fields, Summary& summary) {
+    fields("fidelity", summary.fidelity);
     fields("accelerator", summary.accelerator);
     fields("pes", summary.pes);
     fields("tile_size", summary.tile_size);
@@ -42,22 +45,22 @@ void each_field(Fields& fields, Summary& summary) {
     fields("report", summary.report);
 }
 
+/// `position` is the camera's in the scene's list.
+ComparedView view_of(const SceneFacts& scene, const Camera& camera, const WorkloadFacts& workload,
+                     int position) {
+    return {scene.name,    scene.source,       camera.name,      position,    camera.width,
+            camera.height, workload.gaussians, workload.visible, std::nullopt};
+}
+
 } // namespace
 
 RunSummary summary_of(const RunResult& result, int camera) {
     RunSummary summary;
+    summary.fidelity = result.host.fidelity;
     summary.accelerator = result.config.kind();
     summary.pes = result.accelerator.pes;
     summary.tile_size = result.workload.tile_size;
-    summary.view = {result.scene.name,
-                    result.scene.source,
-                    result.camera.name,
-                    camera,
-                    result.camera.width,
-                    result.camera.height,
-                    result.workload.gaussians,
-                    result.workload.visible,
-                    std::nullopt};
+    summary.view = view_of(result.scene, result.camera, result.workload, camera);
     if (result.workload.reference) {
         summary.view.fragments = result.workload.reference->fragments;
     }
@@ -81,6 +84,23 @@ RunSummary summary_of(const RunResult& result, int camera) {
         summary.stages.emplace_back(stage.name, stage.busy);
     }
     summary.warnings = result.warnings;
+    return summary;
+}
+
+RunSummary summary_of(const AnalyticRun& run, int camera) {
+    RunSummary summary;
+    summary.fidelity = "analytic";
+    summary.accelerator = run.config.kind();
+    summary.pes = run.config.accelerator().pes();
+    summary.tile_size = run.workload.tile_size;
+    summary.view = view_of(run.scene, run.camera, run.workload, camera);
+    summary.measures = measures_of(run);
+    summary.limited_by = run.frame.limited_by;
+    for (const AnalyticFrame::Unit& unit : run.frame.units) {
+        const double busy = unit.preparing + unit.rendering;
+        summary.stages.emplace_back(unit.name, busy / std::max(run.frame.cycles, busy));
+    }
+    summary.warnings = run.warnings;
     return summary;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/analytic/analytic_run.hpp"
 #include "sim/report/measures.hpp"
 
 namespace degs::sim {
@@ -26,6 +27,7 @@ struct ComparedView {
 
 /// One configuration on one view.
 struct RunSummary {
+    std::string fidelity; ///< exact, strict, sampled, or analytic: an estimate without simulation
     std::string accelerator;
     int pes = 0, tile_size = 0;
     ComparedView view;
@@ -43,8 +45,11 @@ struct RunSummary {
 /// Without the report. `camera` is the view's position in the scene's list.
 RunSummary summary_of(const RunResult& result, int camera);
 
+/// An estimate as a summary without the report; its stages are the units of the model.
+RunSummary summary_of(const AnalyticRun& run, int camera);
+
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 8;
+constexpr int kSummaryVersion = 9;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

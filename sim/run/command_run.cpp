@@ -13,6 +13,7 @@
 #include "sim/process/stopwatch.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/terminal.hpp"
+#include "sim/report/what_if_words.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/output_folder.hpp"
 #include "sim/shell/view_options.hpp"
@@ -29,7 +30,7 @@ namespace {
 
 struct RunOptions {
     std::string config, memory;
-    std::vector<std::string> overrides;
+    std::vector<std::string> overrides, what_if;
     ViewRequest view;
     PathRequest path;
     std::string fidelity = "exact";
@@ -103,16 +104,18 @@ void estimate(const RunOptions& options) {
     CachedView view(options.view, options.path,
                     options.no_cache ? FrameCache() : FrameCache::of_user());
     const OutputFolder out(options.out, {"analytic.json"});
-    const AnalyticRun run = run_analytic(config, view);
+    const AnalyticRun run = run_analytic(config, view, changed_designs(config, options.what_if));
     out.write_json("analytic.json", analytic_json(run));
     print_warnings(run.warnings);
     print(analytic_text(run));
 }
 
 /// Makes or finds the frames, runs them and compares with the reference.
-RunResult simulate(const RunRequest& request, CachedView& view, const Stopwatch& since_start) {
+RunResult simulate(const RunRequest& request, const std::vector<ChangedDesign>& changed,
+                   CachedView& view, const Stopwatch& since_start) {
     const Stopwatch wall;
     const std::vector<FrameWorkload> workloads = view.frames(request.config.accelerator());
+    std::vector<WhatIf> worth = what_if(request.config, changed, workloads.front(), view);
     std::optional<Reference>
         reference; // now if it needs Gaussians that are there, else after the run
     const bool from_scene = request.reference && view.has_cloud() &&
@@ -128,6 +131,7 @@ RunResult simulate(const RunRequest& request, CachedView& view, const Stopwatch&
     }
     RunResult result = run_frames(request, frames);
     put_scene(view.facts(), result);
+    result.what_if = std::move(worth);
     if (request.reference && !result.sampling) { // most of a sample's image is missing
         reference = reference ? std::move(reference) : view.reference(workloads.front());
         judge(result, *reference);
@@ -142,19 +146,29 @@ RunResult simulate(const RunRequest& request, CachedView& view, const Stopwatch&
 }
 
 /// Calls simulate(); the requests to memory go to the file `trace` if it has a name.
-RunResult simulate_traced(const std::string& trace, RunRequest& request, CachedView& view,
+RunResult simulate_traced(const std::string& trace, RunRequest& request,
+                          const std::vector<ChangedDesign>& changed, CachedView& view,
                           const Stopwatch& since_start) {
     if (trace.empty()) {
-        return simulate(request, view, since_start);
+        return simulate(request, changed, view, since_start);
     }
     std::optional<RunResult> result;
     const AcceleratorConfig& design = request.config.accelerator();
     write_memory_trace(trace, design.name, design.clock_ghz, [&](RequestListener& listener) {
         request.build.requests = &listener;
-        result.emplace(simulate(request, view, since_start));
+        result.emplace(simulate(request, changed, view, since_start));
         request.build.requests = nullptr;
     });
     return std::move(*result);
+}
+
+/// The designs of --what-if, whose estimates are of whole frames.
+std::vector<ChangedDesign> wanted_changes(const RunOptions& options, const RunConfig& config) {
+    if (options.array_only && !options.what_if.empty()) {
+        throw InputError("--what-if estimates whole frames, so it cannot be combined with "
+                         "--array-only.");
+    }
+    return changed_designs(config, options.what_if);
 }
 
 void write_results(const RunOptions& options, const RunRequest& request, const RunResult& result,
@@ -181,6 +195,7 @@ void run(const RunOptions& options) {
     }
     const std::optional<SamplingRequest> sampling = wanted_sampling(options);
     const RunConfig config = load_run_config(options.config, options.overrides, options.memory);
+    const std::vector<ChangedDesign> changed = wanted_changes(options, config);
     PathRequest path = options.path;
     path.near_plane = config.accelerator().data_path().rules.near;
     CachedView view(options.view, path, options.no_cache ? FrameCache() : FrameCache::of_user());
@@ -210,12 +225,14 @@ void run(const RunOptions& options) {
     std::optional<RunResult> result;
     out.replace(
         [&] {
-            result.emplace(simulate_traced(options.memory_trace, request, view, since_start));
+            result.emplace(
+                simulate_traced(options.memory_trace, request, changed, view, since_start));
             write_results(options, request, *result, out, maps);
         },
         old_tile_maps(out, maps));
     print_warnings(result->warnings);
-    print(summary(*result, out.path("image.exr")) + (options.explain ? explanation(*result) : ""));
+    print(summary(*result, out.path("image.exr")) + what_if_text(result->what_if) +
+          (options.explain ? explanation(*result) : ""));
 }
 
 } // namespace
@@ -238,6 +255,13 @@ void add_run_command(CLI::App& program) {
     add_out_option(*command, options->out, "folder for image.exr, image.png and report.json");
     add_memory_option(*command, options->memory);
     add_overrides_option(*command, options->overrides);
+    command
+        ->add_option("--what-if", options->what_if,
+                     "also estimate the cycles with this key changed, or with several at once: "
+                     "path.to.key=value,...; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->take_all()
+        ->expected(1);
     command->add_flag("--no-reference", options->no_reference,
                       "do not render the double-precision image to compare with");
     command->add_flag("--no-cache", options->no_cache,

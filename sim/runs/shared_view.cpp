@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sim/analytic/analytic_run.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/run_summary.hpp"
@@ -10,10 +11,6 @@
 #include "sim/text/progress.hpp"
 
 namespace degs::sim {
-
-RuleKind rule_kind(const ProjectionOptions& options) {
-    return {options.order, options.compensated, options.dilation, options.cut, options.near_plane};
-}
 
 void SharedView::render_reference(TileMode mode) {
     const FrameWorkload& frame = frames.front();
@@ -55,6 +52,15 @@ std::string SharedView::run(const RunRequest& request, bool path) const {
         summary.view.footprint_gini = changes.footprint_gini;
     }
     summary.report = json_text(report(result));
+    return message_of(summary);
+}
+
+std::string SharedView::estimate(const RunConfig& config) const {
+    AnalyticRun run = run_analytic(config, scene, frames.front());
+    run.load_s = load_s;
+    run.workload_s = workload_s;
+    RunSummary summary = summary_of(run, camera);
+    summary.report = json_text(analytic_json(run));
     return message_of(summary);
 }
 

@@ -7,13 +7,9 @@
 #include <tuple>
 #include <vector>
 
-#include "sim/simulation/simulation.hpp"
+#include "sim/simulation/frame_kind.hpp"
 
 namespace degs::sim {
-
-/// The rules that a projection and its reference are drawn by.
-using RuleKind = std::tuple<SplatOrder, bool, double, double, double>;
-RuleKind rule_kind(const ProjectionOptions& options);
 
 /// One view while it is compared: what its runs have in common, made once.
 struct SharedView {
@@ -34,6 +30,8 @@ struct SharedView {
     /// In the child: the summary, as a message, of a run of the whole path, or of its first frame
     /// alone, which is compared with the reference.
     std::string run(const RunRequest& request, bool path) const;
+    /// In the child: the summary, as a message, of an estimate of the first frame.
+    std::string estimate(const RunConfig& config) const;
 };
 
 } // namespace degs::sim

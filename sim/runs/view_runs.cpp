@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <tuple>
 
 #include "scene/cameras/camera_path.hpp"
 #include "sim/runs/shared_view.hpp"
@@ -12,21 +11,13 @@
 namespace degs::sim {
 namespace {
 
-/// Frames depend on these: the rules, the formats of the projection (empty for those of the
-/// reference, whose frames the reference's and come first), the side of a tile and the tile mode.
-using FrameKind = std::tuple<RuleKind, std::string, int, TileMode>;
-
 /// Configurations that want the same frames.
 std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedConfig>& all,
                                                         const std::vector<std::size_t>& configs,
                                                         const SceneTraits& traits) {
     std::map<FrameKind, std::vector<std::size_t>> groups;
     for (std::size_t c : configs) {
-        const AcceleratorConfig& config = all[c].config.accelerator();
-        const ProjectionOptions rules = projection_of(config.data_path(), traits.antialiased);
-        groups[{rule_kind(rules), rules.numbers.is_reference() ? "" : rules.numbers.name(),
-                config.tile_size_px(), config.tile_mode()}]
-            .push_back(c);
+        groups[frame_kind(all[c].config.accelerator(), traits)].push_back(c);
     }
     return groups;
 }
@@ -197,8 +188,11 @@ void ViewRuns::start(const SharedView& shared, ViewRun run) {
     const bool path = run.path;
     run.clock = Stopwatch();
     started_.push_back(std::move(run));
-    interrupted_ = !pool_.start(
-        {started_.back().name, [&request, &shared, path] { return shared.run(request, path); }});
+    const bool analytic = request_.analytic;
+    interrupted_ = !pool_.start({started_.back().name, [&request, &shared, path, analytic] {
+                                     return analytic ? shared.estimate(request.config)
+                                                     : shared.run(request, path);
+                                 }});
 }
 
 void ViewRuns::show(const std::vector<std::size_t>& running) const {

@@ -13,6 +13,7 @@
 #include "sim/simulation/frame_changes.hpp"
 #include "sim/simulation/run_config.hpp"
 #include "sim/simulation/view.hpp"
+#include "sim/simulation/what_if.hpp"
 #include "splat/images/image_metrics.hpp"
 #include "splat/reference/reference_renderer.hpp"
 
@@ -68,6 +69,7 @@ struct RunResult {
     std::optional<ImageError> error;       ///< first frame against the reference
     std::optional<FrameChanges> changes;   ///< of a run of several frames
     std::optional<SamplingFacts> sampling; ///< if the numbers are estimates from a sample
+    std::vector<WhatIf> what_if;           ///< changes that were asked for (--what-if)
     HostFacts host;
 };
 

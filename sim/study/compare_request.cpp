@@ -9,6 +9,7 @@
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
 #include "scene/scene.hpp"
+#include "sim/analytic/analytic_run.hpp"
 #include "sim/study/addressed_overrides.hpp"
 
 namespace degs::sim {
@@ -40,6 +41,7 @@ std::string first_difference(const StudyViews& a, const StudyViews& b) {
         {"width", a.width == b.width},
         {"frames", a.path.frames == b.path.frames},
         {"path_step", a.path.step_degrees == b.path.step_degrees},
+        {"fidelity", a.analytic == b.analytic},
         {"array_only", a.array_only == b.array_only},
         {"reference", a.reference == b.reference}};
     for (const auto& [key, same] : keys) {
@@ -194,8 +196,38 @@ void put_views(const StudyViews& views, CompareRequest& request) {
         request.sizes = parse_resolutions(views.resolutions);
     }
     request.path = views.path;
+    request.analytic = views.analytic;
     request.array_only = views.array_only;
-    request.reference = views.reference;
+    request.reference = views.reference && !views.analytic;
+}
+
+bool is_analytic(const std::string& fidelity) {
+    if (fidelity != "exact" && fidelity != "analytic") {
+        throw InputError("--fidelity is '" + fidelity +
+                         "', but must be exact or analytic in commands that run several designs; "
+                         "--within asks for samples of the tiles.");
+    }
+    return fidelity == "analytic";
+}
+
+void check_estimates(const CompareRequest& request) {
+    if (!request.analytic) {
+        return;
+    }
+    const std::pair<bool, const char*> asked[] = {
+        {request.path.frames > 1, "A camera path (--frames, or 'frames' of a study)"},
+        {request.array_only, "The array alone (--array-only, or 'array_only' of a study)"},
+        {request.sampling.has_value(), "A sample of the tiles (--within)"}};
+    for (const auto& [given, what] : asked) {
+        if (given) {
+            throw InputError(std::string(what) +
+                             " needs simulations, so it cannot be combined with the fidelity "
+                             "analytic, which estimates single frames.");
+        }
+    }
+    for (const NamedConfig& named : request.configs) {
+        analytic_model_of(named.config);
+    }
 }
 
 std::vector<std::vector<int>> cameras_by_scene(const CompareRequest& request) {

@@ -31,8 +31,9 @@ struct CompareRequest {
     std::optional<std::vector<int>> cameras; ///< positions in each scene's list; empty: all
     std::vector<ImageSize> sizes{ImageSize{}};
     PathRequest path;
+    bool analytic = false; ///< estimates in place of simulations
     bool array_only = false;
-    bool reference = true;                   ///< of runs of all tiles
+    bool reference = true;                   ///< of simulations of all tiles
     std::optional<SamplingRequest> sampling; ///< of single frames
     int jobs = 1;                            ///< simulations at a time
 };
@@ -83,6 +84,14 @@ std::vector<ImageSize> parse_resolutions(const std::string& text);
 /// and if there is a camera path of several frames.
 std::optional<SamplingRequest> sampling_for_runs(const std::optional<std::string>& within,
                                                  std::uint64_t seed, int frames);
+
+/// Whether --fidelity asks for estimates of the analytic model; else for simulations of all tiles.
+/// Throws InputError for any other word.
+bool is_analytic(const std::string& fidelity);
+
+/// Throws InputError if estimates are asked for what only a simulation gives, or of a design whose
+/// accelerator has no analytic model.
+void check_estimates(const CompareRequest& request);
 
 /// Throws InputError for a scene without a name and for one that is given twice.
 void check_scenes(const std::vector<std::string>& scenes);

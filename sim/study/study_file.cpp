@@ -21,10 +21,14 @@ using Kind = ConfigNode::Kind;
 constexpr int kMostFramesOfStudy = 10000; ///< as --frames
 /// What `degs compare` cannot do.
 const std::vector<std::string> kSweepKeys{"axes", "combine", "baseline"};
-const std::vector<std::string> kStudyKeys{"study",     "points",      "designs",   "axes",
-                                          "combine",   "baseline",    "scenes",    "cameras",
-                                          "width",     "camera_file", "frames",    "resolutions",
-                                          "path_step", "array_only",  "reference", "quick"};
+const std::vector<std::string> kStudyKeys{
+    "study",     "points",     "designs",   "axes",        "combine", "baseline",
+    "scenes",    "cameras",    "width",     "camera_file", "frames",  "resolutions",
+    "path_step", "array_only", "reference", "fidelity",    "quick"};
+
+/// What all points of a study may be run with.
+const std::vector<const char*> kFidelities{"exact", "analytic"};
+constexpr int kAnalytic = 1; ///< position in these
 
 bool is_among(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
@@ -119,6 +123,10 @@ void read_views(const ConfigNode& tree, const fs::path& folder, StudyViews& stud
     study.path.frames = static_cast<int>(number);
     take(tree, "path_step", config_scalar::Real{-kMostPathStepDegrees, kMostPathStepDegrees},
          study.path.step_degrees);
+    if (const ConfigNode* fidelity = tree.find("fidelity")) {
+        study.analytic = config_scalar::value_of(config_scalar::Choice{kFidelities}, *fidelity,
+                                                 "fidelity") == kAnalytic;
+    }
     take(tree, "array_only", config_scalar::Boolean{}, study.array_only);
     take(tree, "reference", config_scalar::Boolean{}, study.reference);
 }

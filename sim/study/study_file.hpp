@@ -26,6 +26,7 @@ struct StudyViews {
     std::string resolutions;         ///< names, separated by commas; empty: `width` decides
     std::optional<int> width;        ///< px; empty: the cameras' own
     PathRequest path;
+    bool analytic = false; ///< estimates in place of simulations
     bool array_only = false;
     bool reference = true;
 };

@@ -51,6 +51,12 @@ void add_study_view_options(CLI::App& command, ViewOptions& options) {
                      "is unlimited");
     command.add_flag("--no-reference", options.no_reference,
                      "do not render the double-precision images to compare with");
+    command
+        .add_option(
+            "--fidelity", options.fidelity,
+            "exact, or analytic: estimates in milliseconds, without simulations and images; "
+            "in place of that of a study")
+        ->type_name("TEXT:{exact,analytic}"); // what can be completed
     add_sampling_options(command, options.within, options.seed);
     // What a flag of CLI11 cannot say: whether an option with a default was given.
     command.get_option("--frames")->each([&options](const std::string&) {
@@ -81,6 +87,7 @@ void replace_views(const ViewOptions& options, StudyViews& views) {
     if (options.has_step) {
         views.path.step_degrees = options.path.step_degrees;
     }
+    views.analytic = options.fidelity.empty() ? views.analytic : is_analytic(options.fidelity);
     views.array_only = views.array_only || options.array_only;
     views.reference = views.reference && !options.no_reference;
 }
@@ -116,7 +123,8 @@ std::vector<std::string> words_of(const StudyOptions& options) {
     }
     for (const auto& [option, value] :
          {std::pair("--camera", options.cameras), std::pair("--camera-file", options.camera_file),
-          std::pair("--memory", options.memory), std::pair("--resolution", options.resolutions)}) {
+          std::pair("--memory", options.memory), std::pair("--resolution", options.resolutions),
+          std::pair("--fidelity", options.fidelity)}) {
         if (!value.empty()) {
             add(option, value);
         }

@@ -21,6 +21,7 @@ struct ViewOptions {
     std::optional<int> width;
     PathRequest path;
     bool has_frames = false, has_step = false;
+    std::string fidelity; ///< empty: the study's own
     std::optional<std::string> within;
     std::uint64_t seed = 1;
     bool quick = false, array_only = false, no_reference = false;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
+#include "sim/analytic/analytic_run.hpp"
 #include "sim/sweep/sweep_session.hpp"
 
 namespace degs::sim {
@@ -108,20 +110,25 @@ std::vector<std::size_t> survivors(const Rung& rung, const StudyPlan& plan,
     return variants;
 }
 
-} // namespace
-
-void check_goals(const SearchOptions& options) {
+/// Names of the measures that can be goals, of those that runs have.
+std::vector<std::string> allowed_goals(const std::function<bool(Measure)>& has) {
     std::vector<std::string> allowed;
-    for_each_measure([&allowed](Measure measure) {
-        if (direction_of(measure) != Direction::None) {
+    for_each_measure([&](Measure measure) {
+        if (direction_of(measure) != Direction::None && has(measure)) {
             allowed.push_back(name_of(measure));
         }
     });
+    return allowed;
+}
+
+} // namespace
+
+void check_goals(const SearchOptions& options) {
     for (const Measure goal : options.goals) {
         if (direction_of(goal) == Direction::None) {
             throw InputError("--goals names '" + name_of(goal) +
                              "', of which neither small nor large values are better; allowed are " +
-                             config_words::list(allowed) + ".");
+                             config_words::list(allowed_goals([](Measure) { return true; })) + ".");
         }
     }
     if (options.goals[0] == options.goals[1]) {
@@ -135,6 +142,11 @@ void check_goals(const SearchOptions& options, const CompareRequest& request) {
         return name_of(goal).rfind(section, 0) == 0;
     };
     for (const Measure goal : options.goals) {
+        if (request.analytic && !is_estimated(goal)) {
+            throw InputError("Estimates have no " + name_of(goal) +
+                             ", so it cannot be a goal with the fidelity analytic; allowed are " +
+                             config_words::list(allowed_goals(is_estimated)) + ".");
+        }
         const bool path = starts(goal, "throughput_") || starts(goal, "ratio.throughput");
         const std::string lack =
             path && request.path.frames < kFramesOfThroughput

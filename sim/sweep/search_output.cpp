@@ -49,6 +49,10 @@ std::vector<FrontPoint> points_of(const StudyPlan& plan, const Rung& rung,
     return points;
 }
 
+std::string fidelity_of(const CompareRequest& request) {
+    return request.analytic ? "analytic" : request.sampling ? "sampled" : "exact";
+}
+
 std::string front_csv(const StudyPlan& plan, const SearchOptions& options,
                       const std::vector<FrontPoint>& points,
                       const std::vector<std::size_t>& variants) {
@@ -59,7 +63,7 @@ std::string front_csv(const StudyPlan& plan, const SearchOptions& options,
     for (const Measure goal : options.goals) {
         text += "," + name_of(goal);
     }
-    text += ",on_front,baseline\n";
+    text += ",on_front,baseline,fidelity\n";
     for (std::size_t p = 0; p < points.size(); ++p) {
         const StudyVariant& variant = plan.variants[variants[p]];
         text += csv_cell(variant.design);
@@ -67,7 +71,8 @@ std::string front_csv(const StudyPlan& plan, const SearchOptions& options,
             text += "," + csv_cell(value);
         }
         text += "," + csv_number(points[p].x) + "," + csv_number(points[p].y) + "," +
-                (points[p].on_front ? "1" : "0") + "," + (points[p].baseline ? "1" : "0") + "\n";
+                (points[p].on_front ? "1" : "0") + "," + (points[p].baseline ? "1" : "0") + "," +
+                fidelity_of(plan.request) + "\n";
     }
     return text;
 }
@@ -118,6 +123,7 @@ ordered_json search_json(const StudyPlan& plan, const Search& search,
     json["schema"] = {{"name", "degs-explore"}, {"version", kExploreVersion}};
     json["tool"] = tool_json();
     json["study"] = plan.name;
+    json["fidelity"] = fidelity_of(plan.request);
     json["goals"] = {name_of(options.goals[0]), name_of(options.goals[1])};
     json["better"] = ordered_json::array();
     for (const Measure goal : options.goals) {
@@ -153,8 +159,10 @@ void write_search(const StudyPlan& plan, const Search& search, const SearchOptio
     const std::vector<FrontPoint> points = points_of(plan, search.rungs.back(), options, variants);
     folder.replace([&] {
         folder.write_text("front.csv", front_csv(plan, options, points, variants));
-        folder.write_text("front.svg", front_svg(plan.name, goal_words(options.goals[0]),
-                                                 goal_words(options.goals[1]), points));
+        folder.write_text("front.svg",
+                          front_svg(plan.name + (plan.request.analytic ? " (estimates)" : ""),
+                                    goal_words(options.goals[0]), goal_words(options.goals[1]),
+                                    points));
         folder.write_json("explore.json", search_json(plan, search, options));
     });
 }
@@ -185,6 +193,7 @@ std::string search_text(const StudyPlan& plan, const Search& search, const Searc
                        three_digits(points[p].x), three_digits(points[p].y)});
         }
     }
+    text += plan.request.analytic ? "estimates of the analytic model, not simulations: " : "";
     return text + goal_words(options.goals[0]) + "; " + goal_words(options.goals[1]) + "\n\n" +
            table.text();
 }

@@ -83,6 +83,7 @@ std::string run_options(const CompareRequest& request) {
         const double near = nearest_plane(request.configs);
         text += near == ProjectionOptions().near_plane ? "" : " about near " + decimal_text(near);
     }
+    text += request.analytic ? " analytic" : "";
     text += request.array_only ? " array_only" : "";
     text += request.reference && !request.sampling ? " reference" : "";
     if (const std::optional<SamplingRequest>& sampling = request.sampling) {
@@ -135,6 +136,7 @@ StudyPlan plan_study(const Study& study) {
     }
     check_size(study, views);
     plan_variants(study, plan);
+    check_estimates(plan.request);
     plan_points(cameras, plan);
     plan.scene_digests = digests_of_scenes(plan.request);
     identify(plan);

@@ -46,7 +46,7 @@ std::string csv_head(const StudyPlan& plan, const std::vector<std::string>& stag
     for (const std::string& key : plan.keys) {
         text += "," + csv_cell(key);
     }
-    text += ",accelerator,pes,tile_size,scene,camera,width,height";
+    text += ",accelerator,pes,tile_size,scene,camera,width,height,fidelity";
     for_each_measure([&](Measure m) { text += is_reproducible(m) ? "," + name_of(m) : ""; });
     text += ",limited_by";
     for (const std::string& stage : stages) {
@@ -68,7 +68,7 @@ std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::siz
     text += "," + csv_cell(config.accelerator) + "," + std::to_string(config.pes.value_or(0)) +
             "," + std::to_string(config.tile_size.value_or(0)) + "," + csv_cell(view.scene) + "," +
             std::to_string(view.camera) + "," + std::to_string(view.width) + "," +
-            std::to_string(view.height);
+            std::to_string(view.height) + "," + csv_cell(row.fidelity);
     for_each_measure(
         [&](Measure m) { text += is_reproducible(m) ? "," + csv_number(row.measures[m]) : ""; });
     text += "," + csv_cell(row.limited_by);
@@ -116,8 +116,10 @@ ordered_json variant_json(const StudyPlan& plan, const StudyVariant& variant) {
 
 ordered_json run_json(const SweepResults& results, std::size_t r) {
     const ComparisonRow& row = results.comparison.rows[r];
-    ordered_json json = {
-        {"point", results.points[r] + 1}, {"variant", row.config}, {"view", row.view}};
+    ordered_json json = {{"point", results.points[r] + 1},
+                         {"variant", row.config},
+                         {"view", row.view},
+                         {"fidelity", row.fidelity}};
     for_each_measure([&](Measure m) {
         if (is_reproducible(m)) {
             put_measure(json, m, row.measures[m]);
@@ -293,6 +295,7 @@ std::string results_text(const StudyPlan& plan, const SweepResults& results) {
     if (results.missing != 0) {
         text += " · " + grouped(results.missing) + " missing";
     }
+    text += plan.request.analytic ? " · estimates of the analytic model, not simulations" : "";
     text += "\n";
     {
         Reasons reasons(text);

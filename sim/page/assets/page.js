@@ -356,6 +356,7 @@
   const count = (n, one, many) => `${n} ${n === 1 ? one : many}`;
   at("summary").textContent = [count(data.runs.length, "run", "runs"), count(data.variants.length, "configuration", "configurations"),
     count(data.views.length, "view", "views"), data.array_only ? "arrays alone, without front ends and memory" : "",
+    data.estimated ? "estimates of the analytic model, not simulations" : "",
     data.missing ? `${data.missing} points missing` : "", `ratios compare with ${data.variants[data.baseline].name}`]
     .filter((words) => words !== "").join(" · ");
   at("footer").textContent = `degs ${data.version}`;

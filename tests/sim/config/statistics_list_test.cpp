@@ -170,7 +170,7 @@ TEST(StatisticsOfCompare, AreTheKeysOfARun) {
               "64", "--out", folder / "."});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     json run = json::parse(read_file(folder / "compare.json"))["runs"].at(0);
-    for (const char* other : {"config", "view"}) {
+    for (const char* other : {"config", "view", "fidelity"}) {
         run.erase(other);
     }
     EXPECT_EQ(collected(run), listed_by({"--of", "compare"}));

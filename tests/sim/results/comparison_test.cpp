@@ -229,7 +229,7 @@ TEST(ComparisonOutput, CsvHasARowPerRun) {
     EXPECT_EQ(lines[3], "");
     const std::vector<std::string> head = split(lines[0], ',');
     const std::vector<std::string> first = split(lines[1], ',');
-    ASSERT_EQ(head.size(), 8 + kMeasures);
+    ASSERT_EQ(head.size(), 9 + kMeasures);
     ASSERT_EQ(first.size(), head.size());
     const auto cell = [&](const std::string& column) {
         return first.at(

@@ -71,7 +71,7 @@ std::vector<Goals> front_in(const std::string& folder) {
         for (std::string cell; std::getline(cells, cell, ',');) {
             row.push_back(cell);
         }
-        if (row.size() == 8 && row[6] == "1") { // design, three keys, two goals, on_front, baseline
+        if (row.size() == 9 && row[6] == "1") { // design, three keys, two goals, on_front, ...
             front.push_back({std::stod(row[4]), std::stod(row[5])});
         }
     }
@@ -162,7 +162,7 @@ TEST(Explore, MakesGoalsLargeWhereThatIsBetter) {
             for (std::string cell; std::getline(cells, cell, ',');) {
                 row.push_back(cell);
             }
-            if (row.size() == 8 && row[6] == "1") {
+            if (row.size() == 9 && row[6] == "1") {
                 designs.push_back(row[1] + " " + row[2] + " " + row[3]);
             }
         }

@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""estimate_ranks.py [--scenes SCENE...] [--jobs N]: how well estimates (--fidelity analytic) rank designs and predict
+changes, against exact runs, as docs/analytic.md has it.
+
+Prints, over all views, Spearman's rank correlation of the cycles of 17 designs, and for keys of degs-64 that are halved
+or doubled alone the error of the estimated change of the cycles. Runs with DEGS_PROGRAM (default
+build/release/sim/degs); scenes are SCENE/scene.ply in DEGS_SCENES (default ../shared/scenes)."""
+import argparse
+import csv
+import os
+import pathlib
+import statistics
+import subprocess
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRAM = os.environ.get("DEGS_PROGRAM", str(ROOT / "build/release/sim/degs"))
+SCENES = pathlib.Path(os.environ.get("DEGS_SCENES", str(ROOT / "../shared/scenes")))
+DESIGNS = [f"{family}-{size}" for family in ["degs", "gscore", "gbu", "gcc"] for size in ["16", "64", "256", "1024"]]
+DESIGNS += ["degs-64-tuned"]
+CHANGES = """study: changes
+designs: [{{include: {design}, name: degs-64}}]
+combine: one_at_a_time
+axes:
+  span.count: [x1/2, x2]
+  slicing.count: [x1/2, x2]
+  packing.bytes: [x1/2, x2]
+  pixel_buffer.bytes: [x1/2, x2]
+  gaussian_buffer.bytes: [x1/2, x2]
+  memory.bandwidth_gb_per_s: [x1/4, x1/2, x2]
+  memory.latency_ns: [x1/2, x2]
+scenes: [{scenes}]
+cameras: all
+"""
+NOTABLE = 0.02  # changes whose direction counts
+
+
+def cycles(command, fidelity, key):
+    """{view: {design: cycles}} of a comparison or a sweep; `key` names a design by its row."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run(command + ["--no-reference", "--fidelity", fidelity, "--out", folder], check=True,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        name = "results.csv" if command[1] == "sweep" else "compare.csv"
+        found = {}
+        with open(os.path.join(folder, name), encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                found.setdefault((row["scene"], row["camera"]), {})[key(row)] = float(row["cycles"])
+        return found
+
+
+def ranks(values):
+    """From 1; equal values share the mean of theirs."""
+    return [sum(other < value for other in values) + (sum(other == value for other in values) + 1) / 2
+            for value in values]
+
+
+def spearman(first, second):
+    """The correlation of the ranks."""
+    return statistics.correlation(ranks(first), ranks(second))
+
+
+def rank_designs(scenes, jobs):
+    """Prints how well estimates rank the designs."""
+    command = [PROGRAM, "compare"] + [str(ROOT / "configs" / (name + ".yaml")) for name in DESIGNS]
+    command += [word for scene in scenes for word in ["--scene", scene]] + ["--camera", "all", "--jobs", jobs]
+    exact, estimated = (cycles(command, fidelity, lambda row: row["config"]) for fidelity in ["exact", "analytic"])
+    found = [spearman(list(exact[view].values()), [estimated[view][name] for name in exact[view]]) for view in exact]
+    print(f"ranks of {len(DESIGNS)} designs on {len(found)} views: Spearman {statistics.median(found):.3f}, "
+          f"at the worst {min(found):.3f}")
+
+
+def predict_changes(scenes, jobs):
+    """Prints how well estimates predict changes of single keys."""
+    with tempfile.TemporaryDirectory() as folder:
+        study = pathlib.Path(folder) / "changes.yaml"
+        study.write_text(CHANGES.format(design=ROOT / "configs/degs-64.yaml", scenes=", ".join(scenes)),
+                         encoding="utf-8")
+        keys = [line.split(":")[0].strip() for line in CHANGES.split("\n") if line.startswith("  ")]
+        command = [PROGRAM, "sweep", str(study), "--jobs", jobs]
+        exact, estimated = (cycles(command, fidelity, lambda row: tuple(row[key] for key in keys))
+                            for fidelity in ["exact", "analytic"])
+    errors, right = [], []
+    for view, runs in exact.items():
+        # The baseline is the point that agrees in every key with most others.
+        own = max(runs, key=lambda point: sum(a == b for other in runs for a, b in zip(point, other)))
+        for point in runs:
+            if point != own:
+                change = runs[point] / runs[own] - 1
+                guess = estimated[view][point] / estimated[view][own] - 1
+                errors.append(abs(guess - change))
+                if abs(change) > NOTABLE:
+                    right.append(guess * change > 0)
+    print(f"{len(errors)} changes of a key: error of the change {100 * statistics.median(errors):.1f} points, at the "
+          f"worst {100 * max(errors):.0f}; direction right in {sum(right)} of {len(right)} above "
+          f"{100 * NOTABLE:.0f} %")
+
+
+def main():
+    """Prints both."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--scenes", nargs="+", default=["flowers", "skull"])
+    parser.add_argument("--jobs", default="2")
+    options = parser.parse_args()
+    scenes = [str((SCENES / scene / "scene.ply").resolve()) for scene in options.scenes]
+    rank_designs(scenes, options.jobs)
+    predict_changes(scenes, options.jobs)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/analytic/what_if_run.hpp"
+
+#include <map>
+
+#include "config/config_source.hpp"
+#include "sim/analytic/analytic_run.hpp"
+#include "sim/simulation/frame_kind.hpp"
+
+namespace degs::sim {
+namespace {
+
+/// The settings of a change; commas within brackets belong to a value.
+std::vector<std::string> settings_of(const std::string& change) {
+    std::vector<std::string> settings{""};
+    int depth = 0;
+    for (const char c : change) {
+        depth += c == '[' || c == '{' ? 1 : c == ']' || c == '}' ? -1 : 0;
+        if (c == ',' && depth == 0) {
+            settings.emplace_back();
+        } else {
+            settings.back() += c;
+        }
+    }
+    return settings;
+}
+
+double estimated_cycles(const RunConfig& config, const FrameWorkload& frame) {
+    return estimate_frame(*analytic_model_of(config), frame, config.accelerator().tile_order)
+        .cycles;
+}
+
+} // namespace
+
+std::vector<ChangedDesign> changed_designs(const RunConfig& config,
+                                           const std::vector<std::string>& changes) {
+    std::vector<ChangedDesign> designs;
+    for (const std::string& change : changes) {
+        ChangedDesign design{change, config};
+        ConfigSource::from_overrides(settings_of(change), "--what-if").load(design.config);
+        analytic_model_of(design.config);
+        designs.push_back(std::move(design));
+    }
+    return designs;
+}
+
+std::vector<WhatIf> what_if(const RunConfig& config, const std::vector<ChangedDesign>& changed,
+                            const FrameWorkload& frame, CachedView& view) {
+    std::vector<WhatIf> list;
+    if (changed.empty()) {
+        return list;
+    }
+    const SceneTraits traits = view.facts().traits;
+    const FrameKind own = frame_kind(config.accelerator(), traits);
+    std::map<FrameKind, FrameWorkload> others;
+    const double before = estimated_cycles(config, frame);
+    for (const ChangedDesign& design : changed) {
+        const AcceleratorConfig& accelerator = design.config.accelerator();
+        const FrameKind kind = frame_kind(accelerator, traits);
+        if (kind != own && others.count(kind) == 0) {
+            others.emplace(kind, std::move(view.frames(accelerator).front()));
+        }
+        list.push_back({design.change, before,
+                        estimated_cycles(design.config, kind == own ? frame : others.at(kind))});
+    }
+    return list;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the projected frame of a view depends on beside the view: designs of the same kind share it.
+#pragma once
+
+#include <string>
+#include <tuple>
+
+#include "sim/simulation/simulation.hpp"
+
+namespace degs::sim {
+
+/// The rules that a projection and its reference are drawn by.
+using RuleKind = std::tuple<SplatOrder, bool, double, double, double>;
+RuleKind rule_kind(const ProjectionOptions& options);
+
+/// The rules, the formats of the projection (empty for those of the reference, whose frames the
+/// reference's and come first), the side of a tile and the tile mode.
+using FrameKind = std::tuple<RuleKind, std::string, int, TileMode>;
+FrameKind frame_kind(const AcceleratorConfig& config, const SceneTraits& traits);
+
+} // namespace degs::sim

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+// --fidelity analytic in the commands that run several designs: the numbers of degs run, nothing
+// that only a simulation has, and never a mixture of both.
+#include <chrono>
+#include <map>
+
+#include "sim/sweep/search.hpp"
+#include "tests/sim/process/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using nlohmann::json;
+using Row = std::map<std::string, std::string>;
+
+const std::string kEstimatedScene = "synthetic:object,gaussians=2000";
+/// What simulations have and estimates do not.
+const std::vector<std::string> kOnlySimulated{"slots.useful",        "dram.bytes_read",
+                                              "energy.nj_per_frame", "image.psnr_db",
+                                              "throughput_fps",      "ratio.energy"};
+
+/// Rows of a CSV without quoted cells, by heading.
+std::vector<Row> rows_of(const std::string& file) {
+    std::istringstream lines(read_file(file));
+    std::vector<std::string> headings;
+    std::vector<Row> rows;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream cells(line + ",");
+        std::vector<std::string> row;
+        for (std::string cell; std::getline(cells, cell, ',');) {
+            row.push_back(cell);
+        }
+        if (headings.empty()) {
+            headings = row;
+            continue;
+        }
+        Row named;
+        for (std::size_t c = 0; c < headings.size(); ++c) {
+            named[headings[c]] = row.at(c);
+        }
+        rows.push_back(named);
+    }
+    return rows;
+}
+
+/// Lines about the progress are allowed.
+void expect_no_failure(const Outcome& outcome) {
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+std::vector<std::string> and_more(std::vector<std::string> words,
+                                  const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+Outcome compare_estimates(const std::string& out, const std::vector<std::string>& more = {}) {
+    return degs(
+        and_more({"compare", config("degs-64"), config("degs-256"), config("gscore-64"), "--scene",
+                  kEstimatedScene, "--width", "320", "--fidelity", "analytic", "--out", out},
+                 more));
+}
+
+/// A study of `sizes` queues times three numbers of Span Units.
+std::string study_in(const Folder& folder, const std::string& more = "", int sizes = 2) {
+    const std::string file = folder / "study.yaml";
+    std::ofstream text(file);
+    text << "study: estimates\ndesigns:\n  - include: " << config("degs-64")
+         << "\n    name: degs-64\naxes:\n  span.count: [4, 8, 16]\n  gaussian_buffer.bytes: [72KB";
+    for (int size = 1; size < sizes; ++size) {
+        text << ", " << 72 + size << "KB";
+    }
+    text << "]\nscenes: " << kEstimatedScene << "\nwidth: 320\nreference: false\n" << more;
+    return file;
+}
+
+std::string sweep_out(const Folder& folder, const std::string& study,
+                      const std::vector<std::string>& more) {
+    const Outcome outcome = degs(and_more({"sweep", study, "--out", folder / "out"}, more));
+    expect_no_failure(outcome);
+    return outcome.out + outcome.err;
+}
+
+/// The fidelities of all rows of the study's results, each once.
+std::string fidelities_in(const Folder& folder) {
+    std::string words;
+    for (const Row& row : rows_of(folder / "out/results.csv")) {
+        if (words.find(row.at("fidelity")) == std::string::npos) {
+            words += row.at("fidelity");
+        }
+    }
+    return words;
+}
+
+TEST(Estimates, AreThoseOfTheSameRun) {
+    const Folder folder;
+    expect_no_failure(compare_estimates(folder / "out"));
+    const json compared = json::parse(read_file(folder / "out/compare.json"));
+    ASSERT_EQ(compared["runs"].size(), 3U);
+    for (const json& run : compared["runs"]) {
+        const std::string name = run["config"];
+        expect_no_failure(degs({"run", config(name), "--scene", kEstimatedScene, "--width", "320",
+                                "--fidelity", "analytic", "--no-cache", "--out", folder / name}));
+        const json alone = json::parse(read_file(folder / (name + "/analytic.json")));
+        EXPECT_DOUBLE_EQ(run["cycles"], alone["timing"]["cycles"]) << name;
+        EXPECT_EQ(run["fidelity"], "analytic");
+    }
+}
+
+TEST(Estimates, HaveNothingThatOnlyASimulationHas) {
+    const Folder folder;
+    expect_no_failure(compare_estimates(folder / "out"));
+    const std::vector<Row> rows = rows_of(folder / "out/compare.csv");
+    ASSERT_EQ(rows.size(), 3U);
+    for (const Row& row : rows) {
+        EXPECT_EQ(row.at("fidelity"), "analytic");
+        for (const std::string& name : kOnlySimulated) {
+            EXPECT_EQ(row.at(name), "") << name;
+        }
+        for (const std::string name :
+             {"cycles", "latency_ms", "fps", "area_mm2", "preprocessing_cycles",
+              "slots.utilization", "ratio.latency_per_mm2", "host.sim_s"}) {
+            EXPECT_GT(std::stod(row.at(name)), 0) << name;
+        }
+    }
+}
+
+TEST(Estimates, AreCalledSoWhereverTheyAreShown) {
+    const Folder folder;
+    const Outcome outcome = compare_estimates(folder / "out");
+    expect_no_failure(outcome);
+    EXPECT_NE(outcome.out.find("estimates of the analytic model"), std::string::npos)
+        << outcome.out;
+    EXPECT_EQ(outcome.out.find("energy"), std::string::npos) << outcome.out;
+    EXPECT_NE(read_file(folder / "out/index.html").find("(estimates)"), std::string::npos);
+    EXPECT_NE(read_file(folder / "out/utilization.svg").find("(estimated)"), std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "out/slots.svg"));
+    const std::string study = study_in(folder, "fidelity: analytic\n");
+    const Outcome swept = degs({"sweep", study, "--out", folder / "swept"});
+    EXPECT_NE(swept.out.find("estimates of the analytic model"), std::string::npos) << swept.err;
+    expect_no_failure(degs({"explore", study, "--out", folder / "found"}));
+    EXPECT_NE(read_file(folder / "found/front.svg").find("(estimates)"), std::string::npos);
+    EXPECT_EQ(rows_of(folder / "found/front.csv").at(0).at("fidelity"), "analytic");
+}
+
+TEST(Estimates, NeverMixWithSimulations) {
+    const Folder folder;
+    const std::string study = study_in(folder);
+    sweep_out(folder, study, {});
+    EXPECT_EQ(fidelities_in(folder), "exact");
+    const std::string exact = read_file(folder / "out/results.csv");
+    const std::string said = sweep_out(folder, study, {"--fidelity", "analytic"});
+    EXPECT_NE(said.find("6 of 6 points done"), std::string::npos) << said;
+    EXPECT_EQ(fidelities_in(folder), "analytic");
+    const std::string again = sweep_out(folder, study, {"--fidelity", "exact"});
+    EXPECT_EQ(again.find("points done"), std::string::npos) << again; // all of them are kept
+    EXPECT_EQ(read_file(folder / "out/results.csv"), exact);
+}
+
+TEST(Estimates, AreTheSameInParts) {
+    const Folder folder;
+    const std::string study = study_in(folder, "fidelity: analytic\n");
+    sweep_out(folder, study, {});
+    const std::string whole = read_file(folder / "out/results.csv");
+    for (const std::string part : {"1/2", "2/2"}) {
+        expect_no_failure(degs({"sweep", study, "--out", folder / "parts", "--shard", part}));
+    }
+    expect_no_failure(degs({"sweep", study, "--out", folder / "parts", "--collect"}));
+    EXPECT_EQ(read_file(folder / "parts/results.csv"), whole);
+    EXPECT_NE(degs({"sweep", study, "--out", folder / "parts", "--collect", "--fidelity", "exact"})
+                  .err.find("6 points are missing"),
+              std::string::npos);
+}
+
+TEST(Estimates, RefuseWhatOnlyASimulationGives) {
+    const Folder folder;
+    const std::string study = study_in(folder);
+    const auto said = [](const std::vector<std::string>& words) {
+        const Outcome outcome = degs(and_more(words, {"--fidelity", "analytic"}));
+        EXPECT_EQ(outcome.code, 2) << outcome.err;
+        return outcome.err;
+    };
+    const auto has = [](const std::string& text, const std::string& part) {
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    };
+    for (const std::string command : {"sweep", "explore", "compare"}) {
+        const std::string file = command == "compare" ? config("degs-64") : study;
+        const std::vector<std::string> words{command,         file,    "--scene",
+                                             kEstimatedScene, "--out", folder / "refused"};
+        has(said(and_more(words, {"--frames", "3"})), "--frames");
+        has(said(and_more(words, {"--array-only"})), "--array-only");
+        has(said(and_more(words, {"--within", "5%"})), "--within");
+    }
+    const std::string goal = said({"explore", study, "--goals", "area_mm2,energy.nj_per_frame"});
+    has(goal, "Estimates have no energy.nj_per_frame");
+    has(goal, "allowed are cycles, preprocessing_cycles, latency_ms");
+    EXPECT_EQ(goal.find("dram"), std::string::npos) << goal;
+    has(degs({"sweep", study, "--fidelity", "sampled:10%"}).err, "must be exact or analytic");
+    has(degs({"sweep", study_in(folder, "fidelity: fast\n")}).err, "fidelity");
+    EXPECT_FALSE(fs::exists(folder / "refused/reports"));
+}
+
+/// Cycles of the designs on a scene, in their order.
+std::vector<double> cycles_of_designs(const std::vector<std::string>& names,
+                                      const std::string& scene, const std::string& fidelity) {
+    const Folder folder;
+    std::vector<std::string> words{"compare"};
+    for (const std::string& name : names) {
+        words.push_back(config(name));
+    }
+    expect_no_failure(degs(and_more(words, {"--scene", scene, "--width", "480", "--no-reference",
+                                            "--fidelity", fidelity, "--out", folder / "out"})));
+    std::vector<double> cycles;
+    for (const Row& row : rows_of(folder / "out/compare.csv")) {
+        cycles.push_back(std::stod(row.at("cycles")));
+    }
+    EXPECT_EQ(cycles.size(), names.size());
+    return cycles;
+}
+
+TEST(Estimates, RankDesignsAsSimulationsDo) {
+    const std::vector<std::string> names{"degs-16",    "degs-64", "degs-256", "gscore-64",
+                                         "gscore-256", "gbu-64",  "gbu-256",  "gcc-64"};
+    for (const std::string scene :
+         {"synthetic:object,gaussians=6000", "synthetic:landscape,gaussians=6000"}) {
+        const auto correlation = sim::rank_correlation(cycles_of_designs(names, scene, "analytic"),
+                                                       cycles_of_designs(names, scene, "exact"));
+        ASSERT_TRUE(correlation) << scene;
+        EXPECT_GE(*correlation, 0.9) << scene;
+    }
+}
+
+/// Seconds of a sweep of estimates of 3 x `sizes` points.
+double seconds_of_sweep(int sizes) {
+    const Folder folder;
+    const std::string study = study_in(folder, "fidelity: analytic\n", sizes);
+    const auto begin = std::chrono::steady_clock::now();
+    sweep_out(folder, study, {"--scene", "synthetic:object,gaussians=200000", "--width", "1920"});
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Twenty times the points cost less than six times the time, because the view is projected once.
+TEST(Estimates, ShareTheProjectedView) {
+    EXPECT_LT(seconds_of_sweep(20), 6 * seconds_of_sweep(1));
+}
+
+} // namespace
+} // namespace degs::sim_test
