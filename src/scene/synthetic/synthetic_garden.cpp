@@ -13,6 +13,15 @@ const std::vector<PlaceLevel>& levels() {
     return list;
 }
 
+/// The ellipses of a courtyard fill a smaller part of their squares than those of a flat.
+const PlaceShapes& shapes() {
+    using Axis = MeasuredDistribution::Axis;
+    static const PlaceShapes found{{Axis::Logarithmic, {0.12, 0.45, 1, 2.3, 4.6, 9}},
+                                   {Axis::Logarithmic, {1, 1.5, 3.4, 9.5, 20, 60}},
+                                   0};
+    return found;
+}
+
 const Material kLawn{
     {0.26, 0.42, 0.13}, {0.52, 0.62, 0.26}, Pattern::Leaves, 0.8, 1, 1.5, 0.05, 1.5};
 const Material kStone{
@@ -123,7 +132,7 @@ void make_garden(const SyntheticSpec& spec, SyntheticScene& scene) {
     scene.cameras = place_cameras({{{{3.9, -5.2, -7.6}, {-0.2, -1.0, 1.6}, 0.8},
                                     {{-1.7, -1.9, -3.9}, {0.5, -1.1, 2.5}, 1.08},
                                     {{2.2, -2.3, -4.7}, {-0.6, -1.1, 2.0}, 0.8}}});
-    SyntheticPlace place(spec, courtyard::levels());
+    SyntheticPlace place(spec, courtyard::levels(), courtyard::shapes());
     courtyard::add_ground(place);
     // With a sky the garden is open: a low wall stands where the house is, and nothing beyond it.
     const bool is_open = spec.sky > 0;

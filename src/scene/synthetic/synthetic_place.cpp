@@ -33,7 +33,9 @@ PlaceLevel level_at(double gaussians, const std::vector<PlaceLevel>& levels) {
     const double t =
         portable_log(gaussians / a.gaussians) / portable_log(b.gaussians / a.gaussians);
     const double size = a.size * portable_exp(t * portable_log(b.size / a.size));
-    return {gaussians, size, std::max(0.2, a.opacity + t * (b.opacity - a.opacity))};
+    // Beyond the outer levels sizes spread as they do there.
+    const double spread = a.spread + std::clamp(t, 0.0, 1.0) * (b.spread - a.spread);
+    return {gaussians, size, std::max(0.2, a.opacity + t * (b.opacity - a.opacity)), spread};
 }
 
 double fraction_of(double x) {
@@ -95,8 +97,11 @@ glm::dvec4 turned(SyntheticRandom& random, const glm::dvec3& normal, double upri
 
 } // namespace
 
-SyntheticPlace::SyntheticPlace(const SyntheticSpec& spec, const std::vector<PlaceLevel>& levels)
-    : spec_(spec), level_(level_at(static_cast<double>(spec.gaussians), levels)) {}
+SyntheticPlace::SyntheticPlace(const SyntheticSpec& spec, const std::vector<PlaceLevel>& levels,
+                               const PlaceShapes& shapes)
+    : spec_(spec), level_(level_at(static_cast<double>(spec.gaussians), levels)), shapes_(shapes) {
+    shapes_.sizes.raise_to(level_.spread);
+}
 
 void SyntheticPlace::push(Part part, double area, double density) {
     part.until = (parts_.empty() ? 0 : parts_.back().until) + area * density;
@@ -155,15 +160,14 @@ void SyntheticPlace::add(SyntheticBuilder& builder, const Part& part) const {
             : glm::mix(material.rgb, material.other, mix_of(material.pattern, u, v, at));
     const double light = 0.84 + 0.08 * std::abs(normal.z) - 0.10 * normal.y;
     rgb = light * rgb + 0.03 * random.in_ball();
-    static const MeasuredDistribution sizes(Axis::Logarithmic, {0.12, 0.45, 1, 2.3, 4.6, 9});
-    static const MeasuredDistribution elongations(Axis::Logarithmic, {1, 1.5, 3.4, 9.5, 20, 60});
     static const MeasuredDistribution flatness(Axis::Logarithmic, {1, 1.8, 6, 25, 90, 600});
-    const double largest = sizes.sample(random) * 1.22 * level_.size * material.size;
-    const double middle = largest / elongations.sample(random);
+    const double largest = shapes_.sizes.sample(random) * 1.22 * level_.size * material.size;
+    const double middle = largest / shapes_.elongations.sample(random);
     const double smallest = std::max(middle / flatness.sample(random), 1e-9);
     const glm::dvec3 leaning = glm::normalize(normal + material.rough * random.in_ball());
+    const double upright = std::max(material.upright, shapes_.upright);
     const glm::dvec4 rotation =
-        material.upright > 0 ? turned(random, leaning, material.upright) : builder.facing(leaning);
+        upright > 0 ? turned(random, leaning, upright) : builder.facing(leaning);
     const double rank = random.uniform();
     const double opacity =
         0.006 + 0.99 * material.opacity * portable_exp(level_.opacity * portable_log(rank + 1e-9));

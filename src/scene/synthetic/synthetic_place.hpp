@@ -28,12 +28,22 @@ struct PlaceLevel {
     double gaussians;
     double size;    ///< median of the largest standard deviations, scene units
     double opacity; ///< power of a uniform number that gives opacities: larger is fainter
+    double spread =
+        1; ///< power of sizes over their median; a finer level keeps some of the largest
+};
+
+/// The shapes of the splats of a place, common to its levels and things.
+struct PlaceShapes {
+    MeasuredDistribution sizes;       ///< largest standard deviations over the median of the level
+    MeasuredDistribution elongations; ///< largest over middle axis
+    double upright = 0;               ///< the least `Material::upright` of its things
 };
 
 /// Surfaces and foliage that share the Gaussians of a scene by their area.
 class SyntheticPlace {
 public:
-    SyntheticPlace(const SyntheticSpec& spec, const std::vector<PlaceLevel>& levels);
+    SyntheticPlace(const SyntheticSpec& spec, const std::vector<PlaceLevel>& levels,
+                   const PlaceShapes& shapes);
 
     /// A parallelogram; its normal is the cross product of its edges.
     void sheet(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v,
@@ -61,6 +71,7 @@ private:
 
     SyntheticSpec spec_;
     PlaceLevel level_;
+    PlaceShapes shapes_;
     std::vector<Part> parts_;
 };
 

@@ -82,6 +82,12 @@ MeasuredDistribution::MeasuredDistribution(Axis axis, const std::array<double, 6
     }
 }
 
+void MeasuredDistribution::raise_to(double power) {
+    for (double& value : values_) {
+        value *= power;
+    }
+}
+
 double MeasuredDistribution::sample(SyntheticRandom& random) const {
     const double u = random.uniform();
     std::size_t i = 0;

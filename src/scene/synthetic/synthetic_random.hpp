@@ -39,6 +39,8 @@ public:
     enum class Axis { Linear, Logarithmic };
     MeasuredDistribution(Axis axis, const std::array<double, 6>& values);
     double sample(SyntheticRandom& random) const;
+    /// Takes that power of every value of a logarithmic axis.
+    void raise_to(double power);
 
 private:
     Axis axis_;
