@@ -9,15 +9,15 @@ namespace courtyard {
 /// Fitted to the levels of detail of a scan; see docs/regime.md.
 const std::vector<PlaceLevel>& levels() {
     static const std::vector<PlaceLevel> list{
-        {750000, 0.028, 0.4}, {3380000, 0.0142, 0.54}, {13560000, 0.0071, 0.75}};
+        {750000, 0.027, 0.4}, {3380000, 0.0136, 0.54}, {13560000, 0.0068, 0.75}};
     return list;
 }
 
-/// The ellipses of a courtyard fill a smaller part of their squares than those of a flat.
+/// Areas are less equal than those of a flat, and ellipses fill a smaller part of their squares.
 const PlaceShapes& shapes() {
     using Axis = MeasuredDistribution::Axis;
-    static const PlaceShapes found{{Axis::Logarithmic, {0.12, 0.45, 1, 2.3, 4.6, 9}},
-                                   {Axis::Logarithmic, {1, 1.5, 3.4, 9.5, 20, 60}},
+    static const PlaceShapes found{{Axis::Logarithmic, {0.12, 0.45, 1, 2.54, 5.5, 11.7}},
+                                   {Axis::Logarithmic, {1, 1.6, 4.1, 13, 31, 110}},
                                    0};
     return found;
 }
