@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""words.py [--pages] [--check]: how long README.md and docs/*.md are, in words as `wc -w` counts them.
+"""words.py [--pages] [--check]: how long README.md and docs/*.md are.
 
+A word has a letter or a digit; `wc -w` also counts the bars and rules of tables, a sixth of what it finds.
 Prose is everything outside of tables, fenced blocks and parts that a program writes ("<!-- output of: ... -->").
 --pages prints every page, --check fails if a number is above its ceiling in CEILINGS.
 """
@@ -11,7 +12,11 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-CEILINGS = {"words": 90_100, "prose": 44_400, "longest page of prose": 1_930}
+CEILINGS = {"words": 85_000, "prose": 45_000, "longest page of prose": 1_930}
+
+
+def count_words(text):
+    return sum(any(c.isalnum() for c in word) for word in text.split())
 
 
 def prose_words(text):
@@ -29,7 +34,7 @@ def prose_words(text):
             seen = seen or bool(stripped)
         else:
             generated = False
-            words += 0 if stripped.startswith("|") else len(line.split())
+            words += 0 if stripped.startswith("|") else count_words(line)
     return words
 
 
@@ -37,7 +42,7 @@ def measure():
     """(page, words, words of prose) of every page."""
     pages = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
     texts = [(page.relative_to(ROOT), page.read_text()) for page in pages]
-    return [(page, len(text.split()), prose_words(text)) for page, text in texts]
+    return [(page, count_words(text), prose_words(text)) for page, text in texts]
 
 
 def main():
