@@ -28,8 +28,8 @@ class AcceleratorCore;
 /// frame: no block knows of it, and all are then where they are between frames.
 ///
 /// Not modelled: power states, and the values of splat records and lists, which are written to the
-/// workspace as bytes without meaning. The host memory of a frame (about 200 B per visible splat)
-/// is kept until the end of the simulation.
+/// workspace as bytes without meaning. The host keeps the present frame and the one before it,
+/// about 200 B per visible splat each.
 class Accelerator : public sc_core::sc_module {
 public:
     using Options = AcceleratorOptions;

@@ -150,8 +150,21 @@ AcceleratorFault AcceleratorCore::prepare() {
     }
 }
 
+// All frames of the job have ended. Some units are still busy with the last one when its pixels are
+// written, and lists may be kept from it.
+void AcceleratorCore::retire_frames() {
+    const std::size_t frames = job_.frames.size();
+    if (frames != 0) {
+        job_.retire_before(static_cast<std::uint32_t>(frames - 1));
+    }
+    while (workloads_.size() > frames - job_.frames.first()) {
+        workloads_.pop_front();
+    }
+}
+
 // The frame joins the job only if all of it fits.
 AcceleratorFault AcceleratorCore::make_workload() {
+    retire_frames();
     std::uint32_t dropped = 0;
     const GaussianCloud cloud = scene_.cloud(dropped);
     const ProjectionOptions options = projection_of(config_->data_path(), options_.antialiased);

@@ -22,6 +22,8 @@ public:
 
     /// With the frequency of the bound clock, if any, from the end of elaboration on.
     const AcceleratorConfig& config() const { return *config_; }
+    /// The frames that are kept, the last one included.
+    const RenderJob& job() const { return job_; }
     /// When nothing is left to happen, before the timeline is read.
     void complete_timeline();
 
@@ -57,6 +59,7 @@ private:
 
     AcceleratorFault serve();
     AcceleratorFault prepare();
+    void retire_frames();
     AcceleratorFault make_workload();
     AcceleratorFault render();
     void count_frame(Cycle started, const MemoryTraffic& before);
@@ -76,7 +79,7 @@ private:
     AcceleratorFault request_fault_; // why the present frame cannot be served, if so
     SceneCopy scene_;
     bool scene_changed_ = false;
-    std::deque<FrameWorkload> workloads_;
+    std::deque<FrameWorkload> workloads_; // of the frames that the job keeps
     RenderJob job_;
     Process self_;
     DatedFifo<std::uint32_t> finished_;

@@ -59,22 +59,46 @@ TEST_F(SmallRunReports, AConfigurationWithAProblem) {
     EXPECT_THAT(report.text, HasSubstr("scheduler.banks"));
 }
 
-TEST_F(SmallRunReports, OptionsThatLeaveNothingToDo) {
-    Accelerator::Options options;
-    options.limits.pixels = 0;
-    const Reported report = refusal(DegsConfig(), options);
-    EXPECT_EQ(report.type, "/DeGS/accelerator/options");
-    EXPECT_THAT(report.text, HasSubstr("refused: limits"));
+/// Options that leave an accelerator nothing to do, or that no memory can serve.
+struct WrongOptions {
+    const char* name;
+    void (*change)(Accelerator::Options& options);
+    const char* text;
+};
+
+void PrintTo(const WrongOptions& wrong, std::ostream* out) {
+    *out << wrong.name;
 }
 
-TEST_F(SmallRunReports, NoTransactionInFlight) {
+class SmallRunOptions : public SmallRunReports,
+                        public ::testing::WithParamInterface<WrongOptions> {};
+
+TEST_P(SmallRunOptions, AreRefusedByAReport) {
     Accelerator::Options options;
     options.memory.transport = Transport::At;
-    options.memory.outstanding = 0;
+    GetParam().change(options);
     const Reported report = refusal(DegsConfig(), options);
     EXPECT_EQ(report.type, "/DeGS/accelerator/options");
-    EXPECT_THAT(report.text, HasSubstr("memory.outstanding"));
+    EXPECT_THAT(report.text, HasSubstr("refused: "));
+    EXPECT_THAT(report.text, HasSubstr(GetParam().text));
 }
+
+constexpr WrongOptions kWrongOptions[] = {
+    {"NoTransaction", [](auto& o) { o.memory.outstanding = 0; }, "memory.outstanding is 0"},
+    {"NoTransactionOfAStream", [](auto& o) { o.memory.outstanding_per_stream = 0; },
+     "memory.outstanding_per_stream is 0"},
+    {"BurstsOfNoPowerOfTwo", [](auto& o) { o.memory.burst_bytes = 48; },
+     "memory.burst_bytes is 48"},
+    {"BurstsBelowAWord", [](auto& o) { o.memory.burst_bytes = 2; }, "memory.burst_bytes is 2"},
+    {"FullBurstsOfNoSize", [](auto& o) { o.memory.burst_ends = BurstEnds::FullBursts; },
+     "memory.burst_bytes is 0"},
+    {"NoPixels", [](auto& o) { o.limits.pixels = 0; }, "limits"},
+    {"NoGaussians", [](auto& o) { o.limits.gaussians = 0; }, "limits"},
+    {"TooManyGaussians",
+     [](auto& o) { o.limits.gaussians = AcceleratorOptions::kMostGaussians + 1; }, "2^30"},
+};
+INSTANTIATE_TEST_SUITE_P(All, SmallRunOptions, ::testing::ValuesIn(kWrongOptions),
+                         [](const auto& wrong) { return wrong.param.name; });
 
 // Whoever keeps reports from throwing gets no accelerator either.
 TEST_F(SmallRunReports, WithoutThrowingReportsARefusalIsAStandardException) {

@@ -88,6 +88,7 @@ void Grouping::group() {
         }
         stats_.view_entries += frame.tile_pairs();
         frames_grouped_.push_back(grouper_.local());
+        frames_grouped_.drop_before(job_.frames.first());
         for (auto& port : out) {
             port->put(grouper_, f);
         }

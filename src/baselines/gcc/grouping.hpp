@@ -63,7 +63,7 @@ public:
 
     const Stats& stats() const { return stats_; }
     /// Dates at which each frame's lists were complete.
-    const std::vector<Cycle>& frames_grouped() const { return frames_grouped_; }
+    const KeptList<Cycle>& frames_grouped() const { return frames_grouped_; }
 
 private:
     struct Chunk {
@@ -86,7 +86,7 @@ private:
     std::uint64_t writes_ = 0;
     std::uint64_t region_written_ = 0; // entries of the frame's current lists
     Completion last_write_;
-    std::vector<Cycle> frames_grouped_;
+    KeptList<Cycle> frames_grouped_; // of the frames that the job keeps
     Stats stats_;
 };
 

@@ -133,6 +133,7 @@ void WindowArray::end_view() {
         tile_state->put(self_, report);
     }
     tile_done->put(self_, report);
+    job_.tiles[number_].passed = true; // all stages have handed on its last splat
 }
 
 void WindowArray::render(std::uint32_t splat, const ProjectedSplat& projected) {

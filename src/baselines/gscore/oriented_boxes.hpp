@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "modules/kit/job/render_job.hpp"
@@ -13,11 +16,15 @@ namespace degs::gscore {
 class OrientedBoxes {
 public:
     explicit OrientedBoxes(const RenderJob& job) : job_(job) {}
-    /// Makes those of all frames up to this one.
+    /// Makes those of all frames up to this one that the job still has.
     void include(std::uint32_t frame) {
+        frames_ = std::max(frames_, static_cast<std::uint32_t>(job_.frames.first()));
         for (; frames_ <= frame; ++frames_) {
-            for (const ProjectedSplat& splat : job_.frames[frames_]->splats) {
-                boxes_.emplace_back(splat);
+            std::size_t box = job_.first_splat[frames_];
+            const std::vector<ProjectedSplat>& splats = job_.frames[frames_]->splats;
+            boxes_.resize(std::max(boxes_.size(), box + splats.size()));
+            for (const ProjectedSplat& splat : splats) {
+                boxes_[box++] = OrientedBox(splat);
             }
         }
     }

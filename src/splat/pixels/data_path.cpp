@@ -14,6 +14,7 @@
 #include "splat/pixels/draw_rows.hpp"
 #include "splat/pixels/quantized_data_path.hpp"
 #include "splat/pixels/span_record.hpp"
+#include "splat/pixels/splat_places.hpp"
 
 namespace degs {
 namespace {
@@ -76,12 +77,12 @@ public:
           products_(tile_size) {}
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
-        const std::size_t base = spans_.size();
         const std::size_t count = workload.splats.size();
-        spans_.resize(base + count);
-        columns_.resize(base + count);
-        blends_.resize(base + count);
-        gemm_.resize(options_.gemm ? base + count : 0);
+        const std::uint32_t base = places_.take(count);
+        spans_.resize(places_.size());
+        columns_.resize(places_.size());
+        blends_.resize(places_.size());
+        gemm_.resize(options_.gemm ? places_.size() : 0);
         parallel_ranges(count, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const ProjectedSplat& splat = workload.splats[i];
@@ -97,7 +98,11 @@ public:
                 }
             }
         });
-        return static_cast<std::uint32_t>(base);
+        return base;
+    }
+
+    void remove_frame(std::uint32_t first, std::size_t splats) override {
+        places_.release(first, splats);
     }
 
     void expect(std::uint32_t splat) const override {
@@ -336,6 +341,7 @@ private:
     std::vector<TestRow<T>> tested_;  // rows for test_
     ProductFunction<T> product_ = product_function(T{});
     std::vector<ProductRow> products_; // rows for product_
+    SplatPlaces places_;               // of frames in the tables that follow
     std::vector<GemmSplat<T>> gemm_;   // if the options ask for products
     std::vector<SpanRecord<T>> spans_;
     std::vector<ColumnRecord> columns_;

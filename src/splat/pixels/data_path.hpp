@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -143,6 +144,9 @@ public:
 
     /// Derives the records of all splats of a frame; returns the global index of its first splat.
     virtual std::uint32_t add_frame(const FrameWorkload& workload) = 0;
+    /// Gives up a frame of so many splats, whose first one has this index. The indices may be those
+    /// of frames that are added later.
+    virtual void remove_frame(std::uint32_t first, std::size_t splats) = 0;
     /// A hint that the rows of the splat will be needed soon. It changes nothing but host time.
     virtual void expect(std::uint32_t splat) const = 0;
     /// The image rows (unclipped) that the splat's ellipse meets.

@@ -15,6 +15,7 @@
 #include "splat/pixels/quantized_gemm.hpp"
 #include "splat/pixels/quantized_pixels.hpp"
 #include "splat/pixels/row_lanes.hpp"
+#include "splat/pixels/splat_places.hpp"
 
 namespace degs {
 namespace {
@@ -44,12 +45,12 @@ public:
           pixels_(make_quantized_pixels(row_)) {}
 
     std::uint32_t add_frame(const FrameWorkload& workload) override {
-        const std::size_t base = splats_.size();
         const std::size_t count = workload.splats.size();
-        splats_.resize(base + count);
-        extents_.resize(base + count);
-        boxes_.resize(base + count);
-        gemm_.resize(base + count);
+        const std::uint32_t base = places_.take(count);
+        splats_.resize(places_.size());
+        extents_.resize(places_.size());
+        boxes_.resize(places_.size());
+        gemm_.resize(places_.size());
         parallel_ranges(count, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 splats_[base + i] = row_.record(workload.splats[i]);
@@ -59,9 +60,13 @@ public:
             }
         });
         for (std::size_t i = base; i < base + count; ++i) {
-            pixels_->add(splats_[i]);
+            pixels_->set(i, splats_[i]);
         }
-        return static_cast<std::uint32_t>(base);
+        return base;
+    }
+
+    void remove_frame(std::uint32_t first, std::size_t splats) override {
+        places_.release(first, splats);
     }
 
     void expect(std::uint32_t splat) const override {
@@ -235,6 +240,7 @@ private:
     bool refuse_;
     PixelRows rows_;
     std::unique_ptr<QuantizedPixels> pixels_;
+    SplatPlaces places_; // of frames in the tables of splats, those of pixels_ and gemm_ included
     std::vector<QuantizedSplat> splats_;
     std::vector<QuantizedExtent> extents_;
     std::vector<PixelRange> boxes_; // columns

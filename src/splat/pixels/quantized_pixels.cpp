@@ -14,10 +14,11 @@ public:
         : numbers_(set), blend_(quantized_blend_function(numbers_.family)),
           test_(quantized_test_function(numbers_.family)) {}
 
-    void add(const QuantizedSplat& splat) override {
-        splats_.push_back({static_cast<float>(splat.a), static_cast<float>(splat.colour[0]),
-                           static_cast<float>(splat.colour[1]), static_cast<float>(splat.colour[2]),
-                           static_cast<float>(splat.q_inside)});
+    void set(std::size_t index, const QuantizedSplat& splat) override {
+        splats_.resize(std::max(splats_.size(), index + 1));
+        splats_[index] = {static_cast<float>(splat.a), static_cast<float>(splat.colour[0]),
+                          static_cast<float>(splat.colour[1]), static_cast<float>(splat.colour[2]),
+                          static_cast<float>(splat.q_inside)};
     }
     void clear(std::size_t first, std::size_t count) override { pixels_.clear(first, count); }
     BlendOutcome blend(const BlendTask& task, bool refuse, std::size_t first) override {
@@ -46,7 +47,10 @@ class ScalarPixels final : public QuantizedPixels {
 public:
     explicit ScalarPixels(const QuantizedRow& row) : row_(row) {}
 
-    void add(const QuantizedSplat& splat) override { splats_.push_back(splat); }
+    void set(std::size_t index, const QuantizedSplat& splat) override {
+        splats_.resize(std::max(splats_.size(), index + 1));
+        splats_[index] = splat;
+    }
     void clear(std::size_t first, std::size_t count) override { pixels_.clear(first, count); }
     BlendOutcome blend(const BlendTask& task, bool refuse, std::size_t first) override {
         const QuantizedSplat& splat = splats_[task.splat];

@@ -14,8 +14,8 @@ namespace degs {
 class QuantizedPixels {
 public:
     virtual ~QuantizedPixels() = default;
-    /// The next splat: what a PE fetches by G_ID.
-    virtual void add(const QuantizedSplat& splat) = 0;
+    /// What a PE fetches by G_ID.
+    virtual void set(std::size_t index, const QuantizedSplat& splat) = 0;
     /// Makes room if need be.
     virtual void clear(std::size_t first, std::size_t count) = 0;
     /// The tasks of a span; `first` is the pixel of mask bit 0. `refuse`: StopRule::Refuse.

@@ -44,33 +44,38 @@ public:
     void clear_row(TileNumber number, int row) override {
         const int place = canvas(number);
         canvases_.clear_row(place, row);
-        if (++cleared_[number] == job_.tile_size) {
+        Drawn& tile = drawn_[number];
+        if (++tile.cleared == job_.tile_size) {
             canvases_.close(place);
-            canvas_of_[number] = kNone;
+            tile.canvas = kNone;
         }
     }
 
 private:
     static constexpr int kNone = -1;
 
+    struct Drawn {
+        int canvas = kNone;
+        int cleared = 0; // rows
+    };
+
     int canvas(TileNumber number) {
-        return number < canvas_of_.size() && canvas_of_[number] != kNone ? canvas_of_[number]
-                                                                         : open(number);
+        return number < drawn_.size() && drawn_[number].canvas != kNone ? drawn_[number].canvas
+                                                                        : open(number);
     }
     int open(TileNumber number) {
-        if (number >= canvas_of_.size()) {
-            canvas_of_.resize(std::max<std::size_t>(job_.tiles.size(), number + 1), kNone);
-            cleared_.resize(canvas_of_.size(), 0);
+        while (number >= drawn_.size()) {
+            drawn_.emplace_back();
         }
-        cleared_[number] = 0;
-        return canvas_of_[number] = canvases_.open();
+        drawn_.drop_before(job_.tiles.first());
+        drawn_[number] = {canvases_.open(), 0};
+        return drawn_[number].canvas;
     }
 
     RenderJob& job_;
     DrawingOptions options_;
     TileCanvases canvases_;
-    std::vector<int> canvas_of_; // by tile, or kNone
-    std::vector<int> cleared_;   // rows, by tile
+    KeptList<Drawn> drawn_; // by tile
 };
 
 } // namespace

@@ -10,9 +10,9 @@ namespace degs {
 
 namespace {
 
-void collect_written(AcceleratorResult& result, const std::vector<Cycle>& written) {
+void collect_written(AcceleratorResult& result, const KeptList<Cycle>& written) {
     result.frames.resize(std::max(result.frames.size(), written.size()));
-    for (std::size_t f = 0; f < written.size(); ++f) {
+    for (std::size_t f = written.first(); f < written.size(); ++f) {
         result.frames[f].finished = std::max(result.frames[f].finished, written[f]);
     }
 }

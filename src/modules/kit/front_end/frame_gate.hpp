@@ -55,6 +55,7 @@ private:
             for (auto& port : out) {
                 port->put(self_, f);
             }
+            seen_.drop_before(f + 1);
         }
         self_.finish();
     }
@@ -66,8 +67,8 @@ private:
         }
     }
     std::uint64_t& seen(std::uint32_t frame) {
-        if (frame >= seen_.size()) {
-            seen_.resize(frame + 1, 0);
+        while (frame >= seen_.size()) {
+            seen_.push_back(0);
         }
         return seen_[frame];
     }
@@ -75,7 +76,7 @@ private:
     const RenderJob& job_;
     Process self_;
     std::uint64_t reports_;
-    std::vector<std::uint64_t> seen_; // reports, per frame
+    KeptList<std::uint64_t> seen_; // reports, per frame
 };
 
 } // namespace degs

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modules/kit/front_end/list_changes.hpp"
 
+#include <algorithm>
+
 namespace degs {
 
 bool ListChanges::keeps(std::uint32_t frame) const {
@@ -38,22 +40,32 @@ void ListChanges::mark(std::uint32_t frame, std::vector<bool>& written) {
     }
 }
 
-const ListChanges::Frame& ListChanges::of_frame(std::uint32_t frame) {
+ListChanges::Frame ListChanges::count(std::uint32_t frame) {
+    const FrameWorkload& work = *job_.frames[frame];
     std::vector<bool> written;
-    while (frames_.size() <= frame) {
-        const FrameWorkload& work = *job_.frames[frames_.size()];
-        mark(static_cast<std::uint32_t>(frames_.size()), written);
-        Frame counts;
-        for (int tile = 0; tile < work.tiles(); ++tile) {
-            std::uint32_t count = 0;
-            for (std::uint64_t i = work.tile_begin[tile]; i < work.tile_begin[tile + 1]; ++i) {
-                count += written[i] ? 1 : 0;
-            }
-            counts.per_tile.push_back(count);
+    mark(frame, written);
+    Frame counts;
+    for (int tile = 0; tile < work.tiles(); ++tile) {
+        std::uint32_t count = 0;
+        for (std::uint64_t i = work.tile_begin[tile]; i < work.tile_begin[tile + 1]; ++i) {
+            count += written[i] ? 1 : 0;
         }
-        frames_.push_back(std::move(counts));
+        counts.per_tile.push_back(count);
     }
-    return frames_[frame];
+    return counts;
+}
+
+// A frame is asked about while the one before it, from which lists are kept, has not retired.
+const ListChanges::Frame& ListChanges::of_frame(std::uint32_t frame) {
+    while (frames_.size() <= frame) {
+        frames_.emplace_back();
+        frames_.drop_before(std::min(job_.frames.first(), frames_.size()));
+    }
+    Frame& counts = frames_[frame];
+    if (counts.per_tile.empty()) {
+        counts = count(frame);
+    }
+    return counts;
 }
 
 } // namespace degs

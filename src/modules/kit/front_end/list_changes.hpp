@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 #include "modules/kit/job/render_job.hpp"
@@ -30,12 +29,13 @@ private:
         std::vector<std::uint32_t> per_tile; ///< of the whole grid
     };
     const Frame& of_frame(std::uint32_t frame);
+    Frame count(std::uint32_t frame);
     std::size_t grid_index(const JobTile& tile) const;
     bool keeps(std::uint32_t frame) const;
 
     const RenderJob& job_;
     bool lists_are_kept_;
-    std::deque<Frame> frames_;
+    KeptList<Frame> frames_; // empty for frames that nobody has asked for
 };
 
 } // namespace degs

@@ -22,12 +22,17 @@ void ListLoader::end_of_elaboration() {
 void ListLoader::run() {
     const std::uint64_t entry = traffic_.list_entry_bytes;
     std::uint32_t frames_started = 0;
-    while (tiles_.next(self_)) {
-        const JobTile& tile = job_.tiles[tiles_.tile()];
-        while (frames_started <= tile.frame) {
+    const auto take_starts = [&](std::uint32_t frames) {
+        for (; frames_started < frames; ++frames_started) {
             start->get(self_);
-            ++frames_started;
         }
+    };
+    // Where frames join, those before the tile have ended: their messages are there, and would pile
+    // up before a unit that never has a tile.
+    const auto pass = [&](const JobTile& tile) { take_starts(job_.frames_join ? tile.frame : 0); };
+    while (tiles_.next(self_, pass)) {
+        const JobTile& tile = job_.tiles[tiles_.tile()];
+        take_starts(tile.frame + 1);
         const MemoryMap map = job_.map(tile.frame, traffic_);
         out->reserve(self_);
         const Completion ready =

@@ -13,12 +13,24 @@ NextUse::NextUse(const RenderJob& job, std::uint32_t frame)
         throw std::length_error("reuse distances of a frame with 2^32 - 1 or more list entries");
     }
     std::vector<std::uint32_t> seen(work.splats.size(), kNone); // first use behind the entry
-    for (std::size_t number = job.tiles.size(); number-- > 0;) {
+    for (std::size_t number = job.tiles.size(); number-- > job.tiles.first();) {
         const JobTile& tile = job.tiles[number];
         for (std::uint64_t i = tile.frame == frame ? tile.count : 0; i-- > 0;) {
             std::uint32_t& use = seen[work.tile_splats[tile.first + i]];
             next_[tile.before + i] = use;
             use = static_cast<std::uint32_t>(tile.before + i);
+        }
+    }
+}
+
+void NextUses::include(std::uint32_t frame) {
+    frames_.drop_before(std::min(job_.frames.first(), frames_.size()));
+    while (frames_.size() <= frame) {
+        const std::size_t next = frames_.size();
+        if (next < job_.frames.first()) {
+            frames_.emplace_back();
+        } else {
+            frames_.emplace_back(NextUse(job_, static_cast<std::uint32_t>(next)));
         }
     }
 }

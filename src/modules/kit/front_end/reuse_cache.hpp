@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,15 +36,17 @@ public:
     explicit NextUses(const RenderJob& job) : job_(job) {}
     /// The reference is valid until the next call with another new frame.
     const NextUse& of(std::uint32_t frame) {
-        for (std::size_t f = frames_.size(); f <= frame; ++f) {
-            frames_.emplace_back(job_, static_cast<std::uint32_t>(f));
+        if (frame >= frames_.size()) {
+            include(frame);
         }
-        return frames_[frame];
+        return *frames_[frame];
     }
 
 private:
+    void include(std::uint32_t frame);
+
     const RenderJob& job_;
-    std::vector<NextUse> frames_;
+    KeptList<std::optional<NextUse>> frames_; // nothing for frames that nobody had asked for
 };
 
 /// A cache that keeps splat records between the tiles of one engine (Ye et al., HPCA 2025). Reuse

@@ -15,11 +15,17 @@ public:
     /// Moves to the next tile; if it may still join, sleeps until it does, and moves the process to
     /// that date. False: there is none.
     bool next(Process& process) {
+        return next(process, [](const JobTile&) {});
+    }
+    /// Moves on as above, and calls `pass` with each tile of another unit on the way.
+    template <class Pass>
+    bool next(Process& process, const Pass& pass) {
         while (job_.has_tile(process, candidate_)) {
             tile_ = candidate_++;
             if (job_.sorter_of(tile_, sorters_) == sorter_) {
                 return true;
             }
+            pass(job_.tiles[tile_]);
         }
         return false;
     }

@@ -14,7 +14,7 @@ void SplatFetcher::Config::describe(ConfigVisitor& visitor) {
 }
 
 SplatFetcher::SplatFetcher(const sc_core::sc_module_name& name, const Config& config,
-                           const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
+                           const TrafficConfig& traffic, const Timebase& time, RenderJob& job,
                            std::size_t readers, bool instant, bool granted, ReuseCache* cache)
     : sc_core::sc_module(name), sorted("sorted"), cancel("cancel"), out("out", readers),
       request("request", granted ? 1 : 0), released("released", config.chunks == 0 ? 0 : readers),
@@ -121,6 +121,7 @@ void SplatFetcher::fetch(const SortedRun& run) {
     }
     if (run.end == tile.count) {
         done_ = 0;
+        job_.tiles[run.tile].passed = true;
     }
 }
 

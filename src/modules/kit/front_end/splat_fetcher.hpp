@@ -54,7 +54,7 @@ public:
     /// the stream for the readers, which cannot know their last tile. `cache`: records that it has
     /// are not read; null without one.
     SplatFetcher(const sc_core::sc_module_name& name, const Config& config,
-                 const TrafficConfig& traffic, const Timebase& time, const RenderJob& job,
+                 const TrafficConfig& traffic, const Timebase& time, RenderJob& job,
                  std::size_t readers, bool instant, bool granted = false,
                  ReuseCache* cache = nullptr);
 
@@ -71,7 +71,7 @@ private:
 
     Config config_;
     TrafficConfig traffic_;
-    const RenderJob& job_;
+    RenderJob& job_;
     bool instant_, granted_;
     ReuseCache* cache_;
     Process self_;

@@ -91,6 +91,7 @@ void TileBinner::run() {
         self_.wait_for_memory(last_write_); // lists are read back from memory: they must be there
         stats_.frame_binned = self_.local();
         frames_binned_.push_back(self_.local());
+        frames_binned_.drop_before(job_.frames.first());
         for (auto& port : out) {
             port->put(self_, f);
         }

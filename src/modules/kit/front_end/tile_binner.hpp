@@ -68,7 +68,7 @@ public:
     /// Bytes read from and written to its SRAM: entries, and the ends of the lists of groups.
     std::uint64_t sram_bytes_moved() const;
     /// Dates at which the lists of each frame were complete.
-    const std::vector<Cycle>& frames_binned() const { return frames_binned_; }
+    const KeptList<Cycle>& frames_binned() const { return frames_binned_; }
 
 private:
     void end_of_elaboration() override;
@@ -100,7 +100,7 @@ private:
     std::vector<Completion> acknowledged_; // ring of completion dates of the latest writes
     std::uint64_t writes_ = 0;
     Completion last_write_;
-    std::vector<Cycle> frames_binned_;
+    KeptList<Cycle> frames_binned_; // of the frames that the job keeps
     Stats stats_;
 };
 

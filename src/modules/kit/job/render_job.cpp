@@ -59,6 +59,34 @@ void RenderJob::add(const FrameWorkload& frame, const MemoryBases& base) {
     }
 }
 
+bool TileList::retire(std::uint32_t frame) {
+    const auto end = std::find_if(tiles_.begin(), tiles_.end(),
+                                  [frame](const JobTile& tile) { return tile.frame != frame; });
+    if (!std::all_of(tiles_.cbegin(), std::deque<JobTile>::const_iterator(end),
+                     [](const JobTile& tile) { return tile.passed; })) {
+        return false;
+    }
+    const auto count = end - tiles_.begin();
+    tiles_.erase(tiles_.begin(), end); // at an end of a deque the others stay where they are
+    index_.erase(index_.begin(), index_.begin() + count);
+    first_ += count;
+    return true;
+}
+
+void RenderJob::retire_before(std::uint32_t frame) {
+    std::size_t first = frames.first();
+    for (; first < frame && tiles.retire(static_cast<std::uint32_t>(first)); ++first) {
+        path->remove_frame(first_splat[first], frames[first]->splats.size());
+    }
+    frames.drop_before(first);
+    first_splat.drop_before(first);
+    tiles_of_frame.drop_before(first);
+    images.drop_before(first);
+    places.drop_before(first);
+    pair_prefix.drop_before(first);
+    bases.drop_before(first);
+}
+
 ScatteredRecords RenderJob::splat_records(std::uint32_t frame, const TrafficConfig& traffic,
                                           const std::uint32_t* splats, std::size_t count) const {
     const MemoryMap at = map(frame, traffic);

@@ -7,6 +7,7 @@
 
 #include <systemc>
 
+#include "modules/kit/job/kept_list.hpp"
 #include "modules/kit/job/messages.hpp"
 #include "modules/kit/job/record_places.hpp"
 #include "modules/kit/job/slot_recorder.hpp"
@@ -30,18 +31,23 @@ struct JobTile {
     std::uint64_t before = 0; ///< entries of the frame's tiles that are taken earlier
     TileNumber turn = 0;      ///< tiles of its frame before it; TileList counts them
     bool last_of_frame = false;
+    bool passed = false; ///< sorted and fetched; its list is not asked for again
 
     PixelRange columns() const { return {x, x + width - 1}; } ///< of the image
     PixelRange rows() const { return {y, y + height - 1}; }   ///< of the image
 };
 
-/// Tiles that keep their place when others join, so that blocks may hold on to one.
+/// Tiles that keep their place when others join or the oldest retire, so that blocks may hold on to
+/// one.
 class TileList {
 public:
+    /// The number of the next tile.
     std::size_t size() const { return size_; }
-    bool empty() const { return index_.empty(); }
-    JobTile& operator[](std::size_t number) { return *index_[number]; }
-    const JobTile& operator[](std::size_t number) const { return *index_[number]; }
+    /// The lowest number that has not retired.
+    std::size_t first() const { return first_; }
+    bool empty() const { return size_ == 0; }
+    JobTile& operator[](std::size_t number) { return *index_[number - first_]; }
+    const JobTile& operator[](std::size_t number) const { return *index_[number - first_]; }
     JobTile& back() { return *index_.back(); }
     void push_back(const JobTile& tile) {
         const bool first = tiles_.empty() || tiles_.back().frame != tile.frame;
@@ -49,33 +55,38 @@ public:
         tiles_.push_back(tile);
         tiles_.back().turn = turn;
         index_.push_back(&tiles_.back());
-        size_ = index_.size();
+        size_ = first_ + index_.size();
     }
+    /// Retires the tiles of a frame, which must be the oldest. False, and nothing happens, if one
+    /// of them has not been passed.
+    bool retire(std::uint32_t frame);
+    /// The iterators go over the tiles that have not retired.
     std::deque<JobTile>::const_iterator begin() const { return tiles_.begin(); }
     std::deque<JobTile>::const_iterator end() const { return tiles_.end(); }
 
 private:
     std::deque<JobTile> tiles_;
     std::vector<JobTile*> index_; // for the hot loops; a deque would have to divide
-    std::size_t size_ = 0;        // of tiles_, for the hot loops
+    std::size_t first_ = 0;       // tiles that have retired
+    std::size_t size_ = 0;        // of tiles_ and those, for the hot loops
 };
 
 /// The frames that an accelerator is asked to render, and the arithmetic that it uses.
 struct RenderJob {
-    std::vector<const FrameWorkload*> frames;
-    std::vector<std::uint32_t> first_splat; ///< DataPath index of each frame's splat 0
-    TileList tiles;                         ///< frame by frame, each in its tile order
-    std::vector<std::uint64_t> tiles_of_frame;
-    std::deque<Image> images; ///< one per frame, filled by the Pixel Buffer
+    KeptList<const FrameWorkload*> frames;
+    KeptList<std::uint32_t> first_splat; ///< DataPath index of each frame's splat 0
+    TileList tiles;                      ///< frame by frame, each in its tile order
+    KeptList<std::uint64_t> tiles_of_frame;
+    KeptList<Image> images; ///< one per frame, filled by the Pixel Buffer
     std::unique_ptr<DataPath> path;
     int tile_size = 0;
     RecordOrder record_order = RecordOrder::Index; ///< of frames that join from now on
     TileOrder tile_order = TileOrder::Raster;      ///< of frames that join from now on
-    std::vector<RecordPlaces> places;              ///< of each frame's splat records
+    KeptList<RecordPlaces> places;                 ///< of each frame's splat records
     /// Per frame: tile pairs of the first n visible Gaussians in scene order, for n = 0..visible.
-    std::vector<std::vector<std::uint64_t>> pair_prefix;
+    KeptList<std::vector<std::uint64_t>> pair_prefix;
     /// Per frame: where its streams live, if not where MemoryMap puts them.
-    std::vector<MemoryBases> bases;
+    KeptList<MemoryBases> bases;
     /// Memory holds nothing of frames before this one: the accelerator was reset, or gave one up.
     std::uint32_t first_since_reset = 0;
     /// Set if slots are recorded with their dates and tiles.
@@ -132,6 +143,12 @@ struct RenderJob {
 
     /// Lists the tiles of a frame and loads its splats into the data path.
     void add(const FrameWorkload& frame, const MemoryBases& base = {});
+    /// Gives up the tables, the tiles and the splats of frames that have been rendered, from the
+    /// oldest on: those below `frame`, up to the first one with a list that a block is still busy
+    /// with. A block may only look at them for a list of its own, or at the frame before its own.
+    /// The numbers of frames and tiles go on. The workload of a frame from frames.first() on is
+    /// still in use.
+    void retire_before(std::uint32_t frame);
 
 private:
     template <class There>

@@ -36,8 +36,9 @@ void BackgroundWriter::run() {
         }
         const Completion done = write_frame(f);
         frames_written_.push_back(0);
+        frames_written_.drop_before(job_.frames.first());
         done.when_known([this, f](Cycle date) {
-            frames_written_[f] = date;
+            frames_written_[f] = date; // before the end of the frame, so it is kept
             stats_.finished = std::max(stats_.finished, date);
         });
         for (auto& port : frame_done) {

@@ -35,7 +35,7 @@ public:
 
     const Stats& stats() const { return stats_; }
     /// Dates at which each frame's background was in memory.
-    const std::vector<Cycle>& frames_written() const { return frames_written_; }
+    const KeptList<Cycle>& frames_written() const { return frames_written_; }
 
 private:
     void end_of_elaboration() override;
@@ -48,8 +48,8 @@ private:
     Cycle cycles_per_write_;
     bool instant_;
     Process self_;
-    Cycle next_write_ = 0; // no write leaves before this
-    std::vector<Cycle> frames_written_;
+    Cycle next_write_ = 0;           // no write leaves before this
+    KeptList<Cycle> frames_written_; // of the frames that the job keeps
     Stats stats_;
 };
 

@@ -136,8 +136,15 @@ void PixelBuffer::run() {
         }
         finish_tile(number);
     }
-    frames_written_.resize(std::max(frames_written_.size(), job_.frames.size()), 0);
+    note_frames(job_.frames.size());
     self_.finish();
+}
+
+void PixelBuffer::note_frames(std::size_t frames) {
+    while (frames_written_.size() < frames) {
+        frames_written_.push_back(0);
+    }
+    frames_written_.drop_before(job_.frames.first());
 }
 
 // kNoTile: there are no more tiles.
@@ -168,10 +175,9 @@ void PixelBuffer::finish_tile(TileNumber number) {
     }
     clear(number);
     const std::uint32_t frame = job_.tiles[number].frame;
-    if (frame >= frames_written_.size()) {
-        frames_written_.resize(frame + 1, 0);
-    }
+    note_frames(frame + 1);
     latest(written_, read_out_).when_known([this, frame](Cycle date) {
+        // The frame is kept, because it has not ended before.
         frames_written_[frame] = std::max(frames_written_[frame], date);
         stats_.finished = std::max(stats_.finished, date);
     });

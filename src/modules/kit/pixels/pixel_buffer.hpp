@@ -101,13 +101,14 @@ public:
     /// Reads the tiles where they are drawn; before the simulation starts.
     void read_from(DrawnPixels& drawn) { drawn_ = &drawn; }
     /// Dates at which each frame's last pixel of this share was in memory.
-    const std::vector<Cycle>& frames_written() const { return frames_written_; }
+    const KeptList<Cycle>& frames_written() const { return frames_written_; }
 
 private:
     void end_of_elaboration() override;
     void run();
     void clear(TileNumber number);
     TileNumber next_tile();
+    void note_frames(std::size_t frames);
     void finish_tile(TileNumber number);
     int context_of(TileNumber number) const;
     Completion write_rows(TileNumber number);
@@ -126,7 +127,7 @@ private:
     std::vector<Completion> in_flight_; // ring of completion dates of the latest tile writes
     std::vector<PixelValue> pixels_;    // of the row being read out
     std::vector<unsigned char> bytes_;  // of the row, as frame-buffer pixels
-    std::vector<Cycle> frames_written_;
+    KeptList<Cycle> frames_written_;    // of the frames that the job keeps
     Stats stats_;
 };
 

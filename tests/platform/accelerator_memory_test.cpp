@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The memory of the host that a simulation takes does not grow with its frames.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include "degs/design.hpp"
+#include "tests/platform/accelerator_bench.hpp"
+
+namespace degs::test {
+namespace {
+
+/// B that are in use; the sanitizers keep what has been freed.
+std::uint64_t resident_bytes() {
+    std::ifstream statm("/proc/self/statm");
+    std::uint64_t pages = 0, resident = 0;
+    statm >> pages >> resident;
+    return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+/// A shipped design, perhaps changed.
+struct KeptDesign {
+    std::string name;
+    std::vector<std::string> overrides;
+    bool given_up = false; ///< some of the frames, by reset and by abort
+};
+
+class SmallRunMemory : public ::testing::TestWithParam<KeptDesign> {
+protected:
+    static constexpr int kFrames = 1000, kFirst = 100;
+
+    /// From views of one tile to views of many, from all splats to none; all of them come before
+    /// kFirst.
+    static Camera view(int frame) {
+        Camera camera = test_camera(8 + 8 * (frame % 7), 8 + 12 * (frame % 4));
+        camera.position.x += frame % 28 == 27 ? 100 : 0.5 * (frame % 3);
+        return camera;
+    }
+    void render(Host& host, int frame) {
+        program(host, cloud_, view(frame));
+        if (GetParam().given_up && frame % 3 == 1) {
+            host.write(Register::Control, kControlStart);
+            sc_core::wait(sc_core::sc_time(50 * (frame % 17), sc_core::SC_NS));
+            host.write(Register::Control, frame % 2 == 0 ? kControlReset : kControlAbort);
+            while ((host.read(Register::Status) & (kStatusInReset | kStatusBusy)) != 0) {
+            }
+            host.write(Register::IrqStatus, kIrqDone | kIrqAborted);
+        } else {
+            EXPECT_TRUE(host.render());
+        }
+    }
+
+    GaussianCloud cloud_ = test_cloud(7, 120, 0);
+};
+
+TEST_P(SmallRunMemory, StaysOverManyFrames) {
+    const Design design = load_design(std::string(DEGS_CONFIGS) + "/" + GetParam().name + ".yaml",
+                                      GetParam().overrides);
+    Platform p("accelerator", design.accelerator(), cloud_);
+    const RenderJob& job = p.accelerator.core().job();
+    std::uint64_t early = 0, late = 0;
+    p.host.script = [&](Host& host) {
+        for (int f = 0; f < kFrames; ++f) {
+            render(host, f);
+            ASSERT_LE(job.frames.size() - job.frames.first(), 2U) << "frame " << f;
+            early = f + 1 == kFirst ? resident_bytes() : early;
+        }
+        late = resident_bytes();
+    };
+    sc_core::sc_start();
+    ASSERT_TRUE(p.host.finished);
+    EXPECT_EQ(job.frames.size(), std::size_t{kFrames});
+    EXPECT_EQ(job.tiles.begin()->frame, job.frames.first());
+    RecordProperty("early_bytes", std::to_string(early));
+    RecordProperty("late_bytes", std::to_string(late));
+    if (!kSanitized) {
+        EXPECT_LT(late, early + (1U << 18U));
+    }
+}
+
+/// Becomes part of the test's name.
+void PrintTo(const KeptDesign& design, std::ostream* out) {
+    *out << design.name;
+}
+
+std::vector<KeptDesign> kept_designs() {
+    std::vector<KeptDesign> designs;
+    for (const auto& file : std::filesystem::directory_iterator(DEGS_CONFIGS)) {
+        if (file.path().extension() == ".yaml") {
+            designs.push_back({file.path().stem().string(), {}});
+        }
+    }
+    for (const char* name :
+         {"degs-64", "degs-1024-streams", "gbu-256", "gcc-256", "gscore-256", "orange-o4"}) {
+        designs.push_back({name, {}, true});
+    }
+    designs.push_back({"degs-64", {"binning.keep_lists=true"}});
+    designs.push_back(
+        {"degs-64",
+         {"front.multicast_window=8", "front.fifo_splats=64", "front.cache_bytes=4KiB"}});
+    std::sort(designs.begin(), designs.end(),
+              [](const KeptDesign& a, const KeptDesign& b) { return a.name < b.name; });
+    return designs;
+}
+
+std::string kept_name(const ::testing::TestParamInfo<KeptDesign>& info) {
+    std::string name = info.param.name + (info.param.given_up ? "_given_up" : "");
+    for (const std::string& key : info.param.overrides) {
+        name += "_" + key.substr(0, key.find('='));
+    }
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '-' || c == '.'; }, '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, SmallRunMemory, ::testing::ValuesIn(kept_designs()), kept_name);
+
+} // namespace
+} // namespace degs::test
