@@ -173,14 +173,15 @@ private:
     /// What DataPath::blend does, on a pixel of its own.
     void compare_lanes(const PeOperand& operand, const PixelState& before,
                        const PeResult& expected) {
-        lanes_->add(operand.splat);
+        lanes_->set(0, operand.splat);
+        ++counts_.lanes_compared;
         lanes_->write(
             0,
             {{before.rgb[0], before.rgb[1], before.rgb[2]}, before.transmittance, 0, !before.live});
         BlendTask task;
         task.g0 = operand.g0;
         task.d0 = operand.d0;
-        task.splat = static_cast<std::uint32_t>(counts_.lanes_compared++);
+        task.splat = 0;
         task.mask = 1;
         task.offset = static_cast<std::int16_t>(operand.n);
         const BlendOutcome outcome = lanes_->blend(task, operand.stop == StopRule::Refuse, 0);
