@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-CEILINGS = {"words": 90_100, "prose": 44_400, "longest page of prose": 1_930}
+CEILINGS = {"words": 90_600, "prose": 44_550, "longest page of prose": 1_930}
 
 
 def prose_words(text):
