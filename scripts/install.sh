@@ -10,7 +10,8 @@ packages=(
     libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libstb-dev libtinygltf-dev libxxhash-dev libpugixml-dev
 )
 test_packages=(chromium libgtest-dev libgmock-dev libbenchmark-dev clang clang-format clang-tidy libclang-rt-14-dev
-    ccache libxml2-utils mandoc mkdocs-material munge python3 slurm-wlm verilator zsh)
+    ccache libxml2-utils mandoc mkdocs-material munge python3 python3-jsonschema
+    python3-yaml slurm-wlm verilator zsh)
 [[ ${1:-} != --tests ]] || packages+=("${test_packages[@]}")
 
 missing=()

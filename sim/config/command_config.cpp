@@ -9,6 +9,7 @@
 #include "degs/error.hpp"
 #include "sim/config/config_difference.hpp"
 #include "sim/config/cost_output.hpp"
+#include "sim/config/schema.hpp"
 #include "sim/config/shared_keys.hpp"
 #include "sim/config/statistics_list.hpp"
 #include "sim/shell/commands.hpp"
@@ -31,6 +32,7 @@ struct ConfigOptions {
     std::string keys = "all"; ///< the part of the keys that is listed
     std::string of = "run";   ///< the command whose statistics are listed
     std::string section;      ///< of the statistics
+    std::string schema;       ///< name of the kind of file whose schema is wanted
 };
 
 /// path = value
@@ -135,6 +137,10 @@ std::string costs(const RunConfig& config, const ConfigOptions& options) {
 }
 
 void run(const ConfigOptions& options) {
+    if (!options.schema.empty()) {
+        print(schema_text(options.schema));
+        return;
+    }
     if (!options.different.empty()) {
         print(difference_of(options));
         return;
@@ -190,6 +196,20 @@ CLI::Option* add_keys_option(CLI::App* command, ConfigOptions& options) {
         ->capture_default_str();
 }
 
+/// Adds the option that prints a schema, which goes with no other.
+void add_schema_option(CLI::App* command, ConfigOptions& options) {
+    CLI::Option* schema =
+        command->add_option("--schema", options.schema,
+                            "the JSON Schema of a kind of file, with which editors complete and "
+                            "check keys");
+    schema->check(CLI::IsMember(schema_names()));
+    for (CLI::Option* other : command->get_options()) {
+        if (other != schema && !other->check_lname("help")) {
+            schema->excludes(other);
+        }
+    }
+}
+
 } // namespace
 
 void add_config_command(CLI::App& program) {
@@ -239,6 +259,7 @@ void add_config_command(CLI::App& program) {
     keys->excludes(stats)->excludes(cost)->excludes(diff)->excludes(pes);
     diff->excludes(stats)->excludes(cost);
     pes->excludes(stats);
+    add_schema_option(command, *options);
     command->callback([options, file, pes, format] {
         options->has_config = file->count() != 0; // "" is a name, too
         if (pes->count() != 0 && format->count() == 0 && !options->cost) {

@@ -22,7 +22,9 @@ struct Span {
 };
 
 [[noreturn]] void fail_range(const ConfigNode& node, const std::string& reason) {
-    throw InputError(node.place + ": the range " + quote(node.text) + " " + reason + ".");
+    const std::string key = node.key.empty() ? "" : "key " + quote(node.key) + ": ";
+    throw InputError(node.place + ": " + key + "the range " + quote(node.text) + " " + reason +
+                     ".");
 }
 
 /// Only what begins like a number is a range, because names may contain dots.

@@ -9,7 +9,8 @@
 #include "config/config_source.hpp"
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
-#include "scene/files/image_io.hpp"
+#include "sim/study/compare_request.hpp"
+#include "sim/study/study_keys.hpp"
 
 namespace degs::sim {
 namespace {
@@ -18,29 +19,30 @@ namespace fs = std::filesystem;
 using config_words::quote;
 using Kind = ConfigNode::Kind;
 
-constexpr int kMostFramesOfStudy = 10000; ///< as --frames
-/// What `degs compare` cannot do.
-const std::vector<std::string> kSweepKeys{"axes", "combine", "baseline"};
-const std::vector<std::string> kStudyKeys{
-    "study",     "points",     "designs",   "axes",        "combine", "baseline",
-    "scenes",    "cameras",    "width",     "camera_file", "frames",  "resolutions",
-    "path_step", "array_only", "reference", "fidelity",    "quick"};
-
-/// What all points of a study may be run with.
-const std::vector<const char*> kFidelities{"exact", "analytic"};
-constexpr int kAnalytic = 1; ///< position in these
+/// The names of the keys for which `wanted` holds.
+template <class Wanted>
+std::vector<std::string> names_of(const Wanted& wanted) {
+    std::vector<std::string> names;
+    for (const StudyKey& key : study_keys()) {
+        if (wanted(key)) {
+            names.emplace_back(key.name);
+        }
+    }
+    return names;
+}
 
 bool is_among(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 void check_top_keys(const ConfigNode& tree) {
+    const std::vector<std::string> known = names_of([](const StudyKey&) { return true; });
     for (const ConfigNode& key : tree.children) {
-        if (!is_among(kStudyKeys, key.key)) {
-            const std::string near = config_words::nearest(key.key, kStudyKeys);
+        if (!is_among(known, key.key)) {
+            const std::string near = config_words::nearest(key.key, known);
             throw InputError(key.place + ": unknown key " + quote(key.key) +
                              (near.empty() ? "" : ", did you mean " + quote(near) + "?") +
-                             " (a study has the keys " + config_words::list(kStudyKeys) + ").");
+                             " (a study has the keys " + config_words::list(known) + ").");
         }
     }
 }
@@ -59,6 +61,20 @@ void take(const ConfigNode& tree, const char* key, const Kind& kind, Value& valu
     if (const ConfigNode* node = tree.find(key)) {
         value = config_scalar::value_of(kind, *node, key);
     }
+}
+
+std::int64_t taken_integer(const ConfigNode& tree, const char* name, std::int64_t otherwise) {
+    const StudyKey& key = study_key(name);
+    const auto low = static_cast<std::int64_t>(key.low);
+    take(tree, name, config_scalar::Integer{low, static_cast<std::int64_t>(key.high)}, otherwise);
+    return otherwise;
+}
+
+/// Whether a choice between two words is the second.
+bool takes_second(const ConfigNode& tree, const char* name) {
+    int choice = 0;
+    take(tree, name, config_scalar::Choice{study_key(name).words}, choice);
+    return choice == 1;
 }
 
 /// A scalar or a list of scalars.
@@ -87,6 +103,16 @@ std::string joined_words(const ConfigNode& node) {
     return text;
 }
 
+/// What `check` finds wrong in the value of a key, with the place of the key.
+template <class Check>
+void check_at(const ConfigNode& node, const Check& check) {
+    try {
+        check();
+    } catch (const InputError& wrong) {
+        throw InputError(node.place + ": key " + quote(node.key) + ": " + wrong.what());
+    }
+}
+
 /// `name` relative to the study, unless it stands on its own.
 std::string beside(const fs::path& folder, const std::string& name) {
     const bool own = name.empty() || name.rfind("synthetic:", 0) == 0;
@@ -101,9 +127,11 @@ void read_views(const ConfigNode& tree, const fs::path& folder, StudyViews& stud
     }
     if (const ConfigNode* cameras = tree.find("cameras")) {
         study.cameras = joined_words(*cameras);
+        check_at(*cameras, [&] { parse_cameras(study.cameras); });
     }
     if (const ConfigNode* resolutions = tree.find("resolutions")) {
         study.resolutions = joined_words(*resolutions);
+        check_at(*resolutions, [&] { parse_resolutions(study.resolutions); });
         if (const ConfigNode* width = tree.find("width")) {
             throw InputError(width->place +
                              ": 'width' and 'resolutions' exclude each other; give one.");
@@ -113,19 +141,14 @@ void read_views(const ConfigNode& tree, const fs::path& folder, StudyViews& stud
         take(tree, "camera_file", config_scalar::Text{}, study.camera_file);
         study.camera_file = beside(folder, study.camera_file);
     }
-    std::int64_t number = 0;
     if (tree.find("width") != nullptr) {
-        take(tree, "width", config_scalar::Integer{1, kMostImageSide}, number);
-        study.width = static_cast<int>(number);
+        study.width = static_cast<int>(taken_integer(tree, "width", 0));
     }
-    number = study.path.frames;
-    take(tree, "frames", config_scalar::Integer{1, kMostFramesOfStudy}, number);
-    study.path.frames = static_cast<int>(number);
-    take(tree, "path_step", config_scalar::Real{-kMostPathStepDegrees, kMostPathStepDegrees},
-         study.path.step_degrees);
-    if (const ConfigNode* fidelity = tree.find("fidelity")) {
-        study.analytic = config_scalar::value_of(config_scalar::Choice{kFidelities}, *fidelity,
-                                                 "fidelity") == kAnalytic;
+    study.path.frames = static_cast<int>(taken_integer(tree, "frames", study.path.frames));
+    const StudyKey& step = study_key("path_step");
+    take(tree, step.name, config_scalar::Real{step.low, step.high}, study.path.step_degrees);
+    if (tree.find("fidelity") != nullptr) {
+        study.analytic = takes_second(tree, "fidelity");
     }
     take(tree, "array_only", config_scalar::Boolean{}, study.array_only);
     take(tree, "reference", config_scalar::Boolean{}, study.reference);
@@ -140,9 +163,10 @@ bool read_quick(const ConfigNode& tree, const fs::path& folder, StudyViews& stud
     if (quick->kind != Kind::kSection) {
         throw InputError(quick->place + ": key 'quick' must be a section of views.");
     }
-    const std::vector<std::string> allowed{"scenes", "cameras", "resolutions", "width", "frames"};
+    const std::vector<std::string> allowed =
+        names_of([](const StudyKey& key) { return key.in_quick; });
     for (const ConfigNode& key : quick->children) {
-        if (std::find(allowed.begin(), allowed.end(), key.key) == allowed.end()) {
+        if (!is_among(allowed, key.key)) {
             throw InputError(key.place + ": unknown key " + quote(key.key) +
                              " in 'quick'; allowed are " + config_words::list(allowed) + ".");
         }
@@ -215,8 +239,10 @@ std::vector<StudyDesign> read_designs(const ConfigNode& tree) {
 
 void check_designs_only(const ConfigNode& tree) {
     check_top_keys(tree);
+    const std::vector<std::string> of_sweep =
+        names_of([](const StudyKey& key) { return key.of_sweep; });
     for (const ConfigNode& key : tree.children) {
-        if (is_among(kSweepKeys, key.key)) {
+        if (is_among(of_sweep, key.key)) {
             throw InputError(key.place + ": key " + quote(key.key) +
                              " of a study is for 'degs sweep', which runs all of its points.");
         }
@@ -250,10 +276,7 @@ Study read_study(const std::string& file, bool quick) {
     take(tree, "study", config_scalar::Text{}, study.name);
     study.designs = read_designs(tree);
     study.axes = read_axes(tree);
-    const std::vector<const char*> combinations{"product", "one_at_a_time"};
-    int combine = 0;
-    take(tree, "combine", config_scalar::Choice{combinations}, combine);
-    study.one_at_a_time = combine == 1;
+    study.one_at_a_time = takes_second(tree, "combine");
     take(tree, "baseline", config_scalar::Text{}, study.baseline);
     static_cast<StudyViews&>(study) = read_study_views(tree, file, quick);
     return study;

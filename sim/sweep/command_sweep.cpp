@@ -16,6 +16,7 @@
 #include "sim/shell/view_options.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/study/study_options.hpp"
+#include "sim/sweep/array_task.hpp"
 #include "sim/sweep/slurm.hpp"
 #include "sim/sweep/sweep_results.hpp"
 #include "sim/sweep/sweep_session.hpp"
@@ -45,6 +46,15 @@ PointRange range_of(const std::optional<std::string>& given, std::size_t points)
     if (!given) {
         return {0, points};
     }
+    if (*given == "auto") {
+        const ArrayTask task = array_task();
+        if (task.n > kMostPoints) {
+            throw InputError("--shard auto: the job array has " + std::to_string(task.n) +
+                             " tasks, but at most " + std::to_string(kMostPoints) +
+                             " parts are possible.");
+        }
+        return shard_of(points, task.k, task.n);
+    }
     const std::string& shard = *given;
     std::size_t k = 0;
     std::size_t n = 0;
@@ -53,8 +63,10 @@ PointRange range_of(const std::optional<std::string>& given, std::size_t points)
     const bool split = bad_k == std::errc() && slash != end && *slash == '/';
     const auto [rest, bad_n] = std::from_chars(split ? slash + 1 : end, end, n);
     if (!split || bad_n != std::errc() || rest != end || k < 1 || k > n || n > kMostPoints) {
-        throw InputError("--shard is " + config_words::quote(shard) +
-                         ", but must be K/N: the K-th of N parts, from 1/N to N/N.");
+        throw InputError(
+            "--shard is " + config_words::quote(shard) +
+            ", but must be K/N: the K-th of N parts, from 1/N to N/N, or auto in a task of a "
+            "job array.");
     }
     return shard_of(points, k, n);
 }
@@ -235,7 +247,8 @@ void add_sweep_command(CLI::App& program) {
     CLI::Option* shard =
         command
             ->add_option("--shard", options->shard,
-                         "run the K-th of N parts of the points only; --collect makes the results")
+                         "run the K-th of N parts of the points only, or with auto the part of "
+                         "this task of a job array; --collect makes the results")
             ->type_name("K/N");
     CLI::Option* collect = command->add_flag(
         "--collect", options->collect, "run nothing; make the results of the points in the folder");

@@ -58,16 +58,6 @@ bool means(const QuantityKey& key, const std::string& meaning) {
             std::isalnum(static_cast<unsigned char>(doc[meaning.size()])) == 0);
 }
 
-std::string units_of(const QuantityKey& key) {
-    std::vector<std::string> names;
-    for (const Unit& unit : kUnits) {
-        if (means(key, unit.meaning)) {
-            names.emplace_back(unit.name);
-        }
-    }
-    return names.empty() ? "none" : config_words::list(names);
-}
-
 /// Whether the text behind a number is a unit, or a word that somebody takes for one. What follows
 /// 1 in 1e3, 1e and 0x10 is not.
 bool looks_like_unit(const std::string& text) {
@@ -134,6 +124,16 @@ std::string decimal_text(double value) {
     return text;
 }
 
+std::vector<std::string> units_of(const QuantityKey& key) {
+    std::vector<std::string> names;
+    for (const Unit& unit : kUnits) {
+        if (means(key, unit.meaning)) {
+            names.emplace_back(unit.name);
+        }
+    }
+    return names;
+}
+
 double in_unit_of(const QuantityKey& key, const Quantity& quantity, const std::string& place) {
     if (quantity.unit.empty()) {
         return quantity.number;
@@ -143,8 +143,10 @@ double in_unit_of(const QuantityKey& key, const Quantity& quantity, const std::s
             return quantity.number * unit.factor;
         }
     }
+    const std::vector<std::string> units = units_of(key);
     throw InputError(place + ": the unit " + quote(quantity.unit) + " does not fit key " +
-                     quote(key.path) + " (" + key.doc + "); its units: " + units_of(key) + ".");
+                     quote(key.path) + " (" + key.doc +
+                     "); its units: " + (units.empty() ? "none" : config_words::list(units)) + ".");
 }
 
 ConfigNode in_unit_of(const QuantityKey& key, const ConfigNode& node) {

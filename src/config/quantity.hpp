@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "config/config_tree.hpp"
 
@@ -29,6 +30,9 @@ struct QuantityKey {
     std::string path;
     std::string doc; ///< the sentence of the key, which begins with its unit
 };
+
+/// The units that fit the key; none if it has no dimension.
+std::vector<std::string> units_of(const QuantityKey& key);
 
 /// The number, which is no factor, in the unit of the key. Throws InputError, which begins with
 /// `place` and lists the units of the key, for one that does not fit what the key means.

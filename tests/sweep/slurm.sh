@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # slurm.sh PROGRAM CONFIGS: runs a study as a job array on a Slurm cluster of two nodes on this
 # machine, which it starts and stops itself, loses a node on the way, and compares the results with
-# those of a plain sweep. Exits with 77 where it is not root, because slurmd needs that.
+# those of a plain sweep; then the recipe of examples/clusters. Exits with 77 where it is not root,
+# because slurmd needs that.
 set -euo pipefail
 program=$1 configs=$2
 [[ $(id -u) -eq 0 ]] || { echo "skipped: a Slurm cluster can be started by root only"; exit 77; }
@@ -155,3 +156,15 @@ for file in results.csv results.json index.html; do
 done
 "$program" sweep "$folder/study.yaml" --out "$folder/slurm-out" --slurm | grep 'All points are finished'
 echo "the array, a node lost, gives the bytes of a plain sweep"
+
+# The recipe: tasks find their parts in what this Slurm sets.
+mkdir "$folder/bin"
+ln -s "$(realpath "$program")" "$folder/bin/degs"
+sed 's/20000/200/; s/480/64/' "$folder/study.yaml" >"$folder/small.yaml"
+"$program" sweep "$folder/small.yaml" --out "$folder/small" >/dev/null 2>&1
+PATH=$folder/bin:$PATH timeout 120 sbatch --wait --array=3-7:2 --cpus-per-task=1 --mem=100 \
+    --output="$folder/recipe-%a.log" "$configs/../examples/clusters/slurm.sh" "$folder/small.yaml" "$folder/recipe"
+"$program" sweep "$folder/small.yaml" --out "$folder/recipe" --collect >/dev/null
+cmp "$folder/small/results.csv" "$folder/recipe/results.csv"
+grep -h '12 of 12' "$folder"/recipe-[357].log | wc -l | grep -qx 3
+echo "three tasks of an array with --shard auto give the bytes of a plain sweep"

@@ -340,6 +340,7 @@ TEST(HostileSweep, Mistakes) {
     for (const char* shard : {"", "0/2", "3/2", "1", "1/", "1/2/3", "-1/2", "a/b", "1/9999999"}) {
         mistake({"--shard", shard}, "--shard");
     }
+    mistake({"--shard", "auto"}, "--shard auto needs a task of a job array");
     mistake({"--shard", "1/2", "--collect"}, "--collect");
     mistake({"--scene", folder / "absent.ply"}, "absent.ply");
     mistake({"--camera", "77"}, "Camera 77 does not exist");
