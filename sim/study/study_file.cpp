@@ -22,9 +22,9 @@ constexpr int kMostFramesOfStudy = 10000; ///< as --frames
 /// What `degs compare` cannot do.
 const std::vector<std::string> kSweepKeys{"axes", "combine", "baseline"};
 const std::vector<std::string> kStudyKeys{
-    "study",     "points",     "designs",   "axes",        "combine", "baseline",
-    "scenes",    "cameras",    "width",     "camera_file", "frames",  "resolutions",
-    "path_step", "array_only", "reference", "fidelity",    "quick"};
+    "study",     "points",   "designs",     "axes",   "combine",     "baseline",  "scenes",
+    "cameras",   "width",    "camera_file", "frames", "resolutions", "path_step", "array_only",
+    "reference", "fidelity", "quick",       "goals",  "limits"};
 
 /// What all points of a study may be run with.
 const std::vector<const char*> kFidelities{"exact", "analytic"};
@@ -255,6 +255,12 @@ Study read_study(const std::string& file, bool quick) {
     take(tree, "combine", config_scalar::Choice{combinations}, combine);
     study.one_at_a_time = combine == 1;
     take(tree, "baseline", config_scalar::Text{}, study.baseline);
+    for (const auto& [key, stated] :
+         {std::pair("goals", &study.goals), std::pair("limits", &study.limits)}) {
+        if (const ConfigNode* node = tree.find(key)) {
+            *stated = {joined_words(*node), node->place + ": key " + quote(key)};
+        }
+    }
     static_cast<StudyViews&>(study) = read_study_views(tree, file, quick);
     return study;
 }

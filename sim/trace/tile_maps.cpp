@@ -94,7 +94,7 @@ Colour colour_of(double value, double largest) {
 // title, the subtitle, the scale and, if there are some, the words for tiles that list no splat.
 Image with_legend(const Image& picture, const TileMap& map, const std::string& subtitle,
                   const std::string& no_splat) {
-    constexpr int kTicks = 4, kLeastWidth = 520, kFullWidth = 960;
+    constexpr int kTicksOfScale = 4, kLeastWidth = 520, kFullWidth = 960;
     const int scale = std::max(1, picture.width / kFullWidth + (picture.width >= kLeastWidth));
     const int line = kRasterText * scale, margin = line;
     const double largest = largest_of(map);
@@ -116,9 +116,9 @@ Image with_legend(const Image& picture, const TileMap& map, const std::string& s
         page.text(3 * margin + bar + line / 2, y + line / 6, scale, no_splat, kGreyColour);
     }
     y += line;
-    for (int tick = 0; tick <= kTicks; ++tick) {
-        const std::string words = words_of(map, largest * tick / kTicks);
-        const int at = margin + tick * (bar - scale) / kTicks;
+    for (int tick = 0; tick <= kTicksOfScale; ++tick) {
+        const std::string words = words_of(map, largest * tick / kTicksOfScale);
+        const int at = margin + tick * (bar - scale) / kTicksOfScale;
         page.rectangle(at, y, scale, line / 3, kGreyColour);
         const int half = raster_width(words, scale) / 2;
         page.text(std::max(at - half, margin), y + line / 2, scale, words, kGreyColour);
