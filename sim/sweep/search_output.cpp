@@ -201,15 +201,27 @@ std::string limits_text(const StudyPlan& plan, const std::vector<Candidate>& can
            grouped(candidates.size()) + " designs are within them\n";
 }
 
+/// One goal over the places of the designs, two against each other, or a chart for each pair.
 std::string picture(const StudyPlan& plan, const std::vector<Candidate>& candidates) {
-    std::vector<FrontPoint> points;
-    for (const Candidate& candidate : candidates) {
-        points.push_back({candidate.goals[0], candidate.goals.back(), candidate.verdict.on_front,
-                          candidate.variant == plan.baseline});
+    const std::string title = plan.name + (plan.request.analytic ? " (estimates)" : "");
+    std::vector<std::string> labels;
+    for (const Aim& goal : plan.aims.goals) {
+        labels.push_back(goal_words(goal));
     }
-    return front_svg(plan.name + (plan.request.analytic ? " (estimates)" : ""),
-                     goal_words(plan.aims.goals.front()), goal_words(plan.aims.goals.back()),
-                     points);
+    std::vector<FrontPoint> points;
+    std::vector<ManyGoals> designs;
+    for (const Candidate& candidate : candidates) {
+        const FrontMark mark{candidate.verdict.on_front, candidate.variant == plan.baseline,
+                             candidate.verdict.is_within()};
+        const double place = static_cast<double>(points.size() + 1);
+        points.push_back(
+            {labels.size() == 1 ? place : candidate.goals[0], candidate.goals.back(), mark});
+        designs.push_back({candidate.goals, mark});
+    }
+    return labels.size() > 2 ? front_pairs_svg(title, labels, designs)
+           : labels.size() == 2
+               ? front_svg(title, labels[0], labels[1], points)
+               : front_svg(title, "place of the design", labels[0], points, "the best");
 }
 
 } // namespace

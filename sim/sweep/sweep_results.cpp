@@ -199,9 +199,19 @@ std::string page_of(const StudyPlan& plan, const SweepResults& results) {
     for (const StudyPlan::LinkedAxis& axis : plan.linked) {
         facts.axes.push_back({axis.name, axis.keys});
     }
-    for (const StudyVariant& variant : plan.variants) {
-        facts.variants.push_back({variant.design, {variant.values.begin(), variant.values.end()}});
+    for (std::size_t v = 0; v < plan.variants.size(); ++v) {
+        const StudyVariant& variant = plan.variants[v];
+        const DesignVerdict& verdict = results.verdicts[v];
+        facts.variants.push_back({variant.design,
+                                  {variant.values.begin(), variant.values.end()},
+                                  verdict.goals,
+                                  verdict.on_front,
+                                  within_words(verdict)});
     }
+    for (const Aim& goal : plan.aims.goals) {
+        facts.goals.push_back({goal.name, goal.better == Direction::Maximise});
+    }
+    facts.limited = !plan.aims.limits.empty();
     for (std::size_t point : results.points) {
         facts.points.push_back(point + 1);
     }
