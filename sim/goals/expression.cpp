@@ -127,7 +127,7 @@ private:
         if (end == std::string::npos) {
             fail("lacks a ')'");
         }
-        const std::string design = text_.substr(at_, end - at_);
+        std::string design = text_.substr(at_, end - at_);
         at_ = end + 1;
         return design;
     }

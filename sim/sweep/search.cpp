@@ -170,8 +170,8 @@ std::string lack_of(Measure measure, const CompareRequest& request) {
 
 /// Throws InputError for a measure that the runs do not have; `part` is "a goal" or "in a limit".
 void check_measures(const Aims& aims, const std::string& part, const CompareRequest& request) {
+    const std::string end = ", so it cannot be " + part;
     for (const Measure measure : measures_in(aims)) {
-        const std::string end = ", so it cannot be " + part;
         if (request.analytic && !is_estimated(measure)) {
             throw InputError("Estimates have no " + name_of(measure) + end +
                              " with the fidelity analytic; allowed are " +
