@@ -76,10 +76,16 @@ ordered_json variant_of(const PageFacts& facts, const Comparison& comparison, st
     for (const std::optional<std::string>& value : facts.variants[v].values) {
         values.push_back(value_or_null(value));
     }
-    return {{"name", comparison.configs[v].name},
-            {"design", facts.variants[v].design},
-            {"values", std::move(values)},
-            {"pes", value_or_null(comparison.configs[v].pes)}};
+    const PageFacts::Variant& variant = facts.variants[v];
+    ordered_json json = {
+        {"name", comparison.configs[v].name}, {"design", variant.design},
+        {"values", std::move(values)},        {"pes", value_or_null(comparison.configs[v].pes)},
+        {"within", variant.within},           {"front", variant.on_front},
+        {"goals", ordered_json::array()}};
+    for (const std::optional<double>& goal : variant.goals) {
+        json["goals"].push_back(number_json(goal));
+    }
+    return json;
 }
 
 ordered_json axes_json(const PageFacts& facts) {
@@ -110,11 +116,15 @@ ordered_json data_of(const PageFacts& facts, const Comparison& comparison) {
                          {"measures", measures_json()},
                          {"skipped", sentences_json(facts.skipped)},
                          {"failed", sentences_json(facts.failed)}};
-    for (const char* list : {"slots", "variants", "views", "runs"}) {
+    json["limited"] = facts.limited;
+    for (const char* list : {"slots", "goals", "variants", "views", "runs"}) {
         json[list] = ordered_json::array();
     }
     for (std::size_t c = 0; c < kSlotClasses.size(); ++c) {
         json["slots"].push_back({{"name", kSlotClasses[c].name}, {"colour", kSlotColours[c]}});
+    }
+    for (const PageFacts::Goal& goal : facts.goals) {
+        json["goals"].push_back({{"name", goal.name}, {"larger", goal.larger_is_better}});
     }
     for (std::size_t v = 0; v < comparison.configs.size(); ++v) {
         json["variants"].push_back(variant_of(facts, comparison, v));

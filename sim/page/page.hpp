@@ -23,7 +23,16 @@ struct PageFacts {
     struct Variant {
         std::string design;
         std::vector<std::optional<std::string>> values; ///< in the order of `keys`
+        std::vector<std::optional<double>> goals{};     ///< over all views
+        bool on_front = false;
+        std::string within{}; ///< "yes", the limits that are broken, or empty: unknown
     };
+    struct Goal {
+        std::string name;
+        bool larger_is_better = false;
+    };
+    std::vector<Goal> goals;
+    bool limited = false;            ///< whether there are limits
     std::vector<Variant> variants;   ///< in the order of the configurations
     std::vector<std::size_t> points; ///< numbers from 1, by row
     std::vector<std::pair<std::string, std::string>> skipped; ///< what, and why

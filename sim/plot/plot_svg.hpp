@@ -48,17 +48,35 @@ struct UtilizationPanel {
 /// Utilization over the number of PEs, which doubles from tick to tick; two panels side by side.
 std::string utilization_svg(const std::string& title, const std::vector<UtilizationPanel>& panels);
 
+/// How a design is shown among others.
+struct FrontMark {
+    bool on_front = false; ///< no other beats it
+    bool baseline = false;
+    bool within = true; ///< the limits
+};
+
 /// A design in two goals, both > 0.
 struct FrontPoint {
     double x = 0, y = 0;
-    bool on_front = false; ///< no other is better in both
-    bool baseline = false;
+    FrontMark mark{};
 };
 
 /// Designs in two goals on logarithmic axes with the front of those that nobody beats; in the order
 /// of x, the best first. The labels say which values are better.
 std::string front_svg(const std::string& title, const std::string& x_label,
-                      const std::string& y_label, const std::vector<FrontPoint>& points);
+                      const std::string& y_label, const std::vector<FrontPoint>& points,
+                      const std::string& best = "nobody is better in both");
+
+/// A design in three goals or more, all > 0.
+struct ManyGoals {
+    std::vector<double> goals;
+    FrontMark mark{};
+};
+
+/// A small chart for every pair of goals, on logarithmic axes that a column and a row share. The
+/// labels of the goals say which values are better.
+std::string front_pairs_svg(const std::string& title, const std::vector<std::string>& labels,
+                            const std::vector<ManyGoals>& designs);
 
 /// A point of a load-latency curve; shares of the peak.
 struct LoadPoint {

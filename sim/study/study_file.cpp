@@ -278,6 +278,12 @@ Study read_study(const std::string& file, bool quick) {
     study.axes = read_axes(tree);
     study.one_at_a_time = takes_second(tree, "combine");
     take(tree, "baseline", config_scalar::Text{}, study.baseline);
+    for (const auto& [key, stated] :
+         {std::pair("goals", &study.goals), std::pair("limits", &study.limits)}) {
+        if (const ConfigNode* node = tree.find(key)) {
+            *stated = {joined_words(*node), node->place + ": key " + quote(key)};
+        }
+    }
     static_cast<StudyViews&>(study) = read_study_views(tree, file, quick);
     return study;
 }

@@ -31,6 +31,11 @@ struct StudyViews {
     bool reference = true;
 };
 
+/// What somebody wrote, and where: "study.yaml:7: key 'goals'", "--goals".
+struct StatedText {
+    std::string text, place;
+};
+
 struct Study : StudyViews {
     std::string name;
     std::vector<StudyDesign> designs;
@@ -39,6 +44,7 @@ struct Study : StudyViews {
     std::vector<Axis> axes;
     bool one_at_a_time = false; ///< an axis varies while the others keep the design's own values
     std::string baseline;       ///< name of a design; empty: the first
+    StatedText goals, limits;   ///< see Aims; separated by commas
     std::optional<SamplingRequest> sampling;
 };
 

@@ -72,6 +72,8 @@ std::vector<StudyKey> keys_of_designs() {
                          "product"})),
         of_sweep({"baseline", StudyKind::kText,
                   "name of the design with which all points are compared; by default the first"}),
+        {"goals", StudyKind::kWords, "what a search makes least or most: measures or expressions"},
+        {"limits", StudyKind::kWords, "what a design has to keep, like area_mm2<=2.5"},
     };
 }
 

@@ -16,25 +16,27 @@ namespace {
 struct ExploreOptions {
     StudyOptions study;
     SearchOptions search;
-    std::vector<std::string> goals{name_of(SearchOptions{}.goals[0]),
-                                   name_of(SearchOptions{}.goals[1])};
+    std::string goals, limits; // empty: those of the study
     int jobs = 1;
     std::string out = "out";
 };
 
 void run(ExploreOptions& options) {
-    for (std::size_t g = 0; g < options.goals.size(); ++g) {
-        options.search.goals.at(g) = measure_named(options.goals[g], "--goals");
+    Study study = study_of(options.study);
+    if (!options.goals.empty() || study.goals.text.empty()) {
+        study.goals = {options.goals.empty() ? kUsualGoals : options.goals, "--goals"};
     }
-    check_goals(options.search);
-    StudyPlan plan = plan_study(study_of(options.study));
+    if (!options.limits.empty()) {
+        study.limits = {options.limits, "--limits"};
+    }
+    StudyPlan plan = plan_study(study);
     plan.request.jobs = options.jobs;
     std::optional<Failure> failure;
     const Search found = search(plan, options.search, options.out, failure);
     if (found.complete) {
         const OutputFolder folder(options.out, {"explore.json", "front.csv", "front.svg"});
-        write_search(plan, found, options.search, folder);
-        print(search_text(plan, found, options.search) +
+        write_search(plan, found, folder);
+        print(search_text(plan, found) +
               "\nall numbers, plots and the page: " + visible(folder.path("")) + "\n");
         print_warnings(found.rungs.back().warnings);
     }
@@ -48,17 +50,22 @@ void run(ExploreOptions& options) {
 void add_explore_command(CLI::App& program) {
     auto options = std::make_shared<ExploreOptions>();
     CLI::App* command = program.add_subcommand(
-        "explore", "search a study for the designs that none beats in two goals, by default area "
-                   "and latency");
+        "explore",
+        "search a study for the designs that none beats in its goals, by default area and "
+        "latency");
     add_study_options(*command, options->study);
     command
         ->add_option("--goals", options->goals,
-                     "two measures, as in the columns of results.csv; each is made small or large, "
-                     "whichever is better")
-        ->type_name("NAME,NAME")
-        ->delimiter(',')
-        ->expected(2)
-        ->capture_default_str();
+                     "one to six, in place of those of the study: measures, as in the columns of "
+                     "results.csv, or expressions of them; each is made small or large, whichever "
+                     "is better, or as min: or max: in front says")
+        ->type_name("GOAL,...")
+        ->default_str(kUsualGoals);
+    command
+        ->add_option("--limits", options->limits,
+                     "what designs must hold, in place of the limits of the study: "
+                     "'area_mm2<=2.5, latency_ms<=1.02*baseline'")
+        ->type_name("LIMIT,...");
     command
         ->add_option("--rungs", options->search.rungs,
                      "sizes of images: the first rung has 1/2^(N-1) of their sides, the last the "

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -18,59 +17,64 @@ namespace {
 constexpr int kFramesOfThroughput = 3; ///< docs/compare.md
 
 /// Goals are geometric means on logarithmic axes.
-void check_value(const std::string& design, Measure goal, const std::optional<double>& value) {
+void check_value(const std::string& design, const Aim& goal, const std::optional<double>& value) {
     if (!value) {
-        throw InputError("'" + design + "' has no " + name_of(goal) + ", so it cannot be a goal.");
+        throw InputError("'" + design + "' has no " + goal.name + ", so it cannot be a goal.");
     }
     if (!(*value > 0) || std::isinf(*value)) {
-        throw InputError("'" + design + "' has the " + name_of(goal) + " " +
+        throw InputError("'" + design + "' has the " + goal.name + " " +
                          config_words::number(*value) +
                          ", but a goal must be above 0 and finite, because it is the geometric "
                          "mean over the views.");
     }
 }
 
-/// The goals of the plan's variants, by their numbers in the rung; empty for those that failed.
-std::vector<std::optional<Goals>> goals_of(const StudyPlan& part, const SweepResults& results,
-                                           const SearchOptions& options) {
-    std::vector<std::size_t> views(part.variants.size(), 0);
-    std::vector<Goals> first(part.variants.size(), Goals{});
-    std::vector<Goals> logs(part.variants.size(), Goals{}); // of the ratios to the first view
-    for (const ComparisonRow& row : results.comparison.rows) {
-        const bool is_first = views[row.config]++ == 0;
-        for (std::size_t g = 0; g < options.goals.size(); ++g) {
-            const std::optional<double>& value = row.measures[options.goals.at(g)];
-            check_value(part.variants[row.config].name, options.goals.at(g), value);
-            double& base = first[row.config].at(g);
-            base = is_first ? *value : base;
-            logs[row.config].at(g) += std::log(*value / base);
-        }
-    }
-    const std::size_t wanted = part.points.size() / part.variants.size();
-    std::vector<std::optional<Goals>> goals(part.variants.size());
-    for (std::size_t v = 0; v < goals.size(); ++v) {
-        if (views[v] == wanted) {
-            const auto count = static_cast<double>(wanted);
-            // Equal values, such as areas, come out as they are.
-            goals[v] = Goals{first[v][0] * std::exp(logs[v][0] / count),
-                             first[v][1] * std::exp(logs[v][1] / count)};
-        }
-    }
-    return goals;
+std::size_t views_of(const StudyPlan& plan) {
+    return plan.points.size() / plan.variants.size();
 }
 
-/// Whether a goal compares images with the reference.
-bool judges_images(const SearchOptions& options) {
-    return std::any_of(options.goals.begin(), options.goals.end(),
-                       [](Measure goal) { return name_of(goal).rfind("image.", 0) == 0; });
+/// The designs of a plan that ran on all views.
+std::vector<Candidate> candidates_of(const StudyPlan& part, const SweepResults& results,
+                                     const std::vector<std::size_t>& variants) {
+    for (const ComparisonRow& row : results.comparison.rows) {
+        for (const Aim& goal : part.aims.goals) {
+            check_value(part.variants[row.config].name, goal, goal.expression.value(row.measures));
+        }
+    }
+    const std::vector<DesignVerdict> verdicts =
+        judge(results.comparison, views_of(part), part.aims);
+    std::vector<Candidate> candidates;
+    for (std::size_t v = 0; v < verdicts.size(); ++v) {
+        if (!verdicts[v].has_goals()) {
+            continue;
+        }
+        if (!verdicts[v].judged) {
+            throw InputError("'" + part.variants[v].name +
+                             "', or a baseline of its limits, has "
+                             "no value for one of the limits, so they cannot be looked at.");
+        }
+        Candidate candidate{variants[v], {}, verdicts[v]};
+        for (const std::optional<double>& goal : verdicts[v].goals) {
+            candidate.goals.push_back(*goal);
+        }
+        candidates.push_back(std::move(candidate));
+    }
+    return candidates;
+}
+
+/// Whether a goal or limit compares images with the reference.
+bool judges_images(const Aims& aims) {
+    const std::vector<Measure> measures = measures_in(aims);
+    return std::any_of(measures.begin(), measures.end(),
+                       [](Measure measure) { return name_of(measure).rfind("image.", 0) == 0; });
 }
 
 /// Runs `variants` of the plan on smaller images. Empty after Ctrl-C.
 std::optional<Rung> run_rung(const StudyPlan& plan, const std::vector<std::size_t>& variants,
-                             int divisor, const SearchOptions& options, const std::string& folder,
+                             int divisor, const std::string& folder,
                              std::optional<Failure>& failure) {
     StudyPlan part = part_of(plan, variants, divisor);
-    part.request.reference = plan.request.reference && (divisor == 1 || judges_images(options));
+    part.request.reference = plan.request.reference && (divisor == 1 || judges_images(plan.aims));
     const PointStore store(folder, part);
     SweepSession session(part, store, {0, part.points.size()});
     const bool complete = session.run();
@@ -84,25 +88,65 @@ std::optional<Rung> run_rung(const StudyPlan& plan, const std::vector<std::size_
     rung.divisor = divisor;
     rung.warnings = results.warnings;
     rung.failed = results.comparison.failed;
-    const auto goals = goals_of(part, results, options);
-    for (std::size_t v = 0; v < variants.size(); ++v) {
-        if (goals[v]) {
-            rung.candidates.push_back({variants[v], *goals[v]});
-        }
-    }
+    rung.candidates = candidates_of(part, results, variants);
     return rung;
 }
 
-/// The variants that go on, and the baseline, with which results are compared.
+/// The designs with which others are compared, which run on every rung.
+std::vector<std::size_t> kept_variants(const StudyPlan& plan) {
+    std::vector<std::size_t> kept{plan.baseline};
+    for (const std::string& name : designs_in(plan.aims)) {
+        const auto found =
+            std::find_if(plan.variants.begin(), plan.variants.end(),
+                         [&name](const StudyVariant& variant) { return variant.name == name; });
+        if (found == plan.variants.end()) {
+            std::vector<std::string> names;
+            for (const StudyVariant& variant : plan.variants) {
+                names.push_back(variant.name);
+            }
+            const std::string near = config_words::nearest(name, names);
+            throw InputError("A limit compares with " + config_words::quote(name) +
+                             ", but no point of the study has this name" +
+                             (near.empty() ? "; a design has it where every key has the value of "
+                                             "its own file."
+                                           : "; it may mean " + config_words::quote(near) + "."));
+        }
+        kept.push_back(static_cast<std::size_t>(found - plan.variants.begin()));
+    }
+    return kept;
+}
+
+/// Positions of the best `count`: of those within the limits, and where they are too few, of those
+/// that miss them least.
+std::vector<std::size_t> best_candidates(const Rung& rung, const Aims& aims, std::size_t count) {
+    std::vector<std::size_t> within;
+    std::vector<std::size_t> outside;
+    std::vector<Goals> costs;
+    for (std::size_t c = 0; c < rung.candidates.size(); ++c) {
+        const Candidate& candidate = rung.candidates[c];
+        (candidate.verdict.is_within() ? within : outside).push_back(c);
+        if (candidate.verdict.is_within()) {
+            costs.push_back(costs_of(candidate.goals, aims.goals));
+        }
+    }
+    std::vector<std::size_t> best;
+    for (const std::size_t position : best_of(costs, count)) {
+        best.push_back(within[position]);
+    }
+    std::stable_sort(outside.begin(), outside.end(), [&rung](std::size_t a, std::size_t b) {
+        return rung.candidates[a].verdict.excess < rung.candidates[b].verdict.excess;
+    });
+    outside.resize(std::min(outside.size(), count - best.size()));
+    best.insert(best.end(), outside.begin(), outside.end());
+    return best;
+}
+
+/// The variants that go on, and those with which results are compared.
 std::vector<std::size_t> survivors(const Rung& rung, const StudyPlan& plan,
                                    const SearchOptions& options) {
-    std::vector<Goals> goals;
-    for (const Candidate& candidate : rung.candidates) {
-        goals.push_back(costs_of(candidate.goals, options));
-    }
-    const std::size_t count = std::max(options.least, goals.size() / options.share);
-    std::vector<std::size_t> variants{plan.baseline};
-    for (const std::size_t position : best_of(goals, count)) {
+    const std::size_t count = std::max(options.least, rung.candidates.size() / options.share);
+    std::vector<std::size_t> variants = kept_variants(plan);
+    for (const std::size_t position : best_candidates(rung, plan.aims, count)) {
         variants.push_back(rung.candidates[position].variant);
     }
     std::sort(variants.begin(), variants.end());
@@ -110,71 +154,46 @@ std::vector<std::size_t> survivors(const Rung& rung, const StudyPlan& plan,
     return variants;
 }
 
-/// Names of the measures that can be goals, of those that runs have.
-std::vector<std::string> allowed_goals(const std::function<bool(Measure)>& has) {
-    std::vector<std::string> allowed;
-    for_each_measure([&](Measure measure) {
-        if (direction_of(measure) != Direction::None && has(measure)) {
-            allowed.push_back(name_of(measure));
+/// Why runs of this request do not have a measure: "needs ..."; empty if they do.
+std::string lack_of(Measure measure, const CompareRequest& request) {
+    const auto starts = [measure](const char* section) {
+        return name_of(measure).rfind(section, 0) == 0;
+    };
+    const bool path = starts("throughput_") || starts("ratio.throughput");
+    return path && request.path.frames < kFramesOfThroughput
+               ? "needs a camera path of at least 3 frames ('frames' of the study, or --frames)"
+           : starts("image.") && (!request.reference || request.sampling)
+               ? "needs reference images, which this study does not make"
+           : starts("dram.") && request.array_only ? "does not exist for the arrays alone"
+                                                   : "";
+}
+
+/// Throws InputError for a measure that the runs do not have; `part` is "a goal" or "in a limit".
+void check_measures(const Aims& aims, const std::string& part, const CompareRequest& request) {
+    const std::string end = ", so it cannot be " + part;
+    for (const Measure measure : measures_in(aims)) {
+        if (request.analytic && !is_estimated(measure)) {
+            throw InputError("Estimates have no " + name_of(measure) + end +
+                             " with the fidelity analytic; allowed are " +
+                             config_words::list(allowed_goals(is_estimated)) + ".");
         }
-    });
-    return allowed;
+        if (const std::string lack = lack_of(measure, request); !lack.empty()) {
+            throw InputError("The study has no " + name_of(measure) + end + "; it " + lack + ".");
+        }
+    }
 }
 
 } // namespace
 
-void check_goals(const SearchOptions& options) {
-    for (const Measure goal : options.goals) {
-        if (direction_of(goal) == Direction::None) {
-            throw InputError("--goals names '" + name_of(goal) +
-                             "', of which neither small nor large values are better; allowed are " +
-                             config_words::list(allowed_goals([](Measure) { return true; })) + ".");
-        }
-    }
-    if (options.goals[0] == options.goals[1]) {
-        throw InputError("--goals names '" + name_of(options.goals[0]) +
-                         "' twice, but a search needs two different measures.");
-    }
-}
-
-void check_goals(const SearchOptions& options, const CompareRequest& request) {
-    const auto starts = [](Measure goal, const char* section) {
-        return name_of(goal).rfind(section, 0) == 0;
-    };
-    for (const Measure goal : options.goals) {
-        if (request.analytic && !is_estimated(goal)) {
-            throw InputError("Estimates have no " + name_of(goal) +
-                             ", so it cannot be a goal with the fidelity analytic; allowed are " +
-                             config_words::list(allowed_goals(is_estimated)) + ".");
-        }
-        const bool path = starts(goal, "throughput_") || starts(goal, "ratio.throughput");
-        const std::string lack =
-            path && request.path.frames < kFramesOfThroughput
-                ? "needs a camera path of at least 3 frames ('frames' of the study, or --frames)"
-            : starts(goal, "image.") && (!request.reference || request.sampling)
-                ? "needs reference images, which this study does not make"
-            : starts(goal, "dram.") && request.array_only ? "does not exist for the arrays alone"
-                                                          : "";
-        if (!lack.empty()) {
-            throw InputError("The study has no " + name_of(goal) + ", so it cannot be a goal; it " +
-                             lack + ".");
-        }
-    }
-}
-
-Goals costs_of(const Goals& goals, const SearchOptions& options) {
-    Goals costs = goals;
-    for (std::size_t g = 0; g < goals.size(); ++g) {
-        if (direction_of(options.goals.at(g)) == Direction::Maximise) {
-            costs.at(g) = -goals.at(g);
-        }
-    }
-    return costs;
+void check_aims(const StudyPlan& plan) {
+    check_measures({plan.aims.goals, {}}, "a goal", plan.request);
+    check_measures({{}, plan.aims.limits}, "in a limit", plan.request);
+    kept_variants(plan);
 }
 
 Search search(const StudyPlan& plan, const SearchOptions& options, const std::string& out,
               std::optional<Failure>& failure) {
-    check_goals(options, plan.request);
+    check_aims(plan);
     Search found;
     std::vector<std::size_t> variants(plan.variants.size());
     std::iota(variants.begin(), variants.end(), 0);
@@ -182,7 +201,7 @@ Search search(const StudyPlan& plan, const SearchOptions& options, const std::st
         const int divisor = 1 << (options.rungs - 1 - r);
         std::optional<Failure> rung_failure;
         std::optional<Rung> rung =
-            run_rung(plan, variants, divisor, options,
+            run_rung(plan, variants, divisor,
                      divisor == 1 ? out : out + "/rung-" + std::to_string(r + 1), rung_failure);
         failure = rung_failure ? rung_failure : failure;
         if (!rung) {

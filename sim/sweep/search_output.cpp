@@ -17,62 +17,42 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::vector<Goals> costs_in(const Rung& rung, const SearchOptions& options) {
-    std::vector<Goals> costs;
-    for (const Candidate& candidate : rung.candidates) {
-        costs.push_back(costs_of(candidate.goals, options));
-    }
-    return costs;
-}
-
 /// The last rung in the order of the first goal, the best first.
-std::vector<FrontPoint> points_of(const StudyPlan& plan, const Rung& rung,
-                                  const SearchOptions& options,
-                                  std::vector<std::size_t>& variants) {
-    const std::vector<Goals> costs = costs_in(rung, options);
-    const std::vector<std::size_t> front = pareto_front(costs);
-    std::vector<std::size_t> order(rung.candidates.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        order[i] = i;
-    }
-    std::sort(order.begin(), order.end(), [&costs](std::size_t a, std::size_t b) {
-        return std::make_pair(costs[a], a) < std::make_pair(costs[b], b);
-    });
-    std::vector<FrontPoint> points;
-    for (const std::size_t position : order) {
-        const Candidate& candidate = rung.candidates[position];
-        variants.push_back(candidate.variant);
-        points.push_back({candidate.goals[0], candidate.goals[1],
-                          std::find(front.begin(), front.end(), position) != front.end(),
-                          candidate.variant == plan.baseline});
-    }
-    return points;
+std::vector<Candidate> ordered(const StudyPlan& plan, const Rung& rung) {
+    std::vector<Candidate> candidates = rung.candidates;
+    std::stable_sort(
+        candidates.begin(), candidates.end(), [&plan](const Candidate& a, const Candidate& b) {
+            return costs_of(a.goals, plan.aims.goals) < costs_of(b.goals, plan.aims.goals);
+        });
+    return candidates;
 }
 
 std::string fidelity_of(const CompareRequest& request) {
     return request.analytic ? "analytic" : request.sampling ? "sampled" : "exact";
 }
 
-std::string front_csv(const StudyPlan& plan, const SearchOptions& options,
-                      const std::vector<FrontPoint>& points,
-                      const std::vector<std::size_t>& variants) {
+std::string front_csv(const StudyPlan& plan, const std::vector<Candidate>& candidates) {
+    const bool limited = !plan.aims.limits.empty();
     std::string text = "design";
     for (const std::string& key : plan.keys) {
         text += "," + csv_cell(key);
     }
-    for (const Measure goal : options.goals) {
-        text += "," + name_of(goal);
+    for (const Aim& goal : plan.aims.goals) {
+        text += "," + csv_cell(goal.name);
     }
-    text += ",on_front,baseline,fidelity\n";
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        const StudyVariant& variant = plan.variants[variants[p]];
+    text += std::string(",on_front,baseline,fidelity") + (limited ? ",within" : "") + "\n";
+    for (const Candidate& candidate : candidates) {
+        const StudyVariant& variant = plan.variants[candidate.variant];
         text += csv_cell(variant.design);
         for (const std::string& value : variant.values) {
             text += "," + csv_cell(value);
         }
-        text += "," + csv_number(points[p].x) + "," + csv_number(points[p].y) + "," +
-                (points[p].on_front ? "1" : "0") + "," + (points[p].baseline ? "1" : "0") + "," +
-                fidelity_of(plan.request) + "\n";
+        for (const double goal : candidate.goals) {
+            text += "," + csv_number(goal);
+        }
+        text += std::string(candidate.verdict.on_front ? ",1" : ",0") +
+                (candidate.variant == plan.baseline ? ",1," : ",0,") + fidelity_of(plan.request) +
+                (limited ? "," + csv_cell(within_words(candidate.verdict)) : "") + "\n";
     }
     return text;
 }
@@ -93,14 +73,17 @@ std::optional<double> agreement(const Rung& rung, const Rung& next, std::size_t 
     return rank_correlation(before, after);
 }
 
-ordered_json rung_json(const StudyPlan& plan, const Search& search, std::size_t r,
-                       const SearchOptions& options) {
+ordered_json rung_json(const StudyPlan& plan, const Search& search, std::size_t r) {
     const Rung& rung = search.rungs[r];
+    const std::vector<Aim>& goals = plan.aims.goals;
     ordered_json json = {{"divisor", rung.divisor}, {"designs", ordered_json::array()}};
     for (const Candidate& candidate : rung.candidates) {
         ordered_json row = {{"name", plan.variants[candidate.variant].name}};
-        for (std::size_t g = 0; g < options.goals.size(); ++g) {
-            row[name_of(options.goals.at(g))] = candidate.goals.at(g);
+        for (std::size_t g = 0; g < goals.size(); ++g) {
+            row[goals[g].name] = candidate.goals[g];
+        }
+        if (!plan.aims.limits.empty()) {
+            row["within"] = within_words(candidate.verdict);
         }
         json["designs"].push_back(std::move(row));
     }
@@ -109,25 +92,28 @@ ordered_json rung_json(const StudyPlan& plan, const Search& search, std::size_t 
         json["failed"].push_back({{"name", failed.config}, {"why", failed.sentence}});
     }
     if (r + 1 < search.rungs.size()) {
-        for (std::size_t g = 0; g < options.goals.size(); ++g) {
-            json["rank_correlation_with_next"][name_of(options.goals.at(g))] =
+        for (std::size_t g = 0; g < goals.size(); ++g) {
+            json["rank_correlation_with_next"][goals[g].name] =
                 number_json(agreement(rung, search.rungs[r + 1], g));
         }
     }
     return json;
 }
 
-ordered_json search_json(const StudyPlan& plan, const Search& search,
-                         const SearchOptions& options) {
+ordered_json search_json(const StudyPlan& plan, const Search& search) {
     ordered_json json;
     json["schema"] = {{"name", "degs-explore"}, {"version", kExploreVersion}};
     json["tool"] = tool_json();
     json["study"] = plan.name;
     json["fidelity"] = fidelity_of(plan.request);
-    json["goals"] = {name_of(options.goals[0]), name_of(options.goals[1])};
+    json["goals"] = ordered_json::array();
     json["better"] = ordered_json::array();
-    for (const Measure goal : options.goals) {
-        json["better"].push_back(direction_of(goal) == Direction::Maximise ? "larger" : "smaller");
+    for (const Aim& goal : plan.aims.goals) {
+        json["goals"].push_back(goal.name);
+        json["better"].push_back(goal.better == Direction::Maximise ? "larger" : "smaller");
+    }
+    for (const Limit& limit : plan.aims.limits) {
+        json["limits"].push_back(limit.name);
     }
     json["skipped"] = ordered_json::array();
     for (const SkippedVariant& skipped : plan.skipped) {
@@ -135,14 +121,9 @@ ordered_json search_json(const StudyPlan& plan, const Search& search,
     }
     json["rungs"] = ordered_json::array();
     for (std::size_t r = 0; r < search.rungs.size(); ++r) {
-        json["rungs"].push_back(rung_json(plan, search, r, options));
+        json["rungs"].push_back(rung_json(plan, search, r));
     }
     return json;
-}
-
-/// "fps (larger is better)".
-std::string goal_words(Measure goal) {
-    return name_of(goal) + " (" + direction_words(direction_of(goal)) + ")";
 }
 
 /// The values of a design that are not those of its file: "span.count=4 packing.bytes=8192".
@@ -151,23 +132,110 @@ std::string changes_of(const StudyVariant& variant) {
     return name == variant.design ? name : name.substr(variant.design.size() + 1);
 }
 
+/// What a line of the front says beside the design's values.
+std::string remark_on(const Candidate& candidate, bool baseline) {
+    if (candidate.verdict.on_front) {
+        return "";
+    }
+    const std::string why =
+        candidate.verdict.is_within() ? "beaten" : "breaks " + within_words(candidate.verdict);
+    return baseline ? " (baseline, " + why + ")" : " (" + why + ")";
+}
+
+/// The front and the baseline; where nothing is within the limits, the design that misses them
+/// least.
+std::string front_table(const StudyPlan& plan, const std::vector<Candidate>& candidates) {
+    std::vector<std::string> head{"front"};
+    for (const Aim& goal : plan.aims.goals) {
+        head.push_back(goal.name);
+    }
+    TextTable table(head);
+    const auto nearest = std::min_element(
+        candidates.begin(), candidates.end(),
+        [](const Candidate& a, const Candidate& b) { return a.verdict.excess < b.verdict.excess; });
+    const bool none = nearest != candidates.end() && !nearest->verdict.is_within();
+    for (const Candidate& candidate : candidates) {
+        const bool baseline = candidate.variant == plan.baseline;
+        const bool shown = none && candidate.variant == nearest->variant;
+        if (candidate.verdict.on_front || baseline || shown) {
+            std::vector<std::string> cells{visible(changes_of(plan.variants[candidate.variant])) +
+                                           remark_on(candidate, baseline)};
+            for (const double goal : candidate.goals) {
+                cells.push_back(three_digits(goal));
+            }
+            table.add(cells);
+        }
+    }
+    return (none ? "no design is within the limits; the nearest is shown\n\n" : "\n") +
+           table.text();
+}
+
+/// "; rank correlation with the next line 0.99": of the second goal of two, else the least of all.
+std::string agreement_words(const StudyPlan& plan, const Rung& rung, const Rung& next) {
+    const std::size_t goals = plan.aims.goals.size();
+    std::optional<double> least;
+    std::size_t whose = 0;
+    for (std::size_t g = goals == 2 ? 1 : 0; g < goals; ++g) {
+        const std::optional<double> agreed = agreement(rung, next, g);
+        if (agreed && (!least || *agreed < *least)) {
+            least = agreed;
+            whose = g;
+        }
+    }
+    if (!least) {
+        return "";
+    }
+    return "; " + std::string(goals > 2 ? "least " : "") + "rank correlation with the next line " +
+           three_digits(*least) + (goals > 2 ? " (" + plan.aims.goals[whose].name + ")" : "");
+}
+
+std::string limits_text(const StudyPlan& plan, const std::vector<Candidate>& candidates) {
+    const auto within =
+        std::count_if(candidates.begin(), candidates.end(),
+                      [](const Candidate& candidate) { return candidate.verdict.is_within(); });
+    std::string text = "limits: ";
+    for (const Limit& limit : plan.aims.limits) {
+        text += (&limit == &plan.aims.limits.front() ? "" : ", ") + limit.name;
+    }
+    return visible(text) + "; " + grouped(static_cast<std::size_t>(within)) + " of " +
+           grouped(candidates.size()) + " designs are within them\n";
+}
+
+/// One goal over the places of the designs, two against each other, or a chart for each pair.
+std::string picture(const StudyPlan& plan, const std::vector<Candidate>& candidates) {
+    const std::string title = plan.name + (plan.request.analytic ? " (estimates)" : "");
+    std::vector<std::string> labels;
+    for (const Aim& goal : plan.aims.goals) {
+        labels.push_back(goal_words(goal));
+    }
+    std::vector<FrontPoint> points;
+    std::vector<ManyGoals> designs;
+    for (const Candidate& candidate : candidates) {
+        const FrontMark mark{candidate.verdict.on_front, candidate.variant == plan.baseline,
+                             candidate.verdict.is_within()};
+        const double place = static_cast<double>(points.size() + 1);
+        points.push_back(
+            {labels.size() == 1 ? place : candidate.goals[0], candidate.goals.back(), mark});
+        designs.push_back({candidate.goals, mark});
+    }
+    return labels.size() > 2 ? front_pairs_svg(title, labels, designs)
+           : labels.size() == 2
+               ? front_svg(title, labels[0], labels[1], points)
+               : front_svg(title, "place of the design", labels[0], points, "the best");
+}
+
 } // namespace
 
-void write_search(const StudyPlan& plan, const Search& search, const SearchOptions& options,
-                  const OutputFolder& folder) {
-    std::vector<std::size_t> variants;
-    const std::vector<FrontPoint> points = points_of(plan, search.rungs.back(), options, variants);
+void write_search(const StudyPlan& plan, const Search& search, const OutputFolder& folder) {
+    const std::vector<Candidate> candidates = ordered(plan, search.rungs.back());
     folder.replace([&] {
-        folder.write_text("front.csv", front_csv(plan, options, points, variants));
-        folder.write_text("front.svg",
-                          front_svg(plan.name + (plan.request.analytic ? " (estimates)" : ""),
-                                    goal_words(options.goals[0]), goal_words(options.goals[1]),
-                                    points));
-        folder.write_json("explore.json", search_json(plan, search, options));
+        folder.write_text("front.csv", front_csv(plan, candidates));
+        folder.write_text("front.svg", picture(plan, candidates));
+        folder.write_json("explore.json", search_json(plan, search));
     });
 }
 
-std::string search_text(const StudyPlan& plan, const Search& search, const SearchOptions& options) {
+std::string search_text(const StudyPlan& plan, const Search& search) {
     std::string text;
     for (std::size_t r = 0; r < search.rungs.size(); ++r) {
         const Rung& rung = search.rungs[r];
@@ -175,27 +243,20 @@ std::string search_text(const StudyPlan& plan, const Search& search, const Searc
                 (rung.divisor == 1 ? "at full size"
                                    : "at 1/" + std::to_string(rung.divisor) + " of the size");
         if (r + 1 < search.rungs.size()) {
-            const auto agreed = agreement(rung, search.rungs[r + 1], 1);
-            text += agreed ? "; rank correlation with the next line " + three_digits(*agreed) : "";
+            text += agreement_words(plan, rung, search.rungs[r + 1]);
         }
         text += "\n";
     }
     if (!plan.skipped.empty()) {
         text += grouped(plan.skipped.size()) + " designs cannot be built\n";
     }
-    std::vector<std::size_t> variants;
-    const std::vector<FrontPoint> points = points_of(plan, search.rungs.back(), options, variants);
-    TextTable table({"front", name_of(options.goals[0]), name_of(options.goals[1])});
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        if (points[p].on_front || points[p].baseline) {
-            table.add({visible(changes_of(plan.variants[variants[p]])) +
-                           (points[p].on_front ? "" : " (baseline, beaten)"),
-                       three_digits(points[p].x), three_digits(points[p].y)});
-        }
-    }
+    const std::vector<Candidate> candidates = ordered(plan, search.rungs.back());
+    text += plan.aims.limits.empty() ? "" : limits_text(plan, candidates);
     text += plan.request.analytic ? "estimates of the analytic model, not simulations: " : "";
-    return text + goal_words(options.goals[0]) + "; " + goal_words(options.goals[1]) + "\n\n" +
-           table.text();
+    for (const Aim& goal : plan.aims.goals) {
+        text += (&goal == &plan.aims.goals.front() ? "" : "; ") + goal_words(goal);
+    }
+    return text + "\n" + front_table(plan, candidates);
 }
 
 } // namespace degs::sim

@@ -13,10 +13,9 @@ namespace degs::sim {
 constexpr int kExploreVersion = 1;
 
 /// front.csv, front.svg and explore.json: the designs of the last rung, and how each came there.
-void write_search(const StudyPlan& plan, const Search& search, const SearchOptions& options,
-                  const OutputFolder& folder);
+void write_search(const StudyPlan& plan, const Search& search, const OutputFolder& folder);
 
 /// The front as a table, and how well the small images ranked the designs.
-std::string search_text(const StudyPlan& plan, const Search& search, const SearchOptions& options);
+std::string search_text(const StudyPlan& plan, const Search& search);
 
 } // namespace degs::sim

@@ -122,6 +122,17 @@ void identify(StudyPlan& plan) {
     plan.digest = all.text();
 }
 
+Aims aims_of(const Study& study) {
+    Aims aims;
+    if (!study.goals.text.empty()) {
+        aims.goals = parse_goals(study.goals.text, study.goals.place);
+    }
+    if (!study.limits.text.empty()) {
+        aims.limits = parse_limits(study.limits.text, study.limits.place);
+    }
+    return aims;
+}
+
 } // namespace
 
 StudyPlan plan_study(const Study& study) {
@@ -135,6 +146,7 @@ StudyPlan plan_study(const Study& study) {
         views += of_scene.size() * plan.request.sizes.size();
     }
     check_size(study, views);
+    plan.aims = aims_of(study);
     plan_variants(study, plan);
     check_estimates(plan.request);
     plan_points(cameras, plan);

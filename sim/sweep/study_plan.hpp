@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/goals/goals.hpp"
 #include "sim/study/compare_request.hpp"
 #include "sim/study/study_file.hpp"
 
@@ -42,6 +43,7 @@ struct StudyPlan {
     std::vector<StudyVariant> variants;
     std::size_t baseline = 0; ///< a variant
     std::vector<SkippedVariant> skipped;
+    Aims aims;              ///< goals and limits of the study; neither decides what is run
     CompareRequest request; ///< one configuration for each variant; the points say on which views
     std::vector<StudyPoint> points;         ///< views in the outer, variants in the inner loop
     std::vector<std::string> scene_digests; ///< with their cameras

@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 constexpr const char* kCsv = "results.csv";
 constexpr const char* kJson = "results.json";
 constexpr const char* kPage = "index.html";
-constexpr const char* kHost = "host.csv";
+constexpr const char* kHostCsv = "host.csv";
 constexpr std::size_t kMostShown = 10; ///< reasons on a terminal; the files have all
 
 /// Measures of the machine that simulates would differ from run to run.
@@ -52,7 +52,8 @@ std::string csv_head(const StudyPlan& plan, const std::vector<std::string>& stag
     for (const std::string& stage : stages) {
         text += "," + csv_cell("stages." + stage + ".busy");
     }
-    return text + (sampled ? sampling_headings() : "") + "\n";
+    return text + (sampled ? sampling_headings() : "") +
+           (plan.aims.limits.empty() ? "" : ",within") + "\n";
 }
 
 std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::size_t r,
@@ -77,7 +78,11 @@ std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::siz
                                       [&stage](const auto& each) { return each.first == stage; });
         text += "," + (use == row.stages.end() ? "" : csv_number(use->second));
     }
-    return text + (sampled ? sampling_cells(row) : "") + "\n";
+    text += sampled ? sampling_cells(row) : "";
+    if (!plan.aims.limits.empty()) {
+        text += "," + csv_cell(within_words(results.verdicts[row.config]));
+    }
+    return text + "\n";
 }
 
 std::string results_csv(const StudyPlan& plan, const SweepResults& results) {
@@ -145,6 +150,9 @@ void put_lists(const StudyPlan& plan, const SweepResults& results, ordered_json&
         variant["accelerator"] = plan.request.configs[v].config.kind();
         variant["pes"] = value_or_null(config.pes);
         variant["tile_size"] = value_or_null(config.tile_size);
+        if (!plan.aims.limits.empty()) {
+            variant["within"] = within_words(results.verdicts[v]);
+        }
         json["variants"].push_back(std::move(variant));
     }
     for (const ComparedView& view : results.comparison.views) {
@@ -191,9 +199,19 @@ std::string page_of(const StudyPlan& plan, const SweepResults& results) {
     for (const StudyPlan::LinkedAxis& axis : plan.linked) {
         facts.axes.push_back({axis.name, axis.keys});
     }
-    for (const StudyVariant& variant : plan.variants) {
-        facts.variants.push_back({variant.design, {variant.values.begin(), variant.values.end()}});
+    for (std::size_t v = 0; v < plan.variants.size(); ++v) {
+        const StudyVariant& variant = plan.variants[v];
+        const DesignVerdict& verdict = results.verdicts[v];
+        facts.variants.push_back({variant.design,
+                                  {variant.values.begin(), variant.values.end()},
+                                  verdict.goals,
+                                  verdict.on_front,
+                                  within_words(verdict)});
     }
+    for (const Aim& goal : plan.aims.goals) {
+        facts.goals.push_back({goal.name, goal.better == Direction::Maximise});
+    }
+    facts.limited = !plan.aims.limits.empty();
     for (std::size_t point : results.points) {
         facts.points.push_back(point + 1);
     }
@@ -233,7 +251,7 @@ private:
 } // namespace
 
 std::vector<std::string> sweep_files() {
-    return {kJson, kCsv, kHost, kPage};
+    return {kJson, kCsv, kHostCsv, kPage};
 }
 
 SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
@@ -271,13 +289,15 @@ SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
     results.comparison.frames = plan.request.path.frames;
     results.comparison.path_step_degrees = plan.request.path.step_degrees;
     results.comparison.array_only = plan.request.array_only;
+    results.verdicts =
+        judge(results.comparison, plan.points.size() / plan.variants.size(), plan.aims);
     return results;
 }
 
 void write_results(const StudyPlan& plan, const SweepResults& results, const OutputFolder& folder) {
     folder.replace([&] {
         folder.write_text(kCsv, results_csv(plan, results));
-        folder.write_text(kHost, host_csv(results));
+        folder.write_text(kHostCsv, host_csv(results));
         folder.write_json(kJson, results_json(plan, results));
         folder.write_text(kPage, page_of(plan, results));
     });

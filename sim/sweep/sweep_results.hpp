@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/goals/judgement.hpp"
 #include "sim/process/failure.hpp"
 #include "sim/results/comparison.hpp"
 #include "sim/sweep/point_store.hpp"
@@ -26,8 +27,9 @@ struct FailedPoint {
 
 /// What is known of the points of a study, whoever ran them.
 struct SweepResults {
-    Comparison comparison;           ///< a configuration for each variant, in the plan's order
-    std::vector<std::size_t> points; ///< by row of the comparison
+    std::vector<DesignVerdict> verdicts; ///< by variant
+    Comparison comparison;               ///< a configuration for each variant, in the plan's order
+    std::vector<std::size_t> points;     ///< by row of the comparison
     std::vector<FailedPoint> failed;
     std::size_t missing = 0;           ///< points that are neither finished nor failed
     std::size_t damaged = 0;           ///< of `missing`, points whose file is damaged

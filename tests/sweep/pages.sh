@@ -102,5 +102,27 @@ chromium --headless --no-sandbox --disable-gpu --user-data-dir="$folder/user" --
 for text in 'latency_ms over shape' '>4, 16</text>' '>8, 8</text>' '>16, 4</text>' '>204.8</text>' '>102.4</text>'; do
     grep -qF -- "$text" "$folder/dom" || { echo "the page of linked keys has no $text"; failed=1; }
 done
+# Three goals are lines across parallel axes: four designs, of which some break the limit.
+cat >"$folder/goals.yaml" <<YAML
+study: goals
+designs:
+  - include: $configs/degs-64.yaml
+    name: degs-64
+axes:
+  span.count: [4, 8]
+  packing.bytes: [x1, x2]
+goals: [latency_ms, area_mm2, energy.nj_per_frame]
+limits: area_mm2<=baseline
+scenes: synthetic:single
+width: 64
+YAML
+"$program" sweep "$folder/goals.yaml" --out "$folder/goals" >/dev/null 2>&1
+chromium --headless --no-sandbox --disable-gpu --user-data-dir="$folder/user" --window-size=1500,1000 --enable-logging=stderr \
+    --v=0 --virtual-time-budget=20000 --dump-dom "file://$folder/goals/index.html" >"$folder/dom" 2>"$folder/log"
+if grep CONSOLE "$folder/log"; then failed=1; fi
+for part in 'path class="design:4' 'class="design front:1' 'class="design outside":1' 'class="outside":1'; do
+    found=$(grep -oF -- "${part%:*}" "$folder/dom" | wc -l)
+    ((found >= ${part##*:})) || { echo "the page of goals has ${part%:*} $found times"; failed=1; }
+done
 ! grep -oE '(src|href)="https?:[^"]*"|@import|url\(["'\'']?http' "$folder"/*/index.html || { echo "a page needs a network"; failed=1; }
 exit "$failed"

@@ -50,7 +50,11 @@
   const pes = { name: "pes", unit: "PEs", kind: "key", numeric: true, sentence: "Processing elements.",
     of: (run) => data.variants[run.variant].pes };
   const areMorePes = new Set(data.variants.map((v) => v.pes)).size > 1;
-  const columns = [point, design, ...axisColumns, ...keyColumns, ...(areMorePes ? [pes] : []), view, ...measureColumns, limit,
+  const within = { name: "within", unit: "", kind: "text", numeric: false,
+    sentence: "Whether the design is within the limits: yes, or the limits that it breaks.",
+    of: (run) => data.variants[run.variant].within || null };
+  const isOutside = (run) => data.limited && !["yes", ""].includes(data.variants[run.variant].within);
+  const columns = [point, design, ...(data.limited ? [within] : []), ...axisColumns, ...keyColumns, ...(areMorePes ? [pes] : []), view, ...measureColumns, limit,
     ...stageColumns];
   const columnOf = new Map(columns.map((c) => [c.name, c]));
   const isBaseline = (run) => run.variant === data.baseline;
@@ -133,7 +137,7 @@
     `point ${run.point}, ${design.of(run)}`, ...keyColumns.slice(0, mostKeysInTip)
       .map((c) => `${c.name}: ${written(c, c.of(run))}`), ...(keyColumns.length > mostKeysInTip ? ["…"] : []),
     view.of(run), ...["latency_ms", "area_mm2"].map((n) => columnOf.get(n)).filter((c) => c)
-      .map((c) => `${c.name}: ${written(c, c.of(run))}`), `limited_by: ${run.limited_by}`].join("\n");
+      .map((c) => `${c.name}: ${written(c, c.of(run))}`), `limited_by: ${run.limited_by}`, ...(isOutside(run) ? [`breaks ${within.of(run)}`] : [])].join("\n");
   const widthOf = (element) => Math.max(240, Math.floor(element.clientWidth || 600));
   const isLogarithmic = (values) => {
     const numbers = values.filter((v) => isNumber(v) && Number.isFinite(v));
@@ -195,7 +199,9 @@
       color: { ...colourScale(colour, good), legend: true, label: heading(colour) },
       ...(several ? { symbol: { legend: true, label: "view" } } : {}),
       marks: [...lines(good, x, y, stroke),
-        Plot.dot(good, { x: x.of, y: y.of, stroke, fill: stroke, r: 4, ...(several ? { symbol: view.of } : {}) }),
+        Plot.dot(good.filter(isOutside), { x: x.of, y: y.of, stroke: "#999", strokeOpacity: 0.6, r: 3 }),
+        Plot.dot(good.filter((run) => !isOutside(run)), { x: x.of, y: y.of, stroke, fill: stroke, r: 4,
+          ...(several ? { symbol: view.of } : {}) }),
         Plot.dot(good.filter(isBaseline), { x: x.of, y: y.of, r: 9, stroke: "currentColor", strokeWidth: 1.5 }),
         Plot.tip(good, Plot.pointer({ x: x.of, y: y.of, title: tipOf, maxRadius: 30 }))],
     });
@@ -234,6 +240,53 @@
           Plot.tip(good, Plot.pointer({ x: x.of, y: y.of, title: tipOf, maxRadius: 30 }))],
       });
     });
+  };
+
+  /** One of the parallel axes, with room for a value that all designs share; the best value is at its top. */
+  const goalAxis = (goal, values, bottom, top) => {
+    const [least, most] = d3.extent(values);
+    const room = least === most ? Math.abs(least) * 0.05 || 1 : 0;
+    const ends = [least - room, most + room];
+    return (isLogarithmic(values) ? d3.scaleLog() : d3.scaleLinear())
+      .domain(goal.larger ? ends : ends.reverse()).range([bottom, top]);
+  };
+  /** Parallel axes (A. Inselberg, The Plane with Parallel Coordinates, 1985), for three goals and more. */
+  const drawGoals = (runs) => {
+    const wanted = new Map(runs.map((run) => [run.variant, run]));
+    const lines = data.variants.map((v, i) => ({ ...v, run: wanted.get(i), baseline: i === data.baseline }))
+      .filter((v) => v.run && v.goals.length > 2 && v.goals.every(isNumber));
+    at("goals-section").hidden = lines.length === 0;
+    if (lines.length === 0) return;
+    const side = 90, top = 56, height = 380, bottom = height - 14;
+    const width = Math.max(widthOf(at("goals")), 2 * side + 150 * (data.goals.length - 1));
+    const x = d3.scalePoint(data.goals.map((_, g) => g), [side, width - side]);
+    const axes = data.goals.map((goal, g) => goalAxis(goal, lines.map((v) => v.goals[g]), bottom, top));
+    const svg = d3.create("svg").attr("width", width).attr("height", height).attr("role", "img")
+      .attr("aria-label", `Goals of ${lines.length} designs: ${data.goals.map((g) => g.name).join(", ")}`);
+    const breaks = (v) => data.limited && !["yes", ""].includes(v.within);
+    at("dashed").hidden = !data.limited;
+    const kind = (v) => (v.baseline ? 3 : v.front ? 2 : breaks(v) ? 0 : 1); // later lines lie above others
+    svg.append("g").selectAll("path").data(d3.sort(lines, kind)).join("path")
+      .attr("class", (v) => ["design", ...(v.front ? ["front"] : []), ...(breaks(v) ? ["outside"] : []),
+        ...(v.baseline ? ["baseline"] : [])].join(" "))
+      .attr("d", (v) => d3.line()(v.goals.map((value, g) => [x(g), axes[g](value)])))
+      .on("click", (_, v) => { if (v.run.report) window.open(v.run.report, "_blank"); })
+      .append("title").text((v) => [v.name, ...data.goals.map((goal, g) => `${goal.name}: ${digits(v.goals[g])}`),
+        v.baseline ? "the baseline" : "", v.front ? "on the front" : "", breaks(v) ? `breaks ${v.within}` : ""]
+        .filter((words) => words !== "").join("\n"));
+    data.goals.forEach((goal, g) => {
+      const axis = svg.append("g").attr("transform", `translate(${x(g)},0)`)
+        .call(d3.axisLeft(axes[g]).ticks(6).tickFormat(digits));
+      axis.selectAll("text").attr("paint-order", "stroke").attr("stroke", "var(--back)").attr("stroke-width", 4);
+      // Neighbours have their names at two heights, so that long ones do not touch.
+      const name = axis.append("text").attr("class", "name").attr("x", 0).attr("y", g % 2 === 0 ? 14 : 32)
+        .attr("text-anchor", g === 0 ? "start" : g + 1 === data.goals.length ? "end" : "middle")
+        .attr("dx", g === 0 ? -side + 4 : g + 1 === data.goals.length ? side - 4 : 0);
+      const most = Math.floor(1.7 * x.step() / 7);
+      name.text(goal.name.length > most ? `${goal.name.slice(0, most - 1)}…` : goal.name);
+      name.append("title").text(`${goal.name} (${goal.larger ? "larger" : "smaller"} is better)`);
+    });
+    at("goals").replaceChildren(svg.node());
   };
 
   // The colours of the classes are those of slots.svg.
@@ -322,8 +375,9 @@
     });
     at("table").tBodies[0].replaceChildren(...sorted.map((run) => {
       const row = document.createElement("tr");
-      row.className = isBaseline(run) ? "baseline" : "";
-      row.title = isBaseline(run) ? "the baseline" : data.variants[run.variant].name;
+      row.className = `${isBaseline(run) ? "baseline" : ""} ${isOutside(run) ? "outside" : ""}`.trim();
+      row.title = (isBaseline(run) ? "the baseline" : data.variants[run.variant].name)
+        + (isOutside(run) ? `, which breaks ${within.of(run)}` : "");
       row.append(...list.map((column) => cellOf(column, run)));
       return row;
     }));
@@ -349,6 +403,7 @@
   const draw = () => {
     const runs = shown();
     drawMain(runs);
+    drawGoals(runs);
     drawKeys(runs);
     drawSlots(runs);
     drawTable(runs);

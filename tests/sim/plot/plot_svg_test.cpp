@@ -176,5 +176,32 @@ TEST(UtilizationPlot, ManyPanelsAndNone) {
     }
 }
 
+// Three goals make three charts; designs lie in each of them, and one outside the limits is named.
+TEST(FrontPairs, HaveAChartForEveryPairOfGoals) {
+    std::vector<ManyGoals> designs{{{1, 20, 3e6}, {true, false, true}},
+                                   {{2, 10, 4e6}, {false, true, true}}};
+    const auto count = [](const std::string& text, const std::string& part) {
+        std::size_t found = 0;
+        for (std::size_t at = text.find(part); at != std::string::npos;
+             at = text.find(part, at + 1)) {
+            ++found;
+        }
+        return found;
+    };
+    const std::vector<std::string> labels{"first (smaller is better)", "second", "third"};
+    const std::string within = front_pairs_svg("a & b", labels, designs);
+    EXPECT_EQ(count(within, "<circle"), 3U + 1U); // one in the legend
+    EXPECT_EQ(count(within, "breaks a limit"), 0U);
+    EXPECT_EQ(count(within, "third"), 1U);
+    EXPECT_EQ(count(within, "first (smaller is better)"), 1U);
+    EXPECT_NE(within.find("a &amp; b"), std::string::npos);
+    EXPECT_NE(within.find("M</text>"), std::string::npos);
+    designs.push_back({{3, 30, 5e6}, {false, false, false}});
+    const std::string outside = front_pairs_svg("a", labels, designs);
+    EXPECT_EQ(count(outside, "breaks a limit"), 1U);
+    EXPECT_EQ(count(outside, "#b0b0b0"), 3U + 1U);
+    EXPECT_FALSE(front_pairs_svg("none", labels, {}).empty());
+}
+
 } // namespace
 } // namespace degs::sim

@@ -14,7 +14,7 @@ TEST(ParetoFront, HasWhomNobodyBeats) {
     const std::vector<Goals> goals{{1, 9}, {2, 5}, {3, 5}, {4, 1}, {2, 5}, {1, 10}};
     EXPECT_EQ(pareto_front(goals), (Positions{0, 1, 3}));
     EXPECT_EQ(pareto_front({}), Positions{});
-    EXPECT_EQ(pareto_front({{7, 7}}), Positions{0});
+    EXPECT_EQ(pareto_front({Goals{7, 7}}), Positions{0});
 }
 
 TEST(ParetoFront, GoesOnWithTheFrontOfTheRest) {

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/goals/pareto.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace degs::sim {
+namespace {
+
+/// Whether `a` is at least as good as `b` in all goals.
+bool reaches(const Goals& a, const Goals& b) {
+    for (std::size_t g = 0; g < a.size(); ++g) {
+        if (a[g] > b[g]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// The front, the front of the rest, and so on, each in the order of the goals. A design can only
+/// be beaten by those before it in this order, and one that is beaten by a front is beaten by all
+/// before that; so the first front that does not beat it is found by halving.
+std::vector<std::vector<std::size_t>> fronts_of(const std::vector<Goals>& goals) {
+    std::vector<std::size_t> order(goals.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&goals](std::size_t a, std::size_t b) {
+        return std::tie(goals[a], a) < std::tie(goals[b], b);
+    });
+    std::vector<std::vector<std::size_t>> fronts;
+    for (const std::size_t position : order) {
+        const auto beats = [&goals, position](const std::vector<std::size_t>& front, int) {
+            return std::any_of(front.rbegin(), front.rend(), [&](std::size_t other) {
+                return reaches(goals[other], goals[position]);
+            });
+        };
+        const auto front = std::lower_bound(fronts.begin(), fronts.end(), 0, beats);
+        if (front == fronts.end()) {
+            fronts.push_back({position});
+        } else {
+            front->push_back(position);
+        }
+    }
+    return fronts;
+}
+
+/// A front from which designs drop out one by one.
+class Crowd {
+public:
+    Crowd(const std::vector<Goals>& goals, const std::vector<std::size_t>& front)
+        : goals_(goals), front_(front), alive_(front.size(), true), rooms_(front.size()) {
+        for (std::size_t g = 0; g < goals[front[0]].size(); ++g) {
+            link(g);
+        }
+        for (std::size_t place = 0; place < front.size(); ++place) {
+            rooms_[place] = room_of(place);
+        }
+    }
+
+    void drop_the_closest() {
+        std::size_t closest = front_.size();
+        for (std::size_t place = 0; place < front_.size(); ++place) {
+            if (alive_[place] && (closest == front_.size() || rooms_[place] < rooms_[closest])) {
+                closest = place;
+            }
+        }
+        alive_[closest] = false;
+        std::vector<std::size_t> neighbours;
+        for (auto& links : links_) {
+            const auto [before, after] = links[closest];
+            if (before != kNone) {
+                links[before].second = after;
+                neighbours.push_back(before);
+            }
+            if (after != kNone) {
+                links[after].first = before;
+                neighbours.push_back(after);
+            }
+        }
+        for (const std::size_t place : neighbours) {
+            rooms_[place] = room_of(place);
+        }
+    }
+
+    std::vector<std::size_t> rest() const {
+        std::vector<std::size_t> rest;
+        for (std::size_t place = 0; place < front_.size(); ++place) {
+            if (alive_[place]) {
+                rest.push_back(front_[place]);
+            }
+        }
+        return rest;
+    }
+
+private:
+    static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+    using Links = std::vector<std::pair<std::size_t, std::size_t>>; ///< places before and after
+    using Room = std::pair<int, double>; ///< in how many goals it is the best; the distances
+
+    double cost(std::size_t place, std::size_t g) const { return goals_[front_[place]][g]; }
+
+    void link(std::size_t g) {
+        std::vector<std::size_t> order(front_.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::sort(order.begin(), order.end(), [this, g](std::size_t a, std::size_t b) {
+            return std::make_pair(cost(a, g), a) < std::make_pair(cost(b, g), b);
+        });
+        Links links(front_.size(), {kNone, kNone});
+        for (std::size_t i = 1; i < order.size(); ++i) {
+            links[order[i]].first = order[i - 1];
+            links[order[i - 1]].second = order[i];
+        }
+        links_.push_back(std::move(links));
+    }
+
+    /// The worst in a goal has no second neighbour there, which counts nothing.
+    Room room_of(std::size_t place) const {
+        Room room{0, 0.0};
+        for (std::size_t g = 0; g < links_.size(); ++g) {
+            const auto [before, after] = links_[g][place];
+            if (before == kNone) {
+                ++room.first;
+            } else if (after != kNone) {
+                room.second += std::abs(std::log(cost(after, g) / cost(before, g)));
+            }
+        }
+        return room;
+    }
+
+    const std::vector<Goals>& goals_;
+    const std::vector<std::size_t>& front_;
+    std::vector<bool> alive_;
+    std::vector<Links> links_; ///< by goal
+    std::vector<Room> rooms_;
+};
+
+/// Ranks from 1; equal values share the mean of theirs.
+std::vector<double> ranks_of(const std::vector<double>& values) {
+    std::vector<double> ranks(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        std::size_t less = 0;
+        std::size_t equal = 0;
+        for (const double other : values) {
+            less += other < values[i] ? 1 : 0;
+            equal += other == values[i] ? 1 : 0;
+        }
+        ranks[i] = static_cast<double>(less) + (static_cast<double>(equal) + 1) / 2;
+    }
+    return ranks;
+}
+
+} // namespace
+
+std::vector<std::size_t> pareto_front(const std::vector<Goals>& goals) {
+    const auto fronts = fronts_of(goals);
+    return fronts.empty() ? std::vector<std::size_t>() : fronts.front();
+}
+
+std::vector<std::size_t> best_of(const std::vector<Goals>& goals, std::size_t count) {
+    std::vector<std::size_t> best;
+    for (const std::vector<std::size_t>& front : fronts_of(goals)) {
+        if (best.size() == count) {
+            break;
+        }
+        Crowd crowd(goals, front);
+        for (std::size_t left = front.size(); left > count - best.size(); --left) {
+            crowd.drop_the_closest();
+        }
+        const std::vector<std::size_t> rest = crowd.rest();
+        best.insert(best.end(), rest.begin(), rest.end());
+    }
+    std::sort(best.begin(), best.end());
+    return best;
+}
+
+std::optional<double> rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
+    constexpr std::size_t kFewest = 3;
+    if (a.size() < kFewest) {
+        return {};
+    }
+    const std::vector<double> first = ranks_of(a);
+    const std::vector<double> second = ranks_of(b);
+    const double mean = (static_cast<double>(a.size()) + 1) / 2;
+    double covariance = 0;
+    double spread_a = 0;
+    double spread_b = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        covariance += (first[i] - mean) * (second[i] - mean);
+        spread_a += (first[i] - mean) * (first[i] - mean);
+        spread_b += (second[i] - mean) * (second[i] - mean);
+    }
+    if (spread_a == 0 || spread_b == 0) {
+        return {};
+    }
+    return covariance / std::sqrt(spread_a * spread_b);
+}
+
+} // namespace degs::sim

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fronts of designs in any number of goals.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace degs::sim {
+
+/// As many numbers for each design. The functions below take them as costs, which shall be small.
+using Goals = std::vector<double>;
+
+/// Positions of those that no other beats: none is at least as good in all goals and better in
+/// one. In the order of the first goal. Of equal ones the first counts.
+std::vector<std::size_t> pareto_front(const std::vector<Goals>& goals);
+
+/// Positions of the best `count`, at most all: the front, then the front of the rest, and so on.
+/// From the last front that does not fit, those drop out one by one whose neighbours in every goal
+/// are closest, in ratios; the best in a goal stay longest. In ascending order. (The crowding
+/// distance of K. Deb et al., A fast and elitist multiobjective genetic algorithm: NSGA-II, IEEE
+/// Trans. Evol. Comput. 2002, in logarithms, renewed after each loss.)
+std::vector<std::size_t> best_of(const std::vector<Goals>& goals, std::size_t count);
+
+/// Spearman's correlation of ranks of two lists of the same length; empty for fewer than three.
+std::optional<double> rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
+
+} // namespace degs::sim
