@@ -34,7 +34,8 @@ struct KeptDesign {
 
 class SmallRunMemory : public ::testing::TestWithParam<KeptDesign> {
 protected:
-    static constexpr int kFrames = 1000, kFirst = 100;
+    // Sanitizers keep freed memory, so that they count frames only, and need few.
+    static constexpr int kFrames = kSanitized ? 120 : 1000, kFirst = 100;
 
     /// From views of one tile to views of many, from all splats to none; all of them come before
     /// kFirst.
