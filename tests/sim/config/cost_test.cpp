@@ -237,7 +237,7 @@ TEST(CostCommand, PrintsTheBillInThreeForms) {
     EXPECT_NEAR(bill["area"]["mm2"], 4.44, 1e-9);
     EXPECT_EQ(bill["area"]["blocks"]["row_pes"]["units"], 64);
     const Outcome sized = degs({"config", "degs", "--pes", "256", "--cost"});
-    EXPECT_NE(sized.out.find("6.618"), std::string::npos) << sized.out;
+    EXPECT_NE(sized.out.find("6.724"), std::string::npos) << sized.out;
     expect_mistake(degs({"config", config("gbu-64"), "--cost", "--format", "yaml"}), "json");
     expect_mistake(degs({"config", config("gbu-64"), "--format", "json"}), "--cost");
 }
