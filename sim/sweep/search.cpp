@@ -178,7 +178,9 @@ void check_measures(const Aims& aims, const std::string& part, const CompareRequ
                              config_words::list(allowed_goals(is_estimated)) + ".");
         }
         if (const std::string lack = lack_of(measure, request); !lack.empty()) {
-            throw InputError("The study has no " + name_of(measure) + end + "; it " + lack + ".");
+            std::string why = "The study has no " + name_of(measure) + end;
+            why += "; it " + lack + ".";
+            throw InputError(why);
         }
     }
 }
