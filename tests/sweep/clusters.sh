@@ -60,7 +60,7 @@ job = yaml.safe_load(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))["spe
 assert job["completionMode"] == "Indexed"
 container = job["template"]["spec"]["containers"][0]
 variables = {entry["name"]: entry["value"] for entry in container["env"]}
-places = {"/work/study.yaml": work / "study.yaml", "/work/out": work / "kubernetes"}
+places = {"/data/study.yaml": work / "study.yaml", "/data/out": work / "kubernetes"}
 for index in range(job["completions"]):
     subprocess.run(["degs", *(str(places.get(word, word)) for word in container["args"])], check=True,
                    env={**os.environ, **variables, "JOB_COMPLETION_INDEX": str(index)})
