@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""table_one.py [PROGRAM]: the rows of the paper's Table I beside those of the cost model, as a Markdown table.
+"""table_one.py [--sizes] [PROGRAM]: the rows of the paper's Table I beside those of the cost model, as a Markdown table.
 
 The numbers of the paper stand in docs/published.csv, those of the model come from `degs config --cost`. Fails if a sum
-of the model does not round to that of the paper."""
+of the model does not round to that of the paper. --sizes: areas of the shipped designs by their
+number of PEs, as the model has them."""
 import csv
 import json
 import subprocess
@@ -38,14 +39,35 @@ def paper():
     return rows
 
 
-def area_of(program, design):
+def area_of(program, design, options=()):
     """The section `area` of a design."""
-    command = [program, "config", str(ROOT / "configs" / f"{design}.yaml"), "--cost", "--format", "json"]
+    command = [program, "config", str(ROOT / "configs" / f"{design}.yaml"), "--cost", "--format", "json", *options]
     return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)["area"]
 
 
+SIZES = ("16", "64", "256", "1024")
+FREE = ("--set", "cost.logic.widths=false")
+BY_SIZE = [("DeGS", "degs-{}", ()), ("DeGS, [widths](#widths) free", "degs-{}", FREE),
+           ("DeGS tuned", "degs-{}-tuned", ()), ("GSCore", "gscore-{}", ()), ("GBU", "gbu-{}", ()),
+           ("GCC", "gcc-{}", ())]
+
+
+def print_sizes(program):
+    print("| | " + " | ".join(f"{size} PEs" for size in SIZES) + " |")
+    print("|---|" + "---:|" * len(SIZES))
+    for name, design, options in BY_SIZE:
+        shipped = [size for size in SIZES if (ROOT / "configs" / f"{design.format(size)}.yaml").exists()]
+        cells = [f"{area_of(program, design.format(size), options)['mm2']:.3f}" if size in shipped else ""
+                 for size in SIZES]
+        print(f"| {name}, mm² | " + " | ".join(cells) + " |")
+
+
 def main():
-    program = sys.argv[1] if len(sys.argv) > 1 else "degs"
+    arguments = [argument for argument in sys.argv[1:] if argument != "--sizes"]
+    program = arguments[0] if arguments else "degs"
+    if len(arguments) + 1 < len(sys.argv):
+        print_sizes(program)
+        return
     areas = {name: area_of(program, design) for name, design in DESIGNS.items()}
     print("| accelerator | row | mm², paper | mm², model | W, paper | W, model |")
     print("|---|---|---:|---:|---:|---:|")

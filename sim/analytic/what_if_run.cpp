@@ -6,24 +6,10 @@
 #include "config/config_source.hpp"
 #include "sim/analytic/analytic_run.hpp"
 #include "sim/simulation/frame_kind.hpp"
+#include "sim/text/comma_parts.hpp"
 
 namespace degs::sim {
 namespace {
-
-/// The settings of a change; commas within brackets belong to a value.
-std::vector<std::string> settings_of(const std::string& change) {
-    std::vector<std::string> settings{""};
-    int depth = 0;
-    for (const char c : change) {
-        depth += c == '[' || c == '{' ? 1 : c == ']' || c == '}' ? -1 : 0;
-        if (c == ',' && depth == 0) {
-            settings.emplace_back();
-        } else {
-            settings.back() += c;
-        }
-    }
-    return settings;
-}
 
 double estimated_cycles(const RunConfig& config, const FrameWorkload& frame) {
     return estimate_frame(*analytic_model_of(config), frame, config.accelerator().tile_order)
@@ -37,7 +23,7 @@ std::vector<ChangedDesign> changed_designs(const RunConfig& config,
     std::vector<ChangedDesign> designs;
     for (const std::string& change : changes) {
         ChangedDesign design{change, config};
-        ConfigSource::from_overrides(settings_of(change), "--what-if").load(design.config);
+        ConfigSource::from_overrides(comma_parts(change), "--what-if").load(design.config);
         analytic_model_of(design.config);
         designs.push_back(std::move(design));
     }

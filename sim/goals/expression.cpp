@@ -118,7 +118,7 @@ private:
                      "mean(...) can only surround all of a goal, or the left side of a limit");
             }
             step.kind = StepKind::Measure;
-            step.measure = measure_named(word, place_);
+            step.measure = measure_named(word, place_, {"baseline"});
         }
         steps_.push_back(step);
     }

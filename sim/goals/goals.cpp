@@ -6,26 +6,12 @@
 
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
+#include "sim/text/comma_parts.hpp"
 
 namespace degs::sim {
 namespace {
 
 using config_words::quote;
-
-/// The parts between commas outside of parentheses, without blanks around them.
-std::vector<std::string> parts_of(const std::string& text) {
-    std::vector<std::string> parts{""};
-    int depth = 0;
-    for (const char c : text) {
-        depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-        if (c == ',' && depth <= 0) {
-            parts.emplace_back();
-        } else {
-            parts.back() += c;
-        }
-    }
-    return parts;
-}
 
 std::string without_blanks(const std::string& text) {
     std::string rest;
@@ -119,7 +105,7 @@ Limit limit_of(const std::string& text, const std::string& place) {
 
 std::vector<Aim> parse_goals(const std::string& text, const std::string& place) {
     std::vector<Aim> goals;
-    for (const std::string& part : parts_of(text)) {
+    for (const std::string& part : comma_parts(text)) {
         std::string words = without_blanks(part);
         const bool most = take_start(words, "max:");
         const bool least = !most && take_start(words, "min:");
@@ -144,14 +130,11 @@ std::vector<Aim> parse_goals(const std::string& text, const std::string& place) 
 
 std::vector<Limit> parse_limits(const std::string& text, const std::string& place) {
     std::vector<Limit> limits;
-    for (const std::string& part : parts_of(text)) {
-        std::string name;
-        // Names of designs may have blanks, and the parser of expressions skips others.
-        const std::size_t named = part.find("baseline(");
-        name = named == std::string::npos
-                   ? without_blanks(part)
-                   : without_blanks(part.substr(0, named)) + part.substr(named);
-        limits.push_back(limit_of(name, place));
+    for (const std::string& part : comma_parts(text)) {
+        // The name of a design may have blanks, which the others only separate words with.
+        const std::size_t named = std::min(part.find("baseline("), part.size());
+        limits.push_back(
+            limit_of(without_blanks(part.substr(0, named)) + part.substr(named), place));
     }
     return limits;
 }

@@ -47,6 +47,15 @@ std::vector<std::vector<std::size_t>> fronts_of(const std::vector<Goals>& goals)
     return fronts;
 }
 
+/// How far apart two values are, as a ratio. There is none over 0 or between signs, which is far.
+double distance(double a, double b) {
+    const double ratio = b / a;
+    const bool has_ratio = ratio > 0 && std::isfinite(ratio);
+    return a == b      ? 0
+           : has_ratio ? std::abs(std::log(ratio))
+                       : std::numeric_limits<double>::infinity();
+}
+
 /// A front from which designs drop out one by one.
 class Crowd {
 public:
@@ -124,7 +133,7 @@ private:
             if (before == kNone) {
                 ++room.first;
             } else if (after != kNone) {
-                room.second += std::abs(std::log(cost(after, g) / cost(before, g)));
+                room.second += distance(cost(before, g), cost(after, g));
             }
         }
         return room;

@@ -201,9 +201,10 @@ std::string direction_words(Direction direction) {
                                               : "";
 }
 
-Measure measure_named(const std::string& name, const std::string& place) {
+Measure measure_named(const std::string& name, const std::string& place,
+                      const std::vector<std::string>& others) {
     std::optional<Measure> found;
-    std::vector<std::string> names;
+    std::vector<std::string> names = others;
     for_each_measure([&](Measure measure) {
         names.push_back(name_of(measure));
         if (name_of(measure) == name) {

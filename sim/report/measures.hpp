@@ -87,7 +87,8 @@ std::string direction_words(Direction direction);
 
 /// The measure that a column of results.csv is called after. Throws InputError, which begins with
 /// `place` and suggests measures, if there is none.
-Measure measure_named(const std::string& name, const std::string& place);
+Measure measure_named(const std::string& name, const std::string& place,
+                      const std::vector<std::string>& others = {});
 
 /// The keys of a run with their units and meanings, without values. `report` is the list of what a
 /// run reports, where most of them are described.

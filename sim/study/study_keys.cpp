@@ -72,8 +72,9 @@ std::vector<StudyKey> keys_of_designs() {
                          "product"})),
         of_sweep({"baseline", StudyKind::kText,
                   "name of the design with which all points are compared; by default the first"}),
-        {"goals", StudyKind::kWords, "what a search makes least or most: measures or expressions"},
-        {"limits", StudyKind::kWords, "what a design has to keep, like area_mm2<=2.5"},
+        of_sweep({"goals", StudyKind::kWords,
+                  "what a search makes least or most: measures or expressions"}),
+        of_sweep({"limits", StudyKind::kWords, "what a design has to keep, like area_mm2<=2.5"}),
     };
 }
 

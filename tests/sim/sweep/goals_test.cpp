@@ -249,6 +249,12 @@ TEST(ParetoFront, PromotesInTwoGoalsAsEver) {
     }
 }
 
+// There is no ratio over 0 or between signs: such neighbours are far apart.
+TEST(ParetoFront, KeepsAnOrderWhereThereIsNoRatio) {
+    EXPECT_EQ(best_of({{-1, 9}, {1, 4}, {2, 3.9}, {2.1, 3.8}, {9, -2}}, 4),
+              (Positions{0, 1, 3, 4}));
+}
+
 // The best in each goal stay while there are places for them; then the closest drop out.
 TEST(ParetoFront, KeepsTheBestInEachGoal) {
     const std::vector<Goals> goals{{1, 8, 8}, {8, 1, 8},     {8, 8, 1},

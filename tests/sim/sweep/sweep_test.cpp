@@ -348,6 +348,10 @@ TEST(HostileSweep, Mistakes) {
     expect_mistake(degs({"sweep", folder / "absent.yaml"}), "absent.yaml");
     expect_mistake(degs({"sweep", config("degs-64")}), "names no scene");
     expect_mistake(degs({"compare", file, "--scene", "synthetic:single"}), "is for 'degs sweep'");
+    std::ofstream(folder / "goals.yaml")
+        << "points: [{ include: " << config("degs-64") << ", name: a }]\ngoals: latency_ms\n";
+    expect_mistake(degs({"compare", folder / "goals.yaml", "--scene", "synthetic:single"}),
+                   "'goals'");
 }
 
 } // namespace

@@ -92,45 +92,6 @@ void GaussianSlicingUnit::end_of_elaboration() {
     open_chunks_.connect_writer(self_);
 }
 
-void GaussianSlicingUnit::start_of_simulation() {
-    if (log_ == nullptr) {
-        return;
-    }
-    const std::pair<const char*, std::int64_t> facts[] = {
-        {"tile_size", job_.tile_size},
-        {"module", index_},
-        {"modules", modules_},
-        {"units", config_.units_per_module()},
-        {"rows_per_cycle", config_.rows_per_cycle},
-        {"splats_per_cycle", config_.splats_per_cycle},
-        {"distribution", static_cast<int>(config_.distribution)},
-        {"rows", static_cast<int>(config_.rows)},
-        {"skip_dead_rows", config_.skip_dead_rows},
-        {"segment_length", segment_length_},
-        {"inputs", static_cast<std::int64_t>(in.size())},
-        {"slices", static_cast<std::int64_t>(region_ended.size())},
-        {"lanes", static_cast<std::int64_t>(out.size())},
-        {"granted", config_.granted},
-        {"splat_ports",
-         config_.splat_ports.limited() ? config_.splat_ports.neighbours(kUnlimited) : 0},
-        {"row_ports", config_.row_ports.ports},
-        {"places", static_cast<std::int64_t>(out[0].ring().depth())}};
-    for (const auto& [name, value] : facts) {
-        log_->set(name, value);
-    }
-    for (std::size_t i = 0; i < in.size(); ++i) {
-        in[i].ring().log_takes(*log_, "chunk", i);
-    }
-    for (std::size_t i = 0; i < region_ended.size(); ++i) {
-        region_ended[i].ring().log_takes(*log_, "region_ended", i);
-    }
-    cancel.ring().log_takes(*log_, "cancelled");
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        out[i].ring().log_puts(*log_, "row", i);
-        out[i].ring().log_departures(*log_, "taken", i);
-    }
-}
-
 void GaussianSlicingUnit::run() {
     for (TileNumber number = tile_after(kNoTile); number != kNoTile; number = tile_after(number)) {
         slice_tile(number);
