@@ -9,6 +9,7 @@
 #include "sim/plot/plot_svg.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/result_words.hpp"
+#include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
 
@@ -256,7 +257,7 @@ std::string search_text(const StudyPlan& plan, const Search& search) {
     for (const Aim& goal : plan.aims.goals) {
         text += (&goal == &plan.aims.goals.front() ? "" : "; ") + goal_words(goal);
     }
-    return text + "\n" + front_table(plan, candidates);
+    return folded(text, output_columns(), 2) + "\n" + front_table(plan, candidates);
 }
 
 } // namespace degs::sim
