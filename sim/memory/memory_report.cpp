@@ -170,7 +170,7 @@ std::string memory_words(const MemoryFacts& facts) {
     const LatencyHistogram& latency = latency_of(result);
     std::string text = layout(
         {{"memory", facts.memory.name + " · " + std::to_string(memory.channels) + " channels · " +
-                        decimal_text(memory.peak_gb_per_s()) + " GB/s"},
+                        three_decimals(memory.peak_gb_per_s()) + " GB/s"},
          {"traffic",
           traffic_words(facts) + " · queues of " + std::to_string(memory.controller.read_queue)},
          {"bandwidth", three_digits(result.gb_per_s()) + " GB/s · " +

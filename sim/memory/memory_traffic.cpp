@@ -13,7 +13,7 @@ namespace degs::sim {
 int traffic_window(const dram::Config& config, int request_bytes) {
     const dram::Timing& timing = config.timing;
     const int extra = static_cast<int>(std::ceil(config.controller_latency_ns / timing.ck_ns()));
-    const int bytes_per_ck = dram::kBytesPerBeat * dram::kBeatsPerCk;
+    const int bytes_per_ck = static_cast<int>(timing.burst_bytes()) / timing.burst();
     constexpr int kAccess = dram::kAccessBytes;
     const int access_ck = std::min(request_bytes + bytes_per_ck - 1, kAccess) / bytes_per_ck;
     const int latency = static_cast<int>(timing.read_latency()) + extra;

@@ -106,8 +106,8 @@ std::string memory_line(const AcceleratorResult& run) {
         return "unlimited: the array alone";
     }
     return scaled_bytes(read) + " read, " + scaled_bytes(written) + " written" + kDot +
-           percent(run.memory_utilization, 0) + " % of " +
-           config_words::number(run.memory_gb_per_s) + " GB/s" +
+           percent(run.memory_utilization, 0) + " % of " + three_decimals(run.memory_gb_per_s) +
+           " GB/s" +
            (run.row_hit_rate ? kDot + ("row hits " + percent(*run.row_hit_rate, 0) + " %") : "");
 }
 

@@ -61,7 +61,7 @@ std::string soc_words(const SocRequest& request, const View& view, const SocResu
     const std::string heading = request.config.accelerator().name + " · " + view.scene.name +
                                 " · " + std::to_string(view.camera.width) + "×" +
                                 std::to_string(view.camera.height) + " · " + request.memory.name +
-                                ", " + decimal_text(request.memory.peak_gb_per_s()) + " GB/s · " +
+                                ", " + three_decimals(request.memory.peak_gb_per_s()) + " GB/s · " +
                                 std::to_string(request.cores) + " cores";
     return visible(heading) + "\n" + table.text() + "pixels  the same under every load · " +
            three_digits(result.psnr_db) + " dB against double precision, 8 bits per channel\n" +

@@ -63,6 +63,11 @@ std::string scaled(double value) {
     return three_digits(shown) + units[unit];
 }
 
+std::string three_decimals(double value) {
+    constexpr double kPerUnit = 1000;
+    return decimal_text(std::round(value * kPerUnit) / kPerUnit);
+}
+
 std::string scaled_bytes(std::uint64_t bytes) {
     return scaled(bytes) + (bytes < 1000 ? " B" : "B");
 }

@@ -19,6 +19,8 @@ std::string three_digits(double value);
 /// misses by no more than rounding does (2.178 for 2.1780000000000004, which a sum made), else the
 /// value's own.
 std::string decimal_of(double value);
+/// Three decimals at most: 113.78133 -> "113.781", 204.8 -> "204.8".
+std::string three_decimals(double value);
 /// 54512345 -> "54.5 M"; k, M, G and T are decimal.
 std::string scaled(double value);
 inline std::string scaled(std::uint64_t value) {

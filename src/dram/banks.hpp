@@ -15,6 +15,7 @@ class Banks {
 public:
     explicit Banks(const RuleTable& rules) : dates_(rules) {}
 
+    unsigned count() const { return dates_.table().banks(); }
     BankState state(unsigned bank) const { return banks_[bank].state; }
     std::uint32_t row(unsigned bank) const { return banks_[bank].row; }
     /// Banks between ACT-1 and ACT-2, as a mask.
@@ -49,7 +50,7 @@ public:
         }
     }
     void close_all(Ck date) {
-        for (unsigned bank = 0; bank < kBanks; ++bank) {
+        for (unsigned bank = 0; bank < count(); ++bank) {
             close(bank, date);
         }
     }
@@ -61,7 +62,7 @@ private:
         BankState state = BankState::Closed;
         std::uint32_t row = 0;
     };
-    std::array<Bank, kBanks> banks_{};
+    std::array<Bank, kMostBanks> banks_{};
     Dates dates_;
     std::uint32_t activating_ = 0;
     unsigned open_ = 0; // banks

@@ -71,7 +71,9 @@ void Channel::Stats::subtract(const Stats& earlier) {
 
 Channel::Channel(const Timing& timing, const RuleTable& rules, const ControllerConfig& config,
                  Ck phase)
-    : timing_(&timing), posted_writes_(config.posted_writes),
+    : timing_(&timing), rules_(&rules),
+      bus_ck_(timing.command_buses == 1 ? static_cast<Ck>(timing.command_ck) : 0),
+      posted_writes_(config.posted_writes),
       auto_precharge_(page_policies()[config.page_policy].auto_precharge),
       state_{0, Banks(rules), Queues(config), Refresher(timing, config, phase)},
       chooser_(config.policies[config.scheduler]) {}
@@ -146,7 +148,7 @@ void Channel::perform(Outcome& outcome) {
     } else {
         row_command(choice);
     }
-    ++state_.clock;
+    state_.clock += bus_ck_;
 }
 
 void Channel::row_command(const Chooser::Choice& choice) {
@@ -159,7 +161,7 @@ void Channel::row_command(const Chooser::Choice& choice) {
     }
     chooser_.update(bank, state_);
     if (choice.command == Command::RefPb) {
-        chooser_.update(bank ^ kRefreshPartner, state_);
+        chooser_.update(rules_->refresh_partner(bank), state_);
     }
 }
 
@@ -174,6 +176,9 @@ void Channel::change_row(const Chooser::Choice& choice) {
         if (entry->outcome == RowState::Hit) {
             entry->outcome = RowState::Closed;
         }
+        if (!timing_->has_act2()) {
+            state_.banks.open(bank);
+        }
         break;
     case Command::Act2:
         state_.banks.open(bank);
@@ -187,7 +192,7 @@ void Channel::change_row(const Chooser::Choice& choice) {
         break;
     case Command::PreAb:
         state_.banks.close_all(state_.clock);
-        for (unsigned each = 0; each < kBanks; ++each) {
+        for (unsigned each = 0; each < state_.banks.count(); ++each) {
             policy.closed(each);
         }
         break;

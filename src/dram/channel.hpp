@@ -36,7 +36,7 @@ struct Outcome {
     std::vector<std::uint32_t> admitted; ///< ids of accesses that have entered a queue
 };
 
-/// One x16 channel with its controller, as plain arithmetic without ticks and events. Work is
+/// One channel with its controller, as plain arithmetic without ticks and events. Work is
 /// pushed with dates, and run(until) issues every command dated up to `until`, each at the first CK
 /// in which it is legal and chosen. To see what would happen, run a copy.
 ///
@@ -46,7 +46,7 @@ struct Outcome {
 /// * writes in batches between two watermarks, and at once when no read waits
 /// * forwarding of reads from queued writes, and merging of writes
 /// * all-bank and per-bank refresh
-/// * one command per CK, ACT in two
+/// * one command per CK, ACT in two, or as `command_buses`, `command_ck`, `act_commands` say
 ///
 /// Not modelled: postponed refreshes, WCK start, power-down. A read that a queued write covers only
 /// in part does not wait for it; contents are kept in the order of arrival all the same.
@@ -121,6 +121,8 @@ private:
     void issue(Command command, unsigned bank);
 
     const Timing* timing_;
+    const RuleTable* rules_;
+    Ck bus_ck_; // that a command keeps all others off the bus
     bool posted_writes_;
     bool auto_precharge_;
     ChannelState state_;

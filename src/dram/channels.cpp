@@ -9,21 +9,23 @@ namespace degs::dram {
 void Config::describe(ConfigVisitor& visitor) {
     visitor.text("name", name, "of the memory in reports");
     visitor.integer("channels", channels, 1, 64,
-                    "x16 channels, a power of two; 16 are 256 bit, the paper's main memory");
+                    "a power of two; 16 of 16 bits are the paper's main memory");
     visitor.require_power_of_two("channels", channels);
     visitor.real("controller_latency_ns", controller_latency_ns, 0.0, 1000.0,
                  "ns; added to every answer, rounded up to CK; 0: the DRAM and its queues alone");
     visitor.integer("waiting_requests", waiting_requests, 1, 65536,
                     "per initiator; so many may wait for room in the queues (AT) [assumed]");
     visitor.boolean("dmi", dmi, "grant direct memory access, which takes no time in the model");
-    visitor.section("timing", timing, "one x16 channel: organisation, and durations in CK");
+    visitor.section("timing", timing, "one channel: organisation, and durations in CK");
     visitor.section("mapping", mapping, "address to channel, bank group, bank, row and column");
     visitor.section("controller", controller, "queues and policies of a channel");
     visitor.section("energy", energy, "what an event costs in the DRAM");
     const std::string problem = Mapping::problem(mapping, timing, channels);
-    visitor.require(
-        problem.empty(),
-        {"mapping.order", problem, Mapping::Config().order, {"timing.bank_mode", "timing.rows"}});
+    visitor.require(problem.empty(),
+                    {"mapping.order",
+                     problem,
+                     Mapping::Config().order,
+                     {"timing.bank_mode", "timing.banks", "timing.page_bytes", "timing.rows"}});
 }
 
 Channels::Channels(const Config& config)

@@ -12,11 +12,16 @@ constexpr std::uint64_t kNoOrder = ~std::uint64_t{0};
 // Timing. Ages are relative to the latest arrival; anything older than kMostAge counts as oldest.
 constexpr unsigned kWaitShift = 20, kKeyAgeShift = 4;
 constexpr std::int32_t kMostWait = 4095, kMostAge = 16383;
+constexpr unsigned kFewBanks = 1U << kKeyAgeShift; // that all are compared at once
+
+bool few_banks(const ChannelState& state) {
+    return state.banks.count() == kFewBanks;
+}
 
 } // namespace
 
 void Chooser::update_all(const ChannelState& state) {
-    for (unsigned bank = 0; bank < kBanks; ++bank) {
+    for (unsigned bank = 0; bank < state.banks.count(); ++bank) {
         update(bank, state);
     }
 }
@@ -40,13 +45,13 @@ Chooser::first_of_all(const ChannelState& state) const {
         return static_cast<std::uint32_t>(date - now);
     };
     const Command command = column_of(state.queues);
-    const std::uint32_t act1 = wait_of(Command::Act1, 0);
     const std::uint32_t pre = wait_of(Command::Pre, 0);
     const auto short_now = static_cast<std::uint32_t>(now);
     const auto latest = static_cast<std::uint32_t>(state.queues.current().arrivals());
     std::uint32_t best = ~0U;
     for (unsigned group = 0; group < 4; ++group) {
         const std::uint32_t column = wait_of(command, group);
+        const std::uint32_t act1 = wait_of(Command::Act1, group);
         for (unsigned b = 4 * group; b < 4 * group + 4; ++b) {
             const std::uint32_t shared =
                 (keys_.column[b] & column) | (keys_.act1[b] & act1) | (keys_.pre[b] & pre);
@@ -61,7 +66,7 @@ Chooser::first_of_all(const ChannelState& state) const {
                                    static_cast<std::uint32_t>(age) << kKeyAgeShift | keys_.rest[b]);
         }
     }
-    return best % kBanks;
+    return best % kFewBanks;
 }
 
 void Chooser::find(const ChannelState& state) {
@@ -87,7 +92,8 @@ void Chooser::find_ordinary(const ChannelState& state) {
     if (special_) {
         find_by_policy(allowed, state);
     } else if (allowed != 0) {
-        const unsigned bank = allowed == pending_ ? first_of_all(state) : first_of(allowed, state);
+        const unsigned bank = allowed == pending_ && few_banks(state) ? first_of_all(state)
+                                                                      : first_of(allowed, state);
         offer(candidates_[bank], bank, state);
     }
 }
@@ -97,7 +103,7 @@ void Chooser::find_by_policy(std::uint32_t allowed, const ChannelState& state) {
         allowed &= policy_->eligible(state.queues.current()) | state.banks.activating();
     }
     if (allowed != 0) {
-        const bool all = allowed == pending_ && !has_order_;
+        const bool all = allowed == pending_ && !has_order_ && few_banks(state);
         const unsigned bank = all ? first_of_all(state) : first_of(allowed, state);
         offer(candidates_[bank], bank, state);
     }

@@ -80,7 +80,7 @@ private:
     /// The candidates once more, one array each and in 32 bits: all banks are compared at once.
     /// Masks say what holds a bank back beside itself.
     struct Keys {
-        using PerBank = std::array<std::uint32_t, kBanks>;
+        using PerBank = std::array<std::uint32_t, kMostBanks>;
         alignas(16) PerBank date{}, age{}, column{}, act1{}, pre{};
         PerBank rest{}; // rank and bank, the same bits as in a key; all ones: no candidate
     };
@@ -104,7 +104,7 @@ private:
     PolicyHolder policy_;
     bool selective_, has_order_; // of the policy
     bool special_;               // either of them
-    std::array<Candidate, kBanks> candidates_{};
+    std::array<Candidate, kMostBanks> candidates_{};
     Keys keys_;                 // of banks without a candidate: absent
     std::uint32_t pending_ = 0; // banks with a candidate
     Choice choice_;

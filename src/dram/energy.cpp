@@ -5,7 +5,7 @@ namespace degs::dram {
 
 void Energy::Config::describe(ConfigVisitor& visitor) {
     visitor.real("activate_nj", activate_nj, 0.0, 1000.0,
-                 "nJ; ACT and PRE of a page of 2 KiB, (IDD0 - standby) V tRC [derived]");
+                 "nJ; ACT and PRE of a page, (IDD0 - standby) V tRC [derived]");
     visitor.real("read_pj_per_bit", read_pj_per_bit, 0.0, 1000.0,
                  "pJ/bit; with the drive of the pins; 3.75 by the maxima of IDD4R [derived]");
     visitor.real("write_pj_per_bit", write_pj_per_bit, 0.0, 1000.0,
@@ -30,7 +30,7 @@ void Energy::add(const Config& config, const Timing& timing, const Channel& chan
     write_nj +=
         kNjPerPj * config.write_pj_per_bit * bits * (count(Command::Wr) + count(Command::WrA));
     refresh_nj += config.refresh_all_bank_nj *
-                  (count(Command::RefAb) + count(Command::RefPb) / kRefreshSteps);
+                  (count(Command::RefAb) + count(Command::RefPb) / timing.refresh_steps());
     const auto open = static_cast<double>(channel.open_until(elapsed));
     const double closed = static_cast<double>(elapsed) - open;
     // mW x ns = pJ

@@ -31,7 +31,7 @@ public:
 
 private:
     int row_hits_ = 4;
-    std::array<int, kBanks> hits_{}; // since the row was opened
+    std::array<int, kMostBanks> hits_{}; // since the row was opened
 };
 
 } // namespace degs::dram

@@ -60,10 +60,10 @@ std::string Mapping::build(const Config& config, const Timing& timing, unsigned 
     fold_channel_ = config.fold_channel;
     fold_bank_ = config.fold_bank;
     const std::uint64_t rows = timing.rows;
-    capacity_ = channels * rows * kBanks * kPageBytes;
+    capacity_ = channels * rows * timing.banks * timing.page_bytes;
     const unsigned group_bits = log2_of(timing.groups());
-    bits_ = {log2_of(kPageBytes / kAccessBytes), group_bits, log2_of(kBanks) - group_bits,
-             log2_of(rows), log2_of(channels)};
+    bits_ = {log2_of(timing.page_bytes / kAccessBytes), group_bits,
+             log2_of(timing.banks) - group_bits, log2_of(rows), log2_of(channels)};
     return read_order(config.order, log2_of(config.interleave_bytes));
 }
 

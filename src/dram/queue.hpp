@@ -133,7 +133,7 @@ public:
 
 private:
     std::array<Entry, kSlots> entries_;
-    std::array<std::uint8_t, kBanks> head_, tail_;
+    std::array<std::uint8_t, kMostBanks> head_, tail_;
     std::uint64_t free_;
     std::uint64_t arrivals_ = 0;
     std::uint32_t banks_ = 0;

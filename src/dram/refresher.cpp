@@ -10,7 +10,7 @@ Refresher::Step Refresher::next(const Banks& banks) const {
     if (kind_ == Refresh::AllBank) {
         return {banks.all_closed() ? Command::RefAb : Command::PreAb, 0};
     }
-    const unsigned partner = bank_ + kRefreshPartner;
+    const unsigned partner = bank_ + steps_;
     for (const unsigned bank : {bank_, partner}) {
         if (banks.state(bank) == BankState::Open) {
             return {Command::Pre, bank};

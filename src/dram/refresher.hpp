@@ -19,8 +19,8 @@ public:
 
     /// `phase`: CK by which the first refresh comes early.
     Refresher(const Timing& timing, const ControllerConfig& config, Ck phase)
-        : kind_(config.refresh),
-          period_(config.refresh == Refresh::PerBank ? timing.refi / kRefreshSteps : timing.refi),
+        : kind_(config.refresh), steps_(timing.refresh_steps()),
+          period_(config.refresh == Refresh::PerBank ? timing.refi / steps_ : timing.refi),
           due_(config.refresh == Refresh::None ? kNoDate : period_ - std::min(phase, period_)) {}
 
     Ck due() const { return due_; }
@@ -30,7 +30,7 @@ public:
     std::uint32_t held_banks() const {
         return !active_                    ? 0
                : kind_ == Refresh::AllBank ? ~0U
-                                           : 1U << bank_ | 1U << (bank_ + kRefreshPartner);
+                                           : 1U << bank_ | 1U << (bank_ + steps_);
     }
     /// The next command of an active refresh.
     Step next(const Banks& banks) const;
@@ -38,11 +38,12 @@ public:
     void finish() {
         due_ += period_;
         active_ = false;
-        bank_ = (bank_ + 1) % kRefreshSteps;
+        bank_ = (bank_ + 1) % steps_;
     }
 
 private:
     Refresh kind_;
+    unsigned steps_; // of per-bank refresh: pairs of banks
     Ck period_, due_;
     bool active_ = false;
     unsigned bank_ = 0; // first of the pair that is next

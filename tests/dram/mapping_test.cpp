@@ -38,9 +38,9 @@ TEST_P(Lpddr5Mappings, IsOneToOne) {
         const std::uint64_t address = random() % (mapping.capacity() / 64) * 64;
         const dram::Place place = mapping.place(address + random() % 64);
         ASSERT_LT(place.channel, static_cast<unsigned>(config.channels));
-        ASSERT_LT(place.bank, dram::kBanks);
+        ASSERT_LT(place.bank, static_cast<unsigned>(config.timing.banks));
         ASSERT_LT(place.row, static_cast<unsigned>(config.timing.rows));
-        ASSERT_LT(place.block, dram::kPageBytes / dram::kAccessBytes);
+        ASSERT_LT(place.block, config.timing.page_bytes / dram::kAccessBytes);
         ASSERT_EQ(mapping.address(place), address);
     }
 }

@@ -195,7 +195,7 @@ public:
     void served(const dram::Queue::Entry& entry) override { ++served_[entry.access.bank]; }
 
 private:
-    std::array<std::uint64_t, dram::kBanks> served_{};
+    std::array<std::uint64_t, dram::kMostBanks> served_{};
 };
 
 /// A memory that knows it, too, as if a file chose it.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs memory: what it measures, writes and refuses.
 #include <algorithm>
+#include <sstream>
+#include <vector>
 
 #include "tests/sim/process/child.hpp"
 
@@ -51,6 +53,32 @@ TEST(MemoryCommand, RandomTrafficNeedsDeepQueues) {
         EXPECT_NEAR(written["row_hit_rate"].get<double>(), 0.5, 0.01) << "the second burst of each";
         EXPECT_NEAR(written["access_hit_rate"].get<double>(), 0.0, 0.01);
         before = fraction(written);
+    }
+}
+
+/// The rows of docs/memories.csv: file and pattern, and percents of the peak.
+std::vector<std::vector<std::string>> published_bandwidths() {
+    std::istringstream lines(read_file(std::string(DEGS_CONFIGS) + "/../docs/memories.csv"));
+    std::vector<std::vector<std::string>> rows;
+    std::string line;
+    for (std::getline(lines, line); std::getline(lines, line);) {
+        std::istringstream cells(line);
+        rows.emplace_back();
+        for (std::string cell; std::getline(cells, cell, ',');) {
+            rows.back().push_back(cell);
+        }
+    }
+    return rows;
+}
+
+// The page's bandwidths come out again, and with the same durations they are those of Ramulator.
+TEST(MemoryCommand, BandwidthsAreThoseOfTheReferenceSimulator) {
+    const auto rows = published_bandwidths();
+    ASSERT_EQ(rows.size(), 10U);
+    for (const auto& row : rows) {
+        const auto written = measure(row[0], {"--pattern", row[1], "--requests", "30000"});
+        EXPECT_NEAR(100 * fraction(written), std::stod(row[2]), 1.5) << row[0] << ' ' << row[1];
+        EXPECT_NEAR(std::stod(row[3]), std::stod(row[4]), 3) << row[0] << ' ' << row[1];
     }
 }
 
