@@ -15,3 +15,6 @@ from .studies import Study, compare, statistics, sweep
 __all__ = ["Design", "DegsWarning", "Error", "Missing", "Node", "Report", "Section", "Study", "compare", "program",
            "run", "statistics", "sweep", "version"]
 __version__ = "0.1.0"
+
+for _each in (DegsWarning, Error, Missing):
+    _each.__module__ = __name__  # Messages show the names that users import.

@@ -122,7 +122,7 @@ class Study:
             said = json.loads((folder / "explore.json").read_text(encoding="utf-8"))
             frame = table(folder / "front.csv", {
                 "goals": said["goals"], "better": said["better"], "skipped": said["skipped"],
-                "correlations": [rung.get("rank_correlation") for rung in said["rungs"]]})
+                "correlations": [rung.get("rank_correlation_with_next") for rung in said["rungs"]]})
             for name in ("on_front", "baseline"):
                 frame[name] = frame[name].astype(bool)
             return frame

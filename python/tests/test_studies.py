@@ -146,3 +146,22 @@ def wait_for_the_end_of(session):
     while subprocess.run(["pgrep", "-s", str(session)], stdout=subprocess.DEVNULL).returncode == 0:
         assert time.monotonic() < deadline, "the program goes on without Python"
         time.sleep(0.02)
+
+
+def test_points_that_did_finish_are_in_the_error(tmp_path, monkeypatch):
+    real = degs.program()
+    fake = tmp_path / "degs"
+    fake.write_text(f'#!/bin/sh\n"{real}" "$@" || exit\n'
+                    "case $1 in sweep|compare) echo \"degs $1: One point failed.\" >&2; exit 1;; esac\n")
+    fake.chmod(0o755)
+    design = degs.Design("degs-64").file
+    monkeypatch.setenv("DEGS_PROGRAM", str(fake))
+    for call in (lambda: degs.sweep(design, {"span.count": [4, 16]}, SCENE, width=32),
+                 lambda: degs.compare([design, design, design], SCENE, width=32)):
+        with pytest.raises(degs.Error, match="^One point failed.$") as caught:
+            call()
+        assert caught.value.code == 1 and len(caught.value.results) == 3
+    monkeypatch.setenv("DEGS_PROGRAM", real)
+    with pytest.raises(degs.Error) as caught:
+        degs.sweep("degs-64", {"span.count": [4]}, "nothing.ply")
+    assert caught.value.results is None
