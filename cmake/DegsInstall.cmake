@@ -22,6 +22,10 @@ install(DIRECTORY driver DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT deg
         FILES_MATCHING PATTERN "*.c" PATTERN "*.svd" PATTERN "*.xml")
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT degs)
 install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT degs)
+# Component `python`: the package that drives the program, with the designs that it knows by name.
+install(DIRECTORY python/degs DESTINATION ${CMAKE_INSTALL_DATADIR}/degs/python COMPONENT python
+        FILES_MATCHING PATTERN "*.py" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/degs COMPONENT python)
 
 configure_package_config_file(cmake/degsConfig.cmake.in ${PROJECT_BINARY_DIR}/degsConfig.cmake
                               INSTALL_DESTINATION ${package_dir})

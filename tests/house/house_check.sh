@@ -100,7 +100,7 @@ check_length() {
 # comment follows a value to 120.
 check_width() {
     local wide
-    wide=$(find src sim tests configs scripts cmake examples include CMakeLists.txt -type f \
+    wide=$(find src sim python tests configs scripts cmake examples include CMakeLists.txt -type f \
         -regex '.*\.\([hc]pp\|inc\|yaml\|sh\|py\|cmake\|txt\)' -print0 2>/dev/null |
         LC_ALL=C.UTF-8 xargs -0r grep -nHE '^.{101}' | LC_ALL=C.UTF-8 grep -E \
         -e '^[^:]*:[0-9]+:[[:space:]]*(//|///|#) ' -e '^[^:]*:[0-9]+:.{121}.*' |

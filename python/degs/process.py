@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Finds the program, calls it, and turns what it says into results, warnings and errors."""
+
+import difflib
+import functools
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import warnings
+from pathlib import Path
+from typing import IO, Any, Callable, List, Optional, Sequence, Union
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+PREFIX = re.compile(r"^degs( [a-z]+)*: ")
+PROGRESS = re.compile(r"^(\d+) of (\d+) \w+ (done|failed)\b")
+HERE = Path(__file__).resolve().parent
+
+
+class Error(Exception):
+    """A mistake, with the one sentence that the program says about it.
+
+    `code` is the exit code of the program (docs/report.md#exit-codes) or None if it did not run, `command` what was
+    called, and `results` the data frame of the points that did finish, where a study failed in part."""
+
+    def __init__(self, sentence: str, code: Optional[int] = None, command: Sequence[str] = ()) -> None:
+        super().__init__(sentence)
+        self.code = code
+        self.command = list(command)
+        self.results: Any = None
+
+    def _render_traceback_(self) -> List[str]:
+        """IPython shows this in place of a traceback, which would be about this package and not about the mistake."""
+        return [f"degs.Error: {self}"]
+
+
+class Missing(Error, AttributeError, KeyError):
+    """A key of a design or a number of a report that does not exist; the sentence names those that are near."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class DegsWarning(UserWarning):
+    """What the program warns of, for instance a key without effect."""
+
+
+def near(name: str, names: Sequence[str], what: str) -> str:
+    """A sentence that says what is missing, and what there is instead."""
+    close = difflib.get_close_matches(name, names, 3)
+    if close:
+        return f"{what}, did you mean {' or '.join(repr(each) for each in close)}?"
+    return f"{what}; there are: {', '.join(names)}." if names else f"{what}, which has no parts."
+
+
+def program() -> str:
+    """The path of the program: DEGS_PROGRAM, or beside the package in a build tree or an installation, or on PATH.
+
+    Raises Error if there is none."""
+    named = os.environ.get("DEGS_PROGRAM")
+    if named:
+        if not os.access(named, os.X_OK) or os.path.isdir(named):
+            raise Error(f"DEGS_PROGRAM is '{named}', which is not a program.")
+        return os.path.abspath(named)
+    found = shutil.which("degs")
+    for candidate in [*beside_package(HERE), *([Path(found)] if found else [])]:
+        if os.access(candidate, os.X_OK) and candidate.is_file():
+            return str(candidate)
+    raise Error("There is no program degs beside this package or on PATH; build it, or set DEGS_PROGRAM to its path.")
+
+
+def beside_package(package: Path) -> List[Path]:
+    """Places of the program for a package in PREFIX/share/degs/python/degs or in python/degs of a source tree."""
+    builds = package.parents[1] / "build"
+    return [package.parents[3] / "bin" / "degs", builds / "release" / "sim" / "degs",
+            *sorted(builds.glob("*/sim/degs"))]
+
+
+def configurations() -> Path:
+    """The folder of the shipped configurations, beside the program or the package. Raises Error if there is none."""
+    called = Path(program()).resolve()
+    places = [called.parents[1] / "share" / "degs" / "configs", *(parent / "configs" for parent in called.parents),
+              HERE.parents[1] / "configs", HERE.parents[0] / "configs"]
+    for place in places:
+        if (place / "degs-64.yaml").is_file():
+            return place
+    raise Error(f"There are no shipped configurations beside the program '{called}'; name a file.")
+
+
+def shipped() -> List[str]:
+    """The names of the shipped designs."""
+    return sorted(path.stem for path in configurations().glob("*.yaml"))
+
+
+def version() -> str:
+    """The version of the program."""
+    return call(["--version"]).split()[-1]
+
+
+def call(arguments: Sequence[str], progress: Optional[bool] = None, warn: bool = True) -> str:
+    """Calls the program and returns what it prints.
+
+    Lines of progress become a bar (`progress`: None shows one in notebooks and terminals), warnings become DegsWarning
+    unless `warn` is false. Raises Error with the program's sentence. An interrupt ends the program, too; its folder
+    then holds what had finished."""
+    command = [program(), *arguments]
+    environment = {**os.environ, "LC_ALL": "C.UTF-8"}
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as printed:
+        try:
+            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=printed, stderr=subprocess.PIPE,
+                                       encoding="utf-8", errors="replace", env=environment)
+        except OSError as problem:
+            raise Error(f"The program '{command[0]}' does not start: {problem.strerror}.", command=command) from None
+        said = listen(process, Progress(progress))
+        printed.seek(0)
+        output = printed.read()
+    if process.returncode:
+        raise Error(sentence_of(said, process.returncode), process.returncode, command)
+    for line in said if warn else []:
+        warnings.warn(PREFIX.sub("", line).replace("warning: ", "", 1), DegsWarning, stacklevel=outside())
+    return output
+
+
+def listen(process: "subprocess.Popen[str]", progress: "Progress") -> List[str]:
+    """The lines of stderr that are not progress, when the process has ended."""
+    said: List[str] = []
+    assert process.stderr is not None
+    reader = threading.Thread(target=read_lines, args=(process.stderr, said, progress.line), daemon=True)
+    reader.start()
+    try:
+        process.wait()
+        reader.join()
+    except BaseException:
+        # The terminal sends Ctrl-C to both, a notebook only to Python.
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
+            try:
+                process.wait(30)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+        raise
+    finally:
+        progress.close()
+    return said
+
+
+def read_lines(stream: IO[str], said: List[str], take: Callable[[str], bool]) -> None:
+    """Reads a stream to its end; lines that `take` does not take are kept."""
+    with stream:
+        for line in stream:
+            line = line.rstrip("\n")
+            if line and not take(line):
+                said.append(line)
+
+
+def sentence_of(said: Sequence[str], code: int) -> str:
+    """The sentence with which the program failed."""
+    for line in reversed(said):
+        if PREFIX.match(line) and "warning: " not in line:
+            return PREFIX.sub("", line)
+    if code < 0:
+        return f"The program was ended by the signal {signal.Signals(-code).name}."
+    return said[-1] if said else f"The program failed with the exit code {code}."
+
+
+def outside() -> int:
+    """The stack level of the first caller outside of this package, to which a warning belongs."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back and Path(frame.f_code.co_filename).parent == HERE:
+        level, frame = level + 1, frame.f_back
+    return level
+
+
+class Progress:
+    """A bar of the points that have finished, of tqdm if it is there, else the program's own lines."""
+
+    def __init__(self, wanted: Optional[bool]) -> None:
+        self.wanted = (sys.stderr.isatty() or "ipykernel" in sys.modules) if wanted is None else wanted
+        self.bar: Any = None
+
+    def line(self, line: str) -> bool:
+        """Takes a line if it is one of progress."""
+        found = PROGRESS.match(line)
+        if not found:
+            return False
+        if self.wanted:
+            self.show(int(found[1]), int(found[2]), line)
+        return True
+
+    def show(self, done: int, total: int, line: str) -> None:
+        """Draws the bar anew. A search has several totals, one for each size of images, and so several bars."""
+        bars = tqdm()
+        if bars is None:
+            print(line, file=sys.stderr)
+            return
+        if self.bar is not None and self.bar.total != total:
+            self.close()
+        if self.bar is None:
+            self.bar = bars(total=total, unit="point", file=sys.stderr)
+        self.bar.update(done - self.bar.n)
+
+    def close(self) -> None:
+        """Ends the bar, which stays on the screen."""
+        if self.bar is not None:
+            self.bar.close()
+            self.bar = None
+
+
+@functools.lru_cache(maxsize=None)
+def tqdm() -> Any:
+    """The class of bars, or None."""
+    try:
+        import tqdm as package
+    except ImportError:
+        return None
+    return package.tqdm
