@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "degs/error.hpp"
 #include "scene/cameras/camera_path.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/text/progress.hpp"
@@ -16,6 +17,10 @@ constexpr double kWorthKeeping = 0.005; // s
 
 CachedView::CachedView(const ViewRequest& request, const PathRequest& path, FrameCache cache)
     : request_(request), cache_(std::move(cache)) {
+    if (!request_.workload.empty()) {
+        open_workload(path);
+        return;
+    }
     check_view(request_);
     const Stopwatch clock;
     if (std::unique_ptr<DynamicScene> dynamic = open_dynamic_scene(request_.scene)) {
@@ -39,6 +44,29 @@ CachedView::CachedView(const ViewRequest& request, const PathRequest& path, Fram
                    : camera_path(cloud(), camera, path.frames, path.step_degrees, path.near_plane);
 }
 
+void CachedView::open_workload(const PathRequest& path) {
+    if (path.frames > 1) {
+        throw InputError("--frames is " + std::to_string(path.frames) +
+                         ", but a workload holds one view; only 1 frame is allowed beside "
+                         "--workload.");
+    }
+    const Progress progress("loading " + request_.workload);
+    const Stopwatch clock;
+    workload_.emplace(request_.workload);
+    facts_ = workload_->facts();
+    cameras_ = {workload_->camera()};
+    load_s_ = clock.seconds();
+}
+
+FrameWorkload CachedView::packed_frame(const std::string& wanted_by,
+                                       const ProjectionOptions& options, int tile_size,
+                                       TileMode mode) {
+    const Stopwatch clock;
+    FrameWorkload frame = workload_->frame(wanted_by, options, tile_size, mode);
+    workload_s_ += clock.seconds();
+    return frame;
+}
+
 std::string CachedView::frame_key(std::size_t k) const {
     return dynamic_ && !key_.empty() ? key_ + ", frame " + std::to_string(k) : key_;
 }
@@ -60,6 +88,11 @@ const GaussianCloud& CachedView::cloud() {
 std::vector<FrameWorkload> CachedView::frames(const AcceleratorConfig& config) {
     std::vector<FrameWorkload> frames;
     const ProjectionOptions options = projection_of(config.data_path(), facts_.traits.antialiased);
+    if (workload_) {
+        frames.push_back(
+            packed_frame(config.name, options, config.tile_size_px(), config.tile_mode()));
+        return frames;
+    }
     for (std::size_t k = 0; k < cameras_.size(); ++k) {
         const Stopwatch clock;
         std::optional<FrameWorkload> kept = cache_.frame(
@@ -81,6 +114,12 @@ std::vector<FrameWorkload> CachedView::frames(const AcceleratorConfig& config) {
 }
 
 Reference CachedView::reference(const FrameWorkload& frame) {
+    if (workload_) {
+        ProjectionOptions exact = frame.projection;
+        exact.numbers = ProjectionNumbers();
+        return make_reference(
+            packed_frame("the reference image", exact, frame.tile_size, frame.tile_mode));
+    }
     if (std::optional<Reference> kept = cache_.reference(frame_key(0), frame)) {
         return std::move(*kept);
     }

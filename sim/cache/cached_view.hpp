@@ -2,16 +2,19 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/cache/frame_cache.hpp"
 #include "sim/simulation/view.hpp"
+#include "sim/workload_file/workload_file.hpp"
 
 namespace degs::sim {
 
 /// What precedes the simulation of a view, found in the cache or made. The Gaussians of the scene
-/// are loaded when something has to be made from them.
+/// are loaded when something has to be made from them. A view of a workload file has none: its
+/// frames come from the file, and nothing is kept.
 class CachedView {
 public:
     /// Throws InputError for mistakes in the view, its scene and its cameras.
@@ -37,6 +40,10 @@ public:
     double workload_s() const { return workload_s_; } ///< host, projections
 
 private:
+    void open_workload(const PathRequest& path);
+    /// A frame of the workload file.
+    FrameWorkload packed_frame(const std::string& wanted_by, const ProjectionOptions& options,
+                               int tile_size, TileMode mode);
     /// Loads the scene if it is not there.
     const GaussianCloud& cloud();
     /// The key in the cache of the scene as frame `k` shows it.
@@ -47,6 +54,7 @@ private:
     std::string key_;                       ///< of the scene
     Scene scene_;                           ///< may be without its cloud
     std::unique_ptr<DynamicScene> dynamic_; ///< if the scene changes and several frames are wanted
+    std::optional<WorkloadFile> workload_;  ///< instead of a scene
     SceneFacts facts_;
     std::vector<Camera> cameras_;
     double load_s_ = 0, workload_s_ = 0;

@@ -4,15 +4,12 @@
 #pragma once
 
 #include "sim/cache/frame_cache.hpp"
+#include "sim/simulation/frame_checks.hpp"
 
 namespace degs::sim {
 
 /// A scene whose facts and cameras a reader of scenes could have found.
 bool is_sound(const SceneCard& card);
-
-/// Lists, counts and splats that fit each other and the camera of the frame, as
-/// make_frame_workload() leaves them; every number is finite and in its range.
-bool is_sound(const FrameWorkload& frame);
 
 /// An image of the size of the frame's camera, whose pixels a renderer could have drawn.
 bool is_sound(const Reference& reference, const FrameWorkload& frame);

@@ -210,16 +210,20 @@ ordered_json tool_json() {
 }
 
 ordered_json scene_json(const SceneFacts& scene) {
-    return {{"name", scene.name},
-            {"source", scene.source},
-            {"gaussians", scene.gaussians},
-            {"sh_degree", scene.sh_degree},
-            {"antialiased", scene.traits.antialiased},
-            {"dropped",
-             {{"non_finite", scene.dropped.non_finite},
-              {"zero_rotation", scene.dropped.zero_rotation},
-              {"bad_scale", scene.dropped.bad_scale},
-              {"bad_opacity", scene.dropped.bad_opacity}}}};
+    ordered_json json{{"name", scene.name},
+                      {"source", scene.source},
+                      {"gaussians", scene.gaussians},
+                      {"sh_degree", scene.sh_degree},
+                      {"antialiased", scene.traits.antialiased},
+                      {"dropped",
+                       {{"non_finite", scene.dropped.non_finite},
+                        {"zero_rotation", scene.dropped.zero_rotation},
+                        {"bad_scale", scene.dropped.bad_scale},
+                        {"bad_opacity", scene.dropped.bad_opacity}}}};
+    if (!scene.workload_xxh128.empty()) {
+        json["workload_xxh128"] = scene.workload_xxh128;
+    }
+    return json;
 }
 
 ordered_json camera_json(const Camera& camera) {

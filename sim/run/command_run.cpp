@@ -242,7 +242,7 @@ void add_run_command(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("run", "simulate a frame or a camera path on an accelerator");
     add_config_option(*command, options->config)->required();
-    add_view_options(*command, options->view);
+    add_view_or_workload_options(*command, options->view);
     add_path_options(*command, options->path);
     command
         ->add_option("--fidelity", options->fidelity,

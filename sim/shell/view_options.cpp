@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/shell/view_options.hpp"
 
+#include "degs/error.hpp"
 #include "splat/frame/rendering_rules.hpp"
 
 namespace degs::sim {
@@ -72,6 +73,28 @@ void add_view_options(CLI::App& command, ViewRequest& request) {
                            "image height in pixels; alone it scales the view, with --width it "
                            "crops or extends it");
     add_resolution_option(command, request.resolution)->excludes(width)->excludes(height);
+}
+
+void add_view_or_workload_options(CLI::App& command, ViewRequest& request) {
+    add_view_options(command, request);
+    CLI::Option* const scene = command.get_option("--scene");
+    CLI::Option* const workload =
+        command
+            .add_option_function<std::string>(
+                "--workload",
+                [&request, scene](const std::string& file) {
+                    if (file.empty()) {
+                        throw InputError("The workload has an empty name; a file is needed.");
+                    }
+                    request.workload = file;
+                    scene->required(false);
+                },
+                "frame that 'degs workload pack' has written, instead of a scene and a view")
+            ->type_name("FILE");
+    for (const char* option :
+         {"--scene", "--camera-file", "--camera", "--width", "--height", "--resolution"}) {
+        workload->excludes(command.get_option(option));
+    }
 }
 
 void add_path_options(CLI::App& command, PathRequest& request) {

@@ -16,6 +16,9 @@ namespace degs::sim {
 /// Adds --scene, --camera-file, --camera and the options for the image size.
 void add_view_options(CLI::App& command, ViewRequest& request);
 
+/// Adds the same options and --workload, a file that takes the place of all of them.
+void add_view_or_workload_options(CLI::App& command, ViewRequest& request);
+
 /// Adds --resolution, which excludes the options for width and height.
 CLI::Option* add_resolution_option(CLI::App& command, std::string& resolution);
 

@@ -16,7 +16,7 @@ namespace degs::sim {
 
 SceneFacts facts_of(const Scene& scene) {
     return {scene.name,    scene.source, scene.cloud.size(), scene.cloud.sh_degree,
-            scene.dropped, scene.traits, scene.notes};
+            scene.dropped, scene.traits, scene.notes,        ""};
 }
 
 void put_scene(const SceneFacts& scene, RunResult& result) {

@@ -36,6 +36,7 @@ struct SceneFacts {
     SanitizeReport dropped;         ///< Gaussians of the file that cannot be drawn
     SceneTraits traits;             ///< how the file wants to be drawn
     std::vector<std::string> notes; ///< sentences: what was guessed or passed over in the file
+    std::string workload_xxh128;    ///< checksum of the workload file that the source is, if any
 };
 
 struct WorkloadFacts {

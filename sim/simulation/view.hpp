@@ -18,6 +18,7 @@ struct ViewRequest {
     int camera = 0;
     std::optional<int> width, height;
     std::string resolution; ///< a name of resolution_names(), empty: width and height decide
+    std::string workload;   ///< a workload file instead of all of the above; empty: none
 };
 
 /// The position in a list of cameras that `text` says, or nothing if it says none.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// degs workload export
+// degs workload
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -16,6 +16,7 @@
 #include "sim/text/progress.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/text/words.hpp"
+#include "sim/workload/command_pack.hpp"
 #include "sim/workload/workload_export.hpp"
 
 namespace degs::sim {
@@ -90,12 +91,13 @@ void add_workload_command(CLI::App& program) {
     CLI::App* command = workload->add_subcommand(
         "export", "write the tile lists of a frame, and the rows of its splats in every tile");
     add_config_option(*command, options->config)->required();
-    add_view_options(*command, options->view);
+    add_view_or_workload_options(*command, options->view);
     add_out_option(*command, options->out, "folder for workload.json, lists.csv and rows.csv");
     add_overrides_option(*command, options->overrides);
     command->add_flag("--no-cache", options->no_cache,
                       "neither read nor keep the frame of an earlier run");
     command->callback([options] { run_export(*options); });
+    add_pack_command(*workload);
 }
 
 } // namespace degs::sim

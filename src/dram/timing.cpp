@@ -95,11 +95,21 @@ void add_bus_rules(RuleList& list, const Timing& t) {
     }
 }
 
+/// The burst length that is proposed; empty if there is none.
+std::string beats_for_32_bytes(const Timing& t) {
+    constexpr int kBits = 256;
+    const int beats = t.pins > 0 ? kBits / t.pins : 0;
+    const bool fits = beats * t.pins == kBits && beats >= 8 && beats % t.beats_per_ck == 0;
+    return fits && t.burst_data_bytes == 0 ? std::to_string(beats) : "";
+}
+
 void describe_burst(Timing& t, ConfigVisitor& v) {
     v.integer("burst_length", t.burst_length, 8, 64,
               "beats of a column command: 16 = 32 B of LPDDR5; 32 = 64 B, in 16b mode only here");
-    v.require(t.burst_length % t.beats_per_ck == 0,
-              {"burst_length", "must be a multiple of beats_per_ck", "", {"beats_per_ck"}});
+    v.require(t.burst_length % t.beats_per_ck == 0, {"burst_length",
+                                                     "must be a multiple of beats_per_ck",
+                                                     beats_for_32_bytes(t),
+                                                     {"beats_per_ck"}});
     v.integer("burst_data_bytes", t.burst_data_bytes, 0, 64,
               "bytes of data in a burst, 32 or 64; 0: pins * burst_length / 8; less of LPDDR6, "
               "whose bursts carry 4 B beside 32");
@@ -107,7 +117,7 @@ void describe_burst(Timing& t, ConfigVisitor& v) {
     v.require(bytes == 32 || bytes == 64,
               {"burst_length",
                "must make bursts of 32 or 64 bytes with the pins (or burst_data_bytes)",
-               "",
+               beats_for_32_bytes(t),
                {"pins", "burst_data_bytes"}});
     v.require(8 * t.burst_data_bytes <= t.pins * t.burst_length,
               {"burst_data_bytes", "must fit pins * burst_length / 8", "0", {"pins"}});

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/workload_file/workload_head.hpp"
+
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include <nlohmann/json.hpp>
+
+#include "degs/error.hpp"
+#include "scene/files/input_file.hpp"
+#include "sim/simulation/frame_checks.hpp"
+#include "sim/text/words.hpp"
+#include "sim/workload_file/head_reader.hpp"
+#include "sim/workload_file/splat_block.hpp"
+#include "splat/frame/rendering_rules.hpp"
+
+namespace degs::sim {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::uint64_t kMostCount = std::uint64_t{1} << 40; // as of a scene's file
+constexpr std::uint64_t kMostGaussians = std::numeric_limits<std::uint32_t>::max();
+constexpr int kMostTile = 1 << 16; // px, as of make_frame_workload()
+constexpr double kMostValue = 1e300;
+
+const std::vector<const char*>& tile_mode_words() {
+    static const std::vector<const char*> words{"exact", "reference"};
+    return words;
+}
+
+/// The formats of a projection with their names in the head.
+template <class Numbers, class Pass>
+void pass_formats(Numbers& numbers, Pass&& pass) {
+    pass("format", numbers.format);
+    pass("mean", numbers.mean);
+    pass("scale", numbers.scale);
+    pass("rotation", numbers.rotation);
+    pass("opacity", numbers.opacity);
+    pass("sh_dc", numbers.sh_dc);
+    pass("sh_rest", numbers.sh_rest);
+    pass("depth_key", numbers.depth_key);
+}
+
+template <class Counts, class Pass>
+void pass_culled(Counts& culled, Pass&& pass) {
+    pass("near", culled.near);
+    pass("near_in_view", culled.near_in_view);
+    pass("transparent", culled.transparent);
+    pass("degenerate", culled.degenerate);
+    pass("off_screen", culled.off_screen);
+}
+
+template <class Report, class Pass>
+void pass_dropped(Report& dropped, Pass&& pass) {
+    pass("non_finite", dropped.non_finite);
+    pass("zero_rotation", dropped.zero_rotation);
+    pass("bad_scale", dropped.bad_scale);
+    pass("bad_opacity", dropped.bad_opacity);
+}
+
+template <class Options, class Pass>
+void pass_rules(Options& options, Pass&& pass) {
+    pass("near_plane", options.near_plane);
+    pass("dilation", options.dilation);
+    pass("jacobian_clamp", options.jacobian_clamp);
+    pass("alpha_min", options.alpha_min);
+    pass("cut", options.cut);
+}
+
+ordered_json json_of(const SceneFacts& scene) {
+    ordered_json json{{"name", scene.name},
+                      {"gaussians", scene.gaussians},
+                      {"sh_degree", scene.sh_degree},
+                      {"antialiased", scene.traits.antialiased}};
+    pass_dropped(scene.dropped, [&](const char* name, const std::uint64_t& count) {
+        json["dropped"][name] = count;
+    });
+    json["notes"] = scene.notes;
+    return json;
+}
+
+ordered_json json_of(const Camera& camera) {
+    const glm::dmat3& axes = camera.camera_to_world;
+    ordered_json columns = ordered_json::array();
+    for (int column = 0; column < 3; ++column) {
+        columns.push_back({axes[column].x, axes[column].y, axes[column].z});
+    }
+    return {{"id", camera.id},
+            {"img_name", camera.name},
+            {"width", camera.width},
+            {"height", camera.height},
+            {"fx", camera.fx},
+            {"fy", camera.fy},
+            {"position", {camera.position.x, camera.position.y, camera.position.z}},
+            {"axes", columns}};
+}
+
+ordered_json json_of(const PackedProjection& projection) {
+    ordered_json json;
+    const ProjectionOptions& options = projection.options;
+    pass_rules(options, [&](const char* name, const double& value) { json[name] = value; });
+    json["order"] = name_of(options.order);
+    json["compensated"] = options.compensated;
+    pass_formats(options.numbers, [&](const char* name, const NumberFormat& format) {
+        json["formats"][name] = format.name();
+    });
+    json["splats"] = projection.splats;
+    json["blocks"] = projection.blocks;
+    return json;
+}
+
+ordered_json json_of(const PackedFrame& frame) {
+    ordered_json json{{"projection", frame.projection},
+                      {"tile_size", frame.tile_size},
+                      {"tile_mode", tile_mode_words()[static_cast<std::size_t>(frame.tile_mode)]},
+                      {"visible", frame.visible}};
+    pass_culled(frame.culled, [&](const char* name, const std::uint64_t& count) {
+        json["culled"][name] = count;
+    });
+    json["designs"] = frame.designs;
+    return json;
+}
+
+SceneFacts scene_in(const HeadReader& in) {
+    SceneFacts scene;
+    scene.name = in.text("name");
+    scene.gaussians = in.count("gaussians", 1, kMostGaussians);
+    scene.sh_degree = in.number("sh_degree", 0, kMostShDegree);
+    scene.traits.antialiased = in.flag("antialiased");
+    const HeadReader dropped = in.part("dropped");
+    pass_dropped(scene.dropped, [&](const char* name, std::uint64_t& count) {
+        count = dropped.count(name, 0, kMostCount);
+    });
+    scene.notes = in.texts("notes");
+    return scene;
+}
+
+Camera camera_in(const HeadReader& in) {
+    Camera camera;
+    camera.id = in.number("id", std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
+    camera.name = in.text("img_name");
+    camera.width = in.number("width", 1, kMostCameraSide);
+    camera.height = in.number("height", 1, kMostCameraSide);
+    camera.fx = in.real("fx", 0, kMostValue);
+    camera.fy = in.real("fy", 0, kMostValue);
+    camera.position = in.vector("position");
+    const std::vector<HeadReader> axes = in.list("axes");
+    in.check("axes", axes.size() == 3, "has " + std::to_string(axes.size()) + " of 3 axes");
+    for (int column = 0; column < 3; ++column) {
+        camera.camera_to_world[column] = axes[column].vector();
+    }
+    in.check("axes", is_sound(camera), "or a focal length is not that of a camera that projects");
+    in.check("width", camera.pixels() <= std::uint64_t{kMostPixels},
+             "and the height make more than " + grouped(kMostPixels) + " pixels");
+    return camera;
+}
+
+PackedProjection projection_in(const HeadReader& in, const SceneFacts& scene) {
+    PackedProjection projection;
+    ProjectionOptions& options = projection.options;
+    pass_rules(options,
+               [&](const char* name, double& value) { value = in.real(name, 0, kMostValue); });
+    options.order =
+        in.text("order", splat_order_names()) == 0 ? SplatOrder::Depth : SplatOrder::Distance;
+    options.compensated = in.flag("compensated");
+    const HeadReader formats = in.part("formats");
+    pass_formats(options.numbers,
+                 [&](const char* name, NumberFormat& format) { format = formats.format(name); });
+    projection.splats = in.count("splats", 0, scene.gaussians);
+    for (const HeadReader& block : in.list("blocks")) {
+        projection.blocks.push_back(block.count(1, kSplatsPerBlock * kBytesPerSplat));
+    }
+    const std::size_t blocks = blocks_of(projection.splats);
+    in.check("blocks", projection.blocks.size() == blocks,
+             "has " + std::to_string(projection.blocks.size()) + " of " + std::to_string(blocks) +
+                 " blocks");
+    return projection;
+}
+
+PackedFrame frame_in(const HeadReader& in, const WorkloadHead& head) {
+    PackedFrame frame;
+    in.check("projection", !head.projections.empty(), "is not there");
+    frame.projection = in.count("projection", 0, head.projections.size() - 1);
+    frame.tile_size = in.number("tile_size", 1, kMostTile);
+    frame.tile_mode =
+        in.text("tile_mode", tile_mode_words()) == 0 ? TileMode::Exact : TileMode::Reference;
+    frame.visible = in.count("visible", 0, head.projections[frame.projection].splats);
+    const HeadReader culled = in.part("culled");
+    pass_culled(frame.culled, [&](const char* name, std::uint64_t& count) {
+        count = culled.count(name, 0, head.scene.gaussians);
+    });
+    in.check("culled", frame.culled.near_in_view <= frame.culled.near,
+             "has more Gaussians near and in view than near");
+    in.check("culled", frame.culled.total() + frame.visible == head.scene.gaussians,
+             "and 'visible' do not add up to the " + grouped(head.scene.gaussians) +
+                 " Gaussians of the scene");
+    frame.designs = in.texts("designs");
+    return frame;
+}
+
+} // namespace
+
+bool same_projection(const ProjectionOptions& a, const ProjectionOptions& b) {
+    const auto rules = [](const ProjectionOptions& o) {
+        return std::tie(o.near_plane, o.dilation, o.jacobian_clamp, o.alpha_min, o.cut, o.order,
+                        o.compensated);
+    };
+    return rules(a) == rules(b) && a.numbers == b.numbers;
+}
+
+std::string frame_words(const ProjectionOptions& options, int tile_size, TileMode mode) {
+    std::string words = std::to_string(tile_size) + " px tiles (" +
+                        tile_mode_words()[static_cast<std::size_t>(mode)] + "), " +
+                        options.numbers.name();
+    const ProjectionOptions usual;
+    if (options.order != usual.order || options.compensated || options.dilation != usual.dilation ||
+        options.cut != usual.cut || options.near_plane != usual.near_plane) {
+        words += std::string(", order ") + name_of(options.order) + ", antialiasing " +
+                 (options.compensated ? "on" : "off") + ", low_pass " +
+                 decimal_text(options.dilation) + ", cut " + decimal_text(options.cut) + ", near " +
+                 decimal_text(options.near_plane);
+    }
+    return words;
+}
+
+std::string head_text(const WorkloadHead& head) {
+    ordered_json json;
+    json["tool"] = {{"name", "degs"}, {"version", DEGS_VERSION}};
+    json["scene"] = json_of(head.scene);
+    json["camera"] = json_of(head.camera);
+    json["projections"] = ordered_json::array();
+    for (const PackedProjection& projection : head.projections) {
+        json["projections"].push_back(json_of(projection));
+    }
+    json["frames"] = ordered_json::array();
+    for (const PackedFrame& frame : head.frames) {
+        json["frames"].push_back(json_of(frame));
+    }
+    return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+WorkloadHead read_head(const std::string& path, const std::string& text) {
+    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+    if (!json.is_object()) {
+        fail_file(path, "its head is damaged; it must be a JSON object.");
+    }
+    const HeadReader in(path, "", json);
+    WorkloadHead head;
+    head.scene = scene_in(in.part("scene"));
+    head.camera = camera_in(in.part("camera"));
+    for (const HeadReader& projection : in.list("projections")) {
+        head.projections.push_back(projection_in(projection, head.scene));
+    }
+    for (const HeadReader& frame : in.list("frames")) {
+        head.frames.push_back(frame_in(frame, head));
+    }
+    return head;
+}
+
+} // namespace degs::sim

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// The form of workload files: what is packed comes back, and nothing else is taken.
+#include "sim/workload_file/workload_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "degs/error.hpp"
+#include "scene/synthetic/synthetic.hpp"
+#include "sim/simulation/frame_checks.hpp"
+#include "sim/workload_file/file_layout.hpp"
+#include "sim/workload_file/splat_block.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using sim::WorkloadFile;
+using ::testing::HasSubstr;
+
+const char* const kName = "a.degsw";
+
+struct Packed {
+    FrameWorkload frame;
+    std::string bytes;
+};
+
+Packed packed(int gaussians, int tile_size = 16) {
+    const SyntheticScene scene = make_synthetic({"object", static_cast<std::size_t>(gaussians), 1});
+    Packed result;
+    result.frame = make_frame_workload(scene.cloud, scene.cameras[0].scaled_to_width(24), tile_size,
+                                       TileMode::Exact);
+    sim::SceneFacts facts;
+    facts.name = "object";
+    facts.gaussians = scene.cloud.size();
+    result.bytes = sim::pack_workload(facts, {{result.frame, {"a design"}}});
+    return result;
+}
+
+/// The bytes with the checksum that they must have.
+std::string signed_again(const std::string& bytes) {
+    const std::string rest = bytes.substr(0, bytes.size() - sim::kChecksumBytes);
+    return rest + sim::checksum_bytes(rest);
+}
+
+/// A file of which a part of the head has been exchanged.
+std::string with_head(const std::string& bytes, const std::string& old, const std::string& now) {
+    const std::uint32_t size = sim::little_endian_at(bytes, sim::kHeadBytesAt);
+    std::string head = bytes.substr(sim::kHeadAt, size);
+    const std::size_t at = head.find(old);
+    EXPECT_NE(at, std::string::npos) << old;
+    head.replace(at, old.size(), now);
+    return signed_again(bytes.substr(0, sim::kHeadBytesAt) +
+                        sim::little_endian(static_cast<std::uint32_t>(head.size())) + head +
+                        bytes.substr(sim::kHeadAt + size));
+}
+
+/// What the reader says of the bytes; empty if it makes a frame of them, which then is sound.
+std::string refusal(const std::string& bytes, const FrameWorkload& like) {
+    try {
+        const WorkloadFile file(kName, bytes);
+        const FrameWorkload frame =
+            file.frame("The test", like.projection, like.tile_size, like.tile_mode);
+        EXPECT_TRUE(sim::is_sound(frame));
+        return "";
+    } catch (const InputError& error) {
+        const std::string sentence = error.what();
+        EXPECT_EQ(sentence.rfind(kName, 0), 0U) << sentence;
+        EXPECT_EQ(sentence.back(), '.') << sentence;
+        return sentence;
+    }
+}
+
+TEST(WorkloadFile, GivesTheFrameBack) {
+    const Packed made = packed(static_cast<int>(sim::kSplatsPerBlock) * 2 + 100);
+    const FrameWorkload& frame = made.frame;
+    EXPECT_GT(frame.splats.size(), sim::kSplatsPerBlock) << "needs several blocks";
+    const FrameWorkload read =
+        WorkloadFile(kName, made.bytes).frame("The test", frame.projection, 16, TileMode::Exact);
+    ASSERT_EQ(read.splats.size(), frame.splats.size());
+    for (std::size_t i = 0; i < frame.splats.size(); ++i) {
+        EXPECT_EQ(read.splats[i].id, frame.splats[i].id);
+        EXPECT_EQ(read.splats[i].mu_x, frame.splats[i].mu_x);
+        EXPECT_EQ(read.splats[i].depth, frame.splats[i].depth);
+    }
+    EXPECT_EQ(read.visible_of, frame.visible_of);
+    EXPECT_EQ(read.visible_means, frame.visible_means);
+    EXPECT_EQ(read.tile_begin, frame.tile_begin);
+    EXPECT_EQ(read.tile_splats, frame.tile_splats);
+    EXPECT_EQ(read.culled.off_screen, frame.culled.off_screen);
+}
+
+TEST(HostileWorkloadFile, SaysWhatIsWrong) {
+    const Packed made = packed(12);
+    const std::string& good = made.bytes;
+    const auto said = [&](const std::string& bytes) { return refusal(bytes, made.frame); };
+    EXPECT_EQ(said(good), "");
+    EXPECT_THAT(said("ply\nformat"), HasSubstr("begins with 'degswork'"));
+    std::string bytes = good;
+    bytes[sim::kVersionAt] = 2;
+    EXPECT_THAT(said(bytes), HasSubstr("version at byte 8 is 2; this program reads version 1"));
+    bytes[sim::kVersionAt] = 0;
+    bytes[sim::kVersionAt + 3] = 1;
+    EXPECT_THAT(said(bytes), HasSubstr("highest byte first"));
+    bytes = good;
+    bytes.back() = static_cast<char>(bytes.back() ^ 1);
+    EXPECT_THAT(said(bytes), HasSubstr("the checksum in its last 16 bytes"));
+    bytes = good;
+    bytes[sim::kHeadBytesAt + 3] = 0x7f;
+    EXPECT_THAT(said(signed_again(bytes)), HasSubstr("length of its head at byte 12"));
+    EXPECT_THAT(said(signed_again(good + good)), HasSubstr("where only the checksum may"));
+    const auto changed = [&](const std::string& old, const std::string& now) {
+        return said(with_head(good, old, now));
+    };
+    EXPECT_THAT(changed("{", "["), HasSubstr("must be a JSON object"));
+    EXPECT_THAT(changed("\"width\":24", "\"width\":70000"), HasSubstr("'camera.width'"));
+    EXPECT_THAT(changed("\"width\":24", "\"width\":-1"), HasSubstr("from 1 to 65536"));
+    EXPECT_THAT(changed("\"width\":24", "\"wide\":24"), HasSubstr("no 'camera.width'"));
+    EXPECT_THAT(changed("\"gaussians\":12", "\"gaussians\":1e9"), HasSubstr("'scene.gaussians'"));
+    EXPECT_THAT(changed("\"gaussians\":12", "\"gaussians\":13"), HasSubstr("do not add up"));
+    EXPECT_THAT(changed("\"format\":\"fp64\"", "\"format\":\"fp65x\""),
+                HasSubstr("name of a number format"));
+    EXPECT_THAT(changed("\"tile_mode\":\"exact\"", "\"tile_mode\":\"round\""),
+                HasSubstr("exact or reference"));
+    EXPECT_THAT(changed("\"projection\":0", "\"projection\":1"), HasSubstr("from 0 to 0"));
+    EXPECT_THAT(changed("\"blocks\":[", "\"blocks\":[18446744073709551615,"),
+                HasSubstr("projections[0].blocks[0]"));
+}
+
+// Counts that fit each other claim more splats than the bytes can hold.
+TEST(HostileWorkloadFile, AsksForNoMoreMemoryThanItsBytesAllow) {
+    const Packed made = packed(12);
+    std::string bytes = with_head(made.bytes, "\"gaussians\":12", "\"gaussians\":4000000012");
+    const std::uint64_t off_screen = made.frame.culled.off_screen;
+    bytes = with_head(bytes, "\"off_screen\":" + std::to_string(off_screen),
+                      "\"off_screen\":" + std::to_string(off_screen + 4000000000U));
+    const std::string splats = "\"splats\":" + std::to_string(made.frame.splats.size());
+    bytes = with_head(bytes, splats, "\"splats\":16384");
+    EXPECT_THAT(refusal(bytes, made.frame), HasSubstr("may become 1024 at most"));
+}
+
+TEST(HostileWorkloadFile, RefusesValuesThatNoProjectionGives) {
+    const Packed made = packed(12);
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::infinity(), -1.0}) {
+        FrameWorkload frame = made.frame;
+        frame.splats[3].det = value;
+        sim::SceneFacts facts;
+        facts.name = "object";
+        facts.gaussians = 12;
+        EXPECT_THAT(refusal(sim::pack_workload(facts, {{frame, {}}}), made.frame),
+                    HasSubstr("has a value that is not finite or outside its range"));
+    }
+}
+
+TEST(HostileWorkloadFile, TakesNoFileThatIsCutOrChanged) {
+    const Packed made = packed(12);
+    for (std::size_t size = 0; size < made.bytes.size(); ++size) {
+        EXPECT_NE(refusal(made.bytes.substr(0, size), made.frame), "") << size;
+        if (size >= sim::kHeadAt + sim::kChecksumBytes) {
+            EXPECT_NE(refusal(signed_again(made.bytes.substr(0, size)), made.frame), "") << size;
+        }
+    }
+    for (std::size_t at = 0; at < made.bytes.size(); ++at) {
+        for (const int bit : {1, 16, 64}) {
+            std::string bytes = made.bytes;
+            bytes[at] = static_cast<char>(bytes[at] ^ bit);
+            EXPECT_NE(refusal(bytes, made.frame), "") << at;
+            refusal(signed_again(bytes), made.frame); // refused, or a sound frame
+        }
+    }
+}
+
+} // namespace
+} // namespace degs::sim_test
