@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Compares `degs explore --search evolution` with simulating all 60 designs of beyond-64.yaml.
+"""Compares `degs explore --search evolution` with simulating every design of beyond-64.yaml.
 
     search_cost.py [FOLDER]     prints the table of docs/explore.md; FOLDER (default out/search-cost) keeps the runs
 
