@@ -72,25 +72,18 @@ std::optional<double> bound_of(const Limit& limit, const Comparison& comparison,
     });
 }
 
-bool holds(const Limit& limit, double value, double bound) {
-    return limit.at_most ? (limit.or_equal ? value <= bound : value < bound)
-                         : (limit.or_equal ? value >= bound : value > bound);
-}
-
 void check_limits(const std::vector<Limit>& limits,
                   const std::vector<std::optional<double>>& bounds, const Rows& rows,
                   DesignVerdict& verdict) {
     verdict.judged = true;
     for (std::size_t l = 0; l < limits.size(); ++l) {
         const std::optional<double> value = value_of(limits[l].aim, rows);
+        verdict.limits.push_back({value, bounds[l]});
         if (!value || !bounds[l]) {
             verdict.judged = false;
-            return;
-        }
-        if (!holds(limits[l], *value, *bounds[l])) {
-            const double scale = std::max(std::abs(*bounds[l]), std::numeric_limits<double>::min());
+        } else if (!holds(limits[l], *value, *bounds[l])) {
             verdict.broken.push_back(limits[l].name);
-            verdict.excess += std::abs(*value - *bounds[l]) / scale;
+            verdict.excess += excess_of(*value, *bounds[l]);
         }
     }
 }
@@ -101,11 +94,7 @@ void mark_front(const std::vector<Aim>& wanted, std::vector<DesignVerdict>& verd
     std::vector<std::size_t> configs;
     for (std::size_t c = 0; c < verdicts.size(); ++c) {
         if (verdicts[c].is_within() && verdicts[c].has_goals()) {
-            Goals goals;
-            for (const std::optional<double>& goal : verdicts[c].goals) {
-                goals.push_back(*goal);
-            }
-            costs.push_back(costs_of(goals, wanted));
+            costs.push_back(costs_of(goals_of(verdicts[c]), wanted));
             configs.push_back(c);
         }
     }
@@ -120,6 +109,15 @@ bool DesignVerdict::has_goals() const {
     return !goals.empty() &&
            std::all_of(goals.begin(), goals.end(),
                        [](const std::optional<double>& goal) { return goal.has_value(); });
+}
+
+bool holds(const Limit& limit, double value, double bound) {
+    return limit.at_most ? (limit.or_equal ? value <= bound : value < bound)
+                         : (limit.or_equal ? value >= bound : value > bound);
+}
+
+double excess_of(double value, double bound) {
+    return std::abs(value - bound) / std::max(std::abs(bound), std::numeric_limits<double>::min());
 }
 
 std::vector<DesignVerdict> judge(const Comparison& comparison, std::size_t views,
@@ -148,6 +146,14 @@ std::string within_words(const DesignVerdict& verdict) {
         words += (words.empty() ? "" : "; ") + limit;
     }
     return !verdict.judged ? "" : words.empty() ? "yes" : words;
+}
+
+Goals goals_of(const DesignVerdict& verdict) {
+    Goals goals;
+    for (const std::optional<double>& goal : verdict.goals) {
+        goals.push_back(*goal);
+    }
+    return goals;
 }
 
 Goals costs_of(const Goals& goals, const std::vector<Aim>& wanted) {

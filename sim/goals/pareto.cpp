@@ -94,6 +94,11 @@ public:
         }
     }
 
+    double room(std::size_t place) const {
+        return rooms_[place].first > 0 ? std::numeric_limits<double>::infinity()
+                                       : rooms_[place].second;
+    }
+
     std::vector<std::size_t> rest() const {
         std::vector<std::size_t> rest;
         for (std::size_t place = 0; place < front_.size(); ++place) {
@@ -183,6 +188,40 @@ std::vector<std::size_t> best_of(const std::vector<Goals>& goals, std::size_t co
     }
     std::sort(best.begin(), best.end());
     return best;
+}
+
+std::vector<std::size_t> best_within(const std::vector<Goals>& goals,
+                                     const std::vector<double>& excess, std::size_t count) {
+    std::vector<std::size_t> within;
+    std::vector<std::size_t> outside;
+    std::vector<Goals> costs;
+    for (std::size_t position = 0; position < goals.size(); ++position) {
+        (excess[position] == 0 ? within : outside).push_back(position);
+        if (excess[position] == 0) {
+            costs.push_back(goals[position]);
+        }
+    }
+    std::vector<std::size_t> best;
+    for (const std::size_t position : best_of(costs, count)) {
+        best.push_back(within[position]);
+    }
+    std::stable_sort(outside.begin(), outside.end(),
+                     [&excess](std::size_t a, std::size_t b) { return excess[a] < excess[b]; });
+    outside.resize(std::min(outside.size(), count - best.size()));
+    best.insert(best.end(), outside.begin(), outside.end());
+    return best;
+}
+
+std::vector<Standing> standings_of(const std::vector<Goals>& goals) {
+    std::vector<Standing> standings(goals.size());
+    const std::vector<std::vector<std::size_t>> fronts = fronts_of(goals);
+    for (std::size_t f = 0; f < fronts.size(); ++f) {
+        const Crowd crowd(goals, fronts[f]);
+        for (std::size_t place = 0; place < fronts[f].size(); ++place) {
+            standings[fronts[f][place]] = {f, crowd.room(place)};
+        }
+    }
+    return standings;
 }
 
 std::optional<double> rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {

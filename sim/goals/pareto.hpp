@@ -22,6 +22,18 @@ std::vector<std::size_t> pareto_front(const std::vector<Goals>& goals);
 /// Trans. Evol. Comput. 2002, in logarithms, renewed after each loss.)
 std::vector<std::size_t> best_of(const std::vector<Goals>& goals, std::size_t count);
 
+/// As best_of(), of those whose `excess` over limits is 0; where they are too few, of the others,
+/// those that exceed least. The former come first.
+std::vector<std::size_t> best_within(const std::vector<Goals>& goals,
+                                     const std::vector<double>& excess, std::size_t count);
+
+/// How good one of several designs is.
+struct Standing {
+    std::size_t front = 0; ///< 0: nobody beats it; 1: only those of front 0 do; and so on
+    double room = 0; ///< the distances that decide in best_of(); infinite for the best in a goal
+};
+std::vector<Standing> standings_of(const std::vector<Goals>& goals);
+
 /// Spearman's correlation of ranks of two lists of the same length; empty for fewer than three.
 std::optional<double> rank_correlation(const std::vector<double>& a, const std::vector<double>& b);
 

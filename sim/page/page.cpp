@@ -111,6 +111,7 @@ ordered_json data_of(const PageFacts& facts, const Comparison& comparison) {
                          {"estimated", comparison.is_estimated()},
                          {"array_only", comparison.array_only},
                          {"missing", facts.missing},
+                         {"spent", facts.spent},
                          {"keys", facts.keys},
                          {"axes", axes_json(facts)},
                          {"measures", measures_json()},

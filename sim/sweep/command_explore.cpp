@@ -3,10 +3,13 @@
 #include <memory>
 
 #include "base/visible_text.hpp"
+#include "degs/error.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/view_options.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/study/study_options.hpp"
+#include "sim/sweep/evolution.hpp"
+#include "sim/sweep/halving.hpp"
 #include "sim/sweep/search_output.hpp"
 #include "sim/text/standard_output.hpp"
 
@@ -15,13 +18,15 @@ namespace {
 
 struct ExploreOptions {
     StudyOptions study;
-    SearchOptions search;
+    std::string method = "halving";
+    HalvingOptions halving;
+    EvolutionOptions evolution;
     std::string goals, limits; // empty: those of the study
     int jobs = 1;
     std::string out = "out";
 };
 
-void run(ExploreOptions& options) {
+Study searched_study(const ExploreOptions& options) {
     Study study = study_of(options.study);
     if (!options.goals.empty() || study.goals.text.empty()) {
         study.goals = {options.goals.empty() ? kUsualGoals : options.goals, "--goals"};
@@ -29,12 +34,32 @@ void run(ExploreOptions& options) {
     if (!options.limits.empty()) {
         study.limits = {options.limits, "--limits"};
     }
-    StudyPlan plan = plan_study(study);
-    plan.request.jobs = options.jobs;
+    return study;
+}
+
+/// Options of one way to search say nothing about the other.
+void check_method(const CLI::App& command, const std::string& method) {
+    for (const auto& [option, owner] :
+         {std::pair("--rungs", "halving"), std::pair("--share", "halving"),
+          std::pair("--least", "halving"), std::pair("--budget", "evolution"),
+          std::pair("--population", "evolution"), std::pair("--generations", "evolution")}) {
+        if (command.get_option(option)->count() > 0 && method != owner) {
+            throw InputError(std::string(option) + " is an option of --search " + owner +
+                             ", but the search is " + method + ".");
+        }
+    }
+    if (command.get_option("--budget")->count() > 0 &&
+        command.get_option("--fidelity")->as<std::string>() == "analytic") {
+        throw InputError(
+            "--budget counts simulations, but there are none with --fidelity analytic.");
+    }
+}
+
+void run_search(const ExploreOptions& options, const StudyPlan& plan, Searcher& searcher) {
     std::optional<Failure> failure;
-    const Search found = search(plan, options.search, options.out, failure);
+    const Search found = search(plan, searcher, options.out, failure);
     if (found.complete) {
-        const OutputFolder folder(options.out, {"explore.json", "front.csv", "front.svg"});
+        const OutputFolder folder(options.out, search_files(found));
         write_search(plan, found, folder);
         print(search_text(plan, found) +
               "\nall numbers, plots and the page: " + visible(folder.path("")) + "\n");
@@ -43,6 +68,78 @@ void run(ExploreOptions& options) {
     if (failure) {
         throw FailureError(*failure);
     }
+}
+
+void run_halving(const ExploreOptions& options, const Study& study) {
+    StudyPlan plan = plan_study(study);
+    plan.request.jobs = options.jobs;
+    check_aims(plan);
+    Halving halving(plan, options.halving);
+    run_search(options, plan, halving);
+}
+
+/// Throws InputError for what has no estimates, and for a study whose designs are no space.
+void check_space(const Study& study, std::vector<NamedConfig> designs) {
+    if (study.one_at_a_time) {
+        throw InputError(
+            "--search evolution combines values of axes, but the study varies one at a "
+            "time; --search halving can search it.");
+    }
+    if (study.array_only) {
+        throw InputError("--search evolution estimates whole accelerators, but the study runs the "
+                         "arrays alone; --search halving can search it.");
+    }
+    CompareRequest estimates;
+    estimates.configs = std::move(designs);
+    estimates.analytic = true;
+    check_estimates(estimates);
+}
+
+void run_evolution(const ExploreOptions& options, const Study& study) {
+    StudyPlan plan = plan_views(study);
+    plan.request.jobs = options.jobs;
+    DesignSpace space(study, plan);
+    check_space(study, space.designs());
+    space.add_baseline();
+    for (const std::string& name : designs_in(plan.aims)) {
+        space.add_design(name);
+    }
+    check_aims(plan);
+    EvolutionOptions evolution = options.evolution;
+    evolution.seed = options.study.seed;
+    Evolution searcher(space, plan, evolution);
+    run_search(options, plan, searcher);
+}
+
+void add_halving_options(CLI::App& command, HalvingOptions& options) {
+    command
+        .add_option("--rungs", options.rungs,
+                    "sizes of images: the first rung has 1/2^(N-1) of their sides, the last the "
+                    "study's own")
+        ->check(CLI::Range(1, 6))
+        ->capture_default_str();
+    command.add_option("--share", options.share, "one of so many designs goes on to the next rung")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    command.add_option("--least", options.least, "designs that go on at least")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+}
+
+void add_evolution_options(CLI::App& command, EvolutionOptions& options) {
+    command
+        .add_option("--budget", options.budget,
+                    "designs that the evolution simulates at most, with the baseline")
+        ->check(CLI::Range(2, 100000))
+        ->capture_default_str();
+    command.add_option("--population", options.population, "designs of a generation of estimates")
+        ->check(CLI::Range(4, 10000))
+        ->capture_default_str();
+    command
+        .add_option("--generations", options.generations,
+                    "of estimates; a space without more designs than all have is estimated whole")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
 }
 
 } // namespace
@@ -67,24 +164,28 @@ void add_explore_command(CLI::App& program) {
                      "'area_mm2<=2.5, latency_ms<=1.02*baseline'")
         ->type_name("LIMIT,...");
     command
-        ->add_option("--rungs", options->search.rungs,
-                     "sizes of images: the first rung has 1/2^(N-1) of their sides, the last the "
-                     "study's own")
-        ->check(CLI::Range(1, 6))
+        ->add_option("--search", options->method,
+                     "halving simulates all designs on small images and the better ones on larger "
+                     "images; evolution estimates many designs and simulates few")
+        ->check(CLI::IsMember({"halving", "evolution"}))
         ->capture_default_str();
-    command
-        ->add_option("--share", options->search.share,
-                     "one of so many designs goes on to the next rung")
-        ->check(CLI::Range(1, 100))
-        ->capture_default_str();
-    command->add_option("--least", options->search.least, "designs that go on at least")
-        ->check(CLI::Range(1, 100000))
-        ->capture_default_str();
+    add_halving_options(*command, options->halving);
+    add_evolution_options(*command, options->evolution);
     command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
     add_out_option(*command, options->out, "folder for the front, the rungs and their reports");
-    command->callback([options] { run(*options); });
+    command->get_option("--seed")->description(
+        "of the draw of tiles with --within, and of --search evolution");
+    command->callback([options, command] {
+        check_method(*command, options->method);
+        const Study study = searched_study(*options);
+        if (options->method == "evolution") {
+            run_evolution(*options, study);
+        } else {
+            run_halving(*options, study);
+        }
+    });
 }
 
 } // namespace degs::sim

@@ -9,6 +9,7 @@
 #include "sim/plot/plot_svg.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/result_words.hpp"
+#include "sim/sweep/search_record.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"
@@ -21,18 +22,23 @@ using nlohmann::ordered_json;
 /// The last rung in the order of the first goal, the best first.
 std::vector<Candidate> ordered(const StudyPlan& plan, const Rung& rung) {
     std::vector<Candidate> candidates = rung.candidates;
-    std::stable_sort(
-        candidates.begin(), candidates.end(), [&plan](const Candidate& a, const Candidate& b) {
-            return costs_of(a.goals, plan.aims.goals) < costs_of(b.goals, plan.aims.goals);
-        });
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&plan](const Candidate& a, const Candidate& b) {
+                         return costs_of(goals_of(a.verdict), plan.aims.goals) <
+                                costs_of(goals_of(b.verdict), plan.aims.goals);
+                     });
     return candidates;
 }
 
-std::string fidelity_of(const CompareRequest& request) {
-    return request.analytic ? "analytic" : request.sampling ? "sampled" : "exact";
+std::string fidelity_of(const CompareRequest& request, const Rung& rung) {
+    return request.analytic || rung.change.estimates ? "analytic"
+           : request.sampling                        ? "sampled"
+                                                     : "exact";
 }
 
-std::string front_csv(const StudyPlan& plan, const std::vector<Candidate>& candidates) {
+std::string front_csv(const StudyPlan& plan, const Search& search,
+                      const std::vector<Candidate>& candidates) {
+    const std::string fidelity = fidelity_of(plan.request, search.rungs.back());
     const bool limited = !plan.aims.limits.empty();
     std::string text = "design";
     for (const std::string& key : plan.keys) {
@@ -48,11 +54,11 @@ std::string front_csv(const StudyPlan& plan, const std::vector<Candidate>& candi
         for (const std::string& value : variant.values) {
             text += "," + csv_cell(value);
         }
-        for (const double goal : candidate.goals) {
+        for (const std::optional<double>& goal : candidate.verdict.goals) {
             text += "," + csv_number(goal);
         }
         text += std::string(candidate.verdict.on_front ? ",1" : ",0") +
-                (candidate.variant == plan.baseline ? ",1," : ",0,") + fidelity_of(plan.request) +
+                (candidate.variant == plan.baseline ? ",1," : ",0,") + fidelity +
                 (limited ? "," + csv_cell(within_words(candidate.verdict)) : "") + "\n";
     }
     return text;
@@ -66,9 +72,9 @@ std::optional<double> agreement(const Rung& rung, const Rung& next, std::size_t 
         const auto same = std::find_if(
             rung.candidates.begin(), rung.candidates.end(),
             [&candidate](const Candidate& other) { return other.variant == candidate.variant; });
-        if (same != rung.candidates.end()) {
-            before.push_back(same->goals.at(goal));
-            after.push_back(candidate.goals.at(goal));
+        if (same != rung.candidates.end() && same->verdict.goals.at(goal)) {
+            before.push_back(*same->verdict.goals.at(goal));
+            after.push_back(*candidate.verdict.goals.at(goal));
         }
     }
     return rank_correlation(before, after);
@@ -77,11 +83,14 @@ std::optional<double> agreement(const Rung& rung, const Rung& next, std::size_t 
 ordered_json rung_json(const StudyPlan& plan, const Search& search, std::size_t r) {
     const Rung& rung = search.rungs[r];
     const std::vector<Aim>& goals = plan.aims.goals;
-    ordered_json json = {{"divisor", rung.divisor}, {"designs", ordered_json::array()}};
+    ordered_json json = {{"divisor", rung.change.divisor},
+                         {"fidelity", fidelity_of(plan.request, rung)},
+                         {"simulated_cycles", rung.cycles},
+                         {"designs", ordered_json::array()}};
     for (const Candidate& candidate : rung.candidates) {
         ordered_json row = {{"name", plan.variants[candidate.variant].name}};
         for (std::size_t g = 0; g < goals.size(); ++g) {
-            row[goals[g].name] = candidate.goals[g];
+            row[goals[g].name] = number_json(candidate.verdict.goals[g]);
         }
         if (!plan.aims.limits.empty()) {
             row["within"] = within_words(candidate.verdict);
@@ -106,7 +115,8 @@ ordered_json search_json(const StudyPlan& plan, const Search& search) {
     json["schema"] = {{"name", "degs-explore"}, {"version", kExploreVersion}};
     json["tool"] = tool_json();
     json["study"] = plan.name;
-    json["fidelity"] = fidelity_of(plan.request);
+    json["fidelity"] = fidelity_of(plan.request, search.rungs.back());
+    put_record(plan, search, json);
     json["goals"] = ordered_json::array();
     json["better"] = ordered_json::array();
     for (const Aim& goal : plan.aims.goals) {
@@ -161,7 +171,7 @@ std::string front_table(const StudyPlan& plan, const std::vector<Candidate>& can
         if (candidate.verdict.on_front || baseline || shown) {
             std::vector<std::string> cells{visible(changes_of(plan.variants[candidate.variant])) +
                                            remark_on(candidate, baseline)};
-            for (const double goal : candidate.goals) {
+            for (const double goal : goals_of(candidate.verdict)) {
                 cells.push_back(three_digits(goal));
             }
             table.add(cells);
@@ -215,9 +225,9 @@ std::string picture(const StudyPlan& plan, const std::vector<Candidate>& candida
         const FrontMark mark{candidate.verdict.on_front, candidate.variant == plan.baseline,
                              candidate.verdict.is_within()};
         const double place = static_cast<double>(points.size() + 1);
-        points.push_back(
-            {labels.size() == 1 ? place : candidate.goals[0], candidate.goals.back(), mark});
-        designs.push_back({candidate.goals, mark});
+        const Goals goals = goals_of(candidate.verdict);
+        points.push_back({labels.size() == 1 ? place : goals[0], goals.back(), mark});
+        designs.push_back({goals, mark});
     }
     return labels.size() > 2 ? front_pairs_svg(title, labels, designs)
            : labels.size() == 2
@@ -227,12 +237,23 @@ std::string picture(const StudyPlan& plan, const std::vector<Candidate>& candida
 
 } // namespace
 
+std::vector<std::string> search_files(const Search& search) {
+    std::vector<std::string> files{"explore.json", "front.csv", "front.svg"};
+    if (!search.beliefs.empty()) {
+        files.emplace_back("beliefs.csv");
+    }
+    return files;
+}
+
 void write_search(const StudyPlan& plan, const Search& search, const OutputFolder& folder) {
     const std::vector<Candidate> candidates = ordered(plan, search.rungs.back());
     folder.replace([&] {
-        folder.write_text("front.csv", front_csv(plan, candidates));
+        folder.write_text("front.csv", front_csv(plan, search, candidates));
         folder.write_text("front.svg", picture(plan, candidates));
         folder.write_json("explore.json", search_json(plan, search));
+        if (!search.beliefs.empty()) {
+            folder.write_text("beliefs.csv", beliefs_csv(plan, search));
+        }
     });
 }
 
@@ -240,14 +261,17 @@ std::string search_text(const StudyPlan& plan, const Search& search) {
     std::string text;
     for (std::size_t r = 0; r < search.rungs.size(); ++r) {
         const Rung& rung = search.rungs[r];
-        text += std::to_string(rung.candidates.size()) + " designs " +
-                (rung.divisor == 1 ? "at full size"
-                                   : "at 1/" + std::to_string(rung.divisor) + " of the size");
+        text += grouped(rung.candidates.size()) + " designs " +
+                (rung.change.estimates ? "estimated"
+                 : rung.change.divisor == 1
+                     ? "at full size"
+                     : "at 1/" + std::to_string(rung.change.divisor) + " of the size");
         if (r + 1 < search.rungs.size()) {
             text += agreement_words(plan, rung, search.rungs[r + 1]);
         }
         text += "\n";
     }
+    text += record_text(plan, search);
     if (!plan.skipped.empty()) {
         text += grouped(plan.skipped.size()) + " designs cannot be built\n";
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sim/shell/output_folder.hpp"
 #include "sim/sweep/search.hpp"
@@ -12,7 +13,11 @@ namespace degs::sim {
 /// Raised whenever a key of explore.json changes its meaning, name or unit.
 constexpr int kExploreVersion = 1;
 
-/// front.csv, front.svg and explore.json: the designs of the last rung, and how each came there.
+/// Names of what write_search() writes.
+std::vector<std::string> search_files(const Search& search);
+
+/// front.csv, front.svg and explore.json: the designs of the last rung, and how each came there;
+/// beliefs.csv of a search that believes something.
 void write_search(const StudyPlan& plan, const Search& search, const OutputFolder& folder);
 
 /// The front as a table, and how well the small images ranked the designs.

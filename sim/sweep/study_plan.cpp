@@ -49,16 +49,26 @@ void check_size(const Study& study, std::uint64_t views) {
     }
 }
 
-void plan_points(const std::vector<std::vector<int>>& cameras, StudyPlan& plan) {
+/// The views of the request in the outer, the variants in the inner loop.
+void plan_points(StudyPlan& plan) {
+    for (const StudyView& view : plan.views) {
+        for (std::size_t v = 0; v < plan.variants.size(); ++v) {
+            plan.points.push_back({v, view.scene, view.size, view.camera});
+        }
+    }
+}
+
+std::vector<StudyView> views_of(const CompareRequest& request) {
+    std::vector<StudyView> views;
+    const std::vector<std::vector<int>> cameras = cameras_by_scene(request);
     for (std::size_t scene = 0; scene < cameras.size(); ++scene) {
-        for (int camera : cameras[scene]) {
-            for (std::size_t size = 0; size < plan.request.sizes.size(); ++size) {
-                for (std::size_t v = 0; v < plan.variants.size(); ++v) {
-                    plan.points.push_back({v, scene, size, camera});
-                }
+        for (const int camera : cameras[scene]) {
+            for (std::size_t size = 0; size < request.sizes.size(); ++size) {
+                views.push_back({scene, size, camera});
             }
         }
     }
+    return views;
 }
 
 std::vector<std::string> digests_of_scenes(const CompareRequest& request) {
@@ -135,27 +145,29 @@ Aims aims_of(const Study& study) {
 
 } // namespace
 
-StudyPlan plan_study(const Study& study) {
+StudyPlan plan_views(const Study& study) {
     StudyPlan plan;
     plan.name = study.name;
     put_views(study, plan.request);
     plan.request.sampling = study.sampling;
-    const std::vector<std::vector<int>> cameras = cameras_by_scene(plan.request);
-    std::uint64_t views = 0;
-    for (const std::vector<int>& of_scene : cameras) {
-        views += of_scene.size() * plan.request.sizes.size();
-    }
-    check_size(study, views);
+    plan.views = views_of(plan.request);
     plan.aims = aims_of(study);
+    plan.scene_digests = digests_of_scenes(plan.request);
+    return plan;
+}
+
+StudyPlan plan_study(const Study& study) {
+    StudyPlan plan = plan_views(study);
+    check_size(study, plan.views.size());
     plan_variants(study, plan);
     check_estimates(plan.request);
-    plan_points(cameras, plan);
-    plan.scene_digests = digests_of_scenes(plan.request);
+    plan_points(plan);
     identify(plan);
     return plan;
 }
 
-StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variants, int divisor) {
+StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variants,
+                  const PartChange& change) {
     StudyPlan part = plan;
     part.variants.clear();
     part.request.configs.clear();
@@ -169,24 +181,23 @@ StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variant
         part.request.configs.push_back(plan.request.configs[variant]);
     }
     for (ImageSize& size : part.request.sizes) {
-        if (divisor != 1 && !size.width && !size.height) {
+        if (change.divisor != 1 && !size.width && !size.height) {
             throw InputError("The study needs 'width' or 'resolutions', because a search begins "
                              "with smaller images.");
         }
         for (std::optional<int>* side : {&size.width, &size.height}) {
             if (*side) {
-                *side = std::max(1, **side / divisor);
+                *side = std::max(1, **side / change.divisor);
             }
         }
     }
-    const std::size_t all = plan.variants.size();
-    for (std::size_t p = 0; p < plan.points.size(); p += all) { // the views
-        for (std::size_t v = 0; v < part.variants.size(); ++v) {
-            StudyPoint point = plan.points[p];
-            point.variant = v;
-            part.points.push_back(point);
-        }
+    if (change.estimates) {
+        part.request.analytic = true;
+        part.request.reference = false;
+        part.request.sampling.reset();
+        part.request.path = PathRequest();
     }
+    plan_points(part);
     identify(part);
     return part;
 }

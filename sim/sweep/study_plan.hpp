@@ -32,6 +32,12 @@ struct StudyPoint {
     std::string key{}; ///< of everything that decides its results, 32 hexadecimal digits
 };
 
+/// Where designs run.
+struct StudyView {
+    std::size_t scene = 0, size = 0; ///< positions in the request
+    int camera = 0;                  ///< position in the scene's list
+};
+
 struct StudyPlan {
     std::string name;
     std::vector<std::string> keys; ///< that the axes vary
@@ -45,6 +51,7 @@ struct StudyPlan {
     std::vector<SkippedVariant> skipped;
     Aims aims;              ///< goals and limits of the study; neither decides what is run
     CompareRequest request; ///< one configuration for each variant; the points say on which views
+    std::vector<StudyView> views;
     std::vector<StudyPoint> points;         ///< views in the outer, variants in the inner loop
     std::vector<std::string> scene_digests; ///< with their cameras
     std::string digest;                     ///< of all points, 32 hexadecimal digits
@@ -59,9 +66,20 @@ constexpr std::size_t kMostPoints = 100000;
 /// not exist, if there are more than kMostPoints points, and if no variant can be built.
 StudyPlan plan_study(const Study& study);
 
-/// A plan with the same views for some of a plan's variants, in images with sides that are
-/// `divisor` times shorter. The plan's baseline must be among them. Throws InputError if a divisor
-/// other than 1 finds that images have the sizes of their cameras, which are not known yet.
-StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variants, int divisor);
+/// The plan without a variant and a point, for spaces that are too large to be listed. Throws
+/// InputError if a scene or camera does not exist.
+StudyPlan plan_views(const Study& study);
+
+/// What a part of a plan has otherwise than the plan.
+struct PartChange {
+    int divisor = 1;        ///< of the sides of the images
+    bool estimates = false; ///< of single frames, in place of what the plan asks for
+};
+
+/// A plan with the same views for some of a plan's variants. The plan's baseline must be among
+/// them. Throws InputError if a divisor other than 1 finds that images have the sizes of their
+/// cameras, which are not known yet.
+StudyPlan part_of(const StudyPlan& plan, const std::vector<std::size_t>& variants,
+                  const PartChange& change);
 
 } // namespace degs::sim

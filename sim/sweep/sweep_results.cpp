@@ -223,6 +223,7 @@ std::string page_of(const StudyPlan& plan, const SweepResults& results) {
                                   failed.failure.sentence);
     }
     facts.missing = results.missing;
+    facts.spent = results.spent;
     return study_page(facts, results.comparison);
 }
 

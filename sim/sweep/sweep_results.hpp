@@ -34,6 +34,7 @@ struct SweepResults {
     std::size_t missing = 0;           ///< points that are neither finished nor failed
     std::size_t damaged = 0;           ///< of `missing`, points whose file is damaged
     std::vector<std::string> warnings; ///< sentences, each once
+    std::string spent;                 ///< by a search, for the page
 };
 
 /// Reads the points, and puts their reports in place.

@@ -412,7 +412,7 @@
   at("summary").textContent = [count(data.runs.length, "run", "runs"), count(data.variants.length, "configuration", "configurations"),
     count(data.views.length, "view", "views"), data.array_only ? "arrays alone, without front ends and memory" : "",
     data.estimated ? "estimates of the analytic model, not simulations" : "",
-    data.missing ? `${data.missing} points missing` : "", `ratios compare with ${data.variants[data.baseline].name}`]
+    data.spent, data.missing ? `${data.missing} points missing` : "", `ratios compare with ${data.variants[data.baseline].name}`]
     .filter((words) => words !== "").join(" · ");
   at("footer").textContent = `degs ${data.version}`;
   for (const id of ["x", "y", "colour", "view"]) at(id).addEventListener("change", draw);

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Compares `degs explore --search evolution` with simulating every design of beyond-64.yaml.
+
+    search_cost.py [FOLDER]     prints the table of docs/explore.md; FOLDER (default out/search-cost) keeps the runs
+
+The goals are area, latency and energy, of which the last has no estimate, under two limits. The views are smaller than
+the study's own, so that all takes some minutes. The first search estimates all designs; where it may estimate 24 of
+them only, the seed decides which.
+"""
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+PROGRAM = ROOT / "build/release/sim/degs"
+STUDY = ROOT / "configs/studies/beyond-64.yaml"
+GOALS = "area_mm2,latency_ms,energy.nj_per_frame"
+LIMITS = "area_mm2<=2.8,worst(latency_ms)<=1.05*baseline"
+VIEWS = ["--scene", "synthetic:object,gaussians=6000", "--scene", "synthetic:outdoor,gaussians=20000", "--camera", "1",
+         "--width", "320"]
+SEEDS = range(1, 6)
+BUDGET = 12  # a fifth of the designs
+
+
+def explore(folder, *options):
+    """The file explore.json and the front of a search."""
+    subprocess.run([PROGRAM, "explore", STUDY, "--goals", GOALS, "--limits", LIMITS, *VIEWS, "--out", folder, *options],
+                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    found = json.loads((folder / "explore.json").read_text())
+    designs = [design for design in found["rungs"][-1]["designs"] if design["within"] == "yes"]
+    return found, [tuple(design[goal] for goal in found["goals"]) for design in designs]
+
+
+def beats(a, b):
+    return a != b and all(x <= y for x, y in zip(a, b))
+
+
+def front_of(points):
+    return [point for point in set(points) if not any(beats(other, point) for other in points)]
+
+
+def volume(points, worst):
+    """Slices along the last goal; all goals shall be small."""
+    if len(worst) == 1:
+        return max([worst[0] - point[0] for point in points] + [0])
+    points = sorted((point for point in points if point[-1] < worst[-1]), key=lambda point: point[-1])
+    ends = [point[-1] for point in points[1:]] + [worst[-1]]
+    return sum((end - point[-1]) * volume([each[:-1] for each in points[:count]], worst[:-1])
+               for count, (point, end) in enumerate(zip(points, ends), start=1))
+
+
+def share_of_volume(points, all_points):
+    """Every goal from 0, its best value, to 1, its worst within the limits; the volume ends at 1.1."""
+    lows = [min(values) for values in zip(*all_points)]
+    highs = [max(values) for values in zip(*all_points)]
+
+    def scaled(chosen):
+        return [tuple((x - low) / (high - low) for x, low, high in zip(point, lows, highs)) for point in chosen]
+
+    worst = (1.1,) * len(lows)
+    return volume(scaled(points), worst) / volume(scaled(all_points), worst)
+
+
+def best_afterwards(points, first):
+    """As many designs as the budget allows that make the volume largest one after the other."""
+    chosen = [first]
+    while len(chosen) < BUDGET:
+        chosen.append(max(points, key=lambda point: share_of_volume(chosen + [point], points)))
+    return chosen
+
+
+def main():
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "out/search-cost")
+    everything, all_points = explore(folder / "all", "--rungs", "1")
+    best = set(front_of(all_points))
+    cycles = everything["search"]["simulated_cycles"]
+    print("| search | estimated | simulated | of the cycles | of the hypervolume | designs of the front |")
+    print("|---|--:|--:|--:|--:|--:|")
+    baseline = next(design for design in everything["rungs"][-1]["designs"] if design["name"] == "degs-x-64")
+    chosen = best_afterwards(all_points, tuple(baseline[goal] for goal in everything["goals"]))
+    print(f"| the best, chosen afterwards |  | {BUDGET} |  | {share_of_volume(chosen, all_points):.4f} | "
+          f"{len(best & set(chosen))} of {len(best)} |")
+    halved, points = explore(folder / "halving")
+    row("halving", halved, points, all_points, best, cycles)
+    whole, points = explore(folder / "whole", "--search", "evolution", "--budget", str(BUDGET))
+    row("evolution, all estimated", whole, points, all_points, best, cycles)
+    for seed in SEEDS:
+        bred, points = explore(folder / f"seed-{seed}", "--search", "evolution", "--budget", str(BUDGET), "--population",
+                               "8", "--generations", "3", "--seed", str(seed))
+        row(f"evolution, seed {seed}", bred, points, all_points, best, cycles)
+
+
+def row(name, found, points, all_points, best, cycles):
+    spent = found["search"]
+    print(f"| {name} | {spent['estimated']} | {spent['simulated']} | {spent['simulated_cycles'] / cycles:.3f} | "
+          f"{share_of_volume(points, all_points):.4f} | {len(best & set(points))} of {len(best)} |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/sweep/design_space.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+#include "config/config_words.hpp"
+#include "degs/error.hpp"
+#include "sim/study/addressed_overrides.hpp"
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+using config_words::quote;
+
+/// The value of a design as it stands, written as axes write theirs.
+std::string own_text(const KeyDoc& key) {
+    if (key.type == "integer" || key.type == "real") {
+        return decimal_text(std::strtod(key.default_value.c_str(), nullptr));
+    }
+    return key.type == "text" ? nlohmann::json::parse(key.default_value).get<std::string>()
+                              : key.default_value;
+}
+
+/// Puts a value into a tree as --set would: nothing in the files overrides it.
+void put(ConfigNode& section, const std::string& path, const std::string& text,
+         const std::string& place) {
+    const std::size_t dot = path.find('.');
+    const std::string key = path.substr(0, dot);
+    const auto found = std::find_if(section.children.begin(), section.children.end(),
+                                    [&key](const ConfigNode& child) { return child.key == key; });
+    ConfigNode& child = found != section.children.end() ? *found : section.children.emplace_back();
+    child.key = key;
+    if (dot != std::string::npos) {
+        child.place = child.place.empty() ? place : child.place;
+        child.kind = ConfigNode::Kind::kSection;
+        put(child, path.substr(dot + 1), text, place);
+        return;
+    }
+    child.kind = ConfigNode::Kind::kScalar;
+    child.children.clear();
+    child.quoted = false;
+    child.text = text;
+    child.place = place;
+    child.layer = 0;
+}
+
+/// --memory chooses the model, so no axis can.
+void check_memory(const Study& study) {
+    for (const Axis& axis : study.axes) {
+        if (!study.memory.empty() &&
+            std::find(axis.keys.begin(), axis.keys.end(), "memory.model") != axis.keys.end()) {
+            throw InputError("--memory " + study.memory +
+                             ": key 'memory.model' is varied by an axis at " + axis.place +
+                             ", so that it cannot be set.");
+        }
+    }
+}
+
+/// No axis varies what --set sets.
+void check_overrides(const Study& study) {
+    std::vector<std::string> names;
+    for (const StudyDesign& design : study.designs) {
+        names.push_back(design.name);
+        for (const std::string& text : overrides_of(design.name, study.overrides)) {
+            for (const Axis& axis : study.axes) {
+                const auto& keys = axis.keys;
+                if (std::find(keys.begin(), keys.end(), override_path(text)) != keys.end()) {
+                    throw InputError("--set " + text + ": key " + quote(override_path(text)) +
+                                     " is varied by an axis at " + axis.place +
+                                     ", so that it cannot be set.");
+                }
+            }
+        }
+    }
+    check_addressees(study.overrides, names);
+}
+
+/// Whether the positions of an axis are numbers of one key, so that they have an order.
+bool is_ordered(const Axis& axis) {
+    return axis.keys.size() == 1 &&
+           std::all_of(axis.positions.begin(), axis.positions.end(), [](const auto& position) {
+               return position.front().quantity || position.front().draw;
+           });
+}
+
+} // namespace
+
+DesignSpace::LoadedDesign DesignSpace::load(const StudyDesign& design,
+                                            const std::vector<std::string>& overrides) {
+    LoadedDesign loaded{design.name,
+                        design.tree,
+                        overrides,
+                        load_run_config(ConfigSource::from_tree(design.tree, overrides)),
+                        {}};
+    for (KeyDoc& key : document(loaded.config)) {
+        const std::string path = key.path;
+        loaded.keys.emplace(path, std::move(key));
+    }
+    return loaded;
+}
+
+const KeyDoc& DesignSpace::key_of(const LoadedDesign& design, const std::string& path,
+                                  const std::string& place) {
+    const auto found = design.keys.find(path);
+    if (found != design.keys.end()) {
+        return found->second;
+    }
+    std::vector<std::string> paths;
+    for (const auto& [known, doc] : design.keys) {
+        paths.push_back(known);
+    }
+    const std::string near = config_words::nearest(path, paths);
+    throw InputError(place + ": key " + quote(path) + " is unknown to the design " +
+                     quote(design.name) +
+                     (near.empty() ? "" : ", did you mean " + quote(near) + "?") +
+                     (near.empty() ? "; 'degs config FILE' lists its keys." : ""));
+}
+
+DesignSpace::DesignSpace(const Study& study, StudyPlan& plan) : study_(study), plan_(plan) {
+    for (const StudyDesign& design : study.designs) {
+        for (const LoadedDesign& other : designs_) {
+            if (other.name == design.name) {
+                throw InputError("Two designs of the study are called " + quote(design.name) + ".");
+            }
+        }
+        designs_.push_back(load(design, overrides_of(design.name, study.overrides)));
+    }
+    check_overrides(study);
+    check_memory(study);
+    genes_.push_back({designs_.size(), false});
+    for (const Axis& axis : study.axes) {
+        add_axis(axis);
+    }
+}
+
+void DesignSpace::add_axis(const Axis& axis) {
+    if (axis.keys.size() > 1 && !axis.random) {
+        StudyPlan::LinkedAxis linked{axis.name, std::vector<std::size_t>(axis.keys.size())};
+        std::iota(linked.keys.begin(), linked.keys.end(), plan_.keys.size());
+        plan_.linked.push_back(std::move(linked));
+    }
+    plan_.keys.insert(plan_.keys.end(), axis.keys.begin(), axis.keys.end());
+    for (const std::string& key : axis.keys) {
+        places_[key] = axis.place;
+    }
+    genes_.push_back({axis.positions.size(), is_ordered(axis)});
+}
+
+std::vector<NamedConfig> DesignSpace::designs() const {
+    std::vector<NamedConfig> designs;
+    for (const LoadedDesign& design : designs_) {
+        designs.push_back({design.name, design.config});
+    }
+    return designs;
+}
+
+std::uint64_t DesignSpace::size() const {
+    std::uint64_t product = 1;
+    for (const Gene& gene : genes_) {
+        if (__builtin_mul_overflow(product, std::uint64_t{gene.positions}, &product)) {
+            return std::numeric_limits<std::uint64_t>::max();
+        }
+    }
+    return product;
+}
+
+/// `texts` by key; a design's own values if it is empty.
+StudyVariant DesignSpace::variant(const LoadedDesign& design,
+                                  const std::map<std::string, std::string>& texts) const {
+    StudyVariant variant{design.name, design.name, {}};
+    for (const std::string& key : plan_.keys) {
+        const std::string own = own_text(key_of(design, key, places_.at(key)));
+        const auto text = texts.find(key);
+        variant.values.push_back(text == texts.end() ? own : text->second);
+        if (variant.values.back() != own) {
+            variant.name.append(" ").append(key).append("=").append(variant.values.back());
+        }
+    }
+    return variant;
+}
+
+DesignSpace::Added DesignSpace::add(const Genes& place) {
+    const LoadedDesign& design = designs_[place.front()];
+    ConfigNode tree = design.tree;
+    std::map<std::string, std::string> texts;
+    for (std::size_t a = 0; a < study_.axes.size(); ++a) {
+        const Axis& axis = study_.axes[a];
+        for (std::size_t k = 0; place[a + 1] != kOwn && k < axis.keys.size(); ++k) {
+            const AxisValue& value = axis.positions[place[a + 1]][k];
+            const std::string& path = axis.keys[k];
+            texts[path] = value_text(value, key_of(design, path, value.place));
+            put(tree, path, texts[path], value.place);
+        }
+    }
+    StudyVariant made = variant(design, texts);
+    const auto [known, is_new] = variants_.emplace(made.name, std::nullopt);
+    if (is_new) {
+        try {
+            plan_.request.configs.push_back({made.name, load_run_config(ConfigSource::from_tree(
+                                                            std::move(tree), design.overrides))});
+            known->second = plan_.variants.size();
+            plan_.variants.push_back(std::move(made));
+        } catch (const InputError& infeasible) {
+            plan_.skipped.push_back({std::move(made), infeasible.what()});
+        }
+    }
+    return {known->second, is_new, known->first};
+}
+
+void DesignSpace::add_baseline() {
+    const std::string& name = study_.baseline.empty() ? designs_.front().name : study_.baseline;
+    const auto design =
+        std::find_if(designs_.begin(), designs_.end(),
+                     [&name](const LoadedDesign& each) { return each.name == name; });
+    if (design == designs_.end()) {
+        throw InputError("The baseline " + quote(name) + " is none of the study's designs.");
+    }
+    const auto [known, is_new] = variants_.emplace(name, 0);
+    if (is_new) {
+        for (auto& [other, place] : variants_) {
+            place = place && other != name ? std::optional(*place + 1) : place;
+        }
+        plan_.variants.insert(plan_.variants.begin(), variant(*design, {}));
+        plan_.request.configs.insert(plan_.request.configs.begin(), {name, design->config});
+    }
+    plan_.baseline = *known->second;
+}
+
+void DesignSpace::add_design(const std::string& name) {
+    for (const LoadedDesign& design : designs_) {
+        if (design.name == name && variants_.emplace(name, plan_.variants.size()).second) {
+            plan_.variants.push_back(variant(design, {}));
+            plan_.request.configs.push_back({name, design.config});
+        }
+    }
+}
+
+} // namespace degs::sim

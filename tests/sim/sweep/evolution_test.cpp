@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs explore --search evolution: its parts by hand, and searches against all points of a space.
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <set>
+#include <thread>
+
+#include "sim/goals/hypervolume.hpp"
+#include "sim/sweep/breeding.hpp"
+#include "sim/sweep/forecast.hpp"
+#include "tests/sim/process/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+using namespace degs::sim;
+
+TEST(Hypervolume, IsWhatThePointsBeat) {
+    EXPECT_DOUBLE_EQ(hypervolume({}, {1, 1}), 0);
+    EXPECT_DOUBLE_EQ(hypervolume({{1, 3}, {2, 1}, {2, 2}}, {4, 4}), 3 + 6 - 2);
+    EXPECT_DOUBLE_EQ(hypervolume({{0, 0, 0}, {5, -9, 0}}, {1, 2, 3}), 6); // the second is too bad
+    // Two boxes of 2 x 2 x 1 that share 1 x 1 x 1, and one of 1 x 1 x 2 that shares 1 with both.
+    EXPECT_DOUBLE_EQ(hypervolume({{0, 1, 2}, {1, 0, 2}, {1, 1, 1}}, {2, 3, 3}), 4 + 3 - 2 + 4 - 2);
+    EXPECT_DOUBLE_EQ(hypervolume_gain({{1, 3}, {2, 2}}, {2, 1}, {4, 4}), 2);
+    EXPECT_DOUBLE_EQ(hypervolume_gain({{1, 1}}, {2, 1}, {4, 4}), 0);
+}
+
+TEST(Standings, AreFrontAndRoom) {
+    const std::vector<Standing> found = standings_of({{1, 8}, {2, 4}, {4, 2}, {8, 1}, {8, 8}});
+    EXPECT_EQ(found[0].front, 0U);
+    EXPECT_EQ(found[4].front, 1U);
+    EXPECT_TRUE(std::isinf(found[0].room));
+    EXPECT_NEAR(found[1].room, 2 * std::log(4), 1e-12); // from 1 to 4 and from 8 to 2
+}
+
+TEST(BestWithin, TakesWhatBreaksLimitsLast) {
+    using Positions = std::vector<std::size_t>;
+    const std::vector<Goals> goals{{1, 1}, {5, 5}, {2, 2}, {9, 9}};
+    EXPECT_EQ(best_within(goals, {0.2, 0, 0.1, 0}, 3), (Positions{1, 3, 2}));
+    EXPECT_EQ(best_within(goals, {0.2, 0, 0.1, 0}, 1), Positions{1});
+}
+
+/// A space of 8^10 places, whose front has the product 1 of two costs; a limit cuts it.
+Individual individual(const Genes& place) {
+    double spoilt = 0;
+    for (std::size_t g = 1; g < place.size(); ++g) {
+        spoilt += std::abs(static_cast<double>(place[g]) - 3);
+    }
+    const double first = std::exp2(static_cast<double>(place[0])) * (1 + spoilt);
+    return {place, {first, (1 + spoilt) * (1 + spoilt) / first}, std::max(0.0, first / 32 - 1)};
+}
+
+std::vector<Goals> bred_front(std::uint64_t seed, std::size_t& designs) {
+    Breeding breeding(std::vector<Gene>(10, Gene{8, true}), 40, seed);
+    std::vector<Goals> within;
+    std::set<Genes> seen;
+    for (int generation = 0; generation < 60; ++generation) {
+        std::vector<Individual> children;
+        for (int child = 0; child < 40; ++child) {
+            const Genes place = breeding.propose();
+            if (seen.insert(place).second) {
+                children.push_back(individual(place));
+                if (children.back().excess == 0) {
+                    within.push_back(children.back().costs);
+                }
+            }
+        }
+        breeding.take(std::move(children));
+    }
+    designs = seen.size();
+    std::vector<Goals> front;
+    for (const std::size_t position : pareto_front(within)) {
+        front.push_back(within[position]);
+    }
+    return front;
+}
+
+TEST(Breeding, FindsAFrontInABillionPlaces) {
+    const std::vector<Goals> best{{1, 1},     {2, 0.5},     {4, 0.25},
+                                  {8, 0.125}, {16, 0.0625}, {32, 0.03125}};
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        std::size_t designs = 0;
+        const std::vector<Goals> found = bred_front(seed, designs);
+        EXPECT_LE(designs, 2400U);
+        EXPECT_GE(hypervolume(found, {33, 2}), 0.99 * hypervolume(best, {33, 2})) << seed;
+        EXPECT_EQ(found, bred_front(seed, designs)) << "the seed decides everything";
+    }
+}
+
+TEST(Forecast, CorrectsByTheRatiosOfSimilarDesigns) {
+    Forecast forecast({{2, false}, {5, true}}, 2);
+    const Columns estimated{std::log(10.0), std::nullopt};
+    forecast.conclude();
+    EXPECT_EQ(forecast.at({0, 0}, estimated).columns, estimated);
+    forecast.learn({0, 0}, {std::log(10.0), std::nullopt}, {std::log(11.0), std::log(3.0)});
+    forecast.learn({0, 4}, {std::log(20.0), std::nullopt}, {std::log(30.0), std::log(4.0)});
+    forecast.conclude();
+    const Expectation known = forecast.at({0, 0}, estimated);
+    EXPECT_NEAR(std::exp(*known.columns[0]), 11, 0.02); // what was simulated is known
+    EXPECT_NEAR(std::exp(*known.columns[1]), 3, 0.02);
+    const Expectation near = forecast.at({0, 1}, {std::log(100.0), std::nullopt});
+    EXPECT_GT(std::exp(*near.columns[0]), 110); // 1.1 is nearer than 1.5
+    EXPECT_LT(std::exp(*near.columns[0]), 125);
+    EXPECT_GT(near.deviations[0], 2 * known.deviations[0]);
+    const Expectation far = forecast.at({1, 1}, {std::log(100.0), std::nullopt});
+    EXPECT_GT(far.deviations[0], near.deviations[0]);
+}
+
+TEST(Forecast, IsSureOfWhatEstimatesAlwaysHit) {
+    Forecast forecast({{4, true}}, 1);
+    for (std::size_t position = 0; position < 3; ++position) {
+        const Columns area{std::log(2.0 + static_cast<double>(position))};
+        forecast.learn({position}, area, area);
+    }
+    forecast.conclude();
+    const Expectation expected = forecast.at({3}, {std::log(7.0)});
+    EXPECT_DOUBLE_EQ(*expected.columns[0], std::log(7.0));
+    EXPECT_EQ(expected.deviations[0], 0);
+}
+
+/// 24 designs on two views.
+std::string two_view_space(const Folder& folder) {
+    const std::string file = folder / "space.yaml";
+    std::ofstream(file) << "study: space\ndesigns:\n  - include: " << config("degs-64")
+                        << "\n    name: degs-64\naxes:\n  span.count: [2, 4, 8, 16]\n"
+                           "  array.pes_per_bank: [4, 8, 16]\n  packing.bytes: [x1, x2]\n"
+                           "scenes: synthetic:object,gaussians=300\ncameras: [0, 2]\n"
+                           "width: 128\nreference: false\n";
+    return file;
+}
+
+/// 1.3 million designs on one view.
+std::string million_space(const Folder& folder) {
+    const std::string file = folder / "large.yaml";
+    std::ofstream(file) << "study: large\ndesigns:\n  - include: " << config("degs-64")
+                        << "\n    name: degs-64\naxes:\n  span.count: 1..16 +1\n"
+                           "  array.pes_per_bank: [4, 8, 16]\n  slicing.count: [1, 2, 4]\n"
+                           "  packing.bytes: [4KB, 8KB, 16KB, 32KB]\n"
+                           "  scheduler.queue_segments_per_pe: 1..8 +1\n"
+                           "  scheduler.scan: [oldest, round_robin]\n"
+                           "  feature_buffer.bytes: [2KB, 4KB, 8KB, 16KB, 32KB]\n"
+                           "  gaussian_buffer.bytes: [8KB, 16KB, 32KB, 64KB]\n"
+                           "  sorting.count: [1, 2, 4]\n  projection.count: [1, 2, 4, 8]\n"
+                           "scenes: synthetic:object,gaussians=300\nwidth: 96\n"
+                           "reference: false\n";
+    return file;
+}
+
+std::vector<std::string> explore_words(const std::string& file, const std::string& out,
+                                       const std::vector<std::string>& more) {
+    std::vector<std::string> words{"explore", file, "--out", out, "--jobs", "2"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+nlohmann::json explored(const std::string& file, const std::string& out,
+                        const std::vector<std::string>& more) {
+    const Outcome outcome = degs(explore_words(file, out, more));
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return nlohmann::json::parse(read_file(out + "/explore.json"));
+}
+
+const std::vector<std::string> kEvolution{"--search", "evolution", "--budget", "12"};
+
+std::vector<Goals> last_rung(const nlohmann::json& found) {
+    std::vector<Goals> costs;
+    for (const auto& design : found["rungs"].back()["designs"]) {
+        if (!design.contains("within") || design["within"] == "yes") {
+            costs.push_back({});
+            for (const auto& goal : found["goals"]) {
+                costs.back().push_back(std::log(design[goal.get<std::string>()].get<double>()));
+            }
+        }
+    }
+    return costs;
+}
+
+TEST(Evolution, FindsTheFrontOfAllDesigns) {
+    const Folder folder;
+    const std::string file = two_view_space(folder);
+    const std::vector<std::string> aims{"--goals", "area_mm2,latency_ms,energy.nj_per_frame",
+                                        "--limits", "area_mm2<=3.7,worst(latency_ms)<=2*baseline"};
+    std::vector<std::string> all = aims;
+    all.insert(all.end(), {"--rungs", "1"});
+    std::vector<std::string> few = aims;
+    few.insert(few.end(), kEvolution.begin(), kEvolution.end());
+    const nlohmann::json everything = explored(file, folder / "all", all);
+    const nlohmann::json found = explored(file, folder / "few", few);
+    const Goals worst{std::log(4.0), std::log(0.02), std::log(1e5)};
+    EXPECT_GE(hypervolume(last_rung(found), worst),
+              0.99 * hypervolume(last_rung(everything), worst));
+    EXPECT_EQ(found["search"]["estimated"], 24);
+    EXPECT_LE(found["search"]["simulated"], 12);
+    EXPECT_LE(found["search"]["simulated_cycles"].get<double>(),
+              0.6 * everything["search"]["simulated_cycles"].get<double>());
+    EXPECT_EQ(found["beliefs"].size(), found["search"]["simulated"]);
+    EXPECT_EQ(found["beliefs"][0]["name"], "degs-64");
+    EXPECT_TRUE(found["beliefs"][0]["believed"]["energy.nj_per_frame"].is_null());
+    EXPECT_TRUE(found["beliefs"].back()["believed"]["energy.nj_per_frame"].is_number());
+    EXPECT_TRUE(fs::exists(folder / "few/beliefs.csv"));
+    EXPECT_NE(read_file(folder / "few/index.html").find("24 designs estimated, "),
+              std::string::npos);
+    EXPECT_FALSE(fs::exists(folder / "all/beliefs.csv"));
+}
+
+/// Kills the program, without children that would go on, when it has made so many points.
+void kill_after(std::size_t points, const std::string& out, const std::vector<std::string>& words) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::setpgid(0, 0);
+        std::vector<char*> argv{const_cast<char*>(DEGS_PROGRAM)};
+        for (const std::string& word : words) {
+            argv.push_back(const_cast<char*>(word.c_str()));
+        }
+        argv.push_back(nullptr);
+        ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
+        ::execv(DEGS_PROGRAM, argv.data());
+        ::_exit(127);
+    }
+    const auto made = [&out] {
+        std::error_code none;
+        std::size_t count = 0;
+        for (const fs::directory_entry& file : fs::directory_iterator(out + "/points", none)) {
+            count += file.path().extension() == ".point" ? 1 : 0;
+        }
+        return count;
+    };
+    int status = 0;
+    while (made() < points && ::waitpid(child, &status, WNOHANG) == 0) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ::kill(-child, SIGKILL);
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status)) << "it was over before";
+}
+
+TEST(Evolution, GoesOnAfterItWasKilled) {
+    const Folder folder;
+    const std::string file = two_view_space(folder);
+    explored(file, folder / "whole", kEvolution);
+    kill_after(10, folder / "killed", explore_words(file, folder / "killed", kEvolution));
+    std::map<std::string, fs::file_time_type> before;
+    for (const auto& point : fs::directory_iterator(folder / "killed/points")) {
+        if (point.path().extension() == ".point") {
+            before[point.path().string()] = point.last_write_time();
+        }
+    }
+    EXPECT_GE(before.size(), 10U);
+    explored(file, folder / "killed", kEvolution);
+    for (const auto& [point, time] : before) {
+        EXPECT_EQ(fs::last_write_time(point), time) << "was simulated again: " << point;
+    }
+    for (const char* name : {"explore.json", "beliefs.csv", "front.csv", "results.csv"}) {
+        EXPECT_EQ(read_file(folder / "killed/" + name), read_file(folder / "whole/" + name))
+            << name;
+    }
+}
+
+TEST(Evolution, SearchesAMillionDesigns) {
+    const Folder folder;
+    const std::string file = million_space(folder);
+    std::vector<std::string> options = kEvolution;
+    options.insert(options.end(), {"--population", "16", "--generations", "5"});
+    const nlohmann::json found = explored(file, folder / "a", options);
+    EXPECT_GT(found["search"]["space"], 1000000);
+    EXPECT_LE(found["search"]["estimated"], 81); // with the baseline
+    EXPECT_GT(found["search"]["estimated"], 60);
+    EXPECT_LE(found["search"]["simulated"], 12);
+    explored(file, folder / "b", options);
+    EXPECT_EQ(read_file(folder / "a/explore.json"), read_file(folder / "b/explore.json"));
+    options.insert(options.end(), {"--seed", "2"});
+    EXPECT_NE(explored(file, folder / "c", options)["rungs"], found["rungs"]);
+    const nlohmann::json estimated = explored(file, folder / "d",
+                                              {"--search", "evolution", "--fidelity", "analytic",
+                                               "--population", "16", "--generations", "5"});
+    EXPECT_EQ(estimated["fidelity"], "analytic");
+    EXPECT_EQ(estimated["search"]["simulated"], 0);
+    EXPECT_EQ(estimated["rungs"].size(), 1U);
+}
+
+TEST(Evolution, RefusesWhatItCannotDo) {
+    const Folder folder;
+    const auto refuses = [&folder](const std::vector<std::string>& options,
+                                   const std::string& sentence) {
+        expect_mistake(degs(explore_words(two_view_space(folder), folder / "out", options)),
+                       sentence);
+        EXPECT_FALSE(fs::exists(folder / "out"));
+    };
+    refuses({"--search", "luck"}, "halving");
+    refuses({"--search", "evolution", "--budget", "1"}, "--budget");
+    refuses({"--search", "evolution", "--rungs", "2"}, "--rungs is an option of --search halving");
+    refuses({"--budget", "9"}, "--budget is an option of --search evolution");
+    refuses({"--population", "9"}, "--population is an option of --search evolution");
+    refuses({"--search", "evolution", "--goals", "energy.nj_per_frame"}, "has an estimate");
+    refuses({"--search", "evolution", "--array-only"}, "the arrays alone");
+    refuses({"--search", "evolution", "--fidelity", "analytic", "--budget", "9"},
+            "--budget counts simulations");
+    refuses({"--search", "evolution", "--limits", "area_mm2<=baseline(degs-65)"}, "degs-65");
+    std::ofstream(folder / "space.yaml", std::ios::app) << "combine: one_at_a_time\n";
+    expect_mistake(degs(explore_words(folder / "space.yaml", folder / "out", kEvolution)),
+                   "varies one at a time");
+    expect_mistake(degs(explore_words(million_space(folder), folder / "out", {})),
+                   "at most 100 000");
+}
+
+} // namespace
+} // namespace degs::sim_test
