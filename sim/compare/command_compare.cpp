@@ -19,6 +19,7 @@ struct CompareOptions {
     ViewOptions views;
     std::string memory;
     int jobs = 1;
+    bool equal_area = false;
     std::string out = "out";
 };
 
@@ -41,12 +42,15 @@ void run(const CompareOptions& options) {
     const CompareRequest request = request_of(options);
     const OutputFolder out(options.out, comparison_files());
     std::size_t shown = 0; // views
-    CompareSession session(request, out, [&shown](const Comparison& now, std::size_t views) {
+    const auto show = [&shown](const Comparison& now, std::size_t views) {
         print(views_text(now, shown, views));
         shown = views;
-    });
+    };
+    CompareSession session(request, out, show,
+                           options.equal_area ? AreaScale::Equal : AreaScale::Own);
     const Comparison comparison = session.run();
-    print(views_text(comparison, shown, comparison.views.size()) + closing_text(comparison));
+    print(views_text(comparison, shown, comparison.views.size()) +
+          (options.equal_area ? equal_area_text(comparison) : "") + closing_text(comparison));
     if (!comparison.rows.empty()) {
         print("all numbers and pictures: " + visible(out.path("")) + "\n");
     }
@@ -75,6 +79,9 @@ void add_compare_command(CLI::App& program) {
     CLI::App* command =
         program.add_subcommand("compare", "compare accelerators on the same frames");
     add_what_options(*command, *options);
+    command->add_flag("--equal-area", options->equal_area,
+                      "also compare as if every configuration took the area of the first: a table, "
+                      "and ratios.svg");
     command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();

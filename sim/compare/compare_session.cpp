@@ -16,18 +16,19 @@ namespace degs::sim {
 namespace {
 
 constexpr const char* kIndex = "index.html";
+constexpr const char* kRatios = "ratios.svg";
 constexpr const char* kSlots = "slots.svg";
 constexpr const char* kUtilization = "utilization.svg";
 
 } // namespace
 
 std::vector<std::string> comparison_files() {
-    return {"compare.json", "compare.csv", kIndex, kSlots, kUtilization};
+    return {"compare.json", "compare.csv", kIndex, kRatios, kSlots, kUtilization};
 }
 
 CompareSession::CompareSession(const CompareRequest& request, const OutputFolder& out,
-                               ViewsEnded views_ended)
-    : request_(request), out_(out), views_ended_(std::move(views_ended)),
+                               ViewsEnded views_ended, AreaScale scale)
+    : request_(request), out_(out), views_ended_(std::move(views_ended)), scale_(scale),
       runs_(request,
             {{},
              [this](std::size_t cameras) {
@@ -166,8 +167,9 @@ void CompareSession::write() const {
     out_.write_json("compare.json", comparison_json(now));
     out_.write_text("compare.csv", comparison_csv(now));
     out_.write_text(kIndex, comparison_page(request_.configs, now));
-    for (const auto& [file, picture] : {std::pair(kSlots, slots_picture(now)),
-                                        std::pair(kUtilization, utilization_picture(now))}) {
+    for (const auto& [file, picture] :
+         {std::pair(kRatios, ratios_picture(now, scale_)), std::pair(kSlots, slots_picture(now)),
+          std::pair(kUtilization, utilization_picture(now))}) {
         if (!picture.empty()) {
             out_.write_text(file, picture);
         }

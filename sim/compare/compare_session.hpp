@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/compare/comparison_output.hpp"
 #include "sim/results/comparison.hpp"
 #include "sim/runs/run_progress.hpp"
 #include "sim/runs/view_runs.hpp"
@@ -27,7 +28,7 @@ public:
     using ViewsEnded = std::function<void(const Comparison& comparison, std::size_t views)>;
 
     CompareSession(const CompareRequest& request, const OutputFolder& out,
-                   ViewsEnded views_ended = {});
+                   ViewsEnded views_ended = {}, AreaScale scale = AreaScale::Own);
     CompareSession(const CompareSession&) = delete;
     CompareSession& operator=(const CompareSession&) = delete;
 
@@ -59,6 +60,7 @@ private:
     const CompareRequest& request_;
     const OutputFolder& out_;
     ViewsEnded views_ended_;
+    AreaScale scale_;                ///< of ratios.svg
     std::vector<std::size_t> ended_; ///< runs of every view that have ended
     std::size_t told_ = 0;           ///< views, in their order, all runs of which have ended
     std::map<std::pair<std::size_t, std::size_t>, Found> found_; ///< by view and configuration

@@ -68,7 +68,82 @@ std::string with_note(const Comparison& comparison, const std::string& title) {
                                               : "");
 }
 
+/// A measure of ratios.svg.
+struct ShownRatio {
+    Measure own, equal_area;
+    const char* words;
+};
+
+constexpr ShownRatio kShownRatios[] = {
+    {Measure::LatencyRatio, Measure::LatencyRatioPerArea, "latency of the first / latency"},
+    {Measure::ThroughputRatio, Measure::ThroughputRatioPerArea,
+     "throughput / throughput of the first"},
+    {Measure::EnergyRatio, Measure::EnergyRatioPerArea,
+     "energy per frame of the first / energy per frame"}};
+
+/// By configuration, from the rows of a view or from the means.
+RatioGroup ratio_group(const Comparison& comparison, const std::vector<ComparisonRow>& rows,
+                       std::size_t view, Measure measure) {
+    const bool mean = view == comparison.views.size();
+    RatioGroup group;
+    group.label = mean ? "geometric mean" : view_words(comparison.views[view]);
+    group.ratios.resize(comparison.configs.size());
+    for (const ComparisonRow& row : rows) {
+        if (row.view == view) {
+            group.ratios[row.config] = row.measures[measure];
+        }
+    }
+    return group;
+}
+
+bool has_ratio(const RatioPanel& panel) {
+    for (const RatioGroup& group : panel.groups) {
+        for (const std::optional<double>& ratio : group.ratios) {
+            if (ratio) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+RatioPanel ratio_panel(const Comparison& comparison, const ShownRatio& shown, AreaScale scale) {
+    const bool equal = scale == AreaScale::Equal;
+    const Measure measure = equal ? shown.equal_area : shown.own;
+    RatioPanel panel;
+    panel.heading = std::string(shown.words) + (equal ? ", × area of the first / area" : "");
+    for (std::size_t v = 0; v < comparison.views.size(); ++v) {
+        panel.groups.push_back(ratio_group(comparison, comparison.rows, v, measure));
+    }
+    if (!comparison.means.empty()) {
+        panel.groups.push_back(
+            ratio_group(comparison, comparison.means, comparison.views.size(), measure));
+    }
+    return panel;
+}
+
 } // namespace
+
+std::string ratios_picture(const Comparison& comparison, AreaScale scale) {
+    if (comparison.configs.size() < 2) {
+        return "";
+    }
+    std::vector<RatioPanel> panels;
+    for (const ShownRatio& shown : kShownRatios) {
+        RatioPanel panel = ratio_panel(comparison, shown, scale);
+        if (has_ratio(panel)) { // a frame alone has no throughput, and an estimate no energy
+            panels.push_back(std::move(panel));
+        }
+    }
+    std::vector<std::string> names;
+    for (const ComparedConfig& config : comparison.configs) {
+        names.push_back(config.name);
+    }
+    const std::string& first = names[comparison.baseline];
+    const std::string title = scale == AreaScale::Equal ? "At the area of " + first + ", which is 1"
+                                                        : "Against " + first + ", which is 1";
+    return panels.empty() ? "" : ratios_svg(with_note(comparison, title), names, panels);
+}
 
 std::string slots_picture(const Comparison& comparison) {
     std::vector<SlotGroup> groups;

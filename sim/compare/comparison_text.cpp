@@ -173,6 +173,31 @@ std::string means_table(const Comparison& comparison) {
     return table.text();
 }
 
+/// Rows of equal_area_text(), from the rows of a view or from the means.
+void add_equal_area(TextTable& table, const Comparison& comparison,
+                    const std::vector<ComparisonRow>& rows, std::size_t view) {
+    const std::optional<double> first = comparison.configs[comparison.baseline].area_mm2;
+    constexpr double kMjPerNj = 1e-6;
+    for (const ComparisonRow& row : rows) {
+        const std::optional<double> own = comparison.configs[row.config].area_mm2;
+        if (row.view != view || !first || !own || !(*own > 0)) {
+            continue;
+        }
+        const Measures& m = row.measures;
+        const double copies = *first / *own;
+        const auto times = [](const std::optional<double>& value, double factor) {
+            return value ? digits(*value * factor) : "";
+        };
+        table.add({comparison.configs[row.config].name, fixed_ratio(copies),
+                   times(m[Measure::LatencyMs], 1 / copies),
+                   times(m[Measure::ThroughputFps], copies),
+                   times(m[Measure::NjPerFrame], kMjPerNj / copies),
+                   fixed_ratio(m[Measure::LatencyRatioPerArea]),
+                   fixed_ratio(m[Measure::ThroughputRatioPerArea]),
+                   fixed_ratio(m[Measure::EnergyRatioPerArea])});
+    }
+}
+
 std::string heading(const ComparedView& view, bool estimated) {
     std::string words = view_words(view) + " · " + grouped(view.visible) + " of " +
                         grouped(view.gaussians) + " Gaussians visible";
@@ -257,6 +282,31 @@ std::string closing_text(const Comparison& comparison) {
         text += "failed: " + visible(failed.sentence) + "\n";
     }
     return text + legend(comparison);
+}
+
+std::string equal_area_text(const Comparison& comparison) {
+    if (comparison.rows.empty()) {
+        return "";
+    }
+    const ComparedConfig& first = comparison.configs[comparison.baseline];
+    std::string text =
+        folded("at the area of " + visible(first.name) + ", " + fixed_ratio(first.area_mm2) +
+                   " mm²: as if speed and frames per joule were in proportion to the area",
+               output_columns(), 2) +
+        "\n";
+    const auto table_of = [&](const std::vector<ComparisonRow>& rows, std::size_t view,
+                              const std::string& words) {
+        TextTable table({words, "area ×", "ms", "path fps", "mJ", "speed ×", "path ×", "energy ×"});
+        add_equal_area(table, comparison, rows, view);
+        return table.text() + "\n";
+    };
+    for (std::size_t v = 0; v < comparison.views.size(); ++v) {
+        text += table_of(comparison.rows, v, view_words(comparison.views[v]));
+    }
+    if (!comparison.means.empty()) {
+        text += table_of(comparison.means, comparison.views.size(), "geometric means");
+    }
+    return text;
 }
 
 std::string comparison_text(const Comparison& comparison) {

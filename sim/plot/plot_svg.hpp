@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two pictures of a comparison and that of a memory, 800 px wide, in colours that people with
+// The pictures of a comparison and that of a memory, 800 px wide, in colours that people with
 // any colour vision can distinguish (M. Okabe, K. Ito, Color Universal Design, 2008).
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,21 @@ struct UtilizationPanel {
 
 /// Utilization over the number of PEs, which doubles from tick to tick; two panels side by side.
 std::string utilization_svg(const std::string& title, const std::vector<UtilizationPanel>& panels);
+
+/// The designs in one measure on one view, or in its mean over the views.
+struct RatioGroup {
+    std::string label;
+    std::vector<std::optional<double>> ratios; ///< by design; a missing one leaves a gap
+};
+
+struct RatioPanel {
+    std::string heading; ///< the measure, and what 1 is
+    std::vector<RatioGroup> groups;
+};
+
+/// Vertical bars from 0, one panel below the other, with a line at 1.
+std::string ratios_svg(const std::string& title, const std::vector<std::string>& designs,
+                       const std::vector<RatioPanel>& panels);
 
 /// How a design is shown among others.
 struct FrontMark {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Utilization over the size of an array, and ratios of designs by view.
 #include <algorithm>
 #include <cmath>
 
@@ -90,7 +91,121 @@ std::vector<std::string> labels_of(const std::vector<UtilizationPanel>& panels) 
     return labels;
 }
 
+/// Where the bars of a row of groups lie, px.
+struct RatioAxes {
+    double top = 0, bottom = 0, highest = 1;
+    double group = 0, bar = 0; ///< widths
+    double y(double ratio) const { return bottom - ratio / highest * (bottom - top); }
+};
+
+constexpr double kRatioLeft = kPlotMargin + 36;
+constexpr double kRatioRight = kPlotWidth - kPlotMargin;
+constexpr double kRatioHeight = 170; // of the bars
+constexpr double kRatioRow = 240;    // with the words above and below
+
+/// As many groups side by side as leave bars on which a number can be read upright.
+std::size_t groups_per_row(std::size_t groups, std::size_t designs) {
+    constexpr double kNarrowest = 14;
+    const double group = kNarrowest * (static_cast<double>(designs) + 1);
+    const auto most = static_cast<std::size_t>((kRatioRight - kRatioLeft) / group);
+    return std::min(groups, std::max<std::size_t>(most, 1));
+}
+
+double highest_of(const RatioPanel& panel) {
+    double highest = 1;
+    for (const RatioGroup& group : panel.groups) {
+        for (const std::optional<double>& ratio : group.ratios) {
+            highest = std::max(highest, ratio.value_or(0));
+        }
+    }
+    return highest * 1.12; // room for the numbers
+}
+
+void draw_ratio_axes(Svg& svg, const RatioAxes& axes) {
+    const double tick = tick_of(axes.highest);
+    for (int i = 0; i * tick <= axes.highest; ++i) {
+        const double y = axes.y(i * tick);
+        svg.line(kRatioLeft, y, kRatioRight, y, i == 0 ? kGrey : kGrid, 1);
+        svg.text(kRatioLeft - 8, y + 4, decimal_text(i * tick), {kSmallText, kGrey, "end", false});
+    }
+    svg.line(kRatioLeft, axes.y(1), kRatioRight, axes.y(1), kInk, 1);
+}
+
+/// The number stands above its bar, with as many digits as fit.
+void draw_ratio_bars(Svg& svg, const RatioAxes& axes, double left, const RatioGroup& group) {
+    constexpr double kNumber = 11;
+    for (std::size_t d = 0; d < group.ratios.size(); ++d) {
+        if (!group.ratios[d]) {
+            continue;
+        }
+        const double x = left + axes.bar * (static_cast<double>(d) + 0.5);
+        const double y = axes.y(*group.ratios[d]);
+        svg.rectangle(x, y, axes.bar - 1, axes.bottom - y, colour_of_line(d));
+        for (const int decimals : {2, 1}) {
+            const std::string words = percent(*group.ratios[d] / 100, decimals);
+            if (text_width(words, kNumber) <= axes.bar + 4) {
+                svg.text(x + axes.bar / 2, y - 4, words, {kNumber, kInk, "middle", false});
+                break;
+            }
+        }
+    }
+    const double width = axes.bar * (static_cast<double>(group.ratios.size()) + 1);
+    svg.text(left + width / 2, axes.bottom + 18, fitting(group.label, kSmallText, axes.group - 6),
+             {kSmallText, kInk, "middle", false});
+}
+
+/// Returns the y below the panel.
+double draw_ratio_panel(Svg& svg, double y, const RatioPanel& panel, std::size_t designs) {
+    const std::size_t per_row = groups_per_row(panel.groups.size(), designs);
+    svg.text(kPlotMargin, y + 22, fitting(panel.heading, kLabelText, kPlotWidth - 2 * kPlotMargin),
+             {kLabelText, kInk, "start", true});
+    RatioAxes axes;
+    axes.highest = highest_of(panel);
+    axes.group = (kRatioRight - kRatioLeft) / static_cast<double>(per_row);
+    axes.bar = std::min(axes.group / (static_cast<double>(designs) + 1), 60.0);
+    for (std::size_t g = 0; g < panel.groups.size(); ++g) {
+        if (g % per_row == 0) {
+            axes.top = y + 34;
+            axes.bottom = axes.top + kRatioHeight;
+            draw_ratio_axes(svg, axes);
+            y += kRatioRow;
+        }
+        const double unused = axes.group - axes.bar * (static_cast<double>(designs) + 1);
+        const double left = kRatioLeft + axes.group * static_cast<double>(g % per_row);
+        draw_ratio_bars(svg, axes, left + unused / 2, panel.groups[g]);
+    }
+    return y;
+}
+
+/// Returns the y below it.
+double draw_design_legend(Svg& svg, double y, const std::vector<std::string>& designs) {
+    double x = kPlotMargin;
+    for (std::size_t d = 0; d < designs.size(); ++d) {
+        const std::string name = fitting(designs[d], kSmallText, 300);
+        const double width = 18 + text_width(name, kSmallText) + 16;
+        if (x + width > kPlotWidth - kPlotMargin + 16) {
+            x = kPlotMargin;
+            y += 20;
+        }
+        svg.rectangle(x, y - 11, 13, 13, colour_of_line(d));
+        svg.text(x + 18, y, name, {kSmallText, kInk, "start", false});
+        x += width;
+    }
+    return y + 10;
+}
+
 } // namespace
+
+std::string ratios_svg(const std::string& title, const std::vector<std::string>& designs,
+                       const std::vector<RatioPanel>& panels) {
+    Svg svg;
+    svg.text(kPlotMargin, 30, title, {16, kInk, "start", true});
+    double y = draw_design_legend(svg, 56, designs);
+    for (const RatioPanel& panel : panels) {
+        y = draw_ratio_panel(svg, y, panel, designs.size());
+    }
+    return svg.document(kPlotWidth, y, title);
+}
 
 std::string utilization_svg(const std::string& title, const std::vector<UtilizationPanel>& panels) {
     Svg svg;

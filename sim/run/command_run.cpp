@@ -178,7 +178,9 @@ void write_results(const RunOptions& options, const RunRequest& request, const R
     write_png(run.images.front(), out.path("image.png"));
     out.write_json("report.json", report(result));
     if (request.recording.timeline) {
-        write_trace({run.name, run.clock_ghz, run.timeline, spans_of(run)}, options.trace.file);
+        write_trace({run.name, run.clock_ghz, run.timeline, spans_of(run),
+                     power_of(request.config.accelerator(), run)},
+                    options.trace.file);
     }
     if (request.recording.log != nullptr) {
         write_block_log(run.name, options.block_log, *request.recording.log);

@@ -16,7 +16,7 @@ namespace degs::sim {
 namespace {
 
 // Perfetto shows one group of tracks for each "process".
-enum Group { Run = 1, Units, Array, Stages, Buffers, MemoryBus };
+enum Group { Run = 1, Units, Array, Stages, Buffers, MemoryBus, Power };
 
 std::string quoted(const std::string& words) {
     return nlohmann::json(words).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
@@ -73,17 +73,24 @@ public:
     /// `sums` by step, shown as `factor` times their mean over the cycles of a step.
     void counter(const std::string& name, Group group, const std::vector<std::uint64_t>& sums,
                  double factor) {
-        if (std::all_of(sums.begin(), sums.end(), [](std::uint64_t s) { return s == 0; })) {
+        std::vector<double> values;
+        values.reserve(sums.size());
+        for (const std::uint64_t sum : sums) {
+            values.push_back(ratio_of(sum, 1) / step_ * factor);
+        }
+        counter(name, group, values);
+    }
+    /// `values` by step.
+    void counter(const std::string& name, Group group, const std::vector<double>& values) {
+        if (std::all_of(values.begin(), values.end(), [](double v) { return v == 0; })) {
             return;
         }
-        std::uint64_t shown = ~std::uint64_t{0};
-        for (std::size_t i = 0; i <= sums.size(); ++i) { // a last one ends the last step
-            const std::uint64_t sum = i < sums.size() ? sums[i] : 0;
-            if (sum != shown || i == sums.size()) {
+        for (std::size_t i = 0; i <= values.size(); ++i) { // a last one ends the last step
+            const double value = i < values.size() ? values[i] : 0;
+            if (i == 0 || value != values[i - 1] || i == values.size()) {
                 begin(name, 'C', group, 0);
                 text_ += R"(,"ts":)" + time(i * timeline_.step) + R"(,"args":{"value":)" +
-                         shortest(ratio_of(sum, 1) / step_ * factor) + "}}";
-                shown = sum;
+                         shortest(value) + "}}";
             }
         }
     }
@@ -240,6 +247,21 @@ void add_counters(Events& events, const Trace& trace) {
     }
 }
 
+void add_power(Events& events, const Trace& trace) {
+    if (trace.power.empty()) {
+        return;
+    }
+    events.name_group(Power, "power: mW by block");
+    std::vector<double> all(trace.timeline.steps(), 0);
+    for (const PowerSeries& series : trace.power) {
+        std::transform(all.begin(), all.end(), series.mw.begin(), all.begin(), std::plus<>());
+    }
+    events.counter("all blocks and memory", Power, all);
+    for (const PowerSeries& series : trace.power) {
+        events.counter(series.name, Power, series.mw);
+    }
+}
+
 } // namespace
 
 std::vector<TraceSpan> spans_of(const AcceleratorResult& run) {
@@ -268,6 +290,7 @@ std::string trace_text(const Trace& trace) {
     add_counters(events, trace);
     add_stages(events, trace.timeline);
     add_rings(events, trace.timeline);
+    add_power(events, trace);
     return R"({"displayTimeUnit":"ns","otherData":{"design":)" + quoted(trace.design) +
            R"(,"clock_ghz":)" + shortest(trace.clock_ghz) + R"(,"step_cycles":)" +
            std::to_string(trace.timeline.step) + R"(,"cycles":)" +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "modules/kit/accelerator/accelerator_result.hpp"
+#include "sim/trace/power_trace.hpp"
 #include "tlm/timeline.hpp"
 
 namespace degs::sim {
@@ -20,7 +21,8 @@ struct Trace {
     std::string design;
     double clock_ghz = 1;
     TimelineRecord timeline;
-    std::vector<TraceSpan> spans; ///< do not overlap, or contain each other
+    std::vector<TraceSpan> spans;        ///< do not overlap, or contain each other
+    std::vector<PowerSeries> power = {}; ///< by block; empty if the energy is not known
 };
 
 /// Preprocessing and blending of the run.

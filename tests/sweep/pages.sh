@@ -67,6 +67,17 @@ frame.onload = async () => {
   seen.note = at("filter-note").textContent;
   put("filter", "", "input");
   await wait();
+  // The buttons save two charts with their legends, and the rows under their headings.
+  const files = [];
+  frame.contentWindow.URL.createObjectURL = (file) => { files.push(file); return "#"; };
+  frame.contentWindow.HTMLAnchorElement.prototype.click = () => {};
+  put("colour", "design", "change");
+  doc.querySelectorAll("[data-svg], #save-csv").forEach((button) => { button.click(); });
+  const texts = await Promise.all(files.map((file) => file.text()));
+  const charts = texts.slice(0, 2).map((text) => new DOMParser().parseFromString(text, "image/svg+xml"));
+  seen.charts = charts.filter((chart) => chart.documentElement.tagName === "svg" && chart.querySelector("desc")
+    && chart.documentElement.textContent.includes(chart === charts[0] ? wish.get("design") : "useful")).length;
+  seen.saved = texts[2].trim().split("\n").length - 1;
   seen.wider = doc.documentElement.scrollWidth - frame.clientWidth;
   seen.links = doc.querySelectorAll("td a[href^='reports/']").length;
   document.getElementById("seen").textContent = JSON.stringify(seen);
@@ -76,26 +87,27 @@ frame.src = wish.get("page");
 HTML
 
 failed=0
-try() { # PAGE ROWS ALL
+try() { # PAGE ROWS ALL DESIGN
     local page=$1 width scheme log dom seen
     for width in 390 1400; do
         for scheme in 0 1; do # dark, light
             log=$folder/log dom=$folder/dom
             chromium --headless --no-sandbox --disable-gpu --allow-file-access-from-files --user-data-dir="$folder/user" \
                 --blink-settings=preferredColorScheme=$scheme --enable-logging=stderr --v=0 --window-size=1500,1000 \
-                --virtual-time-budget=20000 --dump-dom "file://$folder/use.html?page=$page/index.html&width=$width" \
+                --virtual-time-budget=20000 --dump-dom "file://$folder/use.html?page=$page/index.html&width=$width&design=$4" \
                 >"$dom" 2>"$log"
             seen=$(grep -o '<pre id="seen">.*</pre>' "$dom" | sed 's/<[^>]*>//g; s/&[a-z]*;//g' || true)
             echo "$page, $width px, scheme $scheme: $seen"
             if grep CONSOLE "$log"; then failed=1; fi
             [[ $seen == *"\"rows\":$2,"* && $seen == *"\"all\":$3,"* && $seen == *'"filtered":2,'* &&
+                $seen == *'"charts":2,'* && $seen == *"\"saved\":$3,"* &&
                 $seen == *'no column for nonsense'* && $seen =~ \"wider\":(-[0-9]+|0), && $seen == *"\"links\":$3}"* &&
                 ! $seen =~ \"plots\":[01], ]] || { echo "this page is not as it should be"; failed=1; }
         done
     done
 }
-try sweep 6 12
-try compare 2 2
+try sweep 6 12 degs-64
+try compare 2 2 gscore-16
 # Linked keys are one axis, and ticks are the values themselves.
 chromium --headless --no-sandbox --disable-gpu --user-data-dir="$folder/user" --window-size=1500,1000 \
     --virtual-time-budget=20000 --dump-dom "file://$folder/linked/index.html" >"$folder/dom" 2>/dev/null

@@ -383,6 +383,45 @@
     }));
   };
 
+  // What is shown, as files.
+  const save = (name, type, text) => {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(new Blob([text], { type }));
+    link.download = name;
+    link.click();
+    URL.revokeObjectURL(link.href);
+  };
+  /** The chart of `host` with the colours of its legend below it, black on white. */
+  const svgOf = (host) => {
+    const chart = [...host.querySelectorAll("svg")].filter((svg) => !svg.closest(".plot-swatch, [class*=swatches]")).pop();
+    const copy = d3.select(chart.cloneNode(true)).attr("xmlns", "http://www.w3.org/2000/svg")
+      .style("color", "black").style("background", "white");
+    const [width, height] = [Number(chart.getAttribute("width")), Number(chart.getAttribute("height"))];
+    let [x, y] = [8, height + 14];
+    host.querySelectorAll("[class*=swatches] > span, .plot-swatch").forEach((swatch) => {
+      const words = swatch.textContent;
+      const room = 28 + 7 * words.length;
+      if (x + room > width) [x, y] = [8, y + 20];
+      const mark = swatch.querySelector("svg")?.cloneNode(true);
+      if (mark) copy.append(() => mark).attr("x", x).attr("y", y - 11).attr("width", 14).attr("height", 14);
+      copy.append("text").attr("x", x + 18).attr("y", y).attr("font-size", 12).attr("text-anchor", "start").text(words);
+      x += room;
+    });
+    copy.attr("height", y + 12).attr("viewBox", `0 0 ${width} ${y + 12}`);
+    copy.insert("desc", ":first-child").text(`${document.title}; filter: ${at("filter").value}`);
+    return new XMLSerializer().serializeToString(copy.node());
+  };
+  const csvCell = (value) => (/[",\n]/.test(value) ? `"${value.replaceAll('"', '""')}"` : value);
+  const csvOf = (runs) => {
+    const list = tableColumns();
+    const head = list.map((c) => csvCell(c.unit ? `${c.name}, ${c.unit}` : c.name));
+    return [head, ...runs.map((run) => list.map((c) => csvCell(String(c.of(run) ?? ""))))]
+      .map((row) => row.join(",") + "\n").join("");
+  };
+  document.querySelectorAll("[data-svg]").forEach((button) => button.addEventListener("click", () =>
+    save(`${button.dataset.svg}.svg`, "image/svg+xml", svgOf(at(button.dataset.svg)))));
+  at("save-csv").addEventListener("click", () => save("points.csv", "text/csv", csvOf(shown())));
+
   const drawLeftOut = () => {
     const part = (title, entries) => {
       if (entries.length === 0) return [];

@@ -155,6 +155,33 @@ TEST(CompareRuns, DoesNotDependOnJobs) {
     EXPECT_EQ(results[0]["runs"][2]["config"], "c");
 }
 
+// The option scales what is shown by the areas, and changes no result.
+TEST(CompareRuns, ScalesToEqualArea) {
+    const Folder folder;
+    const std::vector<std::string> configs{config("degs-16"), config("degs-64")};
+    const std::vector<std::string> views{"--cameras", "0,1", "--width", "64", "--no-reference"};
+    std::vector<std::string> equal = views;
+    equal.emplace_back("--equal-area");
+    const Outcome own = compare(configs, folder / "own", views);
+    const Outcome scaled = compare(configs, folder / "equal", equal);
+    expect_success(own);
+    expect_success(scaled);
+    EXPECT_EQ(own.out.find("at the area of"), std::string::npos);
+    EXPECT_NE(scaled.out.find("at the area of degs-16, 1.67 mm²"), std::string::npos) << scaled.out;
+    EXPECT_NE(scaled.out.find("geometric means  "), std::string::npos) << scaled.out;
+    const nlohmann::json mean = comparison_in(folder / "own")["means"][1]["ratio"];
+    EXPECT_EQ(mean, comparison_in(folder / "equal")["means"][1]["ratio"]);
+    for (const auto& [folder_name, key] :
+         {std::pair("own", "latency"), std::pair("own", "energy"),
+          std::pair("equal", "latency_per_mm2"), std::pair("equal", "energy_per_mm2")}) {
+        char number[20];
+        std::snprintf(number, sizeof number, ">%.2f<", mean[key].get<double>());
+        const std::string svg = read_file(fs::path(folder / folder_name) / "ratios.svg");
+        EXPECT_NE(svg.find(number), std::string::npos) << key << " " << number;
+        EXPECT_NE(svg.find("geometric mean"), std::string::npos);
+    }
+}
+
 TEST(CompareRuns, LeavesOutWhatIsNotAskedFor) {
     const Folder folder;
     std::ofstream(folder / "utilization.svg") << "of an earlier comparison";

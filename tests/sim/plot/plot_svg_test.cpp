@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sim/plot/plot_style.hpp"
 #include "sim/plot/svg.hpp"
 #include "sim/text/words.hpp"
 
@@ -84,6 +85,40 @@ TEST(Svg, LongWordsAreCutAtACharacter) {
         }
     }
     EXPECT_EQ(characters("1920×1080"), 9U);
+}
+
+// Bars begin at 0, so that their heights are in the ratio of their values, and a gap stays empty.
+TEST(RatiosPlot, BarsAreAsHighAsTheirRatios) {
+    const std::string svg = ratios_svg("Title", {"first", "second"},
+                                       {{"latency", {{"view", {1, 0.5}}, {"mean", {1, {}}}}}});
+    expect_well_formed(svg);
+    for (const char* words :
+         {"Title", "latency", ">first<", ">second<", ">view<", ">mean<", ">1.00<", ">0.50<"}) {
+        EXPECT_THAT(svg, HasSubstr(words));
+    }
+    const auto heights = [&](std::size_t design) {
+        std::vector<double> all =
+            values(svg, "rect", "height", std::string("fill=\"") + colour_of_line(design));
+        all.erase(all.begin()); // of the legend
+        return all;
+    };
+    ASSERT_EQ(heights(0).size(), 2U);
+    ASSERT_EQ(heights(1).size(), 1U);
+    EXPECT_NEAR(heights(0)[0], heights(0)[1], 0.01);
+    EXPECT_NEAR(heights(1)[0], heights(0)[0] / 2, 0.02);
+}
+
+TEST(RatiosPlot, ManyViewsTakeSeveralRows) {
+    std::vector<RatioGroup> groups;
+    for (int v = 0; v < 40; ++v) {
+        groups.push_back({"a view with a long name " + std::to_string(v), {1, 2.5, 0.01, 1e3}});
+    }
+    const std::string svg = ratios_svg("Title", {"a", "b", "c", "d"}, {{"latency", groups}});
+    expect_well_formed(svg);
+    for (const double x : values(svg, "rect", "x", "fill=\"#0072b2")) {
+        EXPECT_LT(x, kPlotWidth);
+    }
+    EXPECT_EQ(values(svg, "rect", "x", "fill=\"#0072b2").size(), 41U);
 }
 
 // The second design of the first view takes twice as long as the first, and begins late.

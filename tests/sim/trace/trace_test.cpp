@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-enum { kRun = 1, kUnits, kArray, kStages, kBuffers, kMemory };
+enum { kRun = 1, kUnits, kArray, kStages, kBuffers, kMemory, kPower };
 
 /// A design, and the options that make a run of it short and unlike the others.
 struct Traced {
@@ -104,6 +104,11 @@ public:
         }
         return std::llround(sum);
     }
+    /// In mW times cycles; of the counter of this name.
+    double power(const std::string& name) const {
+        const auto found = integrals_.find({kPower, name});
+        return found == integrals_.end() ? 0 : found->second;
+    }
     const std::map<std::string, std::map<std::string, std::uint64_t>>& states() const {
         return states_;
     }
@@ -158,6 +163,47 @@ TEST_P(TraceOf, IntegratesToTheReport) {
                   std::llround(buffer["mean_fill"].get<double>() * cells * cycles))
             << name;
     }
+}
+
+// The power of every block integrates to its energy, and that of all to the whole.
+TEST_P(TraceOf, PowerIntegratesToTheEnergy) {
+    const Folder folder;
+    const TraceRun run = traced(folder, GetParam(), {});
+    const Reader reader(run.trace);
+    const json& energy = run.report["energy"];
+    const double clock = run.report["timing"]["clock_ghz"];
+    const auto nj = [&](const std::string& name) { return reader.power(name) * 1e-3 / clock; };
+    constexpr double kRounding = 1e-6;
+    for (const auto& [name, block] : energy["blocks"].items()) {
+        const double expected =
+            block["dynamic_nj"].get<double>() + block["leakage_nj"].get<double>();
+        EXPECT_NEAR(nj(name), expected, kRounding * expected) << name;
+    }
+    const double dram = energy["dram_nj"].is_null() ? 0 : energy["dram_nj"].get<double>();
+    EXPECT_NEAR(nj("memory"), dram, kRounding * dram);
+    const double total = energy["total_nj"];
+    EXPECT_GT(total, 0);
+    EXPECT_NEAR(nj("all blocks and memory"), total, kRounding * total);
+}
+
+// A block works while its units do: none blends before the first task, and only leakage flows.
+TEST(Trace, PowerFollowsTheWork) {
+    const Folder folder;
+    const TraceRun run = traced(folder, {"degs", "degs-64", {}}, {"--trace-step", "16"});
+    const json& block = run.report["energy"]["blocks"]["blending"];
+    const double us = run.report["timing"]["cycles"].get<double>() * 1e-3;
+    const double leakage = block["leakage_nj"].get<double>() / us; // nJ / us = mW
+    const double first = run.report["slots"]["window_first"].get<double>() * 1e-3 - 0.016;
+    double before = 0, highest = 0;
+    for (const json& event : run.trace["traceEvents"]) {
+        if (event["ph"] == "C" && event["pid"] == kPower && event["name"] == "blending") {
+            const double value = event["args"]["value"];
+            before = event["ts"].get<double>() < first ? std::max(before, value) : before;
+            highest = std::max(highest, value);
+        }
+    }
+    EXPECT_NEAR(before, leakage, 1e-6 * leakage);
+    EXPECT_GT(highest, 10 * leakage);
 }
 
 // Names of the units of each stage whose count of busy cycles is that of one kind of unit.
