@@ -81,10 +81,11 @@ AnalyticRun run_analytic(const RunConfig& config, CachedView& view,
 }
 
 bool is_estimated(Measure measure) {
-    constexpr std::array<Measure, 9> kEstimated{
-        Measure::Cycles,       Measure::PreprocessingCycles, Measure::LatencyMs,
-        Measure::Fps,          Measure::Utilization,         Measure::AreaMm2,
-        Measure::LatencyRatio, Measure::LatencyRatioPerArea, Measure::SimS};
+    constexpr std::array<Measure, 10> kEstimated{
+        Measure::Cycles,    Measure::PreprocessingCycles, Measure::LatencyMs,
+        Measure::Fps,       Measure::Utilization,         Measure::AreaMm2,
+        Measure::SramBytes, Measure::LatencyRatio,        Measure::LatencyRatioPerArea,
+        Measure::SimS};
     return std::find(kEstimated.begin(), kEstimated.end(), measure) != kEstimated.end();
 }
 
@@ -97,6 +98,8 @@ Measures measures_of(const AnalyticRun& run) {
     measures[Measure::Fps] = 1000 / latency_ms;
     measures[Measure::Utilization] = run.frame.utilization;
     measures[Measure::AreaMm2] = run.config.accelerator().bill().area_mm2();
+    measures[Measure::SramBytes] =
+        static_cast<double>(run.config.accelerator().bill().sram_bytes());
     measures[Measure::SimS] = run.estimate_s;
     return measures;
 }

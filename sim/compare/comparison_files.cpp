@@ -20,6 +20,7 @@ ordered_json row_json(const Comparison& comparison, const ComparisonRow& row) {
         json["fidelity"] = row.fidelity;
     }
     for_each_measure([&](Measure m) { put_measure(json, m, row.measures[m]); });
+    put_parts(json, row);
     put_sampling(json, row);
     return json;
 }
@@ -69,7 +70,8 @@ std::string comparison_csv(const Comparison& comparison) {
     std::string text = "config,accelerator,pes,tile_size,scene,camera,width,height,fidelity";
     for_each_measure([&](Measure m) { text += "," + name_of(m); });
     const bool sampled = any_sampled(comparison.rows);
-    text += (sampled ? sampling_headings() : "") + "\n";
+    const std::vector<std::string> parts = part_names(comparison.rows);
+    text += part_headings(parts) + (sampled ? sampling_headings() : "") + "\n";
     for (const ComparisonRow& row : comparison.rows) {
         const ComparedConfig& config = comparison.configs[row.config];
         const ComparedView& view = comparison.views[row.view];
@@ -79,7 +81,7 @@ std::string comparison_csv(const Comparison& comparison) {
                 std::to_string(view.camera) + "," + std::to_string(view.width) + "," +
                 std::to_string(view.height) + "," + csv_cell(row.fidelity);
         for_each_measure([&](Measure m) { text += "," + csv_number(row.measures[m]); });
-        text += (sampled ? sampling_cells(row) : "") + "\n";
+        text += part_cells(row, parts) + (sampled ? sampling_cells(row) : "") + "\n";
     }
     return text;
 }

@@ -4,6 +4,7 @@
 #include "sim/memory/memory_report.hpp"
 #include "sim/report/measures.hpp"
 #include "sim/report/report.hpp"
+#include "sim/results/run_summary.hpp"
 
 namespace degs::sim {
 namespace {
@@ -30,7 +31,11 @@ std::vector<Statistic> statistics_of(const RunConfig& config) {
 }
 
 std::vector<Statistic> statistics_of_compare() {
-    return measure_statistics(report_statistics(RunConfig{}));
+    std::vector<Statistic> list = measure_statistics(report_statistics(RunConfig{}));
+    for (Statistic& part : part_statistics()) {
+        list.push_back(std::move(part));
+    }
+    return list;
 }
 
 std::vector<Statistic> statistics_of_memory() {

@@ -67,6 +67,10 @@ ordered_json run_of(const PageFacts& facts, const Comparison& comparison, std::s
     for (const auto& [name, busy] : row.stages) {
         run["stages"][name] = busy;
     }
+    run["parts"] = ordered_json::object();
+    for (const auto& [name, value] : row.parts) {
+        run["parts"][name] = value;
+    }
     run["report"] = row.report;
     return run;
 }
@@ -164,6 +168,10 @@ std::string study_page(const PageFacts& facts, const Comparison& comparison) {
         kPage,
         {{"title", html_escaped(facts.title + (comparison.is_estimated() ? " (estimates)" : ""))},
          {"css", kStyle},
+         {"bandwidth", facts.picture.empty() ? ""
+                                             : "<section><h2>Latency over the bandwidth of "
+                                               "memory</h2>\n" +
+                                                   facts.picture + "</section>"},
          {"data", embedded(data_of(facts, comparison))},
          {"d3", kD3},
          {"plot", kPlot},

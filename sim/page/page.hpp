@@ -38,7 +38,8 @@ struct PageFacts {
     std::vector<std::pair<std::string, std::string>> skipped; ///< what, and why
     std::vector<std::pair<std::string, std::string>> failed;
     std::size_t missing = 0;
-    std::string spent{}; ///< what a search has spent: "60 designs estimated, 12 simulated"
+    std::string picture{}; ///< SVG of latency over bandwidth, if the study varies it
+    std::string spent{};   ///< what a search has spent: "60 designs estimated, 12 simulated"
 };
 
 /// index.html: measures of the host are left out, so that it depends only on what was simulated.

@@ -4,17 +4,16 @@
 #include <algorithm>
 
 #include "base/ratio.hpp"
+#include "modules/kit/accelerator/waiting_causes.hpp"
 #include "sim/simulation/loss_keys.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
 namespace {
 
-// A stage or the memory is the cause of waiting if it is busy for this share of the time.
-constexpr double kBusy = 0.6;
-// A part of the time before the first task is its cause if it is that long, and another one that is
-// shorter by less than this is so, too: to shorten only one of the two leaves the other.
-constexpr double kLong = 0.3, kAlike = 0.1;
+// Beside the longest part of the time before the first task, another one that is shorter by less
+// than this is its cause, too: to shorten only one of the two leaves the other.
+constexpr double kAlike = 0.1;
 // The latency of memory is a cause if units waited for answers for this part of the time that is
 // lost.
 constexpr double kLate = 0.5;
@@ -27,7 +26,7 @@ struct Cause {
 class Losses {
 public:
     explicit Losses(const RunResult& result)
-        : result_(result), run_(result.accelerator), keys_(result) {}
+        : result_(result), run_(result.accelerator), causes_(run_), keys_(result) {}
 
     std::vector<Loss> all() const {
         std::vector<Loss> losses;
@@ -46,7 +45,7 @@ public:
             }
         }
         const bool any = !run_.window.empty();
-        const Cycle first = any ? run_.window.first : run_.cycles;
+        const Cycle first = causes_.before_first();
         const Cycle after =
             any && run_.cycles > run_.window.last ? run_.cycles - run_.window.last - 1 : 0;
         add(before(first), ratio_of(first, 1) * run_.pes);
@@ -58,41 +57,14 @@ public:
     }
 
 private:
-    bool limited_memory() const { return run_.memory_gb_per_s > 0; }
-    /// What a stage or a stream did while the array worked, as a part of all that it did: the first
-    /// task waits for the rest.
-    double later(double prepares) const { return 1 - prepares / frames(); }
     double frames() const { return std::max(1.0, ratio_of(run_.frames.size(), 1)); }
-
-    /// Share of the window of the array in which the data bus was busy.
-    double memory_in_window() const {
-        if (!limited_memory() || run_.window.empty()) {
-            return 0;
-        }
-        double all = 0, beside = 0;
-        for (const StreamUse& stream : run_.streams) {
-            const double bytes = ratio_of(stream.bytes_read + stream.bytes_written, 1);
-            all += bytes;
-            beside += bytes * later(stream.prepares);
-        }
-        const double busy = run_.memory_utilization * ratio_of(run_.memory_window, 1);
-        return all > 0 ? busy * beside / all / ratio_of(run_.window.cycles(), 1) : 0;
-    }
-    bool memory_bound() const { return memory_in_window() >= kBusy; }
-
-    /// Share of the window of the array in which the units of a stage were busy.
-    double in_window(const StageUse& stage) const {
-        return run_.window.empty() ? 0
-                                   : stage.busy_cycles / stage.units * later(stage.prepares) /
-                                         ratio_of(run_.window.cycles(), 1);
-    }
 
     /// The last pixels are read out, and then on their way to the memory. Only a memory whose
     /// latency is a key names one for it; LPDDR5 leaves memory.latency_ns without effect.
     std::string after_cause(double cycles) const {
         const double latency = keys_.number("memory.latency_ns").value_or(0) * run_.clock_ghz;
         const bool is_latency = latency > cycles / 2 && !keys_.of("latency").empty();
-        return memory_bound()                      ? "memory"
+        return causes_.is_memory_busy()            ? "memory"
                : is_latency                        ? "latency"
                : is_written_slower_than_read_out() ? "memory"
                                                    : "readout";
@@ -105,7 +77,7 @@ private:
         const auto written =
             std::find_if(run_.streams.begin(), run_.streams.end(),
                          [](const StreamUse& s) { return s.name == "frame_buffer"; });
-        if (!limited_memory() || pixels == 0 || written == run_.streams.end()) {
+        if (!causes_.has_limited_memory() || pixels == 0 || written == run_.streams.end()) {
             return false;
         }
         const double bytes = ratio_of(written->bytes_written, 1) / pixels;
@@ -120,7 +92,7 @@ private:
         if (slot.slot != Slot::Blocked) {
             return {slot.name, slot.name};
         }
-        return memory_bound() ? Cause{"blocked, for memory", "memory"}
+        return causes_.is_memory_busy() ? Cause{"blocked, for memory", "memory"}
                : is_late(run_.waits.pixels, run_.slots[Slot::Blocked])
                    ? Cause{"blocked, for the latency of memory", "acknowledgements"}
                    : Cause{slot.name, slot.name};
@@ -132,22 +104,22 @@ private:
 
     /// What kept the first tasks of the run from coming earlier. Memory and stages prepare a frame
     /// at the same time, so it is the one that took longest; of two that took equally long, both,
-    /// in the order of preparation().
+    /// in the order of WaitingCauses::preparation().
     Cause before(Cycle first) const {
         const std::string words = "before the first task";
         if (run_.array_only || first == 0) {
             return {words, "none"};
         }
-        const std::vector<Part> parts = preparation(ratio_of(first, 1));
+        const std::vector<WaitingCauses::Part> parts = causes_.preparation();
         double longest = 0;
-        for (const Part& part : parts) {
+        for (const WaitingCauses::Part& part : parts) {
             longest = std::max(longest, part.share);
         }
-        if (longest < kLong) {
+        if (longest < WaitingCauses::kLong) {
             return {words, "latency"};
         }
         std::string name;
-        for (const Part& part : parts) {
+        for (const WaitingCauses::Part& part : parts) {
             if (part.share > longest - kAlike) {
                 name += (name.empty() ? "" : " and ") + part.name;
             }
@@ -155,46 +127,10 @@ private:
         return {words + ", for " + name, name};
     }
 
-    struct Part {
-        std::string name;
-        double share; ///< of the time before the first task
-    };
-
-    /// Memory, then the stages from the first to the last.
-    std::vector<Part> preparation(double cycles) const {
-        std::vector<Part> parts;
-        double bytes = 0;
-        for (const StreamUse& stream : run_.streams) {
-            bytes += stream.prepares * ratio_of(stream.bytes_read + stream.bytes_written, 1);
-        }
-        if (limited_memory()) {
-            parts.push_back(
-                {"memory", bytes / run_.memory_gb_per_s * run_.clock_ghz / frames() / cycles});
-        }
-        for (const StageUse& stage : run_.stages) {
-            parts.push_back(
-                {stage.name, stage.prepares * stage.busy_cycles / stage.units / frames() / cycles});
-        }
-        if (const auto rate = keys_.number("binning.pairs_per_cycle")) {
-            parts.push_back({"binning", ratio_of(result_.workload.tile_pairs, 1) / *rate / cycles});
-        }
-        return parts;
-    }
-
     /// The busiest of those that come before the array, while it worked.
     Cause starvation() const {
-        std::string busiest;
-        double most = 0;
-        for (const StageUse& stage : run_.stages) {
-            if (!stage.array && in_window(stage) > most) {
-                most = in_window(stage);
-                busiest = stage.name;
-            }
-        }
-        if (memory_bound() && memory_in_window() >= most) {
-            return {"starved, for memory", "memory"};
-        }
-        if (most >= kBusy) {
+        const std::string busiest = causes_.starved_for();
+        if (!busiest.empty()) {
             return {"starved, for " + busiest, busiest};
         }
         const std::string words = "starved, for the latency of memory";
@@ -208,6 +144,7 @@ private:
 
     const RunResult& result_;
     const AcceleratorResult& run_;
+    WaitingCauses causes_;
     LossKeys keys_;
 };
 

@@ -29,20 +29,24 @@ constexpr Direction kLeast = Direction::Minimise;
 constexpr Direction kMost = Direction::Maximise;
 
 // The measures before and behind the shares of the slots.
-constexpr std::array<MeasureRule, 5> kBeforeSlots{{
+constexpr std::array<MeasureRule, 6> kBeforeSlots{{
     {"cycles", "timing.cycles", false, kLeast},
     {"preprocessing_cycles", "timing.preprocessing_cycles", false, kLeast},
+    {"blending_cycles", "timing.blending_cycles", false, kLeast},
     {"latency_ms", "timing.latency_ms", true, kLeast},
     {"fps", "timing.fps", true, kMost},
     {"throughput_fps", "timing.throughput_fps", true, kMost},
 }};
-constexpr std::array<MeasureRule, 20> kBehindSlots{{
+constexpr std::array<MeasureRule, 23> kBehindSlots{{
     {"slots.utilization", "slots.utilization", true, kMost},
     {"slots.frame_utilization", "slots.frame_utilization", true, kMost},
     {"dram.bytes_read", "dram.bytes_read", false, kLeast},
     {"dram.bytes_written", "dram.bytes_written", false, kLeast},
     {"dram.utilization", "dram.utilization", false, kNone}, // a busy bus may be used well or ill
+    {"dram.peak_gb_per_s", "dram.peak_gb_per_s", false, kNone},
+    {"memory_bound", "stages.memory_bound", false, kLeast},
     {"area_mm2", "area.mm2", false, kLeast},
+    {"sram_bytes", "area.sram_bytes", false, kLeast},
     {"energy.nj_per_frame", "energy.nj_per_frame", true, kLeast},
     {"energy.nj_per_pixel", "energy.nj_per_pixel", true, kLeast},
     {"energy.average_power_w", "energy.average_power_w", true, kLeast},

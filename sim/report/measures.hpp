@@ -17,6 +17,7 @@ namespace degs::sim {
 enum class Measure {
     Cycles,
     PreprocessingCycles,
+    BlendingCycles,
     LatencyMs,
     Fps,
     ThroughputFps, ///< of the camera path
@@ -26,7 +27,10 @@ enum class Measure {
     DramRead,    ///< bytes
     DramWritten, ///< bytes
     DramUtilization,
+    DramPeak, ///< GB/s
+    MemoryBound,
     AreaMm2,
+    SramBytes,
     NjPerFrame,
     NjPerPixel,
     AveragePowerW,

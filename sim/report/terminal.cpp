@@ -8,6 +8,7 @@
 #include "base/ratio.hpp"
 #include "base/visible_text.hpp"
 #include "config/config_words.hpp"
+#include "modules/kit/accelerator/waiting_causes.hpp"
 #include "sim/report/losses.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/words.hpp"

@@ -150,6 +150,7 @@ Comparison compare(const std::vector<std::string>& configs, const std::vector<Co
         row.cycles_high = run.frame.cycles_high;
         row.limited_by = run.frame.limited_by;
         row.stages = run.frame.stages;
+        row.parts = run.frame.parts;
         row.report = run.report;
         read_config(run.frame, comparison.configs[row.config]);
         comparison.rows.push_back(row);

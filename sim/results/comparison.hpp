@@ -40,6 +40,7 @@ struct ComparisonRow {
     std::optional<double> sampled_share, cycles_low, cycles_high;
     std::string limited_by;
     std::vector<std::pair<std::string, double>> stages; ///< with their busy shares
+    std::vector<std::pair<std::string, double>> parts;  ///< as in RunSummary
     std::string report;
 };
 

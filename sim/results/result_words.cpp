@@ -20,10 +20,54 @@ ordered_json number_json(const std::optional<double>& value) {
     return value_or_null(value);
 }
 
-void put_measure(ordered_json& run, Measure measure, const std::optional<double>& value) {
-    std::string place = "/" + name_of(measure);
+namespace {
+
+void put_number(ordered_json& run, const std::string& name, const std::optional<double>& value) {
+    std::string place = "/" + name;
     std::replace(place.begin(), place.end(), '.', '/');
     run[ordered_json::json_pointer(place)] = number_json(value);
+}
+
+} // namespace
+
+void put_measure(ordered_json& run, Measure measure, const std::optional<double>& value) {
+    put_number(run, name_of(measure), value);
+}
+
+void put_parts(ordered_json& run, const ComparisonRow& row) {
+    for (const auto& [name, value] : row.parts) {
+        put_number(run, name, value);
+    }
+}
+
+std::vector<std::string> part_names(const std::vector<ComparisonRow>& rows) {
+    std::vector<std::string> names;
+    for (const ComparisonRow& row : rows) {
+        for (const auto& [name, value] : row.parts) {
+            if (std::find(names.begin(), names.end(), name) == names.end()) {
+                names.push_back(name);
+            }
+        }
+    }
+    return names;
+}
+
+std::string part_headings(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) {
+        text += "," + csv_cell(name);
+    }
+    return text;
+}
+
+std::string part_cells(const ComparisonRow& row, const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) {
+        const auto part = std::find_if(row.parts.begin(), row.parts.end(),
+                                       [&name](const auto& each) { return each.first == name; });
+        text += "," + (part == row.parts.end() ? "" : csv_number(part->second));
+    }
+    return text;
 }
 
 ordered_json view_json(const ComparedView& view) {

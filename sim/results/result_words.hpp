@@ -22,6 +22,14 @@ nlohmann::ordered_json number_json(const std::optional<double>& value);
 /// Puts a measure into a run: its name with '/' for '.' is the place.
 void put_measure(nlohmann::ordered_json& run, Measure measure, const std::optional<double>& value);
 
+/// Puts the numbers of single buffers and blocks into a run likewise.
+void put_parts(nlohmann::ordered_json& run, const ComparisonRow& row);
+/// The names of all of them, in the order in which rows first have them; the headings of their
+/// columns in CSV; and the cells of a row.
+std::vector<std::string> part_names(const std::vector<ComparisonRow>& rows);
+std::string part_headings(const std::vector<std::string>& names);
+std::string part_cells(const ComparisonRow& row, const std::vector<std::string>& names);
+
 nlohmann::ordered_json view_json(const ComparedView& view);
 
 /// Share of the tiles and interval of the cycles, for a run that was a sample; else nothing.

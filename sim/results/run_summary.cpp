@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/ratio.hpp"
+#include "modules/kit/accelerator/waiting_causes.hpp"
 #include "sim/results/message_fields.hpp"
 
 namespace degs::sim {
@@ -41,6 +42,7 @@ void each_field(Fields& fields, Summary& summary) {
     fields("cycles_high", summary.cycles_high);
     fields("limited_by", summary.limited_by);
     fields("stages", summary.stages);
+    fields("parts", summary.parts);
     fields("warnings", summary.warnings);
     fields("report", summary.report);
 }
@@ -52,7 +54,42 @@ ComparedView view_of(const SceneFacts& scene, const Camera& camera, const Worklo
             camera.height, workload.gaussians, workload.visible, std::nullopt};
 }
 
+/// What every design has in other parts: how full its buffers were, and the energy of its blocks.
+std::vector<std::pair<std::string, double>> parts_of(const AcceleratorResult& run) {
+    std::vector<std::pair<std::string, double>> parts;
+    for (const BufferUse& buffer : run.buffers) {
+        if (buffer.depth != 0) {
+            const std::string name = "buffers." + buffer.name;
+            parts.emplace_back(name + ".high_water", ratio_of(buffer.high_water, 1));
+            parts.emplace_back(name + ".high_water_share",
+                               ratio_of(buffer.high_water, buffer.depth));
+        }
+    }
+    const double frames = std::max(1.0, ratio_of(run.frames.size(), 1));
+    for (const cost::BlockEnergy& block : run.energy.blocks()) {
+        parts.emplace_back("energy.blocks." + block.name + ".nj_per_frame",
+                           (block.dynamic_nj + block.leakage_nj) / frames);
+    }
+    return parts;
+}
+
+Statistic part_statistic(const char* path, const char* unit, const char* sentence) {
+    Statistic row;
+    row.path = path;
+    row.unit = unit;
+    row.sentence = sentence;
+    return row;
+}
+
 } // namespace
+
+std::vector<Statistic> part_statistics() {
+    return {part_statistic("buffers.*.high_water", "cells",
+                           "Most cells of one ring filled at once; of buffers with cells."),
+            part_statistic("buffers.*.high_water_share", "share", "high_water / depth."),
+            part_statistic("energy.blocks.*.nj_per_frame", "nJ",
+                           "Dynamic energy and leakage of a block, per frame.")};
+}
 
 RunSummary summary_of(const RunResult& result, int camera) {
     RunSummary summary;
@@ -83,6 +120,7 @@ RunSummary summary_of(const RunResult& result, int camera) {
     for (const StageUse& stage : run.stages) {
         summary.stages.emplace_back(stage.name, stage.busy);
     }
+    summary.parts = parts_of(run);
     summary.warnings = result.warnings;
     return summary;
 }

@@ -38,9 +38,14 @@ struct RunSummary {
     std::optional<double> cycles_low, cycles_high;      ///< 95 % interval, of a sample
     std::string limited_by;                             ///< the busiest stage, or memory
     std::vector<std::pair<std::string, double>> stages; ///< with the share of the run they worked
-    std::vector<std::string> warnings;                  ///< sentences; see warnings.hpp
-    std::string report; ///< report.json of the run; empty if nobody wants it
+    /// Numbers of single buffers and blocks by their names, see part_statistics().
+    std::vector<std::pair<std::string, double>> parts;
+    std::vector<std::string> warnings; ///< sentences; see warnings.hpp
+    std::string report;                ///< report.json of the run; empty if nobody wants it
 };
+
+/// The names of RunSummary::parts, with * for that of a buffer or block, units and meanings.
+std::vector<Statistic> part_statistics();
 
 /// Without the report. `camera` is the view's position in the scene's list.
 RunSummary summary_of(const RunResult& result, int camera);
@@ -49,7 +54,7 @@ RunSummary summary_of(const RunResult& result, int camera);
 RunSummary summary_of(const AnalyticRun& run, int camera);
 
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 9;
+constexpr int kSummaryVersion = 10;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

@@ -10,6 +10,7 @@
 #include "sim/page/page.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/result_words.hpp"
+#include "sim/sweep/bandwidth_curve.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -21,6 +22,7 @@ constexpr const char* kCsv = "results.csv";
 constexpr const char* kJson = "results.json";
 constexpr const char* kPage = "index.html";
 constexpr const char* kHostCsv = "host.csv";
+constexpr const char* kBandwidth = "bandwidth.svg";
 constexpr std::size_t kMostShown = 10; ///< reasons on a terminal; the files have all
 
 /// Measures of the machine that simulates would differ from run to run.
@@ -41,7 +43,14 @@ std::vector<std::string> stage_names(const Comparison& comparison) {
     return names;
 }
 
-std::string csv_head(const StudyPlan& plan, const std::vector<std::string>& stages, bool sampled) {
+/// Columns that only some studies have.
+struct MoreColumns {
+    std::vector<std::string> stages, parts;
+    bool sampled = false;
+    std::vector<std::optional<double>> elasticity; ///< by row; empty: bandwidth is not varied
+};
+
+std::string csv_head(const StudyPlan& plan, const MoreColumns& more) {
     std::string text = "point,design";
     for (const std::string& key : plan.keys) {
         text += "," + csv_cell(key);
@@ -49,15 +58,16 @@ std::string csv_head(const StudyPlan& plan, const std::vector<std::string>& stag
     text += ",accelerator,pes,tile_size,scene,camera,width,height,fidelity";
     for_each_measure([&](Measure m) { text += is_reproducible(m) ? "," + name_of(m) : ""; });
     text += ",limited_by";
-    for (const std::string& stage : stages) {
+    text += more.elasticity.empty() ? "" : ",bandwidth_elasticity";
+    for (const std::string& stage : more.stages) {
         text += "," + csv_cell("stages." + stage + ".busy");
     }
-    return text + (sampled ? sampling_headings() : "") +
+    return text + part_headings(more.parts) + (more.sampled ? sampling_headings() : "") +
            (plan.aims.limits.empty() ? "" : ",within") + "\n";
 }
 
 std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::size_t r,
-                    const std::vector<std::string>& stages, bool sampled) {
+                    const MoreColumns& more) {
     const ComparisonRow& row = results.comparison.rows[r];
     const ComparedConfig& config = results.comparison.configs[row.config];
     const ComparedView& view = results.comparison.views[row.view];
@@ -73,12 +83,13 @@ std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::siz
     for_each_measure(
         [&](Measure m) { text += is_reproducible(m) ? "," + csv_number(row.measures[m]) : ""; });
     text += "," + csv_cell(row.limited_by);
-    for (const std::string& stage : stages) {
+    text += more.elasticity.empty() ? "" : "," + csv_number(more.elasticity[r]);
+    for (const std::string& stage : more.stages) {
         const auto use = std::find_if(row.stages.begin(), row.stages.end(),
                                       [&stage](const auto& each) { return each.first == stage; });
         text += "," + (use == row.stages.end() ? "" : csv_number(use->second));
     }
-    text += sampled ? sampling_cells(row) : "";
+    text += part_cells(row, more.parts) + (more.sampled ? sampling_cells(row) : "");
     if (!plan.aims.limits.empty()) {
         text += "," + csv_cell(within_words(results.verdicts[row.config]));
     }
@@ -86,11 +97,12 @@ std::string csv_row(const StudyPlan& plan, const SweepResults& results, std::siz
 }
 
 std::string results_csv(const StudyPlan& plan, const SweepResults& results) {
-    const std::vector<std::string> stages = stage_names(results.comparison);
-    const bool sampled = any_sampled(results.comparison.rows);
-    std::string text = csv_head(plan, stages, sampled);
+    const std::vector<ComparisonRow>& rows = results.comparison.rows;
+    const MoreColumns more{stage_names(results.comparison), part_names(rows), any_sampled(rows),
+                           elasticities(plan, results.comparison)};
+    std::string text = csv_head(plan, more);
     for (std::size_t r = 0; r < results.comparison.rows.size(); ++r) {
-        text += csv_row(plan, results, r, stages, sampled);
+        text += csv_row(plan, results, r, more);
     }
     return text;
 }
@@ -119,7 +131,8 @@ ordered_json variant_json(const StudyPlan& plan, const StudyVariant& variant) {
     return json;
 }
 
-ordered_json run_json(const SweepResults& results, std::size_t r) {
+ordered_json run_json(const SweepResults& results, std::size_t r,
+                      const std::vector<std::optional<double>>& elasticity) {
     const ComparisonRow& row = results.comparison.rows[r];
     ordered_json json = {{"point", results.points[r] + 1},
                          {"variant", row.config},
@@ -130,8 +143,12 @@ ordered_json run_json(const SweepResults& results, std::size_t r) {
             put_measure(json, m, row.measures[m]);
         }
     });
+    put_parts(json, row);
     put_sampling(json, row);
     json["limited_by"] = row.limited_by;
+    if (!elasticity.empty()) {
+        json["bandwidth_elasticity"] = number_json(elasticity[r]);
+    }
     json["stages"] = ordered_json::object();
     for (const auto& [name, busy] : row.stages) {
         json["stages"][name] = number_json(busy);
@@ -158,8 +175,9 @@ void put_lists(const StudyPlan& plan, const SweepResults& results, ordered_json&
     for (const ComparedView& view : results.comparison.views) {
         json["views"].push_back(view_json(view));
     }
+    const auto elasticity = elasticities(plan, results.comparison);
     for (std::size_t r = 0; r < results.comparison.rows.size(); ++r) {
-        json["runs"].push_back(run_json(results, r));
+        json["runs"].push_back(run_json(results, r, elasticity));
     }
     for (const SkippedVariant& skipped : plan.skipped) {
         json["skipped"].push_back(variant_json(plan, skipped.variant));
@@ -224,6 +242,7 @@ std::string page_of(const StudyPlan& plan, const SweepResults& results) {
     }
     facts.missing = results.missing;
     facts.spent = results.spent;
+    facts.picture = bandwidth_picture(plan, results.comparison);
     return study_page(facts, results.comparison);
 }
 
@@ -252,7 +271,7 @@ private:
 } // namespace
 
 std::vector<std::string> sweep_files() {
-    return {kJson, kCsv, kHostCsv, kPage};
+    return {kJson, kCsv, kHostCsv, kPage, kBandwidth};
 }
 
 SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
@@ -301,6 +320,10 @@ void write_results(const StudyPlan& plan, const SweepResults& results, const Out
         folder.write_text(kHostCsv, host_csv(results));
         folder.write_json(kJson, results_json(plan, results));
         folder.write_text(kPage, page_of(plan, results));
+        const std::string picture = bandwidth_picture(plan, results.comparison);
+        if (!picture.empty()) {
+            folder.write_text(kBandwidth, picture);
+        }
     });
 }
 

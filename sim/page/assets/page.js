@@ -39,9 +39,13 @@
   const stageColumns = stageNames.map((stage) => ({
     name: `stages.${stage}.busy`, unit: "share", kind: "measure", numeric: true,
     sentence: "Share of the run in which the units of this stage worked.", of: (run) => run.stages[stage] ?? null }));
+  const partColumns = [...new Set(data.runs.flatMap((run) => Object.keys(run.parts)))].map((name) => ({
+    name, unit: name.endsWith("_share") ? "share" : name.endsWith("high_water") ? "cells" : "nJ", kind: "measure",
+    numeric: true, sentence: name.startsWith("buffers.") ? "Most cells of one ring filled at once."
+      : "Dynamic energy and leakage of a block, per frame.", of: (run) => run.parts[name] ?? null }));
   const design = { name: "design", unit: "", kind: "text", numeric: false, sentence: "Design of the study.",
     of: (run) => data.variants[run.variant].design };
-  const limit = { name: "limited_by", unit: "", kind: "text", numeric: false, sentence: "The busiest stage, or memory.",
+  const limit = { name: "limited_by", unit: "", kind: "text", numeric: false, sentence: "memory if memory_bound is more than a half, else the busiest stage.",
     of: (run) => run.limited_by };
   const view = { name: "view", unit: "", kind: "text", numeric: false, sentence: "Scene, camera and image size.",
     of: (run) => data.views[run.view].words };
@@ -55,7 +59,7 @@
     of: (run) => data.variants[run.variant].within || null };
   const isOutside = (run) => data.limited && !["yes", ""].includes(data.variants[run.variant].within);
   const columns = [point, design, ...(data.limited ? [within] : []), ...axisColumns, ...keyColumns, ...(areMorePes ? [pes] : []), view, ...measureColumns, limit,
-    ...stageColumns];
+    ...stageColumns, ...partColumns];
   const columnOf = new Map(columns.map((c) => [c.name, c]));
   const isBaseline = (run) => run.variant === data.baseline;
 
@@ -84,7 +88,7 @@
   };
   const option = (column) => ({ label: heading(column), value: column.name });
   const numericColumns = columns.filter((c) => c.numeric && c !== point);
-  const ys = [...measureColumns, ...stageColumns];
+  const ys = [...measureColumns, ...stageColumns, ...partColumns];
   const varied = [...axisColumns, ...keyColumns.filter((c) => !inAxis.has(c.keys[0]))]
     .filter((c) => new Set(data.runs.map(c.of)).size > 1);
   const area = columnOf.has("area_mm2") && measureColumns.includes(columnOf.get("area_mm2")) ? "area_mm2" : "design";

@@ -91,7 +91,7 @@ TEST(SmallRunReport, HasEveryKeyOfTheContract) {
                                   "starved", "blocked", "drain", "utilization", "frame_utilization",
                                   "window_first", "window_last", "hazards"});
     expect_keys(report["stages"], {"projection", "sorting", "fetching", "slicing", "span",
-                                   "packing", "blending", "limited_by"});
+                                   "packing", "blending", "limited_by", "memory_bound"});
     expect_keys(report["dram"],
                 {"bytes_read", "bytes_written", "utilization", "row_hit_rate", "streams"});
     for (const char* buffer : {"gaussian_buffer", "span_buffer", "packing_buffer"}) {

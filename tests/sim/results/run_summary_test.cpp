@@ -56,6 +56,8 @@ std::string without(std::string message, const std::string& field) {
 TEST(RunSummary, EveryFieldComesBack) {
     RunSummary sent = summary_of(some_result(), 7);
     sent.report = "{\n}\n";
+    sent.limited_by = "memory";
+    sent.parts = {{"buffers.b.high_water", 3}, {"energy.blocks.b.nj_per_frame", 0.5}};
     sent.warnings = {"One sentence.", "Another one."};
     const RunSummary back = summary_from(message_of(sent));
     EXPECT_EQ(back.accelerator, "degs");
@@ -69,6 +71,7 @@ TEST(RunSummary, EveryFieldComesBack) {
     EXPECT_NEAR(back.first_task_ms.value_or(0), 10e-6, 1e-12);
     EXPECT_NEAR(back.last_task_ms.value_or(0), 14e-6, 1e-12);
     EXPECT_EQ(back.limited_by, "memory");
+    EXPECT_EQ(back.parts, sent.parts);
     EXPECT_EQ(back.report, sent.report);
     EXPECT_EQ(back.warnings, sent.warnings);
     for_each_measure(

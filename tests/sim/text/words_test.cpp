@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "modules/kit/accelerator/waiting_causes.hpp"
 #include "sim/accelerator/accelerator_run.hpp"
 #include "sim/report/terminal.hpp"
 #include "sim/text/words.hpp"
@@ -117,13 +118,54 @@ TEST(SteadyFps, IsOfAllFramesButTheFirstAndTheLast) {
     EXPECT_DOUBLE_EQ(steady_fps(result).value(), 4e6); // 2 frames in 1000 cycles of 0.5 ns
 }
 
-TEST(LimitingStage, IsTheBusiestOne) {
+/// A run of 100 cycles of 10 PEs, of which `before` pass before the first task, and in which the
+/// bus is busy while the array works.
+AcceleratorResult run_on_memory(Cycle before, std::uint64_t starved) {
     AcceleratorResult result;
-    result.stages = {{"span", "", false, 8, 0, 0.7, {}}, {"blending", "", true, 8, 0, 0.9, {}}};
-    result.memory_utilization = 0.8;
-    EXPECT_EQ(limiting_stage(result), "blending");
-    result.memory_utilization = 0.95;
+    result.pes = 10;
+    result.cycles = result.memory_window = 100;
+    result.window.include(before);
+    result.window.include(99);
+    result.slots[Slot::Starved] = starved;
+    result.slots[Slot::Useful] = 10 * (100 - before) - starved;
+    result.memory_gb_per_s = 10;
+    result.memory_utilization = 1;
+    result.streams.resize(2);
+    result.streams[0].prepares = 1;
+    result.streams[0].bytes_read = 10 * before;
+    result.streams[1].bytes_read = 10 * (100 - before);
+    result.stages = {{"projection", "", false, 1, 0.5 * static_cast<double>(before), 0.2, {}, 1},
+                     {"blending", "", true, 10, 0, 0.9, {}}};
+    return result;
+}
+
+TEST(WaitingCauses, CountWhatWasLostForMemory) {
+    AcceleratorResult result = run_on_memory(40, 200);
+    EXPECT_DOUBLE_EQ(WaitingCauses(result).lost_for_memory().value(), 0.6);
+    EXPECT_EQ(WaitingCauses(result).starved_for(), "memory");
+    result.slots[Slot::Blocked] = 50;
+    EXPECT_DOUBLE_EQ(WaitingCauses(result).lost_for_memory().value(), 0.65);
+    result.stages[0].busy_cycles = 41; // longer than the bytes take
+    EXPECT_FALSE(WaitingCauses(result).prepares_for_memory());
+    EXPECT_DOUBLE_EQ(WaitingCauses(result).lost_for_memory().value(), 0.25);
+    result.stages[0].busy_cycles = 1;
+    result.binning_cycles = 41;
+    EXPECT_FALSE(WaitingCauses(result).prepares_for_memory());
+    result.memory_gb_per_s = 0;
+    EXPECT_FALSE(WaitingCauses(result).lost_for_memory());
+}
+
+TEST(LimitingStage, IsMemoryIfMoreThanHalfIsLostForIt) {
+    AcceleratorResult result = run_on_memory(40, 101);
     EXPECT_EQ(limiting_stage(result), "memory");
+    result = run_on_memory(40, 99);
+    EXPECT_EQ(limiting_stage(result), "blending");
+    result = run_on_memory(40, 600);
+    result.memory_utilization = 0.5; // the bus is busier than any stage only before the first task
+    result.stages[1].busy = 0.4;
+    EXPECT_EQ(limiting_stage(result), "blending");
+    result.stages.clear();
+    EXPECT_EQ(limiting_stage(result), "");
 }
 
 } // namespace

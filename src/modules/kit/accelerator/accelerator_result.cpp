@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/ratio.hpp"
+#include "modules/kit/accelerator/waiting_causes.hpp"
 
 namespace degs {
 namespace {
@@ -55,7 +56,11 @@ void describe_stages(const AcceleratorResult& run, StatsVisitor& v) {
     for (const StageUse& stage : run.stages) {
         v.section(stage.name, stage, stage.sentence);
     }
-    v.text("limited_by", limiting_stage(run), "The busiest stage, or memory: a hint, no proof.");
+    v.text("limited_by", limiting_stage(run),
+           "memory if memory_bound is more than a half, else the busiest stage: a hint, no proof.");
+    v.real("memory_bound", WaitingCauses(run).lost_for_memory(), "share",
+           "PE-cycles of the run that were lost for the bandwidth of memory; null with "
+           "--array-only.");
     v.end_section();
 }
 
@@ -191,16 +196,6 @@ std::optional<double> steady_fps(const AcceleratorResult& result) {
         return {};
     }
     return ratio_of(frames.size() - 2, cycles) * result.clock_ghz * 1e9;
-}
-
-std::string limiting_stage(const AcceleratorResult& result) {
-    const auto busiest =
-        std::max_element(result.stages.begin(), result.stages.end(),
-                         [](const StageUse& a, const StageUse& b) { return a.busy < b.busy; });
-    if (busiest == result.stages.end() || result.memory_utilization > busiest->busy) {
-        return "memory";
-    }
-    return busiest->name;
 }
 
 } // namespace degs

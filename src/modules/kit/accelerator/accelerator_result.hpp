@@ -104,6 +104,8 @@ struct AcceleratorResult {
     std::vector<cost::Activity> activity; ///< of the blocks in the bill of materials
     cost::RunEnergy energy;
     AnswerWaits waits;
+    /// In which the Tile Binner could take the list entries of all frames; no number of results.
+    double binning_cycles = 0;
     int readout_pixels = 0; ///< that all Pixel Buffers read out per cycle; no number of results
     double memory_utilization = 0; ///< share of memory_window in which the data bus was busy
     double memory_gb_per_s = 0;    ///< peak; 0: unlimited
@@ -140,8 +142,5 @@ struct AcceleratorResult {
 /// Frames per second while the pipeline is full: of all frames but the first, which starts alone,
 /// and the last, behind which no other is preprocessed. Empty for fewer than three frames.
 std::optional<double> steady_fps(const AcceleratorResult& result);
-
-/// Name of the stage (or the memory) with the largest busy share of the run.
-std::string limiting_stage(const AcceleratorResult& result);
 
 } // namespace degs

@@ -111,6 +111,7 @@ void TileFrontEnd::collect(AcceleratorResult& result) const {
     for (std::size_t f = 0; f < result.frames.size(); ++f) {
         result.frames[f].preprocessed = binner_->frames_binned()[f];
     }
+    result.binning_cycles = ratio_of(binner_->stats().pairs, binner_->config().pairs_per_cycle);
     using P = ProjectionUnit::Stats;
     const Cycle projecting =
         std::max(sum_of(projection_, &P::project_busy), sum_of(projection_, &P::shade_busy));

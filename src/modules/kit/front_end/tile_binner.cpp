@@ -102,6 +102,7 @@ void TileBinner::run() {
 void TileBinner::bin(const ProjectedChunk& chunk, const MemoryMap& map) {
     const Cycle rate = config_.pairs_per_cycle;
     const Cycle busy = std::max<Cycle>(1, (chunk.tile_pairs + rate - 1) / rate);
+    stats_.pairs += chunk.tile_pairs;
     self_.work(busy, stats_.busy);
     self_.wait_for_memory(acknowledged_[writes_ % acknowledged_.size()]);
     const Completion splats_done = write_splats(chunk, map);

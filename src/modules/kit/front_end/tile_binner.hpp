@@ -50,7 +50,8 @@ public:
             v.count("far_heads", far_heads, "words",
                     "Ends of lists read from memory and written back.");
         }
-        Cycle frame_binned = 0; ///< date at which the last frame's lists were complete
+        std::uint64_t pairs = 0; ///< of tiles and splats, of all chunks
+        Cycle frame_binned = 0;  ///< date at which the last frame's lists were complete
     };
 
     sc_core::sc_vector<FifoPort<ProjectedChunk>> in; ///< one per Projection Unit

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What bandwidth is worth to the designs of a study that varies it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/results/comparison.hpp"
+#include "sim/sweep/study_plan.hpp"
+
+namespace degs::sim {
+
+/// The bus with the largest bandwidth that a configuration can have takes no time for a frame.
+constexpr double kUnlimitedGbPerS = 1e5;
+
+/// What 10 % more bandwidth gains in percent, by row: by interpolation between the neighbouring
+/// points of the same design in the logarithms of bandwidth and latency, and empty at the ends.
+/// Without any entry if the study does not vary the bandwidth.
+std::vector<std::optional<double>> elasticities(const StudyPlan& plan,
+                                                const Comparison& comparison);
+
+/// One point of a curve.
+struct BandwidthPoint {
+    double gb_per_s = 0, latency_ms = 0;
+    std::optional<double> preprocessing_ms, blending_ms;
+    std::optional<double> elasticity; ///< as elasticities()
+};
+
+/// A design on a view, by bandwidth.
+struct BandwidthCurve {
+    std::string label; ///< the design and the values of the other keys that are varied
+    std::size_t view = 0;
+    std::vector<BandwidthPoint> points;         ///< from the least bandwidth to the most
+    std::optional<double> unlimited_latency_ms; ///< with kUnlimitedGbPerS
+    /// From which 10 % more gains less than 1 %, by interpolation between the points.
+    std::optional<double> enough_gb_per_s;
+};
+
+/// The curves of at least two bandwidths.
+std::vector<BandwidthCurve> bandwidth_curves(const StudyPlan& plan, const Comparison& comparison);
+
+/// bandwidth.svg; empty if the study does not vary the bandwidth.
+std::string bandwidth_picture(const StudyPlan& plan, const Comparison& comparison);
+
+} // namespace degs::sim
