@@ -204,6 +204,36 @@ TEST(Evolution, FindsTheFrontOfAllDesigns) {
     EXPECT_FALSE(fs::exists(folder / "all/beliefs.csv"));
 }
 
+/// Six designs, of which simulations of three fail, because their list entries cannot hold an index
+/// of so many visible splats. Their estimates do not look at that.
+std::string failing_space(const Folder& folder) {
+    const std::string file = folder / "failing.yaml";
+    std::ofstream(file) << "study: failing\ndesigns:\n  - include: " << config("degs-64")
+                        << "\n    name: degs-64\n"
+                           "    pipeline: { formats: { depth_key: ue4m12b3 } }\n"
+                           "    traffic: { list_entry_bytes: 6 }\n"
+                           "axes:\n  traffic.list_entry_bytes: [4, 6]\n"
+                           "  span.count: [4, 8, 16]\n"
+                           "scenes: synthetic:object,gaussians=80000\nwidth: 32\n"
+                           "reference: false\n";
+    return file;
+}
+
+TEST(Evolution, TriesADesignThatFailsOnce) {
+    const Folder folder;
+    const Outcome outcome = degs(explore_words(failing_space(folder), folder / "out",
+                                               {"--search", "evolution", "--budget", "7"}));
+    EXPECT_NE(outcome.code, 0);
+    int tries = 0;
+    for (std::size_t at = 0; (at = outcome.err.find(" failed ·", at)) != std::string::npos; ++at) {
+        ++tries;
+    }
+    EXPECT_EQ(tries, 3) << outcome.err;
+    const auto found = nlohmann::json::parse(read_file(folder / "out/explore.json"));
+    EXPECT_EQ(found["rungs"].back()["failed"].size(), 3U);
+    EXPECT_EQ(found["rungs"].back()["designs"].size(), 3U);
+}
+
 /// Kills the program, without children that would go on, when it has made so many points.
 void kill_after(std::size_t points, const std::string& out, const std::vector<std::string>& words) {
     const pid_t child = ::fork();
