@@ -3,8 +3,9 @@
 """estimate_ranks.py [--scenes SCENE...] [--jobs N]: how well estimates (--fidelity analytic) rank designs and predict
 changes, against exact runs, as docs/analytic.md has it.
 
-Prints, over all views, Spearman's rank correlation of the cycles of 17 designs, and for keys of degs-64 that are halved
-or doubled alone the error of the estimated change of the cycles. Runs with DEGS_PROGRAM (default
+Prints, over all views, Spearman's rank correlation of the cycles and of the energy of 17 designs, the error of their
+energies by family, and for keys of degs-64 that are halved or doubled alone the error of the estimated change of the
+cycles. Runs with DEGS_PROGRAM (default
 build/release/sim/degs); scenes are SCENE/scene.ply in DEGS_SCENES (default ../shared/scenes)."""
 import argparse
 import csv
@@ -17,7 +18,9 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = os.environ.get("DEGS_PROGRAM", str(ROOT / "build/release/sim/degs"))
 SCENES = pathlib.Path(os.environ.get("DEGS_SCENES", str(ROOT / "../shared/scenes")))
-DESIGNS = [f"{family}-{size}" for family in ["degs", "gscore", "gbu", "gcc"] for size in ["16", "64", "256", "1024"]]
+COLUMNS = ["cycles", "energy.nj_per_frame"]
+FAMILIES = ["degs", "gscore", "gbu", "gcc"]
+DESIGNS = [f"{family}-{size}" for family in FAMILIES for size in ["16", "64", "256", "1024"]]
 DESIGNS += ["degs-64-tuned"]
 CHANGES = """study: changes
 designs: [{{include: {design}, name: degs-64}}]
@@ -36,17 +39,23 @@ cameras: all
 NOTABLE = 0.02  # changes whose direction counts
 
 
-def cycles(command, fidelity, key):
-    """{view: {design: cycles}} of a comparison or a sweep; `key` names a design by its row."""
+def numbers(command, fidelity, key, columns=("cycles",)):
+    """[{view: {design: number}}] of a comparison or a sweep, by column; `key` names a design by its row."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(command + ["--no-reference", "--fidelity", fidelity, "--out", folder], check=True,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         name = "results.csv" if command[1] == "sweep" else "compare.csv"
-        found = {}
         with open(os.path.join(folder, name), encoding="utf-8") as file:
-            for row in csv.DictReader(file):
-                found.setdefault((row["scene"], row["camera"]), {})[key(row)] = float(row["cycles"])
-        return found
+            return read_numbers(file, key, columns)
+
+
+def read_numbers(file, key, columns):
+    """The numbers of an open table."""
+    found = [{} for _ in columns]
+    for row in csv.DictReader(file):
+        for values, column in zip(found, columns):
+            values.setdefault((row["scene"], row["camera"]), {})[key(row)] = float(row[column])
+    return found
 
 
 def ranks(values):
@@ -64,10 +73,25 @@ def rank_designs(scenes, jobs):
     """Prints how well estimates rank the designs."""
     command = [PROGRAM, "compare"] + [str(ROOT / "configs" / (name + ".yaml")) for name in DESIGNS]
     command += [word for scene in scenes for word in ["--scene", scene]] + ["--camera", "all", "--jobs", jobs]
-    exact, estimated = (cycles(command, fidelity, lambda row: row["config"]) for fidelity in ["exact", "analytic"])
-    found = [spearman(list(exact[view].values()), [estimated[view][name] for name in exact[view]]) for view in exact]
-    print(f"ranks of {len(DESIGNS)} designs on {len(found)} views: Spearman {statistics.median(found):.3f}, "
-          f"at the worst {min(found):.3f}")
+    exact, estimated = (numbers(command, fidelity, lambda row: row["config"], COLUMNS)
+                        for fidelity in ["exact", "analytic"])
+    report_ranks(exact, estimated)
+
+
+def report_ranks(exact, estimated):
+    """Prints the correlations of every column, and the errors of the energy."""
+    for column, found, guessed in zip(COLUMNS, exact, estimated):
+        ranked = [spearman(list(found[view].values()), [guessed[view][name] for name in found[view]])
+                  for view in found]
+        print(f"{column}: ranks of {len(DESIGNS)} designs on {len(ranked)} views: Spearman "
+              f"{statistics.median(ranked):.3f}, at the worst {min(ranked):.3f}")
+    print("\n| designs | median error of the energy, % | worst, % |\n|---|---:|---:|")
+    for family in [*FAMILIES, ""]:
+        errors = [100 * (estimated[1][view][name] / energy - 1)
+                  for view, designs in exact[1].items() for name, energy in designs.items()
+                  if name.startswith(family)]
+        print(f"| {family or 'all'} | {statistics.median(map(abs, errors)):.1f} | {max(errors, key=abs):+.0f} |")
+    print()
 
 
 def predict_changes(scenes, jobs):
@@ -78,8 +102,8 @@ def predict_changes(scenes, jobs):
                          encoding="utf-8")
         keys = [line.split(":")[0].strip() for line in CHANGES.split("\n") if line.startswith("  ")]
         command = [PROGRAM, "sweep", str(study), "--jobs", jobs]
-        exact, estimated = (cycles(command, fidelity, lambda row: tuple(row[key] for key in keys))
-                            for fidelity in ["exact", "analytic"])
+        (exact,), (estimated,) = (numbers(command, fidelity, lambda row: tuple(row[key] for key in keys))
+                                  for fidelity in ["exact", "analytic"])
     errors, right = [], []
     for view, runs in exact.items():
         # The baseline is the point that agrees in every key with most others.
@@ -97,7 +121,7 @@ def predict_changes(scenes, jobs):
 
 
 def main():
-    """Prints both."""
+    """Prints all."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--scenes", nargs="+", default=["flowers", "skull"])
     parser.add_argument("--jobs", default="2")

@@ -1,33 +1,40 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Compares `degs explore --search evolution` with simulating every design of beyond-64.yaml.
+"""Compares `degs explore --search evolution` with simulating every design of a study.
 
-    search_cost.py [FOLDER]     prints the table of docs/explore.md; FOLDER (default out/search-cost) keeps the runs
+    search_cost.py [FOLDER] [--study beyond-64]
 
-The goals are area, latency and energy, of which the last has no estimate, under two limits. The views are smaller than
+prints a table of docs/explore.md; FOLDER (default out/search-cost) keeps the runs. The goals are area, latency and
+energy under two limits. Rows "chosen with an error" say what a choice of as many designs reaches that knows all
+latencies and energies but for independent errors of this size: medians of the seeds. The views are smaller than
 the study's own, so that all takes some minutes. The first search estimates all designs; where it may estimate 24 of
 them only, the seed decides which.
 """
+import argparse
 import json
+import math
+import random
+import statistics
 import subprocess
-import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/release/sim/degs"
-STUDY = ROOT / "configs/studies/beyond-64.yaml"
+STUDIES = ROOT / "configs/studies"
 GOALS = "area_mm2,latency_ms,energy.nj_per_frame"
-LIMITS = "area_mm2<=2.8,worst(latency_ms)<=1.05*baseline"
+LIMITS = {"beyond-64": "area_mm2<=2.8,worst(latency_ms)<=1.05*baseline",
+          "beyond-256": "area_mm2<=1.1*baseline,worst(latency_ms)<=1.05*baseline"}
+ERRORS = [0.002, 0.005, 0.01, 0.02]
 VIEWS = ["--scene", "synthetic:object,gaussians=6000", "--scene", "synthetic:outdoor,gaussians=20000", "--camera", "1",
          "--width", "320"]
 SEEDS = range(1, 6)
 BUDGET = 12  # a fifth of the designs
 
 
-def explore(folder, *options):
+def explore(study, folder, *options):
     """The file explore.json and the front of a search."""
-    subprocess.run([PROGRAM, "explore", STUDY, "--goals", GOALS, "--limits", LIMITS, *VIEWS, "--out", folder, *options],
-                   check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.run([PROGRAM, "explore", STUDIES / f"{study}.yaml", "--goals", GOALS, "--limits", LIMITS[study], *VIEWS,
+                    "--out", folder, *options], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     found = json.loads((folder / "explore.json").read_text())
     designs = [design for design in found["rungs"][-1]["designs"] if design["within"] == "yes"]
     return found, [tuple(design[goal] for goal in found["goals"]) for design in designs]
@@ -64,31 +71,52 @@ def share_of_volume(points, all_points):
 
 
 def best_afterwards(points, first):
-    """As many designs as the budget allows that make the volume largest one after the other."""
+    """The places of as many designs as the budget allows that make the volume largest one after the other."""
     chosen = [first]
     while len(chosen) < BUDGET:
-        chosen.append(max(points, key=lambda point: share_of_volume(chosen + [point], points)))
+        left = [place for place in range(len(points)) if place not in chosen]
+        chosen.append(max(left, key=lambda place: share_of_volume([points[c] for c in chosen + [place]], points)))
     return chosen
 
 
+def with_errors(points, error, seed):
+    """Areas are known, as in an estimate."""
+    draws = random.Random(seed)
+    return [(area, *(value * math.exp(draws.gauss(0, error)) for value in others)) for area, *others in points]
+
+
+def chosen_rows(points, first, best):
+    """The rows of choices that know more than a search does."""
+    chosen = [points[place] for place in best_afterwards(points, first)]
+    print(f"| the best, chosen afterwards |  | {BUDGET} |  | {share_of_volume(chosen, points):.4f} | "
+          f"{len(best & set(chosen))} of {len(best)} |")
+    for error in ERRORS:
+        shares = [share_of_volume([points[place] for place in best_afterwards(with_errors(points, error, seed), first)],
+                                  points) for seed in SEEDS]
+        print(f"| chosen with an error of {100 * error:.1f} % |  | {BUDGET} |  | {statistics.median(shares):.4f} |  |")
+
+
 def main():
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "out/search-cost")
-    everything, all_points = explore(folder / "all", "--rungs", "1")
+    parser = argparse.ArgumentParser()
+    parser.add_argument("folder", nargs="?", type=Path, default=ROOT / "out/search-cost")
+    parser.add_argument("--study", choices=list(LIMITS), default="beyond-64")
+    options = parser.parse_args()
+    folder, study = options.folder / options.study, options.study
+    everything, all_points = explore(study, folder / "all", "--rungs", "1")
     best = set(front_of(all_points))
     cycles = everything["search"]["simulated_cycles"]
     print("| search | estimated | simulated | of the cycles | of the hypervolume | designs of the front |")
     print("|---|--:|--:|--:|--:|--:|")
-    baseline = next(design for design in everything["rungs"][-1]["designs"] if design["name"] == "degs-x-64")
-    chosen = best_afterwards(all_points, tuple(baseline[goal] for goal in everything["goals"]))
-    print(f"| the best, chosen afterwards |  | {BUDGET} |  | {share_of_volume(chosen, all_points):.4f} | "
-          f"{len(best & set(chosen))} of {len(best)} |")
-    halved, points = explore(folder / "halving")
+    designs = {design["name"]: design for design in everything["rungs"][-1]["designs"]}
+    baseline = designs[study.replace("beyond", "degs-x")]
+    chosen_rows(all_points, all_points.index(tuple(baseline[goal] for goal in everything["goals"])), best)
+    halved, points = explore(study, folder / "halving")
     row("halving", halved, points, all_points, best, cycles)
-    whole, points = explore(folder / "whole", "--search", "evolution", "--budget", str(BUDGET))
+    whole, points = explore(study, folder / "whole", "--search", "evolution", "--budget", str(BUDGET))
     row("evolution, all estimated", whole, points, all_points, best, cycles)
     for seed in SEEDS:
-        bred, points = explore(folder / f"seed-{seed}", "--search", "evolution", "--budget", str(BUDGET), "--population",
-                               "8", "--generations", "3", "--seed", str(seed))
+        bred, points = explore(study, folder / f"seed-{seed}", "--search", "evolution", "--budget", str(BUDGET),
+                               "--population", "8", "--generations", "3", "--seed", str(seed))
         row(f"evolution, seed {seed}", bred, points, all_points, best, cycles)
 
 

@@ -20,12 +20,22 @@ public:
     int engines() const override { return config_.arrays.count; }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double /*walked*/) const override { // handed over whole
-        const double all =
-            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity).all;
-        return {all, all};
+        SortCycles sorted =
+            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity);
+        sorted.first = sorted.all;
+        return sorted;
     }
     double latency() const override { return 4 * memory_latency() + config_.arrays.latency_cycles; }
     int pes() const override { return config_.pes(); }
+    std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles& before,
+                                         const TileCycles& tiles) const override {
+        std::vector<cost::Activity> all = front().activity(before, tiles);
+        all.push_back({"blending", tiles.slots});
+        all.push_back({"gaussian_buffer", 2 * tiles.fetched * config_.traffic.splat_bytes +
+                                              tiles.keys * config_.traffic.list_entry_bytes});
+        all.push_back(pixel_activity(tiles, config_.pixel_bytes()));
+        return all;
+    }
 
     enum Unit : std::size_t { kBlending = kArrayUnits, kMemory };
     const Config& config() const { return config_; }

@@ -8,6 +8,7 @@
 
 #include "config/config_document.hpp"
 #include "degs/error.hpp"
+#include "modules/kit/analytic/analytic_energy.hpp"
 #include "sim/process/stopwatch.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/what_if_words.hpp"
@@ -34,6 +35,20 @@ ordered_json units_json(const AnalyticFrame& frame) {
     return units;
 }
 
+ordered_json energy_json(const cost::RunEnergy& energy) {
+    ordered_json blocks;
+    for (const cost::BlockEnergy& block : energy.blocks()) {
+        blocks[block.name] = {{"dynamic_nj", block.dynamic_nj}, {"leakage_nj", block.leakage_nj}};
+    }
+    return {{"nj_per_frame", energy.nj_per_frame().value_or(0)},
+            {"nj_per_pixel", energy.nj_per_pixel().value_or(0)},
+            {"average_power_w", energy.average_power_w().value_or(0)},
+            {"dynamic_nj", energy.dynamic_nj()},
+            {"leakage_nj", energy.leakage_nj()},
+            {"dram_nj", energy.dram_nj().value_or(0)},
+            {"blocks", blocks}};
+}
+
 std::string cycles_words(double cycles) {
     return grouped(static_cast<std::uint64_t>(std::max(cycles, 0.0)));
 }
@@ -56,6 +71,8 @@ AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
     const std::unique_ptr<AnalyticModel> model = analytic_model_of(config);
     const Stopwatch clock;
     run.frame = estimate_frame(*model, frame, config.accelerator().tile_order);
+    run.energy = estimated_energy(config.accelerator(), *model, run.frame,
+                                  std::uint64_t{1} * frame.camera.width * frame.camera.height);
     run.estimate_s = clock.seconds();
     run.scene = scene;
     run.camera = frame.camera;
@@ -81,11 +98,12 @@ AnalyticRun run_analytic(const RunConfig& config, CachedView& view,
 }
 
 bool is_estimated(Measure measure) {
-    constexpr std::array<Measure, 10> kEstimated{
-        Measure::Cycles,    Measure::PreprocessingCycles, Measure::LatencyMs,
-        Measure::Fps,       Measure::Utilization,         Measure::AreaMm2,
-        Measure::SramBytes, Measure::LatencyRatio,        Measure::LatencyRatioPerArea,
-        Measure::SimS};
+    constexpr std::array<Measure, 15> kEstimated{
+        Measure::Cycles,        Measure::PreprocessingCycles, Measure::LatencyMs,
+        Measure::Fps,           Measure::Utilization,         Measure::AreaMm2,
+        Measure::SramBytes,     Measure::NjPerFrame,          Measure::NjPerPixel,
+        Measure::AveragePowerW, Measure::LatencyRatio,        Measure::LatencyRatioPerArea,
+        Measure::EnergyRatio,   Measure::EnergyRatioPerArea,  Measure::SimS};
     return std::find(kEstimated.begin(), kEstimated.end(), measure) != kEstimated.end();
 }
 
@@ -100,6 +118,9 @@ Measures measures_of(const AnalyticRun& run) {
     measures[Measure::AreaMm2] = run.config.accelerator().bill().area_mm2();
     measures[Measure::SramBytes] =
         static_cast<double>(run.config.accelerator().bill().sram_bytes());
+    measures[Measure::NjPerFrame] = run.energy.nj_per_frame();
+    measures[Measure::NjPerPixel] = run.energy.nj_per_pixel();
+    measures[Measure::AveragePowerW] = run.energy.average_power_w();
     measures[Measure::SimS] = run.estimate_s;
     return measures;
 }
@@ -121,6 +142,7 @@ ordered_json analytic_json(const AnalyticRun& run) {
     json["limited_by"] = frame.limited_by;
     json["slots"] = {{"pes", run.config.accelerator().pes()}, {"utilization", frame.utilization}};
     json["dram"] = {{"bytes", frame.bytes}};
+    json["energy"] = energy_json(run.energy);
     json["sample"] = {
         {"tiles", frame.tiles}, {"tiles_drawn", frame.drawn}, {"rows_apart", frame.rows_apart}};
     if (!run.what_if.empty()) {
@@ -155,6 +177,12 @@ std::string analytic_text(const AnalyticRun& run) {
         ".");
     say("PEs are used to " + percent(frame.utilization) + " %; " +
         scaled_bytes(static_cast<std::uint64_t>(frame.bytes)) + " move to and from memory.");
+    constexpr double kMjPerNj = 1e-6;
+    say("It takes about " + three_digits(run.energy.total_nj() * kMjPerNj) +
+        " mJ: " + percent(run.energy.dynamic_nj() / run.energy.total_nj()) +
+        " % for the work of its blocks, " +
+        percent(run.energy.leakage_nj() / run.energy.total_nj()) + " % for leakage, and " +
+        percent(run.energy.dram_nj().value_or(0) / run.energy.total_nj()) + " % in memory.");
     say("The estimate rests on " + std::to_string(frame.drawn) + " of " +
         std::to_string(frame.tiles) + " tiles and took " + three_digits(1e3 * run.estimate_s) +
         " ms; there is no image.");

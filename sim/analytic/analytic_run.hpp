@@ -26,6 +26,7 @@ struct AnalyticRun {
     RunConfig config;
     WorkloadFacts workload;
     AnalyticFrame frame;
+    cost::RunEnergy energy;
     std::vector<WhatIf> what_if;
     std::vector<std::string> warnings;
     double load_s = 0, workload_s = 0, estimate_s = 0; ///< host

@@ -257,10 +257,10 @@ std::string views_text(const Comparison& comparison, std::size_t begin, std::siz
     for (std::size_t v = begin; v < end; ++v) {
         text += heading(comparison.views[v], comparison.is_estimated()) +
                 changes_line(comparison.views[v]) + time_table(comparison, v) + "\n" +
-                limits_table(comparison, v) + "\n";
-        if (!comparison.is_estimated()) { // an estimate has neither energy nor classes of slots
-            text += energy_table(comparison, comparison.rows, v) + "\n" +
-                    slots_table(comparison, v) + "\n";
+                limits_table(comparison, v) + "\n" + energy_table(comparison, comparison.rows, v) +
+                "\n";
+        if (!comparison.is_estimated()) { // an estimate has no classes of slots
+            text += slots_table(comparison, v) + "\n";
         }
     }
     return text;
@@ -273,10 +273,8 @@ std::string closing_text(const Comparison& comparison) {
     std::string text;
     if (!comparison.means.empty()) {
         text += "geometric means over " + std::to_string(comparison.views.size()) + " views\n" +
-                means_table(comparison) + "\n";
-        if (!comparison.is_estimated()) {
-            text += energy_table(comparison, comparison.means, comparison.views.size()) + "\n";
-        }
+                means_table(comparison) + "\n" +
+                energy_table(comparison, comparison.means, comparison.views.size()) + "\n";
     }
     for (const FailedRun& failed : comparison.failed) {
         text += "failed: " + visible(failed.sentence) + "\n";

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "base/grouped_number.hpp"
@@ -226,7 +227,10 @@ std::optional<Step> Evolution::next_round() {
         }
     }
     tried_.insert(chosen.begin(), chosen.end());
-    Step step = step_of({tried_.begin(), tried_.end()}, false);
+    std::vector<std::size_t> variants; // a round has what ran before it, too
+    std::set_difference(tried_.begin(), tried_.end(), failed_.begin(), failed_.end(),
+                        std::back_inserter(variants));
+    Step step = step_of(std::move(variants), false);
     step.spent =
         grouped(known_.size()) + " designs estimated, " + grouped(tried_.size()) + " simulated";
     return step;
@@ -238,8 +242,23 @@ void Evolution::take_simulations(const Rung& rung) {
             known->second.found = candidate.verdict;
         }
     }
-    rungs_.resize(1); // a round has the designs of those before it, too
+    for (const std::size_t variant : tried_) {
+        const bool ran = std::any_of(
+            rung.candidates.begin(), rung.candidates.end(),
+            [variant](const Candidate& candidate) { return candidate.variant == variant; });
+        if (!ran) {
+            failed_.insert(variant);
+        }
+    }
+    failures_.insert(failures_.end(), rung.failed.begin(), rung.failed.end());
+    if (std::any_of(kept_.begin(), kept_.end(),
+                    [this](std::size_t variant) { return failed_.count(variant) != 0; })) {
+        phase_ = Phase::Over;
+        end_ = "a design that others are compared with failed";
+    }
+    rungs_.resize(1);
     rungs_.push_back(rung);
+    rungs_.back().failed = failures_;
 }
 
 Searcher::Facts Evolution::facts() const {

@@ -74,6 +74,8 @@ private:
     std::map<std::size_t, Genes> asked_; ///< in this generation, by variant
     std::map<std::size_t, Known> known_; ///< by variant
     std::set<std::size_t> tried_;        ///< variants that were simulated
+    std::set<std::size_t> failed_;       ///< of them, those whose simulation failed: once is enough
+    std::vector<FailedRun> failures_;    ///< in all rounds
     std::vector<Belief> beliefs_;
     std::vector<Rung> rungs_;
     std::string end_;

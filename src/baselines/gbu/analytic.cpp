@@ -23,16 +23,34 @@ public:
     int engines() const override { return config_.engines.count; }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double) const override { // handed over as a whole
-        const double all =
-            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity).all;
-        return {all, all};
+        SortCycles sorted =
+            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity);
+        sorted.first = sorted.all;
+        return sorted;
     }
     double latency() const override {
         return 4 * memory_latency() + config_.engines.generation_latency +
                config_.engines.row_pe_latency;
     }
     int pes() const override { return config_.pes(); }
+    std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles& before,
+                                         const TileCycles& tiles) const override {
+        Work work;
+        work.splats_generated = tiles.walked;
+        work.slots = tiles.slots;
+        work.keys_moved = tiles.keys;
+        work.splats_fetched = tiles.fetched;
+        work.entries_moved = 2 * tiles.counts[kEntries];
+        work.lookups = config_.cache_records() == 0 ? 0 : tiles.fetched;
+        std::vector<cost::Activity> all = config_.activity(work);
+        for (const cost::Activity& each : front().activity(before, tiles)) {
+            all.push_back(each);
+        }
+        all.push_back(pixel_activity(tiles, config_.pixel_bytes()));
+        return all;
+    }
 
+    enum Count : std::size_t { kEntries };
     enum Unit : std::size_t { kGeneration = kArrayUnits, kBlending, kMemory };
     const Config& config() const { return config_; }
 
@@ -65,6 +83,7 @@ private:
     const Config::Engines& engines_;
     std::vector<RowPe> pes_;
     double generated_ = 0, slots_ = 0, busy_ = 0;
+    double entries_ = 0; ///< of the queues, in the drawn rows
 };
 
 std::unique_ptr<TileClock> Analytic::clock(const FrameWorkload&) const {
@@ -77,7 +96,7 @@ void Clock::begin(const CoarseTile&) {
         pe.next = 0;
         pe.loaded.assign(engines_.queue_depth, 0);
     }
-    generated_ = slots_ = busy_ = 0;
+    generated_ = slots_ = busy_ = entries_ = 0;
 }
 
 void Clock::splat(const CoarseTile& tile) {
@@ -95,6 +114,7 @@ void Clock::splat(const CoarseTile& tile) {
         place = std::max(pe.free, at + 1);
         pe.free = place + taken;
         slots_ += taken;
+        entries_ += 1;
         pushed = std::max(pushed, at);
     }
     busy_ += cycles_of(solved);
@@ -107,6 +127,7 @@ TileCycles Clock::end(const CoarseTile& tile) {
         last = std::max(last, pe.free);
     }
     TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
+    cycles.counts[Analytic::kEntries] = entries_ * tile.rows_per_drawn();
     cycles.slots = slots_ * tile.rows_per_drawn();
     cycles.busy[Analytic::kGeneration] = busy_ / model_.engines();
     cycles.busy[Analytic::kBlending] = cycles.slots / model_.pes();

@@ -46,6 +46,8 @@ struct Config : TiledConfig<Config> {
     bool ends_with_its_pixels() const override { return false; }
     std::vector<LossKey> loss_keys() const override;
     cost::BillOfMaterials bill() const override;
+    /// What the blocks of the engines do for that work, all but the Pixel Buffer.
+    std::vector<cost::Activity> activity(const Work& work) const;
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;
     std::unique_ptr<AnalyticModel> analytic() const override;

@@ -50,27 +50,28 @@ cost::BillOfMaterials Config::bill() const {
     return bill;
 }
 
+std::vector<cost::Activity> Config::activity(const Work& work) const {
+    return {{"row_generation", work.splats_generated / engines.count * cost_rows.scheduler.units},
+            {"row_pes", work.slots},
+            {"list_buffer", work.keys_moved * traffic.list_entry_bytes},
+            {"splat_buffer", 2 * work.splats_fetched * traffic.splat_bytes},
+            {"row_queues", work.entries_moved * engines.entry_bytes},
+            {"reuse_cache", work.lookups * traffic.splat_bytes}};
+}
+
 void Engine::collect_activity(AcceleratorResult& result) const {
     using E = TileEngine::Stats;
     using R = ReuseCache::Stats;
-    const auto bytes = [](std::uint64_t records, int record_bytes) {
-        return rate_of(records, 1) * record_bytes;
-    };
-    const std::uint64_t records = records_fetched();
-    const std::uint64_t rows = sum_of(engines_, &E::entries);
-    const int splat_bytes = config_.traffic.splat_bytes;
-    add_activity(result, "row_generation",
-                 rate_of(sum_of(engines_, &E::splats), config_.engines.count) *
-                     config_.cost_rows.scheduler.units);
-    add_activity(result, "row_pes", result.slots.executed());
-    add_activity(result, "list_buffer",
-                 bytes(front_end().keys_moved(), config_.traffic.list_entry_bytes));
-    add_activity(result, "splat_buffer", bytes(2 * records, splat_bytes));
-    add_activity(
-        result, "row_queues",
-        bytes(2 * (rows + sum_of(engines_, &E::entries_dropped)), config_.engines.entry_bytes));
-    add_activity(result, "reuse_cache",
-                 bytes(sum_of(caches(), &R::hits) + sum_of(caches(), &R::misses), splat_bytes));
+    const auto real = [](std::uint64_t count) { return rate_of(count, 1); };
+    Work work;
+    work.splats_generated = real(sum_of(engines_, &E::splats));
+    work.slots = real(result.slots.executed());
+    work.keys_moved = real(front_end().keys_moved());
+    work.splats_fetched = real(records_fetched());
+    work.entries_moved =
+        real(2 * (sum_of(engines_, &E::entries) + sum_of(engines_, &E::entries_dropped)));
+    work.lookups = real(sum_of(caches(), &R::hits) + sum_of(caches(), &R::misses));
+    add_activity(result, config_.activity(work));
     add_pixel_activity(result, job(), config_.pixel_bytes());
 }
 

@@ -15,6 +15,17 @@ class Analytic : public AnalyticModel {
 public:
     explicit Analytic(const Config& config)
         : config_(config), memory_(config.memory, config.clock_ghz) {}
+    std::vector<cost::Activity> activity(const FrameWorkload& frame, const PreparationCycles&,
+                                         const TileCycles& tiles) const override {
+        Work work;
+        work.means = static_cast<double>(frame.gaussians);
+        work.entries = work.shapes = work.coloured = tiles.walked;
+        work.slots = tiles.slots;
+        std::vector<cost::Activity> all = config_.activity(work, false);
+        all.push_back(pixel_activity(tiles, config_.pixel_bytes()));
+        return all;
+    }
+    const MainMemoryConfig& main_memory() const override { return config_.memory; }
     std::vector<std::string> units() const override {
         return {"grouping", "projection", "colour", "blending", "memory"};
     }
@@ -80,6 +91,7 @@ PreparationCycles Analytic::preparation(const FrameWorkload& frame) const {
     PreparationCycles result;
     result.bytes = gaussians * static_cast<double>(config_.traffic.stage_one_bytes()) +
                    entries * config_.traffic.list_entry_bytes;
+    result.written = entries * config_.traffic.list_entry_bytes;
     const double group =
         std::max(gaussians / grouping.means_per_cycle, entries / grouping.entries_per_cycle);
     const double in_flight = 1.0 * grouping.chunk * grouping.chunks_in_flight;
@@ -151,6 +163,7 @@ TileCycles Clock::end(const CoarseTile& tile) {
     TileCycles cycles;
     cycles.slots = windows_ * tile.blocks_per_drawn() * config.array.pes();
     cycles.fragments = tile.fragments();
+    cycles.written = tile.pixels() * config.traffic.pixel_bytes;
     cycles.bytes = walked * gaussian + tile.pixels() * config.traffic.pixel_bytes;
     const double passes =
         std::ceil(std::log(config.projection.group) / std::log(config.colour.merge_ways));

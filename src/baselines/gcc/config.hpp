@@ -51,6 +51,9 @@ struct Config : AcceleratorConfig {
     std::vector<LossKey> loss_keys() const override;
     TrafficConfig records() const override { return traffic.common(); }
     cost::BillOfMaterials bill() const override;
+    /// What the blocks do for that work, all but the Pixel Buffer; an array alone has no stages
+    /// before it.
+    std::vector<cost::Activity> activity(const Work& work, bool array_only) const;
     void read_floats() override {
         traffic.mean_bytes = 3 * kFloatBytes;
         traffic.bound_bytes = kFloatBytes;

@@ -47,24 +47,34 @@ cost::BillOfMaterials Config::bill() const {
     return bill;
 }
 
-void Engine::collect_activity(AcceleratorResult& result) const {
-    std::uint64_t entries = 0;
-    std::uint64_t records = 0; // through one ring each
-    if (grouping_) {
-        const std::uint64_t shapes = sum_of(projection_, &ProjectionStage::Stats::shapes);
-        const std::uint64_t coloured = sum_of(colour_, &ColourStage::Stats::coloured);
-        add_activity(result, "grouping", grouping_->stats().gaussians);
-        add_activity(result, "projection", shapes * config_.projection.cycles_per_gaussian);
-        add_activity(result, "colour", coloured * config_.colour.cycles_per_colour);
-        entries = sum_of(projection_, &ProjectionStage::Stats::entries);
-        records = kRingsOfShapes * shapes + kRingsOfColours * coloured;
-    } else {
-        records = sum_of(fetchers_, &SplatFetcher::Stats::records);
+std::vector<cost::Activity> Config::activity(const Work& work, bool array_only) const {
+    std::vector<cost::Activity> activity;
+    if (!array_only) {
+        activity = {{"grouping", work.means},
+                    {"projection", work.shapes * projection.cycles_per_gaussian},
+                    {"colour", work.coloured * colour.cycles_per_colour}};
     }
-    add_activity(result, "blending", result.slots.executed());
-    add_activity(result, "group_buffer",
-                 kReadAndWritten * (rate_of(entries, 1) * config_.traffic.list_entry_bytes +
-                                    rate_of(records, 1) * config_.splat_bytes));
+    const double records = // through one ring each
+        kRingsOfShapes * work.shapes + kRingsOfColours * work.coloured + work.records_fetched;
+    activity.push_back({"blending", work.slots});
+    activity.push_back({"group_buffer", kReadAndWritten * (work.entries * traffic.list_entry_bytes +
+                                                           records * splat_bytes)});
+    return activity;
+}
+
+void Engine::collect_activity(AcceleratorResult& result) const {
+    const auto real = [](std::uint64_t count) { return rate_of(count, 1); };
+    Work work;
+    if (grouping_) {
+        work.means = real(grouping_->stats().gaussians);
+        work.entries = real(sum_of(projection_, &ProjectionStage::Stats::entries));
+        work.shapes = real(sum_of(projection_, &ProjectionStage::Stats::shapes));
+        work.coloured = real(sum_of(colour_, &ColourStage::Stats::coloured));
+    } else {
+        work.records_fetched = real(sum_of(fetchers_, &SplatFetcher::Stats::records));
+    }
+    work.slots = real(result.slots.executed());
+    add_activity(result, config_.activity(work, !grouping_));
     add_pixel_activity(result, job_, config_.pixel_bytes());
 }
 

@@ -12,4 +12,14 @@ struct CostRows {
     void describe(cost::RowSection& section);
 };
 
+/// What the stages have done, counted by a simulation or expected by an estimate.
+struct Work {
+    double means = 0;           ///< that Stage I has read
+    double entries = 0;         ///< of groups, taken by Stage II
+    double shapes = 0;          ///< Gaussians projected
+    double coloured = 0;        ///< Gaussians with a colour
+    double records_fetched = 0; ///< by an array alone, in place of the stages before it
+    double slots = 0;           ///< of the windows
+};
+
 } // namespace degs::gcc

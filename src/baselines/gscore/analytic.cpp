@@ -30,12 +30,22 @@ public:
         if (config_.clusters == 1) {
             return degs::sort_cycles(config_.sorting, entries, walked, front().sort_capacity);
         }
-        const double all = // granted as a whole
-            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity).all;
-        return {all, all};
+        SortCycles sorted = // granted as a whole
+            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity);
+        sorted.first = sorted.all;
+        return sorted;
     }
     double latency() const override { return 4 * memory_latency() + config_.array.pipeline_cycles; }
     int pes() const override { return config_.pes(); }
+    std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles& before,
+                                         const TileCycles& tiles) const override {
+        std::vector<cost::Activity> all = front().activity(before, tiles);
+        all.push_back({"blending", tiles.slots});
+        all.push_back({"gaussian_buffer", 2 * tiles.fetched * config_.traffic.splat_bytes +
+                                              tiles.keys * config_.traffic.list_entry_bytes});
+        all.push_back(pixel_activity(tiles, config_.pixel_bytes()));
+        return all;
+    }
 
     enum Unit : std::size_t { kBlending = kArrayUnits, kMemory };
     const Config& config() const { return config_; }

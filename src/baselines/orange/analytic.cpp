@@ -24,9 +24,10 @@ public:
     int engines() const override { return config_.cores.count; }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double) const override { // handed over as a whole
-        const double all =
-            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity).all;
-        return {all, all};
+        SortCycles sorted =
+            degs::sort_cycles(config_.sorting, entries, entries, front().sort_capacity);
+        sorted.first = sorted.all;
+        return sorted;
     }
     double latency() const override {
         const int batch = config_.fetching.chunk;
@@ -36,6 +37,19 @@ public:
                                                         config_.tile_area()));
     }
     int pes() const override { return config_.pes(); }
+    std::vector<cost::Activity> activity(const FrameWorkload&, const PreparationCycles& before,
+                                         const TileCycles& tiles) const override {
+        Work work;
+        work.slots = tiles.slots;
+        work.formed = work.blended = tiles.walked;
+        work.keys_moved = tiles.keys;
+        std::vector<cost::Activity> all = config_.activity(work);
+        for (const cost::Activity& each : front().activity(before, tiles)) {
+            all.push_back(each);
+        }
+        all.push_back(pixel_activity(tiles, config_.pixel_bytes(), kGemmDepth));
+        return all;
+    }
 
     enum Unit : std::size_t { kArray = kArrayUnits, kVector, kMemory };
     const Config& config() const { return config_; }

@@ -57,22 +57,27 @@ cost::BillOfMaterials Config::bill() const {
 }
 
 // A batch is written and read once in each of its three places.
+std::vector<cost::Activity> Config::activity(const Work& work) const {
+    const VectorUnit::Config& vector = cores.vector;
+    const double per_splat =
+        double(splat_batch_bytes() + coefficient_batch_bytes() + product_batch_bytes()) /
+        fetching.chunk;
+    return {
+        {"systolic_arrays", work.slots},
+        {"vector_units", work.formed * vector.coefficient_operations +
+                             work.blended * tile_area() * vector.blend_operations},
+        {"scratchpad", 2 * work.formed * per_splat + work.keys_moved * traffic.list_entry_bytes}};
+}
+
 void Engine::collect_activity(AcceleratorResult& result) const {
     using V = VectorUnit::Stats;
-    const VectorUnit::Config& vector = config_.cores.vector;
-    const auto rate = [](std::uint64_t count) { return rate_of(count, 1); };
-    const double formed = rate(sum_of(vector_units_, &V::splats));
-    const double blended = rate(sum_of(vector_units_, &V::splats_blended)) * config_.tile_area();
-    add_activity(result, "systolic_arrays", result.slots.executed());
-    add_activity(result, "vector_units",
-                 formed * vector.coefficient_operations + blended * vector.blend_operations);
-    const double per_splat =
-        double(config_.splat_batch_bytes() + config_.coefficient_batch_bytes() +
-               config_.product_batch_bytes()) /
-        config_.fetching.chunk;
-    add_activity(result, "scratchpad",
-                 2 * formed * per_splat +
-                     rate(front_end().keys_moved()) * config_.traffic.list_entry_bytes);
+    const auto real = [](std::uint64_t count) { return rate_of(count, 1); };
+    Work work;
+    work.slots = real(result.slots.executed());
+    work.formed = real(sum_of(vector_units_, &V::splats));
+    work.blended = real(sum_of(vector_units_, &V::splats_blended));
+    work.keys_moved = real(front_end().keys_moved());
+    add_activity(result, config_.activity(work));
     add_pixel_activity(result, job(), config_.pixel_bytes());
 }
 

@@ -13,4 +13,12 @@ struct CostRows {
     void describe(cost::RowSection& section);
 };
 
+/// What the cores have done, counted by a simulation or expected by an estimate.
+struct Work {
+    double slots = 0;      ///< of the multipliers
+    double formed = 0;     ///< splats with coefficients
+    double blended = 0;    ///< splats blended on the tiles
+    double keys_moved = 0; ///< by the sorting units
+};
+
 } // namespace degs::orange

@@ -49,7 +49,11 @@ public:
     int engines() const override { return config_.all_streams(); }
     double latency() const override;
     int pes() const override { return config_.pes(); }
+    std::vector<cost::Activity> activity(const FrameWorkload& frame,
+                                         const PreparationCycles& before,
+                                         const TileCycles& tiles) const override;
 
+    enum Count : std::size_t { kSlices, kTaken, kRows, kIssues, kSegments, kFeatures };
     enum Unit : std::size_t { kSlicing = kArrayUnits, kSpan, kPacking, kBlending, kMemory };
     const DegsConfig& config() const { return config_; }
 
@@ -70,8 +74,9 @@ public:
 private:
     struct Bank {
         RingDates queue;
-        double cut = 0;  ///< when the next segment may be cut
-        double free = 0; ///< when the PEs have had the tasks so far
+        double cut = 0;          ///< when the next segment may be cut
+        double free = 0;         ///< when the PEs have had the tasks so far
+        std::uint64_t splat = 0; ///< the last one with a segment in it, from 1
     };
     struct Lane {
         RingDates rows;
@@ -99,7 +104,33 @@ private:
     double last_end_ = 0; ///< of the tile before
     double start_ = 0;    ///< when a context is free
     double tasks_ = 0, rows_ = 0, segments_ = 0, slices_ = 0;
+    double issues_ = 0;   ///< cycles of banks with an issue
+    double features_ = 0; ///< splats with a segment in a bank, for every bank
+    std::uint64_t splats_ = 0;
 };
+
+std::vector<cost::Activity> DegsAnalytic::activity(const FrameWorkload&,
+                                                   const PreparationCycles& before,
+                                                   const TileCycles& tiles) const {
+    const WorkCounts& counts = tiles.counts;
+    DegsWork work;
+    work.slicing_cycles = counts[kSlices];
+    work.issue_cycles = work.packets = counts[kIssues];
+    work.splats_fetched = tiles.fetched;
+    work.splats_sliced = counts[kTaken];
+    work.keys_moved = tiles.keys;
+    work.supplied = 2 * tiles.fetched; // through a FIFO
+    work.rows_sent = work.rows = counts[kRows];
+    work.features = counts[kFeatures];
+    work.segments_issued = counts[kSegments];
+    work.slots = tiles.slots;
+    std::vector<cost::Activity> all = config_.activity(work);
+    for (const cost::Activity& each : front().activity(before, tiles)) {
+        all.push_back(each);
+    }
+    all.push_back(pixel_activity(tiles, config_.pixel_bytes()));
+    return all;
+}
 
 std::unique_ptr<TileClock> DegsAnalytic::clock(const FrameWorkload& frame) const {
     return std::make_unique<DegsClock>(*this, frame);
@@ -129,7 +160,7 @@ DegsClock::DegsClock(const DegsAnalytic& model, const FrameWorkload& frame)
 void DegsClock::begin(const CoarseTile&) {
     start_ = finished_[tiles_ % finished_.size()];
     std::fill(region_free_.begin(), region_free_.end(), 0.0);
-    tasks_ = rows_ = segments_ = slices_ = 0;
+    tasks_ = rows_ = segments_ = slices_ = issues_ = features_ = 0;
 }
 
 // The date at which the row has been solved.
@@ -178,8 +209,12 @@ void DegsClock::segment(const CoarseTile& tile, const CoarseSpan& span, double s
         at = std::max(at, bank.queue.oldest());
         bank.cut = std::max(bank.cut, at);
         double& region = region_free_[span.row * segments_per_row_ + s];
-        bank.free = std::max(bank.free, at) + std::max(tasks / config_.array.pes_per_bank,
-                                                       1.0 / config_.scheduler.issue_width);
+        const double taken =
+            std::max(tasks / config_.array.pes_per_bank, 1.0 / config_.scheduler.issue_width);
+        bank.free = std::max(bank.free, at) + taken;
+        issues_ += taken;
+        features_ += bank.splat == splats_ ? 0 : 1;
+        bank.splat = splats_;
         const double issued = std::max(bank.free, region);
         region = issued + config_.scheduler.reuse_cycles;
         bank.queue.replace_oldest(issued);
@@ -224,6 +259,7 @@ double DegsClock::choose_rows(const CoarseTile& tile) {
 }
 
 void DegsClock::splat(const CoarseTile& tile) {
+    ++splats_;
     const double rows = choose_rows(tile);
     const double cycles = std::max(1.0, std::ceil(rows / config_.slicing.rows_per_cycle));
     slices_ += cycles;
@@ -263,6 +299,14 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
     const double drawn = tile.rows_per_drawn();
     TileCycles cycles = model_.front_end_cycles(tile, tile.walked());
     cycles.slots = drawn * tasks_;
+    // Every module of a stream takes each splat.
+    cycles.counts[DegsAnalytic::kSlices] =
+        std::max(slices_, tile.walked() * config_.slicing.modules());
+    cycles.counts[DegsAnalytic::kTaken] = tile.walked() * config_.slicing.modules();
+    cycles.counts[DegsAnalytic::kRows] = rows_;
+    cycles.counts[DegsAnalytic::kIssues] = drawn * issues_;
+    cycles.counts[DegsAnalytic::kSegments] = drawn * segments_;
+    cycles.counts[DegsAnalytic::kFeatures] = drawn * features_;
     cycles.busy[DegsAnalytic::kSlicing] = slices_ / (config_.clusters * config_.slicing.count);
     cycles.busy[DegsAnalytic::kSpan] = rows_ * config_.span.cycles_per_row /
                                        config_.span.rows_per_cycle /

@@ -68,6 +68,8 @@ struct DegsConfig : TiledConfig<DegsConfig, SpanPipelineConfig, PortedPixelBuffe
     /// had to wait for a free one.
     std::vector<std::string> idle_window_keys(std::uint64_t high_water, double feature_waits) const;
     cost::BillOfMaterials bill() const override;
+    /// What the blocks of the array do for that work, all but the Pixel Buffer.
+    std::vector<cost::Activity> activity(const DegsWork& work) const;
     std::vector<cost::ClockLimit> clock_limits() const override;
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;

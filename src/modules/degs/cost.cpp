@@ -155,48 +155,53 @@ double DegsConfig::cluster_dispatch_area() const {
            clusters;
 }
 
+std::vector<cost::Activity> DegsConfig::activity(const DegsWork& work) const {
+    const double segments = 2 * work.segments_issued + work.segments_dropped;
+    std::vector<cost::Activity> activity{
+        {"slicing", work.slicing_cycles},
+        {"span", work.rows * span.cycles_per_row},
+        {"packing", work.issue_cycles},
+        {"blending", work.slots},
+        {"gaussian_buffer", (work.splats_fetched + work.splats_sliced) * traffic.splat_bytes +
+                                work.keys_moved * traffic.list_entry_bytes},
+        {"feature_buffer", (work.segments_issued + work.features) * feature_buffer.entry_bytes},
+        {"span_buffer", (work.rows_sent + work.rows) * span_buffer.row_bytes},
+        {"packing_buffer", segments * scheduler.segment_bytes + 2 * work.packets * packet_bytes()}};
+    if (spans_cross()) {
+        activity.push_back({"span_crossbar", work.rows});
+    }
+    if (clusters > 1) {
+        activity.push_back({"cluster_dispatch", work.splats_fetched});
+    }
+    if (front.built()) {
+        activity.push_back({"splat_supply", work.supplied * traffic.splat_bytes});
+    }
+    return activity;
+}
+
 void Degs::collect_activity(AcceleratorResult& result) const {
-    const DegsConfig& c = config_;
     using G = GaussianSlicingUnit::Stats;
     using S = SpanStage::Stats;
     using B = IssueBank::Stats;
-    const auto bytes = [](std::uint64_t records, int record_bytes) {
-        return rate_of(records, 1) * record_bytes;
-    };
-    const std::uint64_t rows = sum_of(blocks_.spans, &S::rows);
-    const std::uint64_t issued = sum_of(blocks_.banks, &B::segments_issued);
-    const std::uint64_t segments = 2 * issued + sum_of(blocks_.banks, &B::segments_dropped);
-    const std::uint64_t packets = 2 * sum_of(blocks_.packing, &PackingUnit::Stats::packets);
-    std::uint64_t features = issued;
+    const auto real = [](std::uint64_t count) { return rate_of(count, 1); };
+    DegsWork work;
+    work.slicing_cycles = real(sum_of(blocks_.slicing, &G::busy));
+    work.issue_cycles = real(sum_of(blocks_.banks, &B::busy));
+    work.splats_fetched = real(sum_of(blocks_.fetchers, &SplatFetcher::Stats::records));
+    work.splats_sliced = real(sum_of(blocks_.slicing, &G::splats));
+    work.keys_moved = real(front_end_->keys_moved());
+    work.supplied = supply_ ? real(supply_->stats().records_moved()) : 0;
+    work.rows_sent = real(sum_of(blocks_.slicing, &G::rows));
+    work.rows = real(sum_of(blocks_.spans, &S::rows));
     for (const auto& bank : blocks_.banks) {
-        features += bank->features().stats().entries;
+        work.features += real(bank->features().stats().entries);
     }
-    const std::uint64_t splats = sum_of(blocks_.fetchers, &SplatFetcher::Stats::records) +
-                                 sum_of(blocks_.slicing, &G::splats);
-    add_activity(result, "slicing", sum_of(blocks_.slicing, &G::busy));
-    add_activity(result, "span", rows * c.span.cycles_per_row);
-    add_activity(result, "packing", sum_of(blocks_.banks, &B::busy));
-    if (c.spans_cross()) {
-        add_activity(result, "span_crossbar", rate_of(rows, 1));
-    }
-    if (c.clusters > 1) {
-        add_activity(result, "cluster_dispatch",
-                     rate_of(sum_of(blocks_.fetchers, &SplatFetcher::Stats::records), 1));
-    }
-    add_activity(result, "blending", result.slots.executed());
-    add_activity(result, "gaussian_buffer",
-                 bytes(splats, c.traffic.splat_bytes) +
-                     bytes(front_end_->keys_moved(), c.traffic.list_entry_bytes));
-    if (supply_) {
-        add_activity(result, "splat_supply",
-                     bytes(supply_->stats().records_moved(), c.traffic.splat_bytes));
-    }
-    add_activity(result, "feature_buffer", bytes(features, c.feature_buffer.entry_bytes));
-    add_activity(result, "span_buffer",
-                 bytes(sum_of(blocks_.slicing, &G::rows) + rows, c.span_buffer.row_bytes));
-    add_activity(result, "packing_buffer",
-                 bytes(segments, c.scheduler.segment_bytes) + bytes(packets, c.packet_bytes()));
-    add_pixel_activity(result, job_, c.pixel_bytes());
+    work.segments_issued = real(sum_of(blocks_.banks, &B::segments_issued));
+    work.segments_dropped = real(sum_of(blocks_.banks, &B::segments_dropped));
+    work.packets = real(sum_of(blocks_.packing, &PackingUnit::Stats::packets));
+    work.slots = real(result.slots.executed());
+    add_activity(result, config_.activity(work));
+    add_pixel_activity(result, job_, config_.pixel_bytes());
 }
 
 } // namespace degs

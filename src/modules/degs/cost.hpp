@@ -19,4 +19,17 @@ struct DegsCostRows {
     void describe(cost::RowSection& section);
 };
 
+/// What an array of DeGS has done, counted by a simulation or expected by an estimate.
+struct DegsWork {
+    double slicing_cycles = 0, issue_cycles = 0;
+    double splats_fetched = 0;      ///< records that enter the Gaussian Buffer
+    double splats_sliced = 0;       ///< records that Slicing Units take from it
+    double keys_moved = 0;          ///< by the sorters
+    double supplied = 0;            ///< records through the Splat Supply, in and out
+    double rows_sent = 0, rows = 0; ///< of splats, by Slicing Units, and solved
+    double features = 0;            ///< entries written to the Feature Buffer
+    double segments_issued = 0, segments_dropped = 0, packets = 0;
+    double slots = 0; ///< PE-cycles with a task
+};
+
 } // namespace degs

@@ -50,6 +50,11 @@ TEST_P(Analytic, IsNearTheSimulation) {
     const double bytes =
         exact["dram"]["bytes_read"].get<double>() + exact["dram"]["bytes_written"].get<double>();
     EXPECT_NEAR(estimate["dram"]["bytes"], bytes, 0.3 * bytes);
+    for (const char* part : {"nj_per_frame", "dynamic_nj", "leakage_nj", "dram_nj"}) {
+        const double energy = exact["energy"][part];
+        EXPECT_NEAR(estimate["energy"][part], energy, 0.25 * energy) << part;
+    }
+    EXPECT_EQ(estimate["energy"]["blocks"].size(), exact["energy"]["blocks"].size());
     EXPECT_EQ(estimate["workload"]["tile_pairs"], exact["workload"]["tile_pairs"]);
 }
 

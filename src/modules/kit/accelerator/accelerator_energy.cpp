@@ -20,14 +20,20 @@ std::optional<double> dram_nj(const cost::Technology::Dram& dram, const Accelera
         read += stream.bytes_read;
         written += stream.bytes_written;
     }
-    constexpr double kNjPerPj = 1e-3;
-    constexpr double kNwPerMw = 1e6;
-    return kNjPerPj * (dram.pj_per_bit * rate_of(8 * read, 1) +
-                       dram.write_pj_per_bit * rate_of(8 * written, 1)) +
-           kNwPerMw * dram.standby_mw_per_gb_per_s * result.memory_gb_per_s * seconds;
+    return bus_nj(dram, rate_of(read, 1), rate_of(written, 1), result.memory_gb_per_s, seconds);
 }
 
 } // namespace
+
+double bus_nj(const cost::Technology::Dram& dram, double bytes_read, double bytes_written,
+              double gb_per_s, double seconds) {
+    constexpr double kNjPerPj = 1e-3;
+    constexpr double kNwPerMw = 1e6;
+    constexpr double kBits = 8;
+    return kNjPerPj * kBits *
+               (dram.pj_per_bit * bytes_read + dram.write_pj_per_bit * bytes_written) +
+           kNwPerMw * dram.standby_mw_per_gb_per_s * gb_per_s * seconds;
+}
 
 cost::RunEnergy energy_of(const AcceleratorConfig& config, const AcceleratorResult& result,
                           std::uint64_t pixels) {

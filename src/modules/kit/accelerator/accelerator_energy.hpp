@@ -10,4 +10,8 @@ namespace degs {
 cost::RunEnergy energy_of(const AcceleratorConfig& config, const AcceleratorResult& result,
                           std::uint64_t pixels);
 
+/// The energy of a plain bus that moves so many bytes in `seconds`; `gb_per_s` is its peak.
+double bus_nj(const cost::Technology::Dram& dram, double bytes_read, double bytes_written,
+              double gb_per_s, double seconds);
+
 } // namespace degs

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "cost/run_energy.hpp"
+#include "modules/kit/config/main_memory_config.hpp"
 #include "splat/frame/coarse_tile.hpp"
 
 namespace degs {
@@ -18,6 +20,10 @@ namespace degs {
 constexpr std::size_t kMostAnalyticUnits = 8;
 using UnitCycles = std::array<double, kMostAnalyticUnits>;
 
+/// What the blocks of a design do, counted in an order of its own; energy follows these counts.
+constexpr std::size_t kMostAnalyticCounts = 8;
+using WorkCounts = std::array<double, kMostAnalyticCounts>;
+
 /// What a tile takes.
 struct TileCycles {
     double time = 0;   ///< in which its engine works on it, if splats are there
@@ -26,6 +32,12 @@ struct TileCycles {
     double slots = 0;     ///< PE-cycles in which a task is executed
     double fragments = 0; ///< of them those that are blended
     double bytes = 0;     ///< moved to and from memory
+    double written = 0;   ///< of them, the bytes to memory
+    double pixels = 0;    ///< inside the image
+    double fetched = 0;   ///< splats of the list that come from memory
+    double sorting = 0;   ///< cycles of a sorter, of the busier one of its steps
+    double keys = 0;      ///< that sorters read and write
+    WorkCounts counts{};
 };
 
 /// Follows tiles through a design by recurrences over their splats. Tiles of similar lists come one
@@ -45,7 +57,10 @@ public:
 struct PreparationCycles {
     double time = 0; ///< until the lists of the frame are complete
     UnitCycles busy{};
-    double bytes = 0; ///< moved, reads and writes
+    double bytes = 0;         ///< moved, reads and writes
+    double written = 0;       ///< of them, the bytes to memory
+    double binning = 0;       ///< cycles of the binner
+    double binning_bytes = 0; ///< to and from its SRAM
 };
 
 /// One design: kinds of units, and how to work out their cycles.
@@ -71,6 +86,8 @@ public:
     /// Cycles of a sorter on a list: until its first splats may be fetched, and in all.
     struct SortCycles {
         double first = 0, all = 0;
+        double busy = 0; ///< of the busier one of its steps
+        double keys = 0; ///< that its steps take in
     };
     virtual SortCycles sort_cycles(double /*entries*/, double /*walked*/) const { return {}; }
     /// Splats that are fetched while those of the tile before are in work.
@@ -83,6 +100,11 @@ public:
     /// From complete lists to the first task, and from the last task to the last pixel in memory.
     virtual double latency() const = 0;
     virtual int pes() const = 0;
+    /// What every block of the bill of materials does for the frame. `tiles`: sums of all tiles.
+    virtual std::vector<cost::Activity> activity(const FrameWorkload& frame,
+                                                 const PreparationCycles& before,
+                                                 const TileCycles& tiles) const = 0;
+    virtual const MainMemoryConfig& main_memory() const = 0;
 };
 
 } // namespace degs

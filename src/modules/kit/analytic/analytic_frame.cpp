@@ -87,8 +87,12 @@ std::vector<std::size_t> choose(const std::vector<Listed>& tiles, double visits_
 TileCycles scaled(const TileCycles& tile, double factor) {
     TileCycles result = tile;
     for (double* value :
-         {&result.time, &result.walked, &result.slots, &result.fragments, &result.bytes}) {
+         {&result.time, &result.walked, &result.slots, &result.fragments, &result.bytes,
+          &result.written, &result.pixels, &result.fetched, &result.sorting, &result.keys}) {
         *value *= factor;
+    }
+    for (double& count : result.counts) {
+        count *= factor;
     }
     for (double& cycles : result.busy) {
         cycles *= factor;
@@ -100,6 +104,15 @@ void add(TileCycles& sum, const TileCycles& tile) {
     sum.slots += tile.slots;
     sum.fragments += tile.fragments;
     sum.bytes += tile.bytes;
+    sum.written += tile.written;
+    sum.walked += tile.walked;
+    sum.pixels += tile.pixels;
+    sum.fetched += tile.fetched;
+    sum.sorting += tile.sorting;
+    sum.keys += tile.keys;
+    for (std::size_t c = 0; c < kMostAnalyticCounts; ++c) {
+        sum.counts[c] += tile.counts[c];
+    }
     for (std::size_t u = 0; u < kMostAnalyticUnits; ++u) {
         sum.busy[u] += tile.busy[u];
     }
@@ -162,6 +175,7 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
                 tile.blend();
             }
             cycles[c] = clock->end(tile);
+            cycles[c].pixels = tile.pixels();
         }
     });
 
@@ -180,6 +194,8 @@ AnalyticFrame estimate_frame(const AnalyticModel& model, const FrameWorkload& fr
     const double rendering = schedule(model, scheduled, background.busy);
     result.cycles = before.time + model.latency() + rendering;
     result.bytes = before.bytes + sum.bytes;
+    result.written = before.written + sum.written;
+    result.activity = model.activity(frame, before, sum);
     result.utilization = rendering == 0 ? 0 : sum.fragments / (rendering * model.pes());
     const std::vector<std::string> names = model.units();
     double longest = 0, longest_before = 0;

@@ -17,15 +17,17 @@ struct AnalyticFrame {
     double upper = 0;       ///< if no two kinds of units worked at the same time
     double utilization = 0; ///< fragments over PEs x blending cycles
     double bytes = 0;       ///< moved to and from memory
+    double written = 0;     ///< of them, the bytes to memory
     struct Unit {
         std::string name;
         double preparing = 0, rendering = 0; ///< cycles
     };
     std::vector<Unit> units;
     std::string limited_by; ///< the unit that is busy longest while tiles are rendered
-    std::size_t tiles = 0;  ///< that list a splat
-    std::size_t drawn = 0;  ///< of them, the tiles that the estimate rests on
-    int rows_apart = 1;     ///< one block of their rows in so many
+    std::vector<cost::Activity> activity; ///< of every block in the bill of materials
+    std::size_t tiles = 0;                ///< that list a splat
+    std::size_t drawn = 0;                ///< of them, the tiles that the estimate rests on
+    int rows_apart = 1;                   ///< one block of their rows in so many
 };
 
 /// Draws a sample of the tiles coarsely, see CoarseTile, which takes some milliseconds on any

@@ -49,15 +49,20 @@ ListWritingLoad list_writing(const FrameWorkload& frame, const TrafficConfig& tr
     writes.begin(frame, std::vector<bool>(frame.tile_pairs(), true));
     const std::uint64_t room = std::max(1, binning.buffer_bytes / 2 / traffic.list_entry_bytes);
     const std::uint32_t near_heads = binning.head_bytes / kListHeadBytes;
-    double bursts = 0, far_heads = 0;
+    double bursts = 0, far_heads = 0, groups = 0;
     for (std::uint64_t done = 0; done < writes.entries(); done += room) {
         const ListWrites::Batch& batch = writes.next(std::min(room, writes.entries() - done));
         bursts += as_real(batch.bursts.size());
+        groups += as_real(batch.tiles.size());
         for (const std::uint32_t tile : batch.tiles) {
             far_heads += tile >= near_heads ? 1 : 0;
         }
     }
     load.bytes = (bursts + 2 * far_heads) * traffic.burst_bytes;
+    const double waiting = binning.entries == ListWriting::Combined
+                               ? as_real(writes.entries()) * traffic.list_entry_bytes
+                               : 0;
+    load.sram_bytes = 2 * (waiting + (groups - far_heads) * kListHeadBytes); // read and written
     load.cycles = bursts * std::ceil(1.0 * traffic.burst_bytes / traffic.list_entry_bytes) /
                   binning.pairs_per_cycle;
     return load;
@@ -75,10 +80,13 @@ PreparationCycles FrontEndLoad::preparation(const FrameWorkload& frame,
         gaussians * traffic.geometry_size() +
         (traffic.sh == ShReads::All ? gaussians * sh : std::min(visible * alone, gaussians * sh)) +
         visible * traffic.splat_bytes + lists.bytes;
+    result.written = visible * traffic.splat_bytes + lists.bytes;
     const double project = gaussians * projection.cycles_per_gaussian / projection.count;
     const double shade = visible * projection.cycles_per_colour / projection.count;
     const double bin =
         std::max({std::ceil(gaussians / chunk), pairs / binning.pairs_per_cycle, lists.cycles});
+    result.binning = bin;
+    result.binning_bytes = lists.sram_bytes;
     // A chunk's write waits for the acknowledgement of one some writes earlier.
     const double write = gaussians / chunk * memory.latency / binning.writes_in_flight;
     const double moved = memory.cycles(result.bytes);
@@ -97,10 +105,36 @@ double FrontEndLoad::fetch_cycles(double walked) const {
 }
 
 double FrontEndLoad::tile_bytes(double entries, double walked, double pixels) const {
-    const double fetched = std::min(entries, walked + as_real(places) / 2);
     return (1 + 2 * list_passes) * entries * traffic.list_entry_bytes +
-           fetched * scattered_bytes(traffic.splat_bytes, traffic.burst_bytes) +
+           fetched(entries, walked) * scattered_bytes(traffic.splat_bytes, traffic.burst_bytes) +
            pixels * traffic.pixel_bytes;
+}
+
+double FrontEndLoad::bytes_written(double entries, double pixels) const {
+    return list_passes * entries * traffic.list_entry_bytes + pixels * traffic.pixel_bytes;
+}
+
+double FrontEndLoad::fetched(double entries, double walked) const {
+    return std::min(entries, walked + as_real(places) / 2);
+}
+
+std::vector<cost::Activity> FrontEndLoad::activity(const PreparationCycles& before,
+                                                   const TileCycles& tiles) const {
+    std::vector<cost::Activity> activity{
+        {"projection", before.busy[kProjectionUnits] * projection.count},
+        {"sorting", tiles.sorting}};
+    if (binning.more_pairs() != 0) {
+        activity.push_back({"binning", before.binning * binning.more_pairs()});
+    }
+    if (binning.sram_bytes() != 0) {
+        activity.push_back({"binning_buffer", before.binning_bytes});
+    }
+    return activity;
+}
+
+cost::Activity pixel_activity(const TileCycles& tiles, double pixel_bytes, int slots_per_fragment) {
+    const double tasks = (tiles.slots + tiles.fragments) / slots_per_fragment;
+    return {"pixel_buffer", (tasks + tiles.pixels) * pixel_bytes};
 }
 
 AnalyticModel::SortCycles sort_cycles(const SortingUnit::Config& config, double entries,
@@ -111,7 +145,7 @@ AnalyticModel::SortCycles sort_cycles(const SortingUnit::Config& config, double 
         entries > room ? passes_of(std::ceil(entries / room), config.merge_ways) : 0;
     const double outside = std::max<double>(needed, config.memory_passes);
     const double all = entries * (passes + outside) / config.keys_per_cycle;
-    return {all, all};
+    return {all, all, all, entries};
 }
 
 AnalyticModel::SortCycles sort_cycles(const HierarchicalSorter::Config& config, double entries,
@@ -122,7 +156,8 @@ AnalyticModel::SortCycles sort_cycles(const HierarchicalSorter::Config& config, 
     const double coarse = entries * levels / config.keys_per_cycle;
     const double sorted = std::min(entries, std::ceil(walked / chunk + 1) * chunk);
     const double fine = sorted * config.fine_cycles_per_key + std::ceil(entries / chunk);
-    return {coarse + std::min(entries, chunk) * config.fine_cycles_per_key, coarse + fine};
+    return {coarse + std::min(entries, chunk) * config.fine_cycles_per_key, coarse + fine,
+            std::max(coarse, fine), entries + sorted};
 }
 
 } // namespace degs

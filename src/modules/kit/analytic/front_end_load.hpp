@@ -28,6 +28,7 @@ struct MemoryRate {
     TileCycles writes(double bytes, std::size_t unit) const {
         TileCycles written;
         written.bytes = bytes;
+        written.written = bytes;
         written.busy[unit] = cycles(bytes);
         return written;
     }
@@ -40,9 +41,15 @@ double scattered_bytes(int record, int burst);
 /// Kinds of units of the front end; those of an array follow.
 enum FrontEndUnit : std::size_t { kProjectionUnits, kSortingUnits, kArrayUnits };
 
+/// What a Pixel Buffer does: a read per task, a write per fragment, and a read per pixel at the end
+/// of a tile. A pixel of a splat takes `slots_per_fragment` slots.
+cost::Activity pixel_activity(const TileCycles& tiles, double pixel_bytes,
+                              int slots_per_fragment = 1);
+
 /// Bytes of list entries and of ends of lists, and cycles of the binner for them.
 struct ListWritingLoad {
     double bytes = 0, cycles = 0;
+    double sram_bytes = 0; ///< read and written
 };
 ListWritingLoad list_writing(const FrameWorkload& frame, const TrafficConfig& traffic,
                              const TileBinner::Config& binning);
@@ -73,6 +80,11 @@ public:
     double fetch_cycles(double walked) const;
     /// Bytes of a tile: its list, the splats that are fetched, its pixels.
     double tile_bytes(double entries, double walked, double pixels) const;
+    double bytes_written(double entries, double pixels) const;
+    double fetched(double entries, double walked) const;
+    /// What each block of the front end in the bill of materials does.
+    std::vector<cost::Activity> activity(const PreparationCycles& before,
+                                         const TileCycles& tiles) const;
 };
 
 /// A model with such a front end. Its units begin with those of FrontEndUnit and end with memory.
@@ -87,6 +99,7 @@ public:
         return front_.memory.writes(pixels * front_.traffic.pixel_bytes, memory_unit_);
     }
     const FrontEndLoad& front() const { return front_; }
+    const MainMemoryConfig& main_memory() const override { return main_memory_; }
     /// What a tile takes of the front end and of memory if `walked` splats of its list are fetched;
     /// the array is left to the model.
     TileCycles front_end_cycles(const CoarseTile& tile, double walked) const {
@@ -94,7 +107,13 @@ public:
         cycles.walked = walked;
         cycles.fragments = tile.fragments();
         cycles.bytes = front_.tile_bytes(tile.entries(), walked, tile.pixels());
-        cycles.busy[kSortingUnits] = sort_cycles(tile.entries(), walked).all / sorters();
+        cycles.written = front_.bytes_written(tile.entries(), tile.pixels());
+        cycles.fetched = front_.fetched(tile.entries(), walked);
+        const SortCycles sorted = sort_cycles(tile.entries(), walked);
+        cycles.sorting = sorted.busy;
+        constexpr int kReadAndWritten = 2;
+        cycles.keys = kReadAndWritten * sorted.keys;
+        cycles.busy[kSortingUnits] = sorted.all / sorters();
         cycles.busy[memory_unit_] = front_.memory.cycles(cycles.bytes);
         cycles.time = front_.fetch_cycles(walked);
         return cycles;
@@ -104,7 +123,8 @@ protected:
     /// `chunks` of splats are fetched ahead of the array.
     template <class Config>
     FrontEndModel(const Config& config, int chunks, std::size_t memory_unit)
-        : front_(MemoryRate(config.memory, config.clock_ghz)), memory_unit_(memory_unit) {
+        : front_(MemoryRate(config.memory, config.clock_ghz)), main_memory_(config.memory),
+          memory_unit_(memory_unit) {
         front_.traffic = config.traffic;
         front_.projection = config.projection;
         front_.binning = config.binning;
@@ -116,6 +136,7 @@ protected:
 
 private:
     FrontEndLoad front_;
+    MainMemoryConfig main_memory_;
     std::size_t memory_unit_;
 };
 

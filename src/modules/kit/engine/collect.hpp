@@ -71,6 +71,9 @@ inline constexpr Title kFetching{"fetching", "Splat Fetchers, busy when they ask
 
 /// What a block of the bill of materials has done: cycles of work of its units, or bytes moved.
 void add_activity(AcceleratorResult& result, const char* block, double operations);
+inline void add_activity(AcceleratorResult& result, const std::vector<cost::Activity>& blocks) {
+    result.activity.insert(result.activity.end(), blocks.begin(), blocks.end());
+}
 inline void add_activity(AcceleratorResult& result, const char* block, std::uint64_t operations) {
     add_activity(result, block, rate_of(operations, 1));
 }
