@@ -55,7 +55,19 @@ diff -u "$work/c" "$work/ip-xact"
 svd=$root/tests/packaging/schemas/cmsis-svd/CMSIS-SVD.xsd
 ip_xact=$root/tests/packaging/schemas/ip-xact-1685-2022/index.xsd
 xmllint --nonet --noout --schema "$svd" degs.svd
-xmllint --nonet --noout --schema "$ip_xact" degs-ip-xact.xml
+xmllint --nonet --noout --schema "$ip_xact" degs-ip-xact.xml degs-tlm2-bus.xml degs-tlm2-abstraction.xml
+# Bus and abstraction of the component are those of the two files, and its sockets are ports.
+names() { xmllint --xpath "$2" "$1" | tr -d '\n'; }
+for kind in bus abstraction; do
+    own=$(names degs-tlm2-$kind.xml "/*/*[local-name()='vendor' or local-name()='library' or local-name()='name' or local-name()='version']/text()")
+    type=$([[ $kind = bus ]] && echo busType || echo abstractionRef)
+    for bus in 1 2; do
+        used=$(names degs-ip-xact.xml "(//*[local-name()='$type'])[$bus]/@*" | sed 's/[a-z]*="\([^"]*\)"/\1/g; s/ //g')
+        [[ $own = "$used" ]] || { echo "$type $bus is $used, but the file defines $own"; exit 1; }
+    done
+done
+ports=$(names degs-ip-xact.xml "//*[local-name()='ports']/*/*[local-name()='name']/text()")
+[[ $ports = registersmemirqreset_nclk ]] || { echo "ports of IP-XACT: $ports"; exit 1; }
 # The schemas reject what is wrong.
 sed 's/read-only/read-sometimes/' degs.svd >"$work/bad.svd"
 sed 's/read-only/read-sometimes/' degs-ip-xact.xml >"$work/bad.xml"
