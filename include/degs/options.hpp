@@ -54,6 +54,8 @@ struct AcceleratorOptions {
         unsigned outstanding = 64;
         /// AT: likewise, of one stream.
         unsigned outstanding_per_stream = ~0U;
+        /// LT: likewise, of all streams; 0, the default, is no bound. Only with `burst_bytes`.
+        unsigned lt_outstanding = 0;
         /// B; accesses are cut into naturally aligned transactions of a power of two up to this. A
         /// power of two from 4 on, or 0, which cuts nothing.
         std::uint64_t burst_bytes = 0;

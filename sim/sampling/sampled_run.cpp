@@ -195,13 +195,15 @@ private:
     /// `first`. Where tiles take few cycles, writes of several tiles before are still under way.
     std::size_t warm_up_from(std::size_t first, std::size_t least) const {
         constexpr double kSettled = 200; // cycles
-        constexpr std::size_t kMost = 6; // more of them would be light ones only, unlike a frame
+        constexpr std::size_t kMostWarmUp =
+            6; // more of them would be light ones only, unlike a frame
         std::size_t from = first - std::min(first, least);
         double cycles = 0;
         for (std::size_t t = from; t < first; ++t) {
             cycles += work_[t].cycles;
         }
-        for (; from > 0 && first - from < kMost && cycles < kSettled && work_[first].cycles > 0;
+        for (;
+             from > 0 && first - from < kMostWarmUp && cycles < kSettled && work_[first].cycles > 0;
              --from) {
             cycles += work_[from - 1].cycles;
         }

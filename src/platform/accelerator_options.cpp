@@ -48,6 +48,8 @@ void describe(AcceleratorOptions& options, ConfigVisitor& visitor) {
                 "at: transactions in flight");
     visit_count(visitor, "outstanding_per_stream", options.memory.outstanding_per_stream, 1,
                 "at: the same of one stream");
+    visit_count(visitor, "lt_outstanding", options.memory.lt_outstanding, 0,
+                "lt: transactions in flight; 0 is no bound");
     visit_count(visitor, "burst_bytes", options.memory.burst_bytes, 0,
                 "bytes; a power of two from 4 on, 0 cuts no access");
     visitor.choice("burst_ends", options.memory.burst_ends, {"pieces", "full_bursts"},

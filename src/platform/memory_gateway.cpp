@@ -16,7 +16,8 @@ MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name)
 MemoryGateway::MemoryGateway(const sc_core::sc_module_name& name, const Options& options,
                              const ClockDomain& clock)
     : sc_core::sc_module(name), out("out"), in_("in"), options_(options), clock_(clock),
-      pacer_(options.transport == Transport::At ? Pacing::Exact : options.pacing, clock) {
+      pacer_(options.transport == Transport::At ? Pacing::Exact : options.pacing, clock),
+      in_flight_(options.lt_outstanding) {
     if (const std::string wrong = problem(options); !wrong.empty()) {
         throw std::invalid_argument(std::string(this->name()) + ": " + wrong);
     }
@@ -42,6 +43,10 @@ std::string MemoryGateway::problem(const Options& options) {
         (options.outstanding == 0 || options.outstanding_per_stream == 0)) {
         return std::string("memory.outstanding") + (options.outstanding == 0 ? "" : "_per_stream") +
                " is 0, but an AT memory needs at least 1 transaction in flight";
+    }
+    if (options.lt_outstanding != 0 && burst == 0) {
+        return "memory.lt_outstanding is " + std::to_string(options.lt_outstanding) +
+               ", but memory.burst_bytes is 0, which makes one transaction of any access";
     }
     return "";
 }
@@ -132,7 +137,7 @@ void MemoryGateway::access(unsigned rank, tlm::tlm_generic_payload& payload,
     } else if (options_.burst_bytes == 0 && payload.get_extension<Scattered>() == nullptr) {
         out->b_transport(payload, delay);
     } else {
-        access_pieces(payload, cut(payload), delay);
+        access_pieces(rank, payload, cut(payload), delay);
     }
     end_access(delay);
 }
@@ -160,10 +165,27 @@ void MemoryGateway::attach() {
     }
 }
 
-// All pieces are issued at the date of the access, which ends with the last of them; the first
-// error is the access's. Targets see ordinary transactions.
-void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Pieces& pieces,
-                                  sc_core::sc_time& delay) {
+/// Waits until one more transaction may go out, for one that is dated `date`, as far as the pacing
+/// waits for dates. Returns the date at which it goes out.
+sc_core::sc_time MemoryGateway::await_room(unsigned rank, const sc_core::sc_time& date) {
+    sc_core::sc_time goes = std::max(date, sc_core::sc_time_stamp());
+    while (in_flight_.bounded() && !detached_) {
+        const sc_core::sc_time admitted = in_flight_.admit(goes);
+        if (admitted == goes) {
+            break;
+        }
+        // Others may have taken the room in the meantime.
+        sc_core::sc_time delay = clock_.at(clock_.ceil(admitted)) - sc_core::sc_time_stamp();
+        pacer_.await_turn(rank, delay);
+        goes = std::max(admitted, sc_core::sc_time_stamp() + delay);
+    }
+    return goes;
+}
+
+// All pieces are issued at the date of the access, or when there is room; the access ends with the
+// last of them, and the first error is its own. Targets see ordinary transactions.
+void MemoryGateway::access_pieces(unsigned rank, tlm::tlm_generic_payload& payload,
+                                  const Pieces& pieces, sc_core::sc_time& delay) {
     const std::uint64_t address = payload.get_address();
     unsigned char* const data = payload.get_data_ptr();
     const unsigned int bytes = payload.get_data_length();
@@ -177,12 +199,15 @@ void MemoryGateway::access_pieces(tlm::tlm_generic_payload& payload, const Piece
         if (detached_) { // while the last piece was on the bus
             break;
         }
-        const sc_core::sc_time now = sc_core::sc_time_stamp();
-        sc_core::sc_time wait = date > now ? date - now : sc_core::SC_ZERO_TIME;
+        sc_core::sc_time wait = await_room(rank, date) - sc_core::sc_time_stamp();
         burst.open(payload, piece, data);
         out->b_transport(payload, wait);
         burst.close(payload);
-        done = std::max(done, sc_core::sc_time_stamp() + wait);
+        const sc_core::sc_time end = sc_core::sc_time_stamp() + wait;
+        if (in_flight_.bounded()) {
+            in_flight_.add(end);
+        }
+        done = std::max(done, end);
         status = status == tlm::TLM_OK_RESPONSE ? payload.get_response_status() : status;
     }
     payload.set_extension(scattered);

@@ -16,6 +16,7 @@
 #include "platform/access_pacer.hpp"
 #include "platform/at_requester.hpp"
 #include "platform/burst_cutter.hpp"
+#include "platform/in_flight.hpp"
 
 namespace degs {
 
@@ -92,13 +93,15 @@ private:
     tlm::tlm_sync_enum backward(tlm::tlm_generic_payload& payload, tlm::tlm_phase& phase,
                                 sc_core::sc_time& delay);
     unsigned int debug_of(int port, tlm::tlm_generic_payload& payload);
-    void access_pieces(tlm::tlm_generic_payload& payload, const Pieces& pieces,
+    void access_pieces(unsigned rank, tlm::tlm_generic_payload& payload, const Pieces& pieces,
                        sc_core::sc_time& delay);
+    sc_core::sc_time await_room(unsigned rank, const sc_core::sc_time& date);
 
     sc_core::sc_vector<tlm_utils::simple_target_socket_tagged<MemoryGateway>> in_;
     Options options_;
     ClockDomain clock_;
     AccessPacer pacer_;
+    InFlight in_flight_; // LT
     std::unique_ptr<AtRequester> requester_;
     std::vector<MemoryTraffic> traffic_;
     std::vector<bool> of_scene_; // by stream

@@ -92,6 +92,8 @@ constexpr WrongOptions kWrongOptions[] = {
     {"BurstsBelowAWord", [](auto& o) { o.memory.burst_bytes = 2; }, "memory.burst_bytes is 2"},
     {"FullBurstsOfNoSize", [](auto& o) { o.memory.burst_ends = BurstEnds::FullBursts; },
      "memory.burst_bytes is 0"},
+    {"ABoundWithoutBursts", [](auto& o) { o.memory.lt_outstanding = 4; },
+     "memory.burst_bytes is 0"},
     {"NoPixels", [](auto& o) { o.limits.pixels = 0; }, "limits"},
     {"NoGaussians", [](auto& o) { o.limits.gaussians = 0; }, "limits"},
     {"TooManyGaussians",
