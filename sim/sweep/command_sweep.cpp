@@ -17,6 +17,7 @@
 #include "sim/simulation/warnings.hpp"
 #include "sim/study/study_options.hpp"
 #include "sim/sweep/array_task.hpp"
+#include "sim/sweep/ranking.hpp"
 #include "sim/sweep/slurm.hpp"
 #include "sim/sweep/sweep_results.hpp"
 #include "sim/sweep/sweep_session.hpp"
@@ -39,7 +40,17 @@ struct SweepOptions {
     int tasks = kSlurmTasks;
     std::vector<std::string> sbatch;
     std::string out = "out";
+    std::string sort; ///< goals; empty: no table
+    std::size_t top = 10;
 };
+
+/// The table that was asked for.
+std::string ranking_of(const SweepOptions& options, const StudyPlan& plan,
+                       const SweepResults& results) {
+    return options.sort.empty()
+               ? ""
+               : ranking_text(plan, results, parse_goals(options.sort, "--sort"), options.top);
+}
 
 /// "2/5"; all points if nothing is given.
 PointRange range_of(const std::optional<std::string>& given, std::size_t points) {
@@ -174,13 +185,13 @@ std::string missing_words(const SweepResults& results, const OutputFolder& folde
 }
 
 /// Results of all points, whoever ran them. Throws FailureError if some are missing or failed.
-void collect(const StudyPlan& plan, const PointStore& store) {
+void collect(const SweepOptions& options, const StudyPlan& plan, const PointStore& store) {
     const SweepResults results = read_results(plan, store);
     write_results(plan, results, store.folder());
     if (results.missing == 0) {
         store.sweep_up();
     }
-    print(results_text(plan, results) +
+    print(results_text(plan, results) + ranking_of(options, plan, results) +
           "all numbers and plots: " + visible(store.folder().path("")) + "\n");
     print_warnings(results.warnings);
     if (results.missing != 0) {
@@ -192,6 +203,9 @@ void collect(const StudyPlan& plan, const PointStore& store) {
 }
 
 void run(const SweepOptions& options) {
+    if (!options.sort.empty()) {
+        parse_goals(options.sort, "--sort"); // a mistake is found before anything runs
+    }
     StudyPlan plan = plan_study(study_of(options.study));
     plan.request.jobs = options.jobs;
     if (options.list) {
@@ -205,7 +219,7 @@ void run(const SweepOptions& options) {
     const PointRange range = range_of(options.shard, plan.points.size());
     const PointStore store(options.out, plan);
     if (options.collect) {
-        collect(plan, store);
+        collect(options, plan, store);
         return;
     }
     const bool whole = !options.shard;
@@ -223,7 +237,7 @@ void run(const SweepOptions& options) {
         write_results(plan, results, store.folder());
         if (complete) {
             store.sweep_up();
-            print(results_text(plan, results) +
+            print(results_text(plan, results) + ranking_of(options, plan, results) +
                   "all numbers and plots: " + visible(store.folder().path("")) + "\n");
             print_warnings(results.warnings);
         }
@@ -256,6 +270,16 @@ void add_sweep_command(CLI::App& program) {
     command->add_flag("--list", options->list, "run nothing; list the points")
         ->excludes(shard)
         ->excludes(collect);
+    CLI::Option* sort =
+        command
+            ->add_option("--sort", options->sort,
+                         "print the best designs by these goals, in this order of importance")
+            ->type_name("A,B,...")
+            ->excludes(shard);
+    command->add_option("--top", options->top, "designs to print with --sort")
+        ->check(CLI::Range(1, 100000))
+        ->needs(sort)
+        ->capture_default_str();
     CLI::Option* slurm = command->add_flag(
         "--slurm", options->slurm,
         "run nothing here; submit the points as a job array of Slurm, then use --collect");
