@@ -73,6 +73,17 @@ bool judges_images(const Aims& aims) {
                        [](Measure measure) { return name_of(measure).rfind("image.", 0) == 0; });
 }
 
+/// The points that failed, each with its sentence.
+std::vector<FailedRun> failed_runs(const StudyPlan& plan, const SweepResults& results) {
+    std::vector<FailedRun> runs;
+    for (const FailedPoint& failed : results.failed) {
+        const StudyPoint& point = plan.points[failed.point];
+        runs.push_back({plan.variants[point.variant].name, plan.request.scenes[point.scene],
+                        failed.failure.sentence});
+    }
+    return runs;
+}
+
 /// Runs a step. Empty after Ctrl-C.
 std::optional<Rung> run_step(const StudyPlan& plan, const Step& step, const std::string& out,
                              std::optional<Failure>& failure) {
@@ -98,7 +109,7 @@ std::optional<Rung> run_step(const StudyPlan& plan, const Step& step, const std:
     Rung rung;
     rung.change = step.change;
     rung.warnings = results.warnings;
-    rung.failed = results.comparison.failed;
+    rung.failed = failed_runs(part, results);
     rung.candidates = candidates_of(part, results, step);
     rung.cycles = cycles_of(results.comparison);
     return rung;

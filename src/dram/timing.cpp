@@ -113,6 +113,7 @@ void describe_burst(Timing& t, ConfigVisitor& v) {
     v.integer("burst_data_bytes", t.burst_data_bytes, 0, 64,
               "bytes of data in a burst, 32 or 64; 0: pins * burst_length / 8; less of LPDDR6, "
               "whose bursts carry 4 B beside 32");
+    v.require(t.burst_data_bytes % 32 == 0, {"burst_data_bytes", "must be 0, 32 or 64", "0"});
     const unsigned bytes = t.burst_bytes();
     v.require(bytes == 32 || bytes == 64,
               {"burst_length",

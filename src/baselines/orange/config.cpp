@@ -69,6 +69,14 @@ void Config::describe(ConfigVisitor& visitor) {
     require_sizes(visitor);
 }
 
+TileCoupling Config::tile_coupling(bool /*array_only*/) const {
+    if (cores.count == 1) {
+        return {};
+    }
+    return {"The cores of this design compete for memory while each has a tile of its own",
+            "cores.count=1"};
+}
+
 DataPathOptions Config::data_path() const {
     DataPathOptions options = pipeline.data_path();
     options.gemm = gemm;

@@ -46,7 +46,7 @@ struct Config : TiledConfig<Config> {
     int tile_size_px() const override { return tile_size; }
     DataPathOptions data_path() const override;
     int tile_contexts() const override { return cores.count * contexts(); }
-    TileCoupling tile_coupling(bool /*array_only*/) const override { return {}; }
+    TileCoupling tile_coupling(bool array_only) const override;
     /// Products of a tile whose pixels have ended are finished.
     bool ends_with_its_pixels() const override { return false; }
     std::vector<LossKey> loss_keys() const override;

@@ -86,6 +86,11 @@ TileCoupling DegsConfig::tile_coupling(bool array_only) const {
                 "has few",
                 "front.multicast_window=0"};
     }
+    if (streams() > 1) {
+        return {"The tile streams of this design share its banks, so that a tile takes longer or "
+                "shorter beside others",
+                "slicing.interleave=1"};
+    }
     return {};
 }
 

@@ -76,7 +76,7 @@ TEST_P(SmallRunSampled, AgreesWithTheExactRun) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Designs, SmallRunSampled,
-                         ::testing::Values("degs-64", "gscore-64", "degs-64-tuned"));
+                         ::testing::Values("degs-64", "gscore-64", "degs-16"));
 
 TEST(SmallRunSampledOnce, FollowsItsSeedAndNothingElse) {
     const auto numbers = [](const std::string& seed) {
@@ -134,6 +134,8 @@ TEST(SmallRunSampledOnce, IsExactWhereTilesDependOnEachOther) {
         {"clusters=1", {"gcc-64", "clusters=2"}},
         {"clusters=1", {"gscore-64", "clusters=2"}},
         {"clusters=1", {"degs-x-256"}},
+        {"slicing.interleave=1", {"degs-64-tuned"}},
+        {"cores.count=1", {"orange-o2"}},
         {"front.cache_bytes=0", {"degs-x-256", "clusters=1"}},
         {"front.multicast_window=0",
          {"degs-64", "front.fifo_splats=64", "front.multicast_window=64"}}};
