@@ -23,6 +23,7 @@
 
 #include <degs/accelerator.hpp>
 #include <degs/bus_width.hpp>
+#include <degs/date_sorter.hpp>
 #include <degs/degs_driver.h>
 #include <degs/design.hpp>
 #include <degs/error.hpp>
