@@ -8,20 +8,20 @@
 namespace degs::test {
 namespace {
 
-sc_core::sc_time ns(double value) {
+sc_core::sc_time nanoseconds(double value) {
     return {value, sc_core::SC_NS};
 }
 
 TEST(InFlight, AdmitsWhenTheOldestHasEnded) {
     InFlight two(2);
-    EXPECT_EQ(two.admit(ns(5)), ns(5));
-    two.add(ns(30));
-    EXPECT_EQ(two.admit(ns(5)), ns(5));
-    two.add(ns(20));
-    EXPECT_EQ(two.admit(ns(6)), ns(20)) << "the one that ends first";
-    EXPECT_EQ(two.admit(ns(20)), ns(20));
-    two.add(ns(40));
-    EXPECT_EQ(two.admit(ns(21)), ns(30));
+    EXPECT_EQ(two.admit(nanoseconds(5)), nanoseconds(5));
+    two.add(nanoseconds(30));
+    EXPECT_EQ(two.admit(nanoseconds(5)), nanoseconds(5));
+    two.add(nanoseconds(20));
+    EXPECT_EQ(two.admit(nanoseconds(6)), nanoseconds(20)) << "the one that ends first";
+    EXPECT_EQ(two.admit(nanoseconds(20)), nanoseconds(20));
+    two.add(nanoseconds(40));
+    EXPECT_EQ(two.admit(nanoseconds(21)), nanoseconds(30));
     EXPECT_FALSE(InFlight(0).bounded());
 }
 
@@ -69,8 +69,8 @@ TEST_P(SmallRunInFlight, BoundedAccessesTakeALatencyPerRound) {
     EXPECT_EQ(dates.most_at_once(memory.latency), bound);
     const double rounds = 64.0 / bound;
     const sc_core::sc_time took = dates.begun.back() + memory.latency - dates.begun.front();
-    EXPECT_GE(took, ns(50 * rounds));
-    EXPECT_LE(took, ns(51 * rounds));
+    EXPECT_GE(took, nanoseconds(50 * rounds));
+    EXPECT_LE(took, nanoseconds(51 * rounds));
 }
 INSTANTIATE_TEST_SUITE_P(Bounds, SmallRunInFlight, ::testing::Values(1U, 4U, 64U));
 
