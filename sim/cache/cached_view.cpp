@@ -13,6 +13,13 @@ namespace {
 
 constexpr double kWorthKeeping = 0.005; // s
 
+/// Options of the projection that the reference of a frame is drawn from.
+ProjectionOptions reference_options(const FrameWorkload& frame) {
+    ProjectionOptions options = frame.projection;
+    options.numbers = ProjectionNumbers();
+    return options;
+}
+
 } // namespace
 
 CachedView::CachedView(const ViewRequest& request, const PathRequest& path, FrameCache cache)
@@ -113,12 +120,19 @@ std::vector<FrameWorkload> CachedView::frames(const AcceleratorConfig& config) {
     return frames;
 }
 
+void CachedView::require_reference(const FrameWorkload& frame) const {
+    if (workload_ &&
+        !workload_->holds(reference_options(frame), frame.tile_size, frame.tile_mode)) {
+        throw InputError(request_.workload +
+                         ": the workload was packed with --no-reference, so that it has nothing "
+                         "to draw a reference image from; --no-reference is needed here, too.");
+    }
+}
+
 Reference CachedView::reference(const FrameWorkload& frame) {
     if (workload_) {
-        ProjectionOptions exact = frame.projection;
-        exact.numbers = ProjectionNumbers();
-        return make_reference(
-            packed_frame("the reference image", exact, frame.tile_size, frame.tile_mode));
+        return make_reference(packed_frame("the reference image", reference_options(frame),
+                                           frame.tile_size, frame.tile_mode));
     }
     if (std::optional<Reference> kept = cache_.reference(frame_key(0), frame)) {
         return std::move(*kept);

@@ -27,6 +27,8 @@ public:
     const std::vector<Camera>& cameras() const { return cameras_; }
     /// The frames with the tiles of the accelerator, projected in its numbers.
     std::vector<FrameWorkload> frames(const AcceleratorConfig& config);
+    /// Throws InputError if the view is a workload file without the reference of such a frame.
+    void require_reference(const FrameWorkload& frame) const;
     /// The reference of such a frame.
     Reference reference(const FrameWorkload& frame);
     /// Something had to be made from the Gaussians, which are still there.

@@ -122,18 +122,16 @@ FrameCache FrameCache::of_user() {
     return FrameCache(DiskCache(folder, bytes));
 }
 
-FrameCache::FrameCache(DiskCache disk) : disk_(std::move(disk)) {
-    Digest digest;
-    digest.add_file("/proc/self/exe");
-    program_ = digest.text();
-}
+FrameCache::FrameCache(DiskCache disk) : disk_(std::move(disk)) {}
 
 std::string FrameCache::scene_key(const std::string& spec, const std::string& camera_file) const {
     if (!on()) {
         return "";
     }
+    Digest program; // only here, because a run of a workload file has no scene and no use for it
+    program.add_file("/proc/self/exe");
     Digest digest;
-    digest.add(program_);
+    digest.add(program.text());
     digest.add_scene(spec);
     digest.add_cameras(camera_file);
     return digest.text();

@@ -32,7 +32,8 @@ public:
 
     bool on() const { return disk_.has_value(); }
 
-    /// Names the content of a scene and of the cameras that it would be loaded with; empty if off.
+    /// Names the content of a scene and of the cameras that it would be loaded with, for this
+    /// executable; empty if off.
     std::string scene_key(const std::string& spec, const std::string& camera_file) const;
     /// The name and source of the facts are those of the run that kept them.
     std::optional<SceneCard> scene(const std::string& scene_key) const;
@@ -51,7 +52,6 @@ public:
 
 private:
     std::optional<DiskCache> disk_;
-    std::string program_; ///< digest of the executable
 };
 
 } // namespace degs::sim

@@ -115,6 +115,9 @@ RunResult simulate(const RunRequest& request, const std::vector<ChangedDesign>& 
                    CachedView& view, const Stopwatch& since_start) {
     const Stopwatch wall;
     const std::vector<FrameWorkload> workloads = view.frames(request.config.accelerator());
+    if (request.reference && !request.sampling) {
+        view.require_reference(workloads.front());
+    }
     std::vector<WhatIf> worth = what_if(request.config, changed, workloads.front(), view);
     std::optional<Reference>
         reference; // now if it needs Gaussians that are there, else after the run

@@ -42,10 +42,11 @@ bool has_sound_splats(const FrameWorkload& frame) {
     std::vector<std::uint32_t> ids;
     ids.reserve(frame.splats.size());
     const Rounder key_of(frame.projection.numbers.depth_key); // what the splats are ordered by
+    const SplatLimits limits(frame.projection);
     float depth = -std::numeric_limits<float>::infinity();
     for (const ProjectedSplat& splat : frame.splats) {
         const auto key = static_cast<float>(key_of(splat.depth));
-        if (!is_sound(splat, frame.projection) || key < depth) {
+        if (!is_sound(splat, limits) || key < depth) {
             return false;
         }
         depth = key;
@@ -88,17 +89,20 @@ bool is_sound(const Camera& camera) {
     return good;
 }
 
-bool is_sound(const ProjectedSplat& s, const ProjectionOptions& options) {
+SplatLimits::SplatLimits(const ProjectionOptions& options) {
     constexpr double kRounding = 1e-6;
     // Narrow formats round Q_th by up to a half of it, and the opacity then follows from Q_th.
     const bool exact = options.numbers.is_reference();
-    const double most_q = (exact ? 1.0 : 1.5) * options.cut + kRounding;
-    const double most_opacity = exact ? 1 + kRounding : options.alpha_min * std::exp(most_q / 2);
+    most_q = (exact ? 1.0 : 1.5) * options.cut + kRounding;
+    most_opacity = exact ? 1 + kRounding : options.alpha_min * std::exp(most_q / 2);
+}
+
+bool is_sound(const ProjectedSplat& s, const SplatLimits& limits) {
     bool good = std::isfinite(s.mu_x) && std::isfinite(s.mu_y) && std::isfinite(s.depth) &&
                 std::isfinite(s.cov_b) && s.cov_a >= 0 && std::isfinite(s.cov_a) && s.cov_c >= 0 &&
                 std::isfinite(s.cov_c) && s.det > 0 && std::isfinite(s.det);
-    good = good && s.opacity >= 0 && s.opacity <= most_opacity && s.q_threshold >= 0 &&
-           s.q_threshold <= most_q && s.q_cut_off >= 0 && s.q_cut_off <= kNoCut;
+    good = good && s.opacity >= 0 && s.opacity <= limits.most_opacity && s.q_threshold >= 0 &&
+           s.q_threshold <= limits.most_q && s.q_cut_off >= 0 && s.q_cut_off <= kNoCut;
     for (const double channel : s.colour) {
         good = good && channel >= 0 && std::isfinite(channel);
     }

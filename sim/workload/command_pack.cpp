@@ -29,6 +29,7 @@ struct PackOptions {
     std::string memory;
     ViewRequest view;
     std::string out;
+    bool no_reference = false;
 };
 
 /// Finds the frame among those that are there, or makes it.
@@ -47,8 +48,10 @@ FrameToPack& frame_of(std::vector<FrameToPack>& frames, const View& view, int ti
     return frames.back();
 }
 
-/// The frames of all designs, and for each the one that its reference image is drawn from.
-std::vector<FrameToPack> frames_for(const std::vector<NamedConfig>& designs, const View& view) {
+/// The frames of all designs, and with `references` for each the one that its reference image is
+/// drawn from.
+std::vector<FrameToPack> frames_for(const std::vector<NamedConfig>& designs, const View& view,
+                                    bool references) {
     const Progress progress("projecting and sorting");
     std::vector<FrameToPack> frames;
     for (const NamedConfig& design : designs) {
@@ -58,8 +61,10 @@ std::vector<FrameToPack> frames_for(const std::vector<NamedConfig>& designs, con
         ProjectionOptions options =
             projection_of(config.data_path(), view.scene.traits.antialiased);
         frame_of(frames, view, tile_size, mode, options).designs.push_back(design.name);
-        options.numbers = ProjectionNumbers();
-        frame_of(frames, view, tile_size, mode, options);
+        if (references) {
+            options.numbers = ProjectionNumbers();
+            frame_of(frames, view, tile_size, mode, options);
+        }
     }
     return frames;
 }
@@ -81,7 +86,7 @@ void run_pack(const PackOptions& options) {
     refuse_output_in_use(options.out);
     const View view = load_view(options.view);
     const SceneFacts scene = facts_of(view.scene);
-    const std::vector<FrameToPack> frames = frames_for(designs, view);
+    const std::vector<FrameToPack> frames = frames_for(designs, view, !options.no_reference);
     std::string bytes;
     {
         const Progress progress("compressing");
@@ -123,6 +128,9 @@ void add_pack_command(CLI::App& workload) {
     command->add_option("--out", options->out, "the file, such as frame.degsw")
         ->type_name("FILE")
         ->required();
+    command->add_flag("--no-reference", options->no_reference,
+                      "leave out what reference images are drawn from, so that the file is smaller "
+                      "and 'degs run' needs --no-reference, too");
     add_addressed_overrides_option(*command, options->overrides);
     add_memory_option(*command, options->memory);
     command->callback([options] { run_pack(*options); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a workload file that are no text and no splats.
+// The parts of a workload file that are no text, no splats and no lists.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 namespace degs::sim {
 
 constexpr std::string_view kWorkloadMagic = "degswork";
-constexpr std::uint32_t kWorkloadVersion = 1;
+constexpr std::uint32_t kWorkloadVersion = 2;
 constexpr std::size_t kVersionAt = 8, kHeadBytesAt = 12, kHeadAt = 16; ///< bytes from the start
 constexpr std::size_t kChecksumBytes = 16;
 constexpr std::uint32_t kMostHeadBytes = 16U << 20U;
@@ -25,7 +25,7 @@ inline std::string little_endian(std::uint32_t value) {
     }
     return bytes;
 }
-inline std::uint32_t little_endian_at(const std::string& bytes, std::size_t at) {
+inline std::uint32_t little_endian_at(std::string_view bytes, std::size_t at) {
     std::uint32_t value = 0;
     for (unsigned byte = 0; byte < 4; ++byte) {
         value |= std::uint32_t{static_cast<unsigned char>(bytes[at + byte])} << 8 * byte;
@@ -33,7 +33,7 @@ inline std::uint32_t little_endian_at(const std::string& bytes, std::size_t at) 
     return value;
 }
 
-/// The 16 bytes at the end of a file that begins with these bytes, the highest first.
+/// The XXH3 of 128 bits of some bytes, the highest byte first.
 inline std::string checksum_bytes(std::string_view bytes) {
     XXH128_canonical_t canonical;
     XXH128_canonicalFromHash(&canonical, XXH3_128bits(bytes.data(), bytes.size()));

@@ -3,65 +3,55 @@
 
 #include "degs/error.hpp"
 #include "sim/workload_file/file_layout.hpp"
+#include "sim/workload_file/list_block.hpp"
 #include "sim/workload_file/splat_block.hpp"
 #include "sim/workload_file/workload_file.hpp"
 
 namespace degs::sim {
 namespace {
 
-/// Adds the splats of a frame that are not there yet, in the order of the cloud.
-void add_splats(const FrameWorkload& frame, ReadySplats& all) {
-    std::vector<ProjectedSplat> splats = frame.splats;
-    const auto before = [](const ProjectedSplat& a, const ProjectedSplat& b) {
-        return a.id < b.id;
-    };
-    std::sort(splats.begin(), splats.end(), before);
-    ReadySplats joined;
-    joined.options = frame.projection;
-    joined.gaussians = frame.gaussians;
-    joined.sh_degree = frame.sh_degree;
-    std::size_t own = 0, old = 0;
-    while (own < splats.size() || old < all.splats.size()) {
-        const bool from_old = own == splats.size() ||
-                              (old < all.splats.size() && !before(splats[own], all.splats[old]));
-        if (!from_old) {
-            joined.splats.push_back(splats[own]);
-            joined.means.push_back(frame.visible_means[own]);
-            ++own;
-            continue;
-        }
-        own += own < splats.size() && splats[own].id == all.splats[old].id ? 1 : 0;
-        joined.splats.push_back(all.splats[old]);
-        joined.means.push_back(all.means[old]);
-        ++old;
-    }
-    all = std::move(joined);
+/// Adds blocks to a part of the file; the head has their lengths.
+void add(const std::string& block, std::vector<std::uint64_t>& lengths, std::string& part) {
+    lengths.push_back(block.size());
+    part += block;
 }
 
-/// The splats of every projection; tells for every frame which of them it needs.
-std::vector<ReadySplats> projections_of(const std::vector<FrameToPack>& frames,
-                                        std::vector<PackedFrame>& packed) {
-    std::vector<ReadySplats> projections;
-    for (const FrameToPack& each : frames) {
-        const FrameWorkload& frame = each.frame;
-        const auto found =
-            std::find_if(projections.begin(), projections.end(), [&](const ReadySplats& other) {
-                return same_projection(other.options, frame.projection);
-            });
-        PackedFrame entry;
-        entry.projection = static_cast<std::uint64_t>(found - projections.begin());
-        entry.tile_size = frame.tile_size;
-        entry.tile_mode = frame.tile_mode;
-        entry.visible = frame.splats.size();
-        entry.culled = frame.culled;
-        entry.designs = each.designs;
-        packed.push_back(entry);
-        if (found == projections.end()) {
-            projections.emplace_back();
+/// Appends the splats of a frame to the bytes.
+PackedProjection pack_projection(const FrameWorkload& frame, std::string& bytes) {
+    PackedProjection packed;
+    packed.options = frame.projection;
+    packed.splats = frame.splats.size();
+    std::string part;
+    for (auto* const pack : {&pack_gaussians, &pack_splats}) {
+        for (std::size_t first = 0; first < frame.splats.size(); first += kSplatsPerBlock) {
+            const std::size_t end = std::min(first + kSplatsPerBlock, frame.splats.size());
+            add(pack(frame, first, end), packed.blocks, part);
         }
-        add_splats(frame, projections[entry.projection]);
     }
-    return projections;
+    packed.xxh128 = in_digits(checksum_bytes(part));
+    bytes += part;
+    return packed;
+}
+
+/// Appends the lists of a frame to the bytes.
+PackedFrame pack_frame(const FrameToPack& each, std::size_t projection, std::string& bytes) {
+    const FrameWorkload& frame = each.frame;
+    PackedFrame packed;
+    packed.projection = projection;
+    packed.tile_size = frame.tile_size;
+    packed.tile_mode = frame.tile_mode;
+    packed.entries = frame.tile_splats.size();
+    packed.culled = frame.culled;
+    packed.designs = each.designs;
+    std::string part;
+    add(pack_lengths(frame), packed.blocks, part);
+    const std::vector<std::size_t> cuts = list_cuts(frame.tile_begin);
+    for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
+        add(pack_lists(frame, cuts[k], cuts[k + 1]), packed.blocks, part);
+    }
+    packed.xxh128 = in_digits(checksum_bytes(part));
+    bytes += part;
+    return packed;
 }
 
 } // namespace
@@ -70,18 +60,20 @@ std::string pack_workload(const SceneFacts& scene, const std::vector<FrameToPack
     WorkloadHead head;
     head.scene = scene;
     head.camera = frames.front().frame.camera;
-    std::string blocks;
-    for (const ReadySplats& splats : projections_of(frames, head.frames)) {
-        PackedProjection projection;
-        projection.options = splats.options;
-        projection.splats = splats.splats.size();
-        for (std::size_t first = 0; first < splats.splats.size(); first += kSplatsPerBlock) {
-            const std::string block =
-                pack_splats(splats, first, std::min(first + kSplatsPerBlock, splats.splats.size()));
-            projection.blocks.push_back(block.size());
-            blocks += block;
+    std::vector<const FrameWorkload*> owners; // of the projections
+    std::string splats, lists;
+    for (const FrameToPack& each : frames) {
+        const auto found =
+            std::find_if(owners.begin(), owners.end(), [&](const FrameWorkload* other) {
+                return same_projection(other->projection, each.frame.projection) &&
+                       other->visible_of == each.frame.visible_of;
+            });
+        const auto place = static_cast<std::size_t>(found - owners.begin());
+        if (found == owners.end()) {
+            owners.push_back(&each.frame);
+            head.projections.push_back(pack_projection(each.frame, splats));
         }
-        head.projections.push_back(std::move(projection));
+        head.frames.push_back(pack_frame(each, place, lists));
     }
     const std::string text = head_text(head);
     if (text.size() > kMostHeadBytes) {
@@ -91,8 +83,9 @@ std::string pack_workload(const SceneFacts& scene, const std::vector<FrameToPack
     }
     std::string bytes(kWorkloadMagic);
     bytes += little_endian(kWorkloadVersion) +
-             little_endian(static_cast<std::uint32_t>(text.size())) + text + blocks;
-    return bytes + checksum_bytes(bytes);
+             little_endian(static_cast<std::uint32_t>(text.size())) + text;
+    const std::string checksum = checksum_bytes(bytes);
+    return bytes + splats + lists + checksum;
 }
 
 } // namespace degs::sim

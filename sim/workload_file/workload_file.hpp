@@ -3,8 +3,11 @@
 // form.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/simulation/simulation.hpp"
@@ -12,8 +15,15 @@
 
 namespace degs::sim {
 
-/// A file that has been read and whose checksum is right. Splats are unpacked when a frame asks for
-/// them.
+/// Bytes that are not set to zero before they are read.
+struct Part {
+    std::unique_ptr<char[]> bytes;
+    std::size_t size = 0;
+    std::string_view view() const { return {bytes.get(), size}; }
+};
+
+/// A file whose head has been read and is undamaged. The splats and the lists of a frame are read,
+/// each with a checksum in the head, when the frame is asked for.
 class WorkloadFile {
 public:
     /// Throws InputError, which names the file, the place, the reason and what is allowed.
@@ -24,21 +34,27 @@ public:
     /// The source is the path of the file.
     const SceneFacts& facts() const { return head_.scene; }
     const Camera& camera() const { return head_.camera; }
-    const WorkloadHead& head() const { return head_; }
-    std::uint64_t bytes() const { return bytes_.size(); }
 
+    bool holds(const ProjectionOptions& options, int tile_size, TileMode mode) const;
     /// Throws InputError, which names the frames that are there, if this one is not, and for
-    /// splats that do not fit it. `wanted_by` is the subject of the sentence.
+    /// splats or lists that are damaged or that no frame has. `wanted_by` is the subject of the
+    /// sentence.
     FrameWorkload frame(const std::string& wanted_by, const ProjectionOptions& options,
                         int tile_size, TileMode mode) const;
 
 private:
     void take_head();
-    ReadySplats splats(std::uint64_t projection) const;
+    const PackedFrame* find(const ProjectionOptions& options, int tile_size, TileMode mode) const;
+    Part read(std::uint64_t at, std::uint64_t bytes) const;
+    Part read_checked(const std::string& place, std::uint64_t at, std::uint64_t bytes,
+                      const std::string& xxh128) const;
+    void read_splats(std::uint64_t number, FrameWorkload& frame) const;
+    void read_lists(std::size_t number, FrameWorkload& frame) const;
 
-    std::string path_, bytes_;
+    std::string path_, bytes_; ///< bytes: the content, unless it is read from the file
+    std::uint64_t size_ = 0;
     WorkloadHead head_;
-    std::vector<std::uint64_t> begins_; ///< of the projections' blocks, bytes from the start
+    std::vector<std::uint64_t> splats_at_, lists_at_; ///< bytes from the start
 };
 
 /// A frame to be packed, and the names of the designs that it was made for.
@@ -50,8 +66,8 @@ struct FrameToPack {
 /// The bytes of a workload file; all frames are of the same scene and camera.
 std::string pack_workload(const SceneFacts& scene, const std::vector<FrameToPack>& frames);
 
-/// The checksum of a workload file, as a report shows it: the XXH3 of 128 bits of all bytes but the
-/// last 16, which hold it.
-std::string workload_checksum(const std::string& bytes);
+/// The checksum of a workload file, as a report shows it: the last 16 bytes, which are the XXH3 of
+/// 128 bits of everything up to the end of the head. The head has the checksums of all else.
+std::string workload_checksum(std::string_view bytes);
 
 } // namespace degs::sim

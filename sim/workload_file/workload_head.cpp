@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 #include <nlohmann/json.hpp>
@@ -12,8 +13,10 @@
 #include "sim/simulation/frame_checks.hpp"
 #include "sim/text/words.hpp"
 #include "sim/workload_file/head_reader.hpp"
+#include "sim/workload_file/list_block.hpp"
 #include "sim/workload_file/splat_block.hpp"
 #include "splat/frame/rendering_rules.hpp"
+#include "splat/frame/tile_cover.hpp"
 
 namespace degs::sim {
 namespace {
@@ -108,6 +111,7 @@ ordered_json json_of(const PackedProjection& projection) {
     });
     json["splats"] = projection.splats;
     json["blocks"] = projection.blocks;
+    json["xxh128"] = projection.xxh128;
     return json;
 }
 
@@ -115,11 +119,13 @@ ordered_json json_of(const PackedFrame& frame) {
     ordered_json json{{"projection", frame.projection},
                       {"tile_size", frame.tile_size},
                       {"tile_mode", tile_mode_words()[static_cast<std::size_t>(frame.tile_mode)]},
-                      {"visible", frame.visible}};
+                      {"entries", frame.entries}};
     pass_culled(frame.culled, [&](const char* name, const std::uint64_t& count) {
         json["culled"][name] = count;
     });
     json["designs"] = frame.designs;
+    json["blocks"] = frame.blocks;
+    json["xxh128"] = frame.xxh128;
     return json;
 }
 
@@ -157,6 +163,22 @@ Camera camera_in(const HeadReader& in) {
     return camera;
 }
 
+/// Lengths of blocks, whose sum is within that of a file.
+std::vector<std::uint64_t> blocks_in(const HeadReader& in) {
+    constexpr std::uint64_t kMostBlock = std::uint64_t{1} << 36U;
+    std::vector<std::uint64_t> blocks;
+    for (const HeadReader& block : in.list("blocks")) {
+        blocks.push_back(block.count(1, kMostBlock));
+    }
+    return blocks;
+}
+
+void check_inflation(const HeadReader& in, std::uint64_t plain, std::uint64_t packed) {
+    in.check("blocks", plain / kMostInflation <= packed,
+             "has blocks of " + grouped(packed) + " bytes for what has " + grouped(plain) +
+                 " bytes, but a byte may become " + std::to_string(kMostInflation) + " at most");
+}
+
 PackedProjection projection_in(const HeadReader& in, const SceneFacts& scene) {
     PackedProjection projection;
     ProjectionOptions& options = projection.options;
@@ -169,13 +191,15 @@ PackedProjection projection_in(const HeadReader& in, const SceneFacts& scene) {
     pass_formats(options.numbers,
                  [&](const char* name, NumberFormat& format) { format = formats.format(name); });
     projection.splats = in.count("splats", 0, scene.gaussians);
-    for (const HeadReader& block : in.list("blocks")) {
-        projection.blocks.push_back(block.count(1, kSplatsPerBlock * kBytesPerSplat));
-    }
-    const std::size_t blocks = blocks_of(projection.splats);
+    projection.blocks = blocks_in(in);
+    const std::size_t blocks = 2 * blocks_of(projection.splats);
     in.check("blocks", projection.blocks.size() == blocks,
              "has " + std::to_string(projection.blocks.size()) + " of " + std::to_string(blocks) +
                  " blocks");
+    // Checked before memory is asked for.
+    check_inflation(in, projection.splats * (kBytesPerGaussian + kBytesPerSplat),
+                    length_of(projection.blocks));
+    projection.xxh128 = in.text("xxh128");
     return projection;
 }
 
@@ -186,21 +210,34 @@ PackedFrame frame_in(const HeadReader& in, const WorkloadHead& head) {
     frame.tile_size = in.number("tile_size", 1, kMostTile);
     frame.tile_mode =
         in.text("tile_mode", tile_mode_words()) == 0 ? TileMode::Exact : TileMode::Reference;
-    frame.visible = in.count("visible", 0, head.projections[frame.projection].splats);
+    const std::uint64_t splats = head.projections[frame.projection].splats;
     const HeadReader culled = in.part("culled");
     pass_culled(frame.culled, [&](const char* name, std::uint64_t& count) {
         count = culled.count(name, 0, head.scene.gaussians);
     });
     in.check("culled", frame.culled.near_in_view <= frame.culled.near,
              "has more Gaussians near and in view than near");
-    in.check("culled", frame.culled.total() + frame.visible == head.scene.gaussians,
-             "and 'visible' do not add up to the " + grouped(head.scene.gaussians) +
-                 " Gaussians of the scene");
+    in.check("culled", frame.culled.total() + splats == head.scene.gaussians,
+             "and the splats of its projection do not add up to the " +
+                 grouped(head.scene.gaussians) + " Gaussians of the scene");
     frame.designs = in.texts("designs");
+    frame.entries = in.count("entries", 0, kMostCount);
+    frame.blocks = blocks_in(in);
+    in.check("blocks", !frame.blocks.empty(), "has no block, but the lengths of lists are needed");
+    const TileGrid grid{head.camera.width, head.camera.height, frame.tile_size};
+    const auto tiles = std::uint64_t{1} * grid.tiles_x() * grid.tiles_y();
+    check_inflation(in, tiles * kBytesPerEntry, frame.blocks.front());
+    check_inflation(in, frame.entries * kBytesPerEntry,
+                    length_of(frame.blocks) - frame.blocks.front());
+    frame.xxh128 = in.text("xxh128");
     return frame;
 }
 
 } // namespace
+
+std::uint64_t length_of(const std::vector<std::uint64_t>& blocks) {
+    return std::accumulate(blocks.begin(), blocks.end(), std::uint64_t{0});
+}
 
 bool same_projection(const ProjectionOptions& a, const ProjectionOptions& b) {
     const auto rules = [](const ProjectionOptions& o) {

@@ -10,21 +10,24 @@
 
 namespace degs::sim {
 
-/// Splats of one projection, which frames with other tiles share.
+/// Splats of one projection, which frames with other tiles share if they show the same Gaussians.
 struct PackedProjection {
     ProjectionOptions options;
     std::uint64_t splats = 0;
-    std::vector<std::uint64_t> blocks; ///< bytes of each, see blocks_of()
+    std::vector<std::uint64_t> blocks; ///< bytes of each: of all Gaussians, then of all splats
+    std::string xxh128;                ///< checksum of the blocks
 };
 
-/// A frame that can be made from the splats of a projection.
+/// Tile lists of the splats of a projection.
 struct PackedFrame {
     std::uint64_t projection = 0; ///< its place in the list
     int tile_size = 0;            ///< px
     TileMode tile_mode = TileMode::Exact;
-    std::uint64_t visible = 0; ///< splats that the tiles list
+    std::uint64_t entries = 0; ///< of all lists
     CullCounts culled;
-    std::vector<std::string> designs; ///< names of those that it was packed for
+    std::vector<std::string> designs;  ///< names of those that it was packed for
+    std::vector<std::uint64_t> blocks; ///< bytes of each: the lengths of the lists, then the lists
+    std::string xxh128;                ///< checksum of the blocks
 };
 
 struct WorkloadHead {
@@ -33,6 +36,9 @@ struct WorkloadHead {
     std::vector<PackedProjection> projections;
     std::vector<PackedFrame> frames;
 };
+
+/// The bytes of all blocks together.
+std::uint64_t length_of(const std::vector<std::uint64_t>& blocks);
 
 /// Whether two projections give the same splats.
 bool same_projection(const ProjectionOptions& a, const ProjectionOptions& b);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kMaxTileSize = 1 << 16; // px; keeps every pixel coordinate of the grid within int
 
-void check(std::uint64_t gaussians, const Camera& camera, int tile_size,
+void check(const GaussianCloud& cloud, const Camera& camera, int tile_size,
            const ProjectionOptions& options) {
     if (camera.width < 1 || camera.height < 1 || !(camera.fx > 0) || !(camera.fy > 0)) {
         throw InputError("Camera " + std::to_string(camera.id) + " has an image of " +
@@ -34,63 +34,11 @@ void check(std::uint64_t gaussians, const Camera& camera, int tile_size,
         throw InputError("Near plane " + std::to_string(options.near_plane) +
                          " is not possible; it must be 0 or a positive distance in scene units.");
     }
-    if (gaussians > std::numeric_limits<std::uint32_t>::max()) {
-        throw InputError("The scene has " + std::to_string(gaussians) +
+    if (cloud.size() > std::numeric_limits<std::uint32_t>::max()) {
+        throw InputError("The scene has " + std::to_string(cloud.size()) +
                          " Gaussians; at most 4294967295 are supported.");
     }
 }
-
-/// Where the splats of a frame come from, one by one in the order of the cloud.
-class SplatSource {
-public:
-    virtual ~SplatSource() = default;
-    virtual std::size_t size() const = 0;
-    /// Makes splat `i` without its colour; in Reference mode the square decides what is on the
-    /// screen, not the ellipse.
-    virtual Cull place(std::size_t i, TileMode mode, ProjectedSplat& splat) const = 0;
-    virtual Cull shade(std::size_t i, ProjectedSplat& splat) const = 0;
-    virtual glm::dvec3 mean(std::size_t i) const = 0;
-};
-
-/// The Gaussians of a scene, which are projected.
-class CloudSource final : public SplatSource {
-public:
-    CloudSource(const GaussianCloud& cloud, const Camera& camera, const ProjectionOptions& options)
-        : cloud_(cloud), projector_(make_projector(cloud, camera, options)) {}
-    std::size_t size() const override { return cloud_.size(); }
-    Cull place(std::size_t i, TileMode mode, ProjectedSplat& splat) const override {
-        return mode == TileMode::Exact ? projector_->project(i, splat)
-                                       : projector_->project_anywhere(i, splat);
-    }
-    Cull shade(std::size_t i, ProjectedSplat& splat) const override {
-        return projector_->shade(i, splat);
-    }
-    glm::dvec3 mean(std::size_t i) const override { return cloud_.means[i]; }
-
-private:
-    const GaussianCloud& cloud_;
-    std::unique_ptr<Projector> projector_;
-};
-
-/// Splats that were projected before.
-class ReadySource final : public SplatSource {
-public:
-    ReadySource(const ReadySplats& ready, const Camera& camera)
-        : ready_(ready), width_(camera.width), height_(camera.height) {}
-    std::size_t size() const override { return ready_.splats.size(); }
-    Cull place(std::size_t i, TileMode mode, ProjectedSplat& splat) const override {
-        splat = ready_.splats[i];
-        return mode == TileMode::Exact && pixel_box(splat, width_, height_).empty()
-                   ? Cull::OffScreen
-                   : Cull::None;
-    }
-    Cull shade(std::size_t, ProjectedSplat&) const override { return Cull::None; }
-    glm::dvec3 mean(std::size_t i) const override { return ready_.means[i]; }
-
-private:
-    const ReadySplats& ready_;
-    int width_, height_;
-};
 
 /// Everything that binning needs to know about the mode, and the scratch space for it.
 class Binner {
@@ -158,26 +106,28 @@ struct ProjectedBlock {
     std::vector<std::uint32_t> tiles_touched;
 };
 
-/// Takes splats begin .. end - 1 of the source and counts their entries in lists.
-ProjectedBlock project_block(const SplatSource& source, const Camera& camera, std::size_t begin,
-                             std::size_t end, TileMode mode, Binner& binner,
-                             std::vector<std::uint64_t>& ends) {
+/// Projects Gaussians begin .. end - 1 and counts their entries in lists.
+ProjectedBlock project_block(const GaussianCloud& cloud, const Camera& camera,
+                             const Projector& projector, std::size_t begin, std::size_t end,
+                             TileMode mode, Binner& binner, std::vector<std::uint64_t>& ends) {
     ProjectedBlock block;
     for (std::size_t i = begin; i < end; ++i) {
         ProjectedSplat splat;
-        Cull cull = source.place(i, mode, splat);
+        // In Reference mode the square decides what is on the screen, not the ellipse.
+        Cull cull = mode == TileMode::Exact ? projector.project(i, splat)
+                                            : projector.project_anywhere(i, splat);
         if (cull == Cull::None) {
-            cull = binner.cover(splat).empty() ? Cull::OffScreen : source.shade(i, splat);
+            cull = binner.cover(splat).empty() ? Cull::OffScreen : projector.shade(i, splat);
         }
         if (cull != Cull::None) {
             count_cull(cull, block.culled);
-            if (cull == Cull::Near && camera.seen_depth(source.mean(i))) {
+            if (cull == Cull::Near && camera.seen_depth(cloud.means[i])) {
                 ++block.culled.near_in_view;
             }
             continue;
         }
         block.splats.push_back(splat);
-        block.means.emplace_back(source.mean(i));
+        block.means.emplace_back(cloud.means[i]);
         block.tiles_touched.push_back(count_tiles(binner.covered(), binner, ends));
     }
     return block;
@@ -189,9 +139,11 @@ void append(std::vector<Value>& all, const std::vector<Value>& some) {
 }
 
 /// Visible splats in cloud order, shaded; lists are counted but not filled.
-void project_all(const SplatSource& source, const Binner& binner, FrameWorkload& work) {
+void project_all(const GaussianCloud& cloud, const Binner& binner, FrameWorkload& work) {
     constexpr std::size_t kBlock = 1U << 14; // Gaussians: long against a thread's start
-    std::vector<ProjectedBlock> blocks((source.size() + kBlock - 1) / kBlock);
+    const std::unique_ptr<Projector> projector =
+        make_projector(cloud, work.camera, work.projection);
+    std::vector<ProjectedBlock> blocks((cloud.size() + kBlock - 1) / kBlock);
     struct Worker {
         Binner binner;
         std::vector<std::uint64_t> ends;
@@ -200,8 +152,8 @@ void project_all(const SplatSource& source, const Binner& binner, FrameWorkload&
     parallel_blocks(blocks.size(), [&](std::size_t b, std::size_t w) {
         Worker& worker = workers[w];
         worker.ends.resize(work.tile_begin.size());
-        blocks[b] = project_block(source, work.camera, b * kBlock,
-                                  std::min((b + 1) * kBlock, source.size()), work.tile_mode,
+        blocks[b] = project_block(cloud, work.camera, *projector, b * kBlock,
+                                  std::min((b + 1) * kBlock, cloud.size()), work.tile_mode,
                                   worker.binner, worker.ends);
     });
     std::size_t visible = 0;
@@ -274,31 +226,6 @@ void fill_lists(Binner& binner, FrameWorkload& work) {
     }
 }
 
-FrameWorkload empty_frame(const Camera& camera, int tile_size, TileMode mode,
-                          const ProjectionOptions& options) {
-    const TileGrid grid{camera.width, camera.height, tile_size};
-    FrameWorkload work;
-    work.camera = camera;
-    work.projection = options;
-    work.tile_size = tile_size;
-    work.tile_mode = mode;
-    work.tiles_x = grid.tiles_x();
-    work.tiles_y = grid.tiles_y();
-    work.tile_begin.assign(work.tiles() + std::size_t{1}, 0);
-    return work;
-}
-
-/// Projects, sorts and bins.
-void fill(const SplatSource& source, FrameWorkload& work) {
-    Binner binner({work.camera.width, work.camera.height, work.tile_size}, work.tile_mode);
-    project_all(source, binner, work);
-    const std::vector<std::uint64_t> order =
-        depth_order(work.splats, work.projection.numbers.depth_key);
-    reorder(work.splats, order);
-    reorder(work.tiles_touched, order);
-    fill_lists(binner, work);
-}
-
 } // namespace
 
 std::uint32_t FrameWorkload::visible_among(std::uint64_t first_gaussians) const {
@@ -308,22 +235,26 @@ std::uint32_t FrameWorkload::visible_among(std::uint64_t first_gaussians) const 
 
 FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& camera, int tile_size,
                                   TileMode mode, const ProjectionOptions& options) {
-    check(cloud.size(), camera, tile_size, options);
-    FrameWorkload work = empty_frame(camera, tile_size, mode, options);
+    check(cloud, camera, tile_size, options);
+    const TileGrid grid{camera.width, camera.height, tile_size};
+    FrameWorkload work;
+    work.camera = camera;
+    work.projection = options;
+    work.tile_size = tile_size;
+    work.tile_mode = mode;
+    work.tiles_x = grid.tiles_x();
+    work.tiles_y = grid.tiles_y();
     work.gaussians = cloud.size();
     work.sh_degree = cloud.sh_degree;
-    fill(CloudSource(cloud, camera, options), work);
-    return work;
-}
+    work.tile_begin.assign(work.tiles() + std::size_t{1}, 0);
 
-FrameWorkload make_frame_workload(const ReadySplats& ready, const Camera& camera, int tile_size,
-                                  TileMode mode, const CullCounts& culled) {
-    check(ready.gaussians, camera, tile_size, ready.options);
-    FrameWorkload work = empty_frame(camera, tile_size, mode, ready.options);
-    work.gaussians = ready.gaussians;
-    work.sh_degree = ready.sh_degree;
-    fill(ReadySource(ready, camera), work);
-    work.culled = culled;
+    Binner binner(grid, mode);
+    project_all(cloud, binner, work);
+    const std::vector<std::uint64_t> order =
+        depth_order(work.splats, work.projection.numbers.depth_key);
+    reorder(work.splats, order);
+    reorder(work.tiles_touched, order);
+    fill_lists(binner, work);
     return work;
 }
 

@@ -51,27 +51,11 @@ struct FrameWorkload {
     std::uint32_t visible_among(std::uint64_t first_gaussians) const;
 };
 
-/// Splats that were projected and shaded before, in the order of the cloud: at least those that the
-/// tiles of a frame list.
-struct ReadySplats {
-    ProjectionOptions options;   ///< of the projection
-    std::uint64_t gaussians = 0; ///< in the scene, before culling
-    int sh_degree = 0;
-    std::vector<ProjectedSplat> splats;
-    std::vector<glm::vec3> means; ///< of their Gaussians, scene units
-};
-
 /// Projects, shades, sorts and bins a scene, in the format of `options`, on all processors;
 /// culling, lists and order follow from its splats. The depth key is that of the options, rounded
 /// to float, as the original sorts float bits; ties keep index order. Throws InputError for an
 /// image without pixels, focal lengths or a tile size below 1, or a negative near plane.
 FrameWorkload make_frame_workload(const GaussianCloud& cloud, const Camera& camera, int tile_size,
                                   TileMode mode, const ProjectionOptions& options = {});
-
-/// Sorts and bins splats that were projected for the camera: the frame is that of their scene.
-/// `culled` is what the projection of the whole scene has counted for these tiles. Throws
-/// InputError likewise.
-FrameWorkload make_frame_workload(const ReadySplats& ready, const Camera& camera, int tile_size,
-                                  TileMode mode, const CullCounts& culled);
 
 } // namespace degs

@@ -147,6 +147,17 @@ TEST(HostilePackedFrame, RefusesOptionsAndDesignsThatItDoesNotHold) {
                    "a workload begins with 'degswork'");
 }
 
+TEST(HostilePackedFrame, WithoutTheReferenceNeedsARunWithoutIt) {
+    const Folder folder;
+    const std::string whole = packed_for("degs-64", folder), file = folder / "small.degsw";
+    expect_success(degs({"workload", "pack", config("degs-64"), "--scene", "synthetic:single",
+                         "--width", "48", "--no-reference", "--out", file}));
+    EXPECT_LT(fs::file_size(file), fs::file_size(whole));
+    const Words run{"run", config("degs-64"), "--workload", file, "--out", folder / "out"};
+    expect_mistake(degs(run), "--no-reference is needed here, too");
+    expect_success(degs(with(run, {"--no-reference"})));
+}
+
 TEST(HostilePackedFrame, AnEstimateAndAnExportTakeTheFile) {
     const Folder folder;
     const std::string file = packed_for("degs-64", folder);

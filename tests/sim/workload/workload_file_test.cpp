@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "degs/error.hpp"
 #include "scene/synthetic/synthetic.hpp"
@@ -36,22 +37,51 @@ Packed packed(int gaussians, int tile_size = 16) {
     return result;
 }
 
-/// The bytes with the checksum that they must have.
+/// The file with another head and the checksum of it.
+std::string with_whole_head(const std::string& bytes, const std::string& head) {
+    const std::uint32_t size = sim::little_endian_at(bytes, sim::kHeadBytesAt);
+    const std::string beginning = bytes.substr(0, sim::kHeadBytesAt) +
+                                  sim::little_endian(static_cast<std::uint32_t>(head.size())) +
+                                  head;
+    const std::size_t behind = sim::kHeadAt + size;
+    return beginning + bytes.substr(behind, bytes.size() - sim::kChecksumBytes - behind) +
+           sim::checksum_bytes(beginning);
+}
+
+/// The bytes with the checksums that they must have, as far as the head can be read.
 std::string signed_again(const std::string& bytes) {
-    const std::string rest = bytes.substr(0, bytes.size() - sim::kChecksumBytes);
-    return rest + sim::checksum_bytes(rest);
+    const std::uint32_t size = sim::little_endian_at(bytes, sim::kHeadBytesAt);
+    if (size > bytes.size() - sim::kHeadAt - sim::kChecksumBytes) {
+        return bytes;
+    }
+    nlohmann::ordered_json head =
+        nlohmann::ordered_json::parse(bytes.substr(sim::kHeadAt, size), nullptr, false);
+    std::size_t at = sim::kHeadAt + size;
+    try {
+        for (const char* parts : {"projections", "frames"}) {
+            for (auto& part : head.at(parts)) {
+                std::uint64_t length = 0;
+                for (const std::uint64_t block : part.at("blocks")) {
+                    length += block;
+                }
+                part["xxh128"] = sim::in_digits(sim::checksum_bytes(bytes.substr(at, length)));
+                at += length;
+            }
+        }
+    } catch (const std::exception&) { // a head that is no longer one
+        return with_whole_head(bytes, bytes.substr(sim::kHeadAt, size));
+    }
+    return with_whole_head(
+        bytes, head.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 /// A file of which a part of the head has been exchanged.
 std::string with_head(const std::string& bytes, const std::string& old, const std::string& now) {
-    const std::uint32_t size = sim::little_endian_at(bytes, sim::kHeadBytesAt);
-    std::string head = bytes.substr(sim::kHeadAt, size);
+    std::string head = bytes.substr(sim::kHeadAt, sim::little_endian_at(bytes, sim::kHeadBytesAt));
     const std::size_t at = head.find(old);
     EXPECT_NE(at, std::string::npos) << old;
     head.replace(at, old.size(), now);
-    return signed_again(bytes.substr(0, sim::kHeadBytesAt) +
-                        sim::little_endian(static_cast<std::uint32_t>(head.size())) + head +
-                        bytes.substr(sim::kHeadAt + size));
+    return with_whole_head(bytes, head);
 }
 
 /// What the reader says of the bytes; empty if it makes a frame of them, which then is sound.
@@ -86,6 +116,7 @@ TEST(WorkloadFile, GivesTheFrameBack) {
     EXPECT_EQ(read.visible_means, frame.visible_means);
     EXPECT_EQ(read.tile_begin, frame.tile_begin);
     EXPECT_EQ(read.tile_splats, frame.tile_splats);
+    EXPECT_EQ(read.tiles_touched, frame.tiles_touched);
     EXPECT_EQ(read.culled.off_screen, frame.culled.off_screen);
 }
 
@@ -96,18 +127,21 @@ TEST(HostileWorkloadFile, SaysWhatIsWrong) {
     EXPECT_EQ(said(good), "");
     EXPECT_THAT(said("ply\nformat"), HasSubstr("begins with 'degswork'"));
     std::string bytes = good;
-    bytes[sim::kVersionAt] = 2;
-    EXPECT_THAT(said(bytes), HasSubstr("version at byte 8 is 2; this program reads version 1"));
+    bytes[sim::kVersionAt] = 1;
+    EXPECT_THAT(said(bytes), HasSubstr("version at byte 8 is 1; this program reads version 2"));
     bytes[sim::kVersionAt] = 0;
-    bytes[sim::kVersionAt + 3] = 1;
+    bytes[sim::kVersionAt + 3] = 2;
     EXPECT_THAT(said(bytes), HasSubstr("highest byte first"));
     bytes = good;
     bytes.back() = static_cast<char>(bytes.back() ^ 1);
     EXPECT_THAT(said(bytes), HasSubstr("the checksum in its last 16 bytes"));
     bytes = good;
     bytes[sim::kHeadBytesAt + 3] = 0x7f;
-    EXPECT_THAT(said(signed_again(bytes)), HasSubstr("length of its head at byte 12"));
-    EXPECT_THAT(said(signed_again(good + good)), HasSubstr("where only the checksum may"));
+    EXPECT_THAT(said(bytes), HasSubstr("length of its head at byte 12"));
+    EXPECT_THAT(said(with_whole_head(
+                    good + good,
+                    good.substr(sim::kHeadAt, sim::little_endian_at(good, sim::kHeadBytesAt)))),
+                HasSubstr("where only the checksum may"));
     const auto changed = [&](const std::string& old, const std::string& now) {
         return said(with_head(good, old, now));
     };
@@ -134,8 +168,38 @@ TEST(HostileWorkloadFile, AsksForNoMoreMemoryThanItsBytesAllow) {
     bytes = with_head(bytes, "\"off_screen\":" + std::to_string(off_screen),
                       "\"off_screen\":" + std::to_string(off_screen + 4000000000U));
     const std::string splats = "\"splats\":" + std::to_string(made.frame.splats.size());
-    bytes = with_head(bytes, splats, "\"splats\":16384");
+    bytes = with_head(bytes, splats, "\"splats\":163840");
+    std::string blocks = "\"blocks\":["; // as many as the splats need, of a byte each
+    for (int k = 0; k < 18; ++k) {
+        blocks += "1,";
+    }
+    bytes = with_head(bytes, "\"blocks\":[", blocks);
     EXPECT_THAT(refusal(bytes, made.frame), HasSubstr("may become 1024 at most"));
+    const std::string entries = "\"entries\":" + std::to_string(made.frame.tile_splats.size());
+    EXPECT_THAT(refusal(with_head(made.bytes, entries, "\"entries\":4000000000"), made.frame),
+                HasSubstr("may become 1024 at most"));
+}
+
+TEST(HostileWorkloadFile, RefusesListsThatNoFrameHas) {
+    const Packed made = packed(12);
+    sim::SceneFacts facts;
+    facts.name = "object";
+    facts.gaussians = 12;
+    const auto said = [&](const FrameWorkload& frame) {
+        return refusal(sim::pack_workload(facts, {{frame, {}}}), made.frame);
+    };
+    FrameWorkload frame = made.frame;
+    frame.tile_splats.back() = 12;
+    EXPECT_THAT(said(frame), HasSubstr("lists splat 12; only the"));
+    frame = made.frame;
+    std::swap(frame.splats[0], frame.splats[1]);
+    EXPECT_THAT(said(frame), HasSubstr("is not behind the one before it"));
+    frame = made.frame;
+    frame.splats[1].id = frame.splats[0].id;
+    EXPECT_THAT(said(frame), HasSubstr("has no splat"));
+    frame = made.frame;
+    frame.visible_means[0].x = std::numeric_limits<float>::infinity();
+    EXPECT_THAT(said(frame), HasSubstr("is not finite"));
 }
 
 TEST(HostileWorkloadFile, RefusesValuesThatNoProjectionGives) {
