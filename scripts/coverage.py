@@ -101,7 +101,7 @@ def table():
     rows = list(load(MEASURED).values())
     print("| design | sampled runs | intervals that hold | exact instead | median error, % | tiles, % |")
     print("|---|--:|--:|--:|--:|--:|")
-    for design in [*dict.fromkeys(row["design"] for row in rows), "all"]:
+    for design in [*sorted({row["design"] for row in rows}), "all"]:
         own = [row for row in rows if design in (row["design"], "all")]
         sampled = [row for row in own if row["sampled"]]
         cells = [str(len(sampled)), "", str(len(own) - len(sampled)), "", ""]
