@@ -85,6 +85,15 @@ def test_options_reach_the_program(tmp_path):
         estimate.image
 
 
+def test_a_workload_stands_for_a_scene(tmp_path):
+    file = tmp_path / "frame.degsw"
+    call(["workload", "pack", "degs-64=" + str(degs.Design("degs-64").file), "--scene", SCENE, "--width", "64", "--out",
+          str(file)])
+    assert degs.run("degs-64", workload=file).cycles == degs.run("degs-64", SCENE, width=64).cycles
+    with pytest.raises(degs.Error, match="--scene"):
+        degs.run("degs-64")
+
+
 def test_every_option_of_the_program_is_an_argument():
     shown = set(re.findall(r"^  (?:-h, )?--([a-z-]+)", call(["run", "--help"]), re.MULTILINE)) - {"help"}
     spelled = {"set": "keys", "no-reference": "reference", "no-cache": "cache"}
