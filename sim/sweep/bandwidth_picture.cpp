@@ -131,6 +131,7 @@ void draw_panel(Svg& svg, const std::vector<DrawnLine>& lines, double top) {
 
 std::vector<std::string> legend_of(const std::vector<DrawnLine>& lines) {
     std::vector<std::string> labels;
+    labels.reserve(lines.size());
     for (const DrawnLine& line : lines) {
         labels.push_back(line.label + (line.enough_gb_per_s
                                            ? ": " + three_digits(*line.enough_gb_per_s) + " GB/s"

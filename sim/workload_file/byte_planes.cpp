@@ -30,7 +30,10 @@ std::string packed_plane(const std::string& plane) {
 
 bool is_exact_in_single(double value) {
     const auto narrow = static_cast<double>(static_cast<float>(value));
-    return std::memcmp(&narrow, &value, sizeof value) == 0;
+    std::uint64_t narrow_bits = 0, bits = 0; // -0 and 0 are two values
+    std::memcpy(&narrow_bits, &narrow, sizeof narrow);
+    std::memcpy(&bits, &value, sizeof value);
+    return narrow_bits == bits;
 }
 
 template <class Bits, class Value>

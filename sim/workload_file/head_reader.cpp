@@ -48,7 +48,7 @@ std::vector<HeadReader> HeadReader::list(const std::string& name) const {
     }
     std::vector<HeadReader> list;
     for (const nlohmann::json& entry : *all.json_) {
-        list.push_back({path_, all.place_ + "[" + std::to_string(list.size()) + "]", entry});
+        list.emplace_back(path_, all.place_ + "[" + std::to_string(list.size()) + "]", entry);
     }
     return list;
 }
