@@ -47,7 +47,7 @@ class Missing(Error, AttributeError, KeyError):
 
 
 class DegsWarning(UserWarning):
-    """What the program warns of, for instance a key without effect."""
+    """A warning of the program, for instance of a key without effect."""
 
 
 def near(name: str, names: Sequence[str], what: str) -> str:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the XML formats of the register map have in common.
+// Elements and words that both XML formats of the register map use.
 #pragma once
 
 #include <cstdint>

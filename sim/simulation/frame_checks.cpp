@@ -41,7 +41,7 @@ bool has_sound_lists(const FrameWorkload& frame) {
 bool has_sound_splats(const FrameWorkload& frame) {
     std::vector<std::uint32_t> ids;
     ids.reserve(frame.splats.size());
-    const Rounder key_of(frame.projection.numbers.depth_key); // what the splats are ordered by
+    const Rounder key_of(frame.projection.numbers.depth_key); // gives the order of the splats
     const SplatLimits limits(frame.projection);
     float depth = -std::numeric_limits<float>::infinity();
     for (const ProjectedSplat& splat : frame.splats) {

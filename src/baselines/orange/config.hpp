@@ -51,7 +51,7 @@ struct Config : TiledConfig<Config> {
     bool ends_with_its_pixels() const override { return false; }
     std::vector<LossKey> loss_keys() const override;
     cost::BillOfMaterials bill() const override;
-    /// What the blocks of the cores do for that work, all but the Pixel Buffer.
+    /// The activity of the blocks of the cores for that work, without the Pixel Buffer.
     std::vector<cost::Activity> activity(const Work& work) const;
     std::unique_ptr<RenderEngine> build(const char* module, const Timebase& time, RenderJob& job,
                                         const BuildOptions& options) const override;

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <map>
 
-#include "sim/sweep/search.hpp"
+#include "sim/search/search.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {

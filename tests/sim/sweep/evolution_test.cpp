@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "sim/goals/hypervolume.hpp"
-#include "sim/sweep/breeding.hpp"
-#include "sim/sweep/forecast.hpp"
+#include "sim/search/breeding.hpp"
+#include "sim/search/forecast.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {

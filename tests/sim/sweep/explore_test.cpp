@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs explore: fronts by hand, and a search against all points of a small study.
-#include "sim/sweep/search.hpp"
+#include "sim/search/search.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sweep/round_choice.hpp"
+#include "sim/search/round_choice.hpp"
 
 #include <algorithm>
 #include <cmath>

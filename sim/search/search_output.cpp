@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sweep/search_output.hpp"
+#include "sim/search/search_output.hpp"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 #include "sim/plot/plot_svg.hpp"
 #include "sim/report/report.hpp"
 #include "sim/results/result_words.hpp"
-#include "sim/sweep/search_record.hpp"
+#include "sim/search/search_record.hpp"
 #include "sim/text/output_columns.hpp"
 #include "sim/text/text_table.hpp"
 #include "sim/text/words.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sweep/search.hpp"
+#include "sim/search/search.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,13 +4,13 @@
 
 #include "base/visible_text.hpp"
 #include "degs/error.hpp"
+#include "sim/search/evolution.hpp"
+#include "sim/search/halving.hpp"
+#include "sim/search/search_output.hpp"
 #include "sim/shell/commands.hpp"
 #include "sim/shell/view_options.hpp"
 #include "sim/simulation/warnings.hpp"
 #include "sim/study/study_options.hpp"
-#include "sim/sweep/evolution.hpp"
-#include "sim/sweep/halving.hpp"
-#include "sim/sweep/search_output.hpp"
 #include "sim/text/standard_output.hpp"
 
 namespace degs::sim {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sweep/breeding.hpp"
+#include "sim/search/breeding.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sweep/searcher.hpp"
+#include "sim/search/searcher.hpp"
 
 #include <algorithm>
 #include <limits>

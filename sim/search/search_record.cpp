@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sweep/search_record.hpp"
+#include "sim/search/search_record.hpp"
 
 #include <algorithm>
 #include <cmath>

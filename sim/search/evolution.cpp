@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sweep/evolution.hpp"
+#include "sim/search/evolution.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/process/failure.hpp"
-#include "sim/sweep/searcher.hpp"
+#include "sim/search/searcher.hpp"
 #include "sim/sweep/study_plan.hpp"
 #include "sim/sweep/sweep_results.hpp"
 

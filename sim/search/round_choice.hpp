@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/goals/goals.hpp"
-#include "sim/sweep/forecast.hpp"
+#include "sim/search/forecast.hpp"
 
 namespace degs::sim {
 

@@ -55,7 +55,7 @@ public:
     virtual std::optional<Step> next() = 0;
     /// What that found, before next() is asked again.
     virtual void take(const Rung& rung) = 0;
-    /// What the search has found, the rung that was asked for last. Valid after the end.
+    /// The results of the search: the rung that was asked for last. Valid after the end.
     virtual const std::vector<Rung>& rungs() const = 0;
     /// What it believed of the designs that it simulated; a search may believe nothing.
     virtual std::vector<Belief> beliefs() const { return {}; }

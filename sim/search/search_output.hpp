@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/search/search.hpp"
 #include "sim/shell/output_folder.hpp"
-#include "sim/sweep/search.hpp"
 
 namespace degs::sim {
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "sim/sweep/search.hpp"
+#include "sim/search/search.hpp"
 
 namespace degs::sim {
 

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "sim/sweep/breeding.hpp"
+#include "sim/search/breeding.hpp"
+#include "sim/search/forecast.hpp"
+#include "sim/search/round_choice.hpp"
+#include "sim/search/searcher.hpp"
 #include "sim/sweep/design_space.hpp"
-#include "sim/sweep/forecast.hpp"
-#include "sim/sweep/round_choice.hpp"
-#include "sim/sweep/searcher.hpp"
 
 namespace degs::sim {
 
@@ -52,7 +52,7 @@ private:
     std::optional<Step> next_generation();
     std::optional<Step> next_round();
     RoundFacts round_facts() const;
-    /// Writes down what the search believes of a design that it is going to simulate.
+    /// Records the expected values of a design that is going to be simulated.
     void believe(std::size_t variant, const Columns& forecast);
     Step step_of(std::vector<std::size_t> variants, bool estimates) const;
     void take_estimates(const Rung& rung);

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "sim/sweep/searcher.hpp"
+#include "sim/search/searcher.hpp"
 
 namespace degs::sim {
 

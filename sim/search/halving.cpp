@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sweep/halving.hpp"
+#include "sim/search/halving.hpp"
 
 #include <algorithm>
 #include <numeric>

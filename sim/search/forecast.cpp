@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/sweep/forecast.hpp"
+#include "sim/search/forecast.hpp"
 
 #include <algorithm>
 #include <cmath>
