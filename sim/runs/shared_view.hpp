@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/shared_bytes.hpp"
 #include "sim/simulation/frame_kind.hpp"
 
 namespace degs::sim {
@@ -20,6 +21,7 @@ struct SharedView {
     std::vector<Camera> cameras;           ///< of the path, the view's own first
     double load_s = 0, workload_s = 0;
     std::vector<FrameWorkload> frames;  ///< of the present group
+    std::unique_ptr<SharedBytes> kept;  ///< what its simulations keep for each other, if several
     std::optional<Reference> reference; ///< of `reference_kind`
     /// What the image depends on beside the view: side and mode of tiles, and the rules.
     std::tuple<int, TileMode, RuleKind> reference_kind;

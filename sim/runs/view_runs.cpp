@@ -11,6 +11,9 @@
 namespace degs::sim {
 namespace {
 
+// Bytes that the simulations of a group keep for each other: half of a 4K frame and more.
+constexpr std::size_t kMostKept = std::size_t{1} << 30U;
+
 /// Configurations that want the same frames.
 std::map<FrameKind, std::vector<std::size_t>> groups_of(const std::vector<NamedConfig>& all,
                                                         const std::vector<std::size_t>& configs,
@@ -152,6 +155,7 @@ void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs
     }
     const AcceleratorConfig& wish = request_.configs[configs.front()].config.accelerator();
     shared.frames.clear(); // before the next are made; children have copies of their own
+    shared.kept = nullptr;
     shared.workload_s = 0;
     shared.frames = shared.dynamic ? make_workloads(*shared.dynamic, shared.scene.traits,
                                                     shared.cameras, wish, shared.workload_s)
@@ -159,6 +163,9 @@ void ViewRuns::run_group(SharedView& shared, const ViewRun& place, const Configs
                                                     shared.cameras, wish, shared.workload_s);
     if (request_.reference && !request_.sampling) {
         shared.render_reference(wish.tile_mode());
+    }
+    if (configs.size() > 1 && !request_.analytic) {
+        shared.kept = std::make_unique<SharedBytes>(kMostKept);
     }
     for (std::size_t config : configs) {
         ViewRun run = place;
@@ -179,6 +186,7 @@ void ViewRuns::start(const SharedView& shared, ViewRun run) {
     RunRequest request;
     request.config = request_.configs[run.config].config;
     request.build.array_only = request_.array_only;
+    request.build.kept = shared.kept.get();
     request.reference = request_.reference && !run.path && !request_.sampling;
     request.sampling = request_.sampling;
     run.name = request_.configs[run.config].name + ", " + run.words;

@@ -67,9 +67,9 @@ frame.onload = async () => {
   seen.note = at("filter-note").textContent;
   put("filter", "", "input");
   await wait();
-  // The buttons save two charts with their legends, and the rows under their headings. What a file would
-  // hold is taken where it is made: reading it back from a Blob takes real time, which the clock of
-  // --virtual-time-budget does not wait for.
+  // The buttons save two charts with their legends, and the rows under their headings. What a file
+  // would hold is taken where it is made: reading it back from a Blob takes real time, which the
+  // clock of --virtual-time-budget does not wait for.
   const texts = [];
   frame.contentWindow.Blob = function (parts) { texts.push(parts.join("")); };
   frame.contentWindow.URL.createObjectURL = () => "#";

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "config/key_text.hpp"
 #include "modules/kit/memory/stream_kinds.hpp"
 
 namespace degs {
@@ -29,7 +30,8 @@ Degs::Degs(const sc_core::sc_module_name& name, const DegsConfig& config, const 
     : RenderEngine(name), config_(config), time_(time), job_(job), options_(options) {
     if (draws_ahead()) {
         drawing_ = make_tile_drawing(
-            job_, {!config_.span.parsing, config_.slicing.rows, config_.slicing.modules()});
+            job_, {!config_.span.parsing, config_.slicing.rows, config_.slicing.modules()},
+            {options_.kept, options_.kept == nullptr ? "" : key_text(config_.pipeline)});
     }
     build_front_end();
     build_supply();

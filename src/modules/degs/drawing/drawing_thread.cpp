@@ -57,23 +57,23 @@ PixelRange DrawingThread::rows(TileNumber number, std::uint32_t place) {
     if (number >= slots_.size()) {
         hand_over_joined();
     }
-    return sheet(number, place).splats[place % kSplats].rows;
+    return sheet(number, place).splats[place % Sheet::kSplats].rows;
 }
 
 void DrawingThread::take(TileNumber number, std::uint32_t place, const PixelRange& own, int step,
                          DrawnRow* drawn) {
     Sheet& from = sheet(number, place);
-    const Sheet::Splat& splat = from.splats[place % kSplats];
+    const Sheet::Splat& splat = from.splats[place % Sheet::kSplats];
     // Another processor has written the rows, and what comes next lies behind them.
     const DrawnRow* const behind = from.drawn.data() + splat.drawn + splat.rows.size();
     __builtin_prefetch(behind);
     __builtin_prefetch(behind + kPrefetchedRows);
+    from.copy(place, own, step, drawn);
     for (int row = own.first; row <= own.last; row += step, ++drawn) {
-        *drawn = from.drawn[splat.drawn + (row - splat.rows.first)];
         count(*drawn);
     }
     if (--from.takes == 0) {
-        tile(number)->sheets[place / kSplats] = nullptr;
+        tile(number)->sheets[place / Sheet::kSplats] = nullptr;
         const std::lock_guard<std::mutex> lock(mutex_);
         taken_sheets_.push_back(&from);
         wake_if_useful();
@@ -98,7 +98,7 @@ void DrawingThread::clear_row(TileNumber number, int /*row*/) {
 }
 
 DrawingThread::Sheet& DrawingThread::sheet(TileNumber number, std::uint32_t place) {
-    const std::uint32_t index = place / kSplats;
+    const std::uint32_t index = place / Sheet::kSplats;
     await(number, index, [this, number, index] {
         const Tile* drawn = tile(number);
         return drawn != nullptr && drawn->ready.load() > index;
@@ -210,7 +210,7 @@ bool DrawingThread::draw_ahead() {
             continue;
         }
         Tile& tile = open(next_);
-        if (!tile.listed() && tile.sheets_after_end < kSheetsAfterEnd) {
+        if (!tile.listed() && tile.sheets_after_end < Sheet::kSheetsAfterEnd) {
             draw_sheet(tile);
             return true;
         }
@@ -242,7 +242,7 @@ DrawingThread::Tile& DrawingThread::open(TileNumber number) {
     tile.canvas = canvases_.open();
     tile.live = std::int64_t{1} * tile.job.width * tile.job.height;
     tile.sheets_after_end = 0;
-    tile.sheets.assign((tile.job.count + kSplats - 1) / kSplats, nullptr);
+    tile.sheets.assign(Sheet::sheets_of(tile.job), nullptr);
     tile.ready = 0;
     tile.final = false;
     tile.cleared = 0;
@@ -272,27 +272,9 @@ void DrawingThread::close(TileNumber number) {
 
 void DrawingThread::draw_sheet(Tile& tile) {
     const std::uint32_t index = tile.ready;
-    const std::uint32_t first = index * kSplats;
-    const auto count =
-        static_cast<std::uint32_t>(std::min<std::uint64_t>(kSplats, tile.job.count - first));
-    for (std::uint32_t i = 0; i < count; ++i) {
-        job_.path->expect(listed_splat(job_, tile.job, first + i));
-    }
     Sheet& sheet = blank_sheet();
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t splat = listed_splat(job_, tile.job, first + i);
-        const PixelRange rows = sliced_rows(job_, tile.job, splat, options_.rows);
-        const std::size_t drawn = sheet.drawn.size();
-        sheet.splats[i] = {rows, drawn};
-        if (!rows.empty()) {
-            sheet.drawn.resize(drawn + rows.size());
-            canvases_.draw(tile.canvas, tile.job, splat, rows, 1, &sheet.drawn[drawn]);
-        }
-    }
-    sheet.takes = count * options_.modules;
-    for (const DrawnRow& row : sheet.drawn) {
-        tile.live -= row.ended.count();
-    }
+    sheet.draw(job_, tile.job, index, options_, canvases_, tile.canvas);
+    tile.live -= sheet.ended_pixels();
     tile.sheets_after_end += tile.live == 0 ? 1 : 0;
     bytes_ += sheet.bytes();
     tile.sheets[index] = &sheet;

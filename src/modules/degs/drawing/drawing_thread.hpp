@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "modules/degs/drawing/drawn_sheet.hpp"
 #include "modules/degs/drawing/tile_canvases.hpp"
 #include "modules/degs/drawing/tile_drawing.hpp"
 
@@ -39,25 +39,12 @@ public:
     double waited_s() const override { return waited_s_; }
 
 private:
-    static constexpr std::uint32_t kSplats = 32; // of a sheet
-    /// The one in which the last pixel ends, and one more: the message of that takes some chunks.
-    static constexpr int kSheetsAfterEnd = 2;
+    using Sheet = DrawnSheet;
     static constexpr std::size_t kMostBytes = std::size_t{4} << 20U; // that wait
     static constexpr std::size_t kMostTiles = 64;                    // that wait
     static constexpr std::uint64_t kNoDemand = ~std::uint64_t{0};
     static constexpr std::uint32_t kWholeTile = ~std::uint32_t{0}; // in place of a sheet
 
-    /// Splats of a list, from a multiple of kSplats on.
-    struct Sheet {
-        struct Splat {
-            PixelRange rows;
-            std::size_t drawn = 0; // the place of its first row
-        };
-        std::array<Splat, kSplats> splats;
-        std::vector<DrawnRow> drawn;
-        std::uint32_t takes = 0; // by the simulation, that are left
-        std::size_t bytes() const { return sizeof(Sheet) + drawn.size() * sizeof(DrawnRow); }
-    };
     /// A tile that is drawn.
     struct Tile {
         JobTile job;

@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "modules/degs/drawing/drawing_thread.hpp"
+#include "modules/degs/drawing/kept_drawing.hpp"
 #include "modules/degs/drawing/tile_canvases.hpp"
 
 namespace degs {
@@ -80,7 +81,11 @@ private:
 
 } // namespace
 
-std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options) {
+std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options,
+                                               const KeptTiles& kept) {
+    if (kept.bytes != nullptr && !job.frames_join) {
+        return std::make_unique<KeptDrawing>(job, options, kept.pixels, *kept.bytes);
+    }
     if (host_threads() > 1 && !job.frames_join) {
         try {
             return std::make_unique<DrawingThread>(job, options);

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
+#include "base/shared_bytes.hpp"
 #include "modules/degs/drawing/sliced_rows.hpp"
 #include "modules/kit/job/messages.hpp"
 #include "modules/kit/job/render_job.hpp"
@@ -49,9 +51,16 @@ struct DrawingOptions {
     int modules = 1; ///< that share a tile and take rows
 };
 
-/// Draws on a thread of its own, ahead of the simulation, if the host may use another processor and
-/// no frame joins the job later; otherwise each splat when it is taken. Results are the same. `job`
-/// must outlive it.
-std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options);
+/// What simulations of the same frames share, see BuildOptions::kept.
+struct KeptTiles {
+    SharedBytes* bytes = nullptr; ///< nullptr: nothing is shared
+    std::string pixels;           ///< names what the pixels of a frame depend on beside the frame
+};
+
+/// Takes and keeps tiles that others draw, too, if there are others. Else draws on a thread of its
+/// own, ahead of the simulation, if the host may use another processor and no frame joins the job
+/// later; otherwise each splat when it is taken. Results are the same. `job` must outlive it.
+std::unique_ptr<TileDrawing> make_tile_drawing(RenderJob& job, const DrawingOptions& options,
+                                               const KeptTiles& kept = {});
 
 } // namespace degs

@@ -23,6 +23,7 @@ namespace degs {
 
 class MainMemory;
 class RequestListener;
+class SharedBytes;
 
 /// An accelerator with its memory: built for a job, run by the kernel, and read out when no event
 /// is left.
@@ -59,6 +60,9 @@ struct BuildOptions {
     MainMemory* memory = nullptr;
     /// Hears of every request to memory; nullptr: nobody listens.
     RequestListener* requests = nullptr;
+    /// Where simulations of the same frames keep what does not depend on the design's timing, for
+    /// each other; nullptr: there is no other one.
+    SharedBytes* kept = nullptr;
 };
 
 /// Something of a design that makes the time of a tile depend on which other tiles run before it or

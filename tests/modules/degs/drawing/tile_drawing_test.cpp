@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread that draws ahead gives what drawing on demand gives, whatever the simulation takes and
-// when.
+// A thread that draws ahead, and tiles that other simulations have kept, give what drawing on
+// demand gives, whatever the simulation takes and when.
 #include "modules/degs/drawing/drawing_thread.hpp"
 
 #include <random>
@@ -53,7 +53,7 @@ public:
     Simulation(RenderJob& job, const DrawingOptions& options, std::uint32_t seed)
         : job_(job), options_(options), random_(seed) {}
 
-    Taken run(std::size_t joining = 0) {
+    Taken run(std::size_t joining = 0, const KeptTiles& kept = {}) {
         TileList all = std::move(job_.tiles);
         job_.tiles = TileList();
         const auto join = [&](std::size_t count) {
@@ -62,7 +62,7 @@ public:
             }
         };
         join(joining == 0 ? all.size() : joining);
-        const std::unique_ptr<TileDrawing> drawing = make_tile_drawing(job_, options_);
+        const std::unique_ptr<TileDrawing> drawing = make_tile_drawing(job_, options_, kept);
         Taken taken;
         taken.pixels.reserve(100000);
         for (TileNumber first = 0; first < all.size(); first += kAtOnce) {
@@ -175,6 +175,29 @@ TEST_P(DrawingOnThread, GivesWhatDrawingOnDemandGives) {
     }
 }
 
+TEST_P(DrawingOnThread, GivesWhatAnotherSimulationHasKept) {
+    const Case& given = GetParam();
+    SharedBytes bytes(std::size_t{1} << 26U);
+    const KeptTiles kept{&bytes, given.numbers};
+    const FrameWorkload frame = random_frame(7, 150, 83, 32, given.splats);
+    const auto draw = [&](std::uint32_t seed, const KeptTiles& others) {
+        RenderJob job = make_render_job({&frame}, named_numbers(given.numbers), 2);
+        const Drawn drawn(false);
+        return Simulation(job, given.options, seed).run(given.joining, others);
+    };
+    std::size_t used = 0;
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) { // the first one keeps, the others take
+        const Taken demanded = draw(seed, {});
+        const Taken shared = draw(seed, kept);
+        EXPECT_EQ(shared.fragments, demanded.fragments);
+        EXPECT_TRUE(shared.rows == demanded.rows);
+        EXPECT_TRUE(shared.pixels == demanded.pixels);
+        EXPECT_GT(bytes.used(), 1000U);
+        EXPECT_TRUE(seed == 1 || bytes.used() == used) << "a tile was drawn anew";
+        used = bytes.used();
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Designs, DrawingOnThread,
                          ::testing::Values(Case{"fp32", {false, SlicedRows::Splat, 1}, 4000, 0},
                                            Case{"fp64", {false, SlicedRows::Tile, 2}, 900, 0},
@@ -183,6 +206,33 @@ INSTANTIATE_TEST_SUITE_P(Designs, DrawingOnThread,
                                            Case{"fp32", {false, SlicedRows::Tile, 2}, 3000, 2},
                                            Case{"tuned", {false, SlicedRows::Splat, 1}, 40, 0}),
                          ::testing::PrintToStringParamName());
+
+TEST(KeptDrawing, KeepsPixelsOfOtherNumbersApart) {
+    SharedBytes bytes(std::size_t{1} << 26U);
+    const FrameWorkload frame = random_frame(7, 150, 83, 32, 300);
+    const auto draw = [&](const char* numbers, const KeptTiles& kept) {
+        RenderJob job = make_render_job({&frame}, named_numbers(numbers), 2);
+        return Simulation(job, {}, 1).run(0, kept);
+    };
+    for (const char* numbers : {"fp32", "paper", "fp64"}) {
+        EXPECT_TRUE(draw(numbers, {&bytes, numbers}).pixels == draw(numbers, {}).pixels) << numbers;
+    }
+}
+
+TEST(KeptDrawing, DrawsWhatFindsNoRoom) {
+    const FrameWorkload frame = random_frame(7, 150, 83, 32, 300);
+    const auto draw = [&](const KeptTiles& kept) {
+        RenderJob job = make_render_job({&frame}, named_numbers("fp32"), 2);
+        return Simulation(job, {}, 1).run(0, kept);
+    };
+    const Taken alone = draw({});
+    for (const std::size_t room : {0, 100, 20000}) {
+        SharedBytes bytes(room);
+        for (int run = 0; run < 2; ++run) {
+            EXPECT_TRUE(draw({&bytes, "fp32"}).pixels == alone.pixels) << room << " bytes";
+        }
+    }
+}
 
 TEST(DrawingOnThreadAlone, EndsWithWorkLeft) {
     const FrameWorkload frame = random_frame(5, 150, 83, 32, 4000);
