@@ -274,13 +274,15 @@ std::vector<std::string> sweep_files() {
     return {kJson, kCsv, kHostCsv, kPage, kBandwidth};
 }
 
-SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
+SweepResults read_results(const StudyPlan& plan, const PointStore& store, Reports reports) {
     SweepResults results;
     std::vector<ComparedRun> runs;
     std::set<std::string> known;
     for (std::size_t p = 0; p < plan.points.size(); ++p) {
         std::optional<StoredPoint> found = store.read(p);
-        store.put_reports(p, found);
+        if (reports == Reports::Put) {
+            store.put_reports(p, found);
+        }
         if (found) {
             found->frame.report.clear(); // all of them would take much memory
             if (found->path) {

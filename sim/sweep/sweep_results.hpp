@@ -37,8 +37,12 @@ struct SweepResults {
     std::string spent;                 ///< by a search, for the page
 };
 
-/// Reads the points, and puts their reports in place.
-SweepResults read_results(const StudyPlan& plan, const PointStore& store);
+/// Whether reports are put beside the results; only one process of several should do that.
+enum class Reports { Put, Leave };
+
+/// Reads the points.
+SweepResults read_results(const StudyPlan& plan, const PointStore& store,
+                          Reports reports = Reports::Put);
 
 /// results.json, results.csv, index.html and host.csv. All but the last depend only on the study.
 void write_results(const StudyPlan& plan, const SweepResults& results, const OutputFolder& folder);
