@@ -65,7 +65,7 @@ void run_search(const ExploreOptions& options, const StudyPlan& plan, Searcher& 
     if (found.complete && !part.writes()) {
         print(part.name() + " has ended; part 1 writes the results\n");
     } else if (found.complete) {
-        const OutputFolder folder(options.out, search_files(found));
+        const OutputFolder folder(options.out, search_files());
         write_search(plan, found, folder);
         print(search_text(plan, found) +
               "\nall numbers, plots and the page: " + visible(folder.path("")) + "\n");

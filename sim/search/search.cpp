@@ -108,6 +108,7 @@ std::optional<Rung> run_step(const StudyPlan& plan, const Step& step, SearchPart
     }
     if (mine.writes() && (step.results || !complete)) {
         write_results(part, results, store.folder());
+        store.drop_other_reports();
     }
     if (!complete) {
         return {};

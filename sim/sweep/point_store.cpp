@@ -220,6 +220,10 @@ void PointStore::sweep_up() const {
     for (const OutputFolder* folder : {&folder_, &points_, &reports_}) {
         remove_partial(folder->path(""));
     }
+    drop_other_reports();
+}
+
+void PointStore::drop_other_reports() const {
     std::error_code none;
     for (std::size_t point = keys_.size();
          fs::remove(reports_.path(file_of(point, kReportFile)), none); ++point) {

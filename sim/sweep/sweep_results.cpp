@@ -2,6 +2,7 @@
 #include "sim/sweep/sweep_results.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -274,6 +275,10 @@ std::vector<std::string> sweep_files() {
     return {kJson, kCsv, kHostCsv, kPage, kBandwidth};
 }
 
+std::vector<std::string> search_files() {
+    return {"explore.json", "front.csv", "front.svg", "beliefs.csv"};
+}
+
 SweepResults read_results(const StudyPlan& plan, const PointStore& store, Reports reports) {
     SweepResults results;
     std::vector<ComparedRun> runs;
@@ -317,7 +322,7 @@ SweepResults read_results(const StudyPlan& plan, const PointStore& store, Report
 }
 
 void write_results(const StudyPlan& plan, const SweepResults& results, const OutputFolder& folder) {
-    folder.replace([&] {
+    const auto write = [&] {
         folder.write_text(kCsv, results_csv(plan, results));
         folder.write_text(kHostCsv, host_csv(results));
         folder.write_json(kJson, results_json(plan, results));
@@ -326,7 +331,15 @@ void write_results(const StudyPlan& plan, const SweepResults& results, const Out
         if (!picture.empty()) {
             folder.write_text(kBandwidth, picture);
         }
-    });
+    };
+    std::vector<std::string> old;
+    const std::vector<std::string> of_search = search_files();
+    if (std::filesystem::exists(folder.path(of_search.front()))) { // else they may be the user's
+        for (const std::string& file : of_search) {
+            old.push_back(folder.path(file));
+        }
+    }
+    folder.replace(write, old);
 }
 
 std::string results_text(const StudyPlan& plan, const SweepResults& results) {

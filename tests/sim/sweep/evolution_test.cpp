@@ -259,6 +259,31 @@ TEST(Evolution, GoesOnAfterItWasKilled) {
     }
 }
 
+// A folder shows nothing of runs that are not those of its results.
+TEST(SearchFiles, GoWithTheResultsThatTheyTellOf) {
+    const Folder folder;
+    const std::string file = two_view_space(folder);
+    const std::string out = folder / "out";
+    explored(file, out, kEvolution);
+    EXPECT_TRUE(fs::exists(out + "/beliefs.csv"));
+    explored(file, out, {"--search", "halving", "--rungs", "1"});
+    EXPECT_FALSE(fs::exists(out + "/beliefs.csv"));
+    EXPECT_TRUE(fs::exists(out + "/front.svg"));
+    const std::string other = folder / "bandwidth.yaml";
+    std::ofstream(other) << "study: bandwidth\ndesigns:\n  - include: " << config("degs-64")
+                         << "\n    name: degs-64\naxes:\n"
+                            "  memory.bandwidth_gb_per_s: 51.2GB/s..204.8GB/s x2\n"
+                            "scenes: synthetic:object,gaussians=300\nwidth: 64\n";
+    EXPECT_EQ(degs({"sweep", other, "--out", out}).code, 0);
+    for (const char* gone : {"explore.json", "front.csv", "front.svg", "reports/000004.json"}) {
+        EXPECT_FALSE(fs::exists(out + "/" + gone)) << gone;
+    }
+    EXPECT_TRUE(fs::exists(out + "/bandwidth.svg"));
+    explored(file, out, {"--rungs", "1", "--limits", "area_mm2<=2.7"});
+    EXPECT_FALSE(fs::exists(out + "/bandwidth.svg"));
+    EXPECT_FALSE(fs::exists(out + "/reports/000049.json")); // 24 designs on two views
+}
+
 TEST(Evolution, SearchesAMillionDesigns) {
     const Folder folder;
     const std::string file = million_space(folder);
