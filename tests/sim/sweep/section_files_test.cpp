@@ -46,7 +46,7 @@ TEST(FileAxes, VaryTheTechnology) {
     EXPECT_NEAR(seven["area_mm2"].get<double>() / own["area_mm2"].get<double>(), 0.03143, 1e-6);
     EXPECT_LT(seven["energy"]["nj_per_frame"].get<double>(),
               own["energy"]["nj_per_frame"].get<double>());
-    // The same numbers as of a design that includes the file.
+    // A design that includes the file has the same numbers.
     const Folder other;
     const nlohmann::json included =
         swept(study_of_files(other, "  span.count: [8]\n", "    cost: { include: 7nm.yaml }\n"),
