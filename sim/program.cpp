@@ -10,7 +10,9 @@
 #include "base/visible_text.hpp"
 #include "sim/command_line/decimal_numbers.hpp"
 #include "sim/command_line/help_text.hpp"
+#include "sim/command_line/stated_command.hpp"
 #include "sim/command_line/suggestion.hpp"
+#include "sim/plot/svg.hpp"
 #include "sim/process/failure.hpp"
 #include "sim/process/interruption.hpp"
 #include "sim/shell/commands.hpp"
@@ -101,6 +103,7 @@ int run_program(int argc, char* argv[]) {
         announce_interruption();
         quieten_kernel();
         add_commands(program);
+        when_parsed(program, state_command);
         parse(program, argc, argv);
         return kSuccess;
     } catch (const CLI::ParseError& error) {

@@ -74,6 +74,7 @@ AnalyticRun run_analytic(const RunConfig& config, const SceneFacts& scene,
     run.energy = estimated_energy(config.accelerator(), *model, run.frame,
                                   std::uint64_t{1} * frame.camera.width * frame.camera.height);
     run.estimate_s = clock.seconds();
+    run.memory_gb_per_s = model->main_memory().peak_gb_per_s();
     run.scene = scene;
     run.camera = frame.camera;
     run.workload = facts_of(frame);
@@ -98,12 +99,13 @@ AnalyticRun run_analytic(const RunConfig& config, CachedView& view,
 }
 
 bool is_estimated(Measure measure) {
-    constexpr std::array<Measure, 15> kEstimated{
+    constexpr std::array<Measure, 16> kEstimated{
         Measure::Cycles,        Measure::PreprocessingCycles, Measure::LatencyMs,
         Measure::Fps,           Measure::Utilization,         Measure::AreaMm2,
         Measure::SramBytes,     Measure::NjPerFrame,          Measure::NjPerPixel,
         Measure::AveragePowerW, Measure::LatencyRatio,        Measure::LatencyRatioPerArea,
-        Measure::EnergyRatio,   Measure::EnergyRatioPerArea,  Measure::SimS};
+        Measure::EnergyRatio,   Measure::EnergyRatioPerArea,  Measure::SimS,
+        Measure::DramPeak};
     return std::find(kEstimated.begin(), kEstimated.end(), measure) != kEstimated.end();
 }
 
@@ -121,6 +123,7 @@ Measures measures_of(const AnalyticRun& run) {
     measures[Measure::NjPerFrame] = run.energy.nj_per_frame();
     measures[Measure::NjPerPixel] = run.energy.nj_per_pixel();
     measures[Measure::AveragePowerW] = run.energy.average_power_w();
+    measures[Measure::DramPeak] = run.memory_gb_per_s;
     measures[Measure::SimS] = run.estimate_s;
     return measures;
 }
@@ -141,7 +144,7 @@ ordered_json analytic_json(const AnalyticRun& run) {
     json["units"] = units_json(frame);
     json["limited_by"] = frame.limited_by;
     json["slots"] = {{"pes", run.config.accelerator().pes()}, {"utilization", frame.utilization}};
-    json["dram"] = {{"bytes", frame.bytes}};
+    json["dram"] = {{"bytes", frame.bytes}, {"peak_gb_per_s", run.memory_gb_per_s}};
     json["energy"] = energy_json(run.energy);
     json["sample"] = {
         {"tiles", frame.tiles}, {"tiles_drawn", frame.drawn}, {"rows_apart", frame.rows_apart}};

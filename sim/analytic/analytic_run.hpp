@@ -27,6 +27,7 @@ struct AnalyticRun {
     WorkloadFacts workload;
     AnalyticFrame frame;
     cost::RunEnergy energy;
+    double memory_gb_per_s = 0; ///< peak
     std::vector<WhatIf> what_if;
     std::vector<std::string> warnings;
     double load_s = 0, workload_s = 0, estimate_s = 0; ///< host

@@ -81,7 +81,17 @@ std::string joined(const Svg::Points& points) {
     return text;
 }
 
+/// See state_command().
+std::string& stated() {
+    static std::string command;
+    return command;
+}
+
 } // namespace
+
+void state_command(const std::string& command) {
+    stated() = command;
+}
 
 void Svg::rectangle(double x, double y, double width, double height, const std::string& fill) {
     body_ += "<rect" + attribute("x", x) + attribute("y", y) + attribute("width", width) +
@@ -142,8 +152,8 @@ std::string Svg::document(double width, double height, const std::string& title)
            attribute("height", height) +
            attribute("viewBox", "0 0 " + number(width) + " " + number(height)) +
            attribute("font-family", kFonts) + " role=\"img\">\n<title>" + escaped(title) +
-           "</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + body_ +
-           "</svg>\n";
+           "</title>\n" + (stated().empty() ? "" : "<desc>" + escaped(stated()) + "</desc>\n") +
+           "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + body_ + "</svg>\n";
 }
 
 double text_width(const std::string& words, double size, bool bold) {

@@ -30,12 +30,16 @@ public:
     /// (x, y) is the anchor on the base line.
     void text(double x, double y, const std::string& words, const TextStyle& style = {});
 
-    /// Returns the whole file; a screen reader reads `title` aloud.
+    /// Returns the whole file; a screen reader reads `title` aloud. It has the command that
+    /// state_command() was told.
     std::string document(double width, double height, const std::string& title) const;
 
 private:
     std::string body_;
 };
+
+/// From now on every picture says that this command made it; none does before.
+void state_command(const std::string& command);
 
 /// Upper bound of the width of `words` in a usual sans-serif font, px; fonts are not looked up.
 double text_width(const std::string& words, double size, bool bold = false);

@@ -54,7 +54,7 @@ RunSummary summary_of(const RunResult& result, int camera);
 RunSummary summary_of(const AnalyticRun& run, int camera);
 
 /// Raised whenever a field of the message changes.
-constexpr int kSummaryVersion = 10;
+constexpr int kSummaryVersion = 11;
 
 /// The summary as bytes for another process of this program.
 std::string message_of(const RunSummary& summary);

@@ -23,6 +23,8 @@ struct ExploreOptions {
     EvolutionOptions evolution;
     std::string goals, limits; // empty: those of the study
     int jobs = 1;
+    std::optional<std::string> shard;
+    double patience = 60; ///< minutes
     std::string out = "out";
 };
 
@@ -57,9 +59,13 @@ void check_method(const CLI::App& command, const std::string& method) {
 
 void run_search(const ExploreOptions& options, const StudyPlan& plan, Searcher& searcher) {
     std::optional<Failure> failure;
-    const Search found = search(plan, searcher, options.out, failure);
-    if (found.complete) {
-        const OutputFolder folder(options.out, search_files(found));
+    SearchPart part = options.shard ? SearchPart(parse_shard(*options.shard), 60 * options.patience)
+                                    : SearchPart();
+    const Search found = search(plan, searcher, part, options.out, failure);
+    if (found.complete && !part.writes()) {
+        print(part.name() + " has ended; part 1 writes the results\n");
+    } else if (found.complete) {
+        const OutputFolder folder(options.out, search_files());
         write_search(plan, found, folder);
         print(search_text(plan, found) +
               "\nall numbers, plots and the page: " + visible(folder.path("")) + "\n");
@@ -142,6 +148,22 @@ void add_evolution_options(CLI::App& command, EvolutionOptions& options) {
         ->capture_default_str();
 }
 
+void add_shard_options(CLI::App& command, ExploreOptions& options) {
+    CLI::Option* shard =
+        command
+            .add_option("--shard", options.shard,
+                        "search together with N-1 other processes in the same folder: this one "
+                        "runs the K-th of N parts of every step, or with auto that of this task "
+                        "of a job array; the first one writes the results")
+            ->type_name("K/N");
+    command
+        .add_option("--patience", options.patience,
+                    "minutes without a point of the others after which a part gives up")
+        ->check(CLI::PositiveNumber)
+        ->needs(shard)
+        ->capture_default_str();
+}
+
 } // namespace
 
 void add_explore_command(CLI::App& program) {
@@ -175,6 +197,7 @@ void add_explore_command(CLI::App& program) {
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
     add_out_option(*command, options->out, "folder for the front, the rungs and their reports");
+    add_shard_options(*command, *options);
     command->get_option("--seed")->description(
         "of the draw of tiles with --within, and of --search evolution");
     command->callback([options, command] {

@@ -84,24 +84,31 @@ std::vector<FailedRun> failed_runs(const StudyPlan& plan, const SweepResults& re
     return runs;
 }
 
-/// Runs a step. Empty after Ctrl-C.
-std::optional<Rung> run_step(const StudyPlan& plan, const Step& step, const std::string& out,
-                             std::optional<Failure>& failure) {
+/// Runs a step, or the part of it that is `mine`. Empty after Ctrl-C.
+std::optional<Rung> run_step(const StudyPlan& plan, const Step& step, SearchPart& mine,
+                             const std::string& out, std::optional<Failure>& failure) {
     StudyPlan part = part_of(plan, step.variants, step.change);
     part.request.reference =
         part.request.reference && (step.change.divisor == 1 || judges_images(plan.aims));
     const PointStore store(step.folder.empty() ? out : out + "/" + step.folder, part);
-    SweepSession session(part, store, {0, part.points.size()});
+    SweepSession session(part, store, mine.own_points(part, store, step.folder));
     const bool complete = session.run();
     failure = session.failure();
-    SweepResults results = read_results(part, store);
+    if (complete) {
+        mine.wait_for_others(store);
+    }
+    SweepResults results = read_results(part, store, mine.writes() ? Reports::Put : Reports::Leave);
+    if (!failure && !results.failed.empty()) { // of another part
+        failure = results.failed.front().failure;
+    }
     if (!step.spent.empty()) {
         results.spent = step.spent + ", " +
                         grouped(static_cast<std::uint64_t>(cycles_of(results.comparison))) +
                         " cycles simulated";
     }
-    if (step.results || !complete) {
+    if (mine.writes() && (step.results || !complete)) {
         write_results(part, results, store.folder());
+        store.drop_other_reports();
     }
     if (!complete) {
         return {};
@@ -154,12 +161,12 @@ void check_aims(const StudyPlan& plan) {
     kept_variants(plan);
 }
 
-Search search(const StudyPlan& plan, Searcher& searcher, const std::string& out,
+Search search(const StudyPlan& plan, Searcher& searcher, SearchPart& part, const std::string& out,
               std::optional<Failure>& failure) {
     Search found;
     while (const std::optional<Step> step = searcher.next()) {
         std::optional<Failure> of_step;
-        const std::optional<Rung> rung = run_step(plan, *step, out, of_step);
+        const std::optional<Rung> rung = run_step(plan, *step, part, out, of_step);
         failure = of_step ? of_step : failure;
         if (!rung) {
             found.complete = false;

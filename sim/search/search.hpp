@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/process/failure.hpp"
+#include "sim/search/search_part.hpp"
 #include "sim/search/searcher.hpp"
 #include "sim/sweep/study_plan.hpp"
 #include "sim/sweep/sweep_results.hpp"
@@ -27,10 +28,11 @@ struct Search {
     bool complete = true; ///< false after Ctrl-C
 };
 
-/// Runs what the searcher proposes in the folder `out` and below it; an interrupted search goes on
-/// there, because the same steps find their results. Throws InputError if a design does not have
-/// what the goals and limits need.
-Search search(const StudyPlan& plan, Searcher& searcher, const std::string& out,
+/// Runs what the searcher proposes in the folder `out` and below it, or the part of it that is this
+/// process's; an interrupted search goes on there, because the same steps find their results.
+/// Throws InputError if a design does not have what the goals and limits need, and FailureError if
+/// other parts do not come.
+Search search(const StudyPlan& plan, Searcher& searcher, SearchPart& part, const std::string& out,
               std::optional<Failure>& failure);
 
 } // namespace degs::sim

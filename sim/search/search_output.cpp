@@ -237,14 +237,6 @@ std::string picture(const StudyPlan& plan, const std::vector<Candidate>& candida
 
 } // namespace
 
-std::vector<std::string> search_files(const Search& search) {
-    std::vector<std::string> files{"explore.json", "front.csv", "front.svg"};
-    if (!search.beliefs.empty()) {
-        files.emplace_back("beliefs.csv");
-    }
-    return files;
-}
-
 void write_search(const StudyPlan& plan, const Search& search, const OutputFolder& folder) {
     const std::vector<Candidate> candidates = ordered(plan, search.rungs.back());
     folder.replace([&] {

@@ -13,11 +13,8 @@ namespace degs::sim {
 /// Raised whenever a key of explore.json changes its meaning, name or unit.
 constexpr int kExploreVersion = 1;
 
-/// Names of what write_search() writes.
-std::vector<std::string> search_files(const Search& search);
-
-/// front.csv, front.svg and explore.json: the designs of the last rung, and how each came there;
-/// beliefs.csv of a search that believes something.
+/// Writes search_files(): the designs of the last rung, and how each came there; beliefs.csv only
+/// of a search that believes something.
 void write_search(const StudyPlan& plan, const Search& search, const OutputFolder& folder);
 
 /// The front as a table, and how well the small images ranked the designs.

@@ -186,9 +186,7 @@ std::string choice_text(const AxisValue& value, const KeyDoc& key) {
     return value.text;
 }
 
-} // namespace
-
-Axis read_axis(const ConfigNode& node) {
+Axis read_any_axis(const ConfigNode& node) {
     Axis axis;
     axis.name = node.key;
     axis.place = node.place;
@@ -220,6 +218,42 @@ Axis read_axis(const ConfigNode& node) {
     return axis;
 }
 
+/// Files are relative to the study.
+void place_files(Axis& axis, const std::filesystem::path& folder) {
+    for (std::vector<AxisValue>& position : axis.positions) {
+        for (std::size_t k = 0; k < axis.keys.size(); ++k) {
+            AxisValue& value = position[k];
+            if (!including_section(axis.keys[k])) {
+                continue;
+            }
+            if (value.text.empty()) {
+                throw InputError(value.place + ": key " + quote(axis.keys[k]) +
+                                 " needs names of files.");
+            }
+            value.text = (folder / value.text).lexically_normal().string();
+        }
+    }
+}
+
+} // namespace
+
+std::optional<std::string> including_section(const std::string& key) {
+    constexpr const char* kInclude = ".include";
+    const std::size_t dot = key.rfind('.');
+    return dot != std::string::npos && dot != 0 && key.substr(dot) == kInclude
+               ? std::optional(key.substr(0, dot))
+               : std::nullopt;
+}
+
+std::string file_word(const AxisValue& value) {
+    return std::filesystem::path(value.text).stem().string();
+}
+
+Axis read_axis(const ConfigNode& node, const std::filesystem::path& folder) {
+    Axis axis = read_any_axis(node);
+    place_files(axis, folder);
+    return axis;
+}
 std::string value_text(const AxisValue& value, const KeyDoc& key) {
     const bool number = key.type == "integer" || key.type == "real";
     if (key.type == "section") {

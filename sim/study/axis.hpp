@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +24,7 @@ struct Draw {
 /// One value of one key, as written or computed from a range.
 struct AxisValue {
     std::string place; ///< "study.yaml:7"
-    std::string text;  ///< as written; empty if it comes from a range
+    std::string text;  ///< as written, or the path of a file; empty if it comes from a range
     std::optional<Quantity> quantity;
     std::optional<Draw> draw;
 };
@@ -37,8 +38,14 @@ struct Axis {
     bool random = false;                           ///< positions that coincide count once
 };
 
-/// Reads one entry of the section `axes`. Throws InputError.
-Axis read_axis(const ConfigNode& node);
+/// Reads one entry of the section `axes` of a study in this folder. Throws InputError.
+Axis read_axis(const ConfigNode& node, const std::filesystem::path& folder = {});
+
+/// The section whose file an axis varies: "cost" of the key "cost.include"; empty for other keys.
+std::optional<std::string> including_section(const std::string& key);
+
+/// As results name the file of such a key: "7nm" for "cost/7nm.yaml".
+std::string file_word(const AxisValue& value);
 
 /// Most positions of one axis; a typing error in a step should not fill the memory.
 constexpr std::size_t kMostAxisPositions = 4096;

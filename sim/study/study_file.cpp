@@ -182,7 +182,7 @@ bool read_quick(const ConfigNode& tree, const fs::path& folder, StudyViews& stud
     return true;
 }
 
-std::vector<Axis> read_axes(const ConfigNode& tree) {
+std::vector<Axis> read_axes(const ConfigNode& tree, const fs::path& folder) {
     std::vector<Axis> axes;
     const ConfigNode* section = tree.find("axes");
     if (section == nullptr || section->kind == Kind::kNull) {
@@ -193,7 +193,7 @@ std::vector<Axis> read_axes(const ConfigNode& tree) {
     }
     std::map<std::string, std::string> owners; // axes by key
     for (const ConfigNode& node : section->children) {
-        Axis axis = read_axis(node);
+        Axis axis = read_axis(node, folder);
         for (const std::string& key : axis.keys) {
             const auto [owner, is_new] = owners.emplace(key, axis.name);
             if (!is_new) {
@@ -275,7 +275,7 @@ Study read_study(const std::string& file, bool quick) {
     check_top_keys(tree);
     take(tree, "study", config_scalar::Text{}, study.name);
     study.designs = read_designs(tree);
-    study.axes = read_axes(tree);
+    study.axes = read_axes(tree, fs::path(file).parent_path());
     study.one_at_a_time = takes_second(tree, "combine");
     take(tree, "baseline", config_scalar::Text{}, study.baseline);
     for (const auto& [key, stated] :

@@ -78,6 +78,9 @@ ordered_json keys_with_values(const std::vector<KeyDoc>& keys, bool drawn,
     ordered_json properties = ordered_json::object();
     for (const KeyDoc& key : keys) {
         if (key.type == "section") {
+            properties[key.path + ".include"] = {
+                {"description", "a file with values of " + key.path}};
+            properties[key.path + ".include"].update(one_or_list({{"type", "string"}}));
             continue;
         }
         const ordered_json values = axis_values(key, drawn, definitions);

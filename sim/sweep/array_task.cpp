@@ -7,6 +7,7 @@
 
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
+#include "sim/sweep/study_plan.hpp"
 
 namespace degs::sim {
 namespace {
@@ -136,6 +137,31 @@ ArrayTask array_task() {
         const char* value = std::getenv(variable.c_str());
         return value == nullptr ? std::nullopt : std::optional<std::string>(value);
     });
+}
+
+ArrayTask parse_shard(const std::string& given) {
+    if (given == "auto") {
+        const ArrayTask task = array_task();
+        if (task.n > kMostPoints) {
+            throw InputError("--shard auto: the job array has " + std::to_string(task.n) +
+                             " tasks, but at most " + std::to_string(kMostPoints) +
+                             " parts are possible.");
+        }
+        return task;
+    }
+    ArrayTask task{0, 0};
+    const char* const end = given.data() + given.size();
+    const auto [slash, bad_k] = std::from_chars(given.data(), end, task.k);
+    const bool split = bad_k == std::errc() && slash != end && *slash == '/';
+    const auto [rest, bad_n] = std::from_chars(split ? slash + 1 : end, end, task.n);
+    if (!split || bad_n != std::errc() || rest != end || task.k < 1 || task.k > task.n ||
+        task.n > kMostPoints) {
+        throw InputError(
+            "--shard is " + config_words::quote(given) +
+            ", but must be K/N: the K-th of N parts, from 1/N to N/N, or auto in a task of a "
+            "job array.");
+    }
+    return task;
 }
 
 } // namespace degs::sim

@@ -27,4 +27,8 @@ ArrayTask array_task(const Environment& environment);
 /// Reads the environment of this process.
 ArrayTask array_task();
 
+/// What --shard says: "2/5", or "auto" for the task that this process is. Throws InputError for
+/// anything else, and for more parts than a study may have points.
+ArrayTask parse_shard(const std::string& given);
+
 } // namespace degs::sim

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // degs sweep: every point of a study.
-#include <charconv>
 #include <filesystem>
 #include <memory>
 
@@ -52,34 +51,10 @@ std::string ranking_of(const SweepOptions& options, const StudyPlan& plan,
                : ranking_text(plan, results, parse_goals(options.sort, "--sort"), options.top);
 }
 
-/// "2/5"; all points if nothing is given.
-PointRange range_of(const std::optional<std::string>& given, std::size_t points) {
-    if (!given) {
-        return {0, points};
-    }
-    if (*given == "auto") {
-        const ArrayTask task = array_task();
-        if (task.n > kMostPoints) {
-            throw InputError("--shard auto: the job array has " + std::to_string(task.n) +
-                             " tasks, but at most " + std::to_string(kMostPoints) +
-                             " parts are possible.");
-        }
-        return shard_of(points, task.k, task.n);
-    }
-    const std::string& shard = *given;
-    std::size_t k = 0;
-    std::size_t n = 0;
-    const char* const end = shard.data() + shard.size();
-    const auto [slash, bad_k] = std::from_chars(shard.data(), end, k);
-    const bool split = bad_k == std::errc() && slash != end && *slash == '/';
-    const auto [rest, bad_n] = std::from_chars(split ? slash + 1 : end, end, n);
-    if (!split || bad_n != std::errc() || rest != end || k < 1 || k > n || n > kMostPoints) {
-        throw InputError(
-            "--shard is " + config_words::quote(shard) +
-            ", but must be K/N: the K-th of N parts, from 1/N to N/N, or auto in a task of a "
-            "job array.");
-    }
-    return shard_of(points, k, n);
+/// The part that --shard names; all points if nothing is given.
+std::vector<std::size_t> own_points(const std::optional<std::string>& given, std::size_t points) {
+    const ArrayTask task = given ? parse_shard(*given) : ArrayTask();
+    return points_of(shard_of(points, task.k, task.n));
 }
 
 /// This program with the same study.
@@ -216,7 +191,7 @@ void run(const SweepOptions& options) {
         submit(options, plan);
         return;
     }
-    const PointRange range = range_of(options.shard, plan.points.size());
+    const std::vector<std::size_t> points = own_points(options.shard, plan.points.size());
     const PointStore store(options.out, plan);
     if (options.collect) {
         collect(options, plan, store);
@@ -230,7 +205,7 @@ void run(const SweepOptions& options) {
             since_results = Stopwatch();
         }
     };
-    SweepSession session(plan, store, range, write);
+    SweepSession session(plan, store, points, write);
     const bool complete = session.run();
     if (whole) {
         const SweepResults results = read_results(plan, store);

@@ -11,6 +11,7 @@
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
 #include "sim/study/addressed_overrides.hpp"
+#include "sim/sweep/tree_changes.hpp"
 #include "sim/text/words.hpp"
 
 namespace degs::sim {
@@ -25,29 +26,6 @@ std::string own_text(const KeyDoc& key) {
     }
     return key.type == "text" ? nlohmann::json::parse(key.default_value).get<std::string>()
                               : key.default_value;
-}
-
-/// Puts a value into a tree as --set would: nothing in the files overrides it.
-void put(ConfigNode& section, const std::string& path, const std::string& text,
-         const std::string& place) {
-    const std::size_t dot = path.find('.');
-    const std::string key = path.substr(0, dot);
-    const auto found = std::find_if(section.children.begin(), section.children.end(),
-                                    [&key](const ConfigNode& child) { return child.key == key; });
-    ConfigNode& child = found != section.children.end() ? *found : section.children.emplace_back();
-    child.key = key;
-    if (dot != std::string::npos) {
-        child.place = child.place.empty() ? place : child.place;
-        child.kind = ConfigNode::Kind::kSection;
-        put(child, path.substr(dot + 1), text, place);
-        return;
-    }
-    child.kind = ConfigNode::Kind::kScalar;
-    child.children.clear();
-    child.quoted = false;
-    child.text = text;
-    child.place = place;
-    child.layer = 0;
 }
 
 /// --memory chooses the model, so no axis can.
@@ -93,11 +71,10 @@ bool is_ordered(const Axis& axis) {
 
 DesignSpace::LoadedDesign DesignSpace::load(const StudyDesign& design,
                                             const std::vector<std::string>& overrides) {
-    LoadedDesign loaded{design.name,
-                        design.tree,
-                        overrides,
-                        load_run_config(ConfigSource::from_tree(design.tree, overrides)),
-                        {}};
+    LoadedDesign loaded{
+        design.name, design.tree,
+        overrides,   load_run_config(ConfigSource::from_tree(design.tree, overrides)),
+        {},          {}};
     for (KeyDoc& key : document(loaded.config)) {
         const std::string path = key.path;
         loaded.keys.emplace(path, std::move(key));
@@ -150,6 +127,45 @@ void DesignSpace::add_axis(const Axis& axis) {
         places_[key] = axis.place;
     }
     genes_.push_back({axis.positions.size(), is_ordered(axis)});
+    for (std::size_t k = 0; k < axis.keys.size(); ++k) {
+        if (const std::optional<std::string> section = including_section(axis.keys[k])) {
+            for (LoadedDesign& design : designs_) {
+                design.files[axis.keys[k]] = own_file(design, axis, k, *section);
+            }
+        }
+    }
+}
+
+/// The name of that file of an axis which has the values that the design has anyway, or "own".
+/// Throws InputError for a file that the design cannot take.
+std::string DesignSpace::own_file(const LoadedDesign& design, const Axis& axis, std::size_t k,
+                                  const std::string& section) {
+    const std::string own = json_text(resolved(design.config));
+    std::string name = "own";
+    for (const std::vector<AxisValue>& position : axis.positions) {
+        ConfigNode tree = design.tree;
+        const AxisValue& value = position[k];
+        put_section(tree, section, file_of(design, section, value), value.place);
+        const RunConfig config =
+            load_run_config(ConfigSource::from_tree(std::move(tree), design.overrides));
+        name = json_text(resolved(config)) == own ? file_word(value) : name;
+    }
+    return name;
+}
+
+/// The values of a file. Throws InputError if it cannot be read, or there is no such section.
+const ConfigNode& DesignSpace::file_of(const LoadedDesign& design, const std::string& section,
+                                       const AxisValue& value) {
+    if (key_of(design, section, value.place).type != "section") {
+        throw InputError(value.place + ": " + quote(section) +
+                         " is no section, so no file can be included in it.");
+    }
+    const auto known = files_.find(value.text);
+    const ConfigNode& file =
+        known != files_.end()
+            ? known->second
+            : files_.emplace(value.text, ConfigSource::from_file(value.text).tree()).first->second;
+    return file;
 }
 
 std::vector<NamedConfig> DesignSpace::designs() const {
@@ -175,7 +191,10 @@ StudyVariant DesignSpace::variant(const LoadedDesign& design,
                                   const std::map<std::string, std::string>& texts) const {
     StudyVariant variant{design.name, design.name, {}};
     for (const std::string& key : plan_.keys) {
-        const std::string own = own_text(key_of(design, key, places_.at(key)));
+        const auto file = design.files.find(key);
+        const std::string own = file != design.files.end()
+                                    ? file->second
+                                    : own_text(key_of(design, key, places_.at(key)));
         const auto text = texts.find(key);
         variant.values.push_back(text == texts.end() ? own : text->second);
         if (variant.values.back() != own) {
@@ -185,19 +204,33 @@ StudyVariant DesignSpace::variant(const LoadedDesign& design,
     return variant;
 }
 
+/// Calls `change` with every key that has another value at a place than the design's own.
+template <class Change>
+void DesignSpace::for_each_change(const Genes& place, const Change& change) const {
+    for (std::size_t a = 0; a < study_.axes.size(); ++a) {
+        const Axis& axis = study_.axes[a];
+        for (std::size_t k = 0; place[a + 1] != kOwn && k < axis.keys.size(); ++k) {
+            change(axis.keys[k], axis.positions[place[a + 1]][k]);
+        }
+    }
+}
+
 DesignSpace::Added DesignSpace::add(const Genes& place) {
     const LoadedDesign& design = designs_[place.front()];
     ConfigNode tree = design.tree;
     std::map<std::string, std::string> texts;
-    for (std::size_t a = 0; a < study_.axes.size(); ++a) {
-        const Axis& axis = study_.axes[a];
-        for (std::size_t k = 0; place[a + 1] != kOwn && k < axis.keys.size(); ++k) {
-            const AxisValue& value = axis.positions[place[a + 1]][k];
-            const std::string& path = axis.keys[k];
-            texts[path] = value_text(value, key_of(design, path, value.place));
-            put(tree, path, texts[path], value.place);
+    for_each_change(place, [&](const std::string& path, const AxisValue& value) {
+        if (const std::optional<std::string> section = including_section(path)) {
+            texts[path] = file_word(value);
+            put_section(tree, *section, file_of(design, *section, value), value.place);
         }
-    }
+    });
+    for_each_change(place, [&](const std::string& path, const AxisValue& value) {
+        if (!including_section(path)) { // it decides against the files
+            texts[path] = value_text(value, key_of(design, path, value.place));
+            put_value(tree, path, texts[path], value.place);
+        }
+    });
     StudyVariant made = variant(design, texts);
     const auto [known, is_new] = variants_.emplace(made.name, std::nullopt);
     if (is_new) {

@@ -58,13 +58,20 @@ private:
         ConfigNode tree;
         std::vector<std::string> overrides;
         RunConfig config;
-        std::map<std::string, KeyDoc> keys; ///< by path
+        std::map<std::string, KeyDoc> keys;       ///< by path
+        std::map<std::string, std::string> files; ///< see own_file(), by key of an axis
     };
 
     static LoadedDesign load(const StudyDesign& design, const std::vector<std::string>& overrides);
     static const KeyDoc& key_of(const LoadedDesign& design, const std::string& path,
                                 const std::string& place);
     void add_axis(const Axis& axis);
+    std::string own_file(const LoadedDesign& design, const Axis& axis, std::size_t k,
+                         const std::string& section);
+    const ConfigNode& file_of(const LoadedDesign& design, const std::string& section,
+                              const AxisValue& value);
+    template <class Change>
+    void for_each_change(const Genes& place, const Change& change) const;
     StudyVariant variant(const LoadedDesign& design,
                          const std::map<std::string, std::string>& texts) const;
 
@@ -72,6 +79,7 @@ private:
     StudyPlan& plan_;
     std::vector<LoadedDesign> designs_;
     std::vector<Gene> genes_;
+    std::map<std::string, ConfigNode> files_;                    ///< that axes include, by path
     std::map<std::string, std::string> places_;                  ///< of the axes in files, by key
     std::map<std::string, std::optional<std::size_t>> variants_; ///< of the plan, by name
 };

@@ -79,6 +79,16 @@ std::string checked(const std::string& folder) {
     return folder;
 }
 
+/// The folder for points, after the one around it says which study it is of: processes that start
+/// together must not take each other for a folder of another kind.
+std::string begun(const OutputFolder& folder, const StudyPlan& plan) {
+    const ordered_json state = state_of(plan);
+    if (read_whole(folder.path(kState)) != json_text(state)) {
+        folder.write_json(kState, state);
+    }
+    return folder.path("points");
+}
+
 /// The line that ends a file of the store.
 std::string checksum_line(const std::string& text) {
     Digest digest;
@@ -127,14 +137,10 @@ void each_part(Fields& fields, Text& frame, Text& path) {
 } // namespace
 
 PointStore::PointStore(const std::string& folder, const StudyPlan& plan)
-    : folder_(checked(folder), sweep_files()), points_(folder_.path("points"), {}),
+    : folder_(checked(folder), sweep_files()), points_(begun(folder_, plan), {}),
       reports_(folder_.path("reports"), {}) {
     for (const StudyPoint& point : plan.points) {
         keys_.push_back(point.key);
-    }
-    const ordered_json state = state_of(plan);
-    if (read_whole(folder_.path(kState)) != json_text(state)) {
-        folder_.write_json(kState, state);
     }
 }
 
@@ -214,6 +220,10 @@ void PointStore::sweep_up() const {
     for (const OutputFolder* folder : {&folder_, &points_, &reports_}) {
         remove_partial(folder->path(""));
     }
+    drop_other_reports();
+}
+
+void PointStore::drop_other_reports() const {
     std::error_code none;
     for (std::size_t point = keys_.size();
          fs::remove(reports_.path(file_of(point, kReportFile)), none); ++point) {

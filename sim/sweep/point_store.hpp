@@ -45,8 +45,9 @@ public:
     void put_reports(std::size_t point, const std::optional<StoredPoint>& found) const;
     /// The frame's report relative to the folder.
     static std::string report_of(std::size_t point);
-    /// Removes what killed processes left half written, and reports of points beyond those of the
-    /// plan. Nobody else may be writing.
+    /// Removes reports of points beyond those of the plan.
+    void drop_other_reports() const;
+    /// Does that, and removes what killed processes left half written. Nobody else may be writing.
     void sweep_up() const;
 
 private:

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sweep/slurm.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
 #include "sim/process/failure.hpp"
+#include "sim/text/shell_word.hpp"
 
 namespace degs::sim {
 namespace {
@@ -43,21 +43,6 @@ std::string task_list(const std::vector<std::size_t>& tasks) {
         i = last + 1;
     }
     return text;
-}
-
-std::string shell_word(const std::string& word) {
-    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               std::string("-_./:=,@+%").find(c) != std::string::npos;
-    });
-    if (plain) {
-        return word;
-    }
-    std::string quoted = "'";
-    for (const char c : word) {
-        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    }
-    return quoted + "'";
 }
 
 std::string slurm_name(const std::string& name) {

@@ -21,9 +21,6 @@ struct SlurmArray {
 /// Tasks as Slurm writes them: "1-3,7".
 std::string task_list(const std::vector<std::size_t>& tasks);
 
-/// A word of a shell command, in quotes if it must be.
-std::string shell_word(const std::string& word);
-
 /// A name of a file where Slurm expands patterns such as %a. Throws InputError for what no pattern
 /// can say: a backslash, which turns all patterns off, and control characters.
 std::string slurm_name(const std::string& name);

@@ -2,6 +2,7 @@
 #include "sim/sweep/sweep_results.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -274,13 +275,19 @@ std::vector<std::string> sweep_files() {
     return {kJson, kCsv, kHostCsv, kPage, kBandwidth};
 }
 
-SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
+std::vector<std::string> search_files() {
+    return {"explore.json", "front.csv", "front.svg", "beliefs.csv"};
+}
+
+SweepResults read_results(const StudyPlan& plan, const PointStore& store, Reports reports) {
     SweepResults results;
     std::vector<ComparedRun> runs;
     std::set<std::string> known;
     for (std::size_t p = 0; p < plan.points.size(); ++p) {
         std::optional<StoredPoint> found = store.read(p);
-        store.put_reports(p, found);
+        if (reports == Reports::Put) {
+            store.put_reports(p, found);
+        }
         if (found) {
             found->frame.report.clear(); // all of them would take much memory
             if (found->path) {
@@ -315,7 +322,7 @@ SweepResults read_results(const StudyPlan& plan, const PointStore& store) {
 }
 
 void write_results(const StudyPlan& plan, const SweepResults& results, const OutputFolder& folder) {
-    folder.replace([&] {
+    const auto write = [&] {
         folder.write_text(kCsv, results_csv(plan, results));
         folder.write_text(kHostCsv, host_csv(results));
         folder.write_json(kJson, results_json(plan, results));
@@ -324,7 +331,15 @@ void write_results(const StudyPlan& plan, const SweepResults& results, const Out
         if (!picture.empty()) {
             folder.write_text(kBandwidth, picture);
         }
-    });
+    };
+    std::vector<std::string> old;
+    const std::vector<std::string> of_search = search_files();
+    if (std::filesystem::exists(folder.path(of_search.front()))) { // else they may be the user's
+        for (const std::string& file : of_search) {
+            old.push_back(folder.path(file));
+        }
+    }
+    folder.replace(write, old);
 }
 
 std::string results_text(const StudyPlan& plan, const SweepResults& results) {

@@ -20,6 +20,10 @@ constexpr int kSweepVersion = 1;
 /// Names of the files that a sweep writes beside its points.
 std::vector<std::string> sweep_files();
 
+/// Names of what a search adds to them; the first is its document. They tell of the results beside
+/// them, and go when these are replaced.
+std::vector<std::string> search_files();
+
 struct FailedPoint {
     std::size_t point = 0;
     Failure failure;
@@ -37,10 +41,15 @@ struct SweepResults {
     std::string spent;                 ///< by a search, for the page
 };
 
-/// Reads the points, and puts their reports in place.
-SweepResults read_results(const StudyPlan& plan, const PointStore& store);
+/// Whether reports are put beside the results; only one process of several should do that.
+enum class Reports { Put, Leave };
 
-/// results.json, results.csv, index.html and host.csv. All but the last depend only on the study.
+/// Reads the points.
+SweepResults read_results(const StudyPlan& plan, const PointStore& store,
+                          Reports reports = Reports::Put);
+
+/// results.json, results.csv, index.html, host.csv and bandwidth.svg. All but host.csv depend only
+/// on the study. Removes what an earlier search has said of other results.
 void write_results(const StudyPlan& plan, const SweepResults& results, const OutputFolder& folder);
 
 /// Says how many points there are, and which ones could not be built or failed.

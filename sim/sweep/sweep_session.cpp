@@ -2,7 +2,7 @@
 #include "sim/sweep/sweep_session.hpp"
 
 #include <algorithm>
-#include <vector>
+#include <numeric>
 
 #include "degs/error.hpp"
 #include "sim/process/interruption.hpp"
@@ -14,12 +14,18 @@ PointRange shard_of(std::size_t points, std::size_t k, std::size_t n) {
     return {points * (k - 1) / n, points * k / n};
 }
 
-SweepSession::SweepSession(const StudyPlan& plan, const PointStore& store, PointRange range,
-                           std::function<void()> finished)
+std::vector<std::size_t> points_of(PointRange range) {
+    std::vector<std::size_t> points(range.end - range.begin);
+    std::iota(points.begin(), points.end(), range.begin);
+    return points;
+}
+
+SweepSession::SweepSession(const StudyPlan& plan, const PointStore& store,
+                           const std::vector<std::size_t>& points, std::function<void()> finished)
     : plan_(plan), store_(store), finished_(std::move(finished)), runs_(plan.request, hooks()) {
-    progress_.plan(range.end - range.begin);
+    progress_.plan(points.size());
     std::size_t done = 0;
-    for (std::size_t p = range.begin; p < range.end; ++p) {
+    for (const std::size_t p : points) {
         const StudyPoint& point = plan.points[p];
         if (store.read(p)) {
             ++done;

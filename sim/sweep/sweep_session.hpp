@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <tuple>
+#include <vector>
 
 #include "sim/runs/run_progress.hpp"
 #include "sim/runs/view_runs.hpp"
@@ -23,13 +24,16 @@ struct PointRange {
 /// part is a stretch.
 PointRange shard_of(std::size_t points, std::size_t k, std::size_t n);
 
-/// Runs those points of a stretch that are not finished, each in a process of its own, and keeps
-/// every one as soon as it is finished.
+/// The points of a stretch in ascending order.
+std::vector<std::size_t> points_of(PointRange range);
+
+/// Runs those of some points of a plan that are not finished, each in a process of its own, and
+/// keeps every one as soon as it is finished.
 class SweepSession {
 public:
     /// `finished` is called after each point.
-    SweepSession(const StudyPlan& plan, const PointStore& store, PointRange range,
-                 std::function<void()> finished = {});
+    SweepSession(const StudyPlan& plan, const PointStore& store,
+                 const std::vector<std::size_t>& points, std::function<void()> finished = {});
 
     /// False after Ctrl-C. A point that fails costs the others nothing. Throws FailureError as soon
     /// as a point cannot be kept, because the others would be simulated in vain.

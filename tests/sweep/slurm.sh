@@ -168,3 +168,16 @@ PATH=$folder/bin:$PATH timeout 120 sbatch --wait --array=3-7:2 --cpus-per-task=1
 cmp "$folder/small/results.csv" "$folder/recipe/results.csv"
 grep -h '12 of 12' "$folder"/recipe-[357].log | wc -l | grep -qx 3
 echo "three tasks of an array with --shard auto give the bytes of a plain sweep"
+
+# A search by two tasks at a time, one on each node, as docs/explore.md has it; the lost node comes
+# back.
+slurmd -N n1
+until_true 60 nodes_are_idle
+search="$folder/small.yaml --search evolution --budget 12"
+"$program" explore $search --out "$folder/searched" >/dev/null 2>&1
+timeout 120 sbatch --wait --array=1-2 --mem=100 --output="$folder/search-%a.log" \
+    --wrap "$program explore $search --out $folder/search --shard auto"
+for file in explore.json beliefs.csv front.csv results.csv; do
+    cmp "$folder/searched/$file" "$folder/search/$file"
+done
+echo "two tasks of an array search as one process does"

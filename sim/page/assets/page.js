@@ -47,8 +47,9 @@
     of: (run) => data.variants[run.variant].design };
   const limit = { name: "limited_by", unit: "", kind: "text", numeric: false, sentence: "memory if memory_bound is more than a half, else the busiest stage.",
     of: (run) => run.limited_by };
+  const meanWords = `geometric mean of ${data.views.length} views`;
   const view = { name: "view", unit: "", kind: "text", numeric: false, sentence: "Scene, camera and image size.",
-    of: (run) => data.views[run.view].words };
+    of: (run) => (run.view === null ? meanWords : data.views[run.view].words) };
   const point = { name: "point", unit: "", kind: "text", numeric: true, sentence: "Number of the point; its report.",
     of: (run) => run.point };
   const pes = { name: "pes", unit: "PEs", kind: "key", numeric: true, sentence: "Processing elements.",
@@ -61,6 +62,19 @@
   const columns = [point, design, ...(data.limited ? [within] : []), ...axisColumns, ...keyColumns, ...(areMorePes ? [pes] : []), view, ...measureColumns, limit,
     ...stageColumns, ...partColumns];
   const columnOf = new Map(columns.map((c) => [c.name, c]));
+  /** The rule of goals over several views: nothing where a view has no value, 0 where one has 0, ∞ where one has ∞. */
+  const geometricMean = (values) => (values.some((v) => !isNumber(v) || v < 0) ? null
+    : values.includes(Infinity) ? Infinity : values.includes(0) ? 0
+    : values.every((v) => v === values[0]) ? values[0] : Math.exp(d3.mean(values, Math.log)));
+  /** A design over all views as a run without a report; none where a view is missing. */
+  const means = data.views.length < 2 ? [] : d3.groups(data.runs, (run) => run.variant)
+    .filter(([, runs]) => runs.length === data.views.length).map(([variant, runs]) => {
+      const named = (part) => Object.fromEntries(Object.keys(runs[0][part])
+        .map((name) => [name, geometricMean(runs.map((run) => run[part][name]))]));
+      return { point: null, variant, view: null, report: null, stages: named("stages"), parts: named("parts"),
+        measures: data.measures.map((_, i) => geometricMean(runs.map((run) => infinite(run.measures[i])))),
+        limited_by: [...new Set(runs.map((run) => run.limited_by))].join(", ") };
+    });
   const isBaseline = (run) => run.variant === data.baseline;
 
   const digits = (value) => {
@@ -98,6 +112,7 @@
     data.swept && varied.length > 0 ? varied[0].name : area);
   choose(at("colour"), [design, ...axisColumns, ...keyColumns, ...(areMorePes ? [pes] : []), view, limit].map(option), defaultColour);
   choose(at("view"), [...(data.views.length > 1 ? [{ label: `all ${data.views.length}`, value: "all" }] : []),
+    ...(means.length > 0 ? [{ label: meanWords, value: "mean" }] : []),
     ...data.views.map((v, i) => ({ label: v.words, value: String(i) }))], "0");
   at("view-label").hidden = data.views.length < 2;
 
@@ -128,7 +143,7 @@
     const tests = words.map(test);
     const unknown = words.filter((_, i) => tests[i] === null);
     const which = at("view").value;
-    const runs = data.runs.filter((run) => (which === "all" || run.view === Number(which))
+    const runs = (which === "mean" ? means : data.runs).filter((run) => (["all", "mean"].includes(which) || run.view === Number(which))
       && tests.every((t) => t === null || t(run)));
     at("filter-note").textContent = unknown.length > 0
       ? `There is no column for ${unknown.join(" ")}; the columns of the table can be named.`
@@ -138,7 +153,7 @@
 
   const mostKeysInTip = 24; // more would not fit on a screen
   const tipOf = (run) => [
-    `point ${run.point}, ${design.of(run)}`, ...keyColumns.slice(0, mostKeysInTip)
+    run.point === null ? design.of(run) : `point ${run.point}, ${design.of(run)}`, ...keyColumns.slice(0, mostKeysInTip)
       .map((c) => `${c.name}: ${written(c, c.of(run))}`), ...(keyColumns.length > mostKeysInTip ? ["…"] : []),
     view.of(run), ...["latency_ms", "area_mm2"].map((n) => columnOf.get(n)).filter((c) => c)
       .map((c) => `${c.name}: ${written(c, c.of(run))}`), `limited_by: ${run.limited_by}`, ...(isOutside(run) ? [`breaks ${within.of(run)}`] : [])].join("\n");
@@ -234,7 +249,7 @@
       const others = good.filter((run) => data.variants[run.variant].values.every((value, k) =>
         x.keys.includes(k) || value === base[k]));
       plot(host, {
-        height: 240, marginLeft: 56, marginBottom: 64,
+        height: 240, marginLeft: 64, marginBottom: 64,
         x: { ...scaleOf(x, good), inset: 8, tickRotate: -25, labelOffset: 56 },
         y: { ...scaleOf(y, good), inset: 6, ticks: 5 },
         marks: [Plot.dot(good, { x: x.of, y: y.of, r: 2.5, fill: "currentColor", fillOpacity: 0.25 }),
@@ -298,7 +313,8 @@
     .filter((slot) => slot.column);
   const mostBars = 40;
   const drawSlots = (runs) => {
-    const good = runs.filter((run) => slotColumns.some((s) => s.column.of(run) !== null));
+    // Geometric means of shares do not add up to 1, so bars are of single views.
+    const good = runs.filter((run) => run.view !== null && slotColumns.some((s) => s.column.of(run) !== null));
     at("slots-section").hidden = good.length === 0;
     if (good.length === 0) return;
     const bars = good.slice(0, mostBars);

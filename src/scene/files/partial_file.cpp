@@ -69,17 +69,26 @@ bool is_partial_name(const std::string& name) {
            numbers.find('-', dash + 1) == std::string::npos;
 }
 
-/// Whether a regular file, and none that another process is writing.
-bool is_abandoned(const std::string& name) {
+/// Removes a regular file, unless another process is writing it. It goes while it is locked, so
+/// that one who has just made it finds out (see lock()).
+void remove_abandoned(const std::string& name) {
     const int file = ::open(name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) {
-        return false;
+        return;
     }
     struct stat status {};
-    const bool free = ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
-                      ::flock(file, LOCK_EX | LOCK_NB) == 0;
+    if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) &&
+        ::flock(file, LOCK_EX | LOCK_NB) == 0) {
+        ::unlink(name.c_str());
+    }
     ::close(file);
-    return free;
+}
+
+/// Locks a file that was just made; false if another process took it for abandoned before that.
+bool lock(int file) {
+    ::flock(file, LOCK_EX); // others hold it for a moment only
+    struct stat status {};
+    return ::fstat(file, &status) != 0 || status.st_nlink > 0;
 }
 
 } // namespace
@@ -97,13 +106,14 @@ PartialFile::PartialFile(const std::string& path) {
             if (!is_there) {
                 return;
             }
+        } else if (!lock(file_)) {
+            ::close(file_);
+            file_ = -1;
+            forget_droppable(place_);
         }
     }
-    if (file_ >= 0) {
-        ::flock(file_, LOCK_EX | LOCK_NB);
-        if (dropped) {
-            ::unlink(name_.c_str());
-        }
+    if (file_ >= 0 && dropped) {
+        ::unlink(name_.c_str());
     }
 }
 
@@ -122,15 +132,15 @@ bool PartialFile::takes_a_byte() const {
 
 void remove_partial_files(const std::string& folder) {
     namespace fs = std::filesystem;
-    std::vector<fs::path> left;
+    std::vector<std::string> left;
     std::error_code error;
     for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-        if (is_partial_name(at->path().filename().string()) && is_abandoned(at->path().string())) {
-            left.push_back(at->path());
+        if (is_partial_name(at->path().filename().string())) {
+            left.push_back(at->path().string());
         }
     }
-    for (const fs::path& path : left) {
-        fs::remove(path, error);
+    for (const std::string& name : left) {
+        remove_abandoned(name);
     }
 }
 

@@ -125,6 +125,23 @@ TEST(Estimates, HaveNothingThatOnlyASimulationHas) {
     }
 }
 
+TEST(Estimates, HaveThePictureOfBandwidth) {
+    const Folder folder;
+    const std::string file = folder / "bandwidth.yaml";
+    std::ofstream(file) << "designs:\n  - include: " << config("degs-64")
+                        << "\n    name: degs-64\naxes:\n"
+                           "  memory.bandwidth_gb_per_s: 12.8..204.8 x2\nscenes: "
+                        << kEstimatedScene << "\nwidth: 320\nfidelity: analytic\n";
+    expect_no_failure(degs({"sweep", file, "--out", folder / "out"}));
+    const std::string picture = read_file(folder / "out/bandwidth.svg");
+    EXPECT_NE(picture.find("Latency over the bandwidth of memory (estimated)"), std::string::npos);
+    const std::vector<Row> rows = rows_of(folder / "out/results.csv");
+    ASSERT_EQ(rows.size(), 5U);
+    EXPECT_EQ(std::stod(rows[0].at("dram.peak_gb_per_s")), 12.8);
+    EXPECT_GT(std::stod(rows[1].at("bandwidth_elasticity")), 0);
+    EXPECT_EQ(rows[4].at("bandwidth_elasticity"), ""); // no neighbour
+}
+
 TEST(Estimates, AreCalledSoWhereverTheyAreShown) {
     const Folder folder;
     const Outcome outcome = compare_estimates(folder / "out");

@@ -11,6 +11,7 @@
 #include "sim/results/result_words.hpp"
 #include "sim/results/run_summary.hpp"
 #include "sim/sweep/slurm.hpp"
+#include "sim/text/shell_word.hpp"
 #include "tests/sim/process/child.hpp"
 
 namespace degs::sim_test {

@@ -9,7 +9,7 @@
 #include "sim/goals/hypervolume.hpp"
 #include "sim/search/breeding.hpp"
 #include "sim/search/forecast.hpp"
-#include "tests/sim/process/child.hpp"
+#include "tests/sim/sweep/search_spaces.hpp"
 
 namespace degs::sim_test {
 namespace {
@@ -119,17 +119,6 @@ TEST(Forecast, IsSureOfWhatEstimatesAlwaysHit) {
     EXPECT_EQ(expected.deviations[0], 0);
 }
 
-/// 24 designs on two views.
-std::string two_view_space(const Folder& folder) {
-    const std::string file = folder / "space.yaml";
-    std::ofstream(file) << "study: space\ndesigns:\n  - include: " << config("degs-64")
-                        << "\n    name: degs-64\naxes:\n  span.count: [2, 4, 8, 16]\n"
-                           "  array.pes_per_bank: [4, 8, 16]\n  packing.bytes: [x1, x2]\n"
-                           "scenes: synthetic:object,gaussians=300\ncameras: [0, 2]\n"
-                           "width: 128\nreference: false\n";
-    return file;
-}
-
 /// 1.3 million designs on one view.
 std::string million_space(const Folder& folder) {
     const std::string file = folder / "large.yaml";
@@ -160,8 +149,6 @@ nlohmann::json explored(const std::string& file, const std::string& out,
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return nlohmann::json::parse(read_file(out + "/explore.json"));
 }
-
-const std::vector<std::string> kEvolution{"--search", "evolution", "--budget", "12"};
 
 std::vector<Goals> last_rung(const nlohmann::json& found) {
     std::vector<Goals> costs;
@@ -202,21 +189,6 @@ TEST(Evolution, FindsTheFrontOfAllDesigns) {
     EXPECT_NE(read_file(folder / "few/index.html").find("24 designs estimated, "),
               std::string::npos);
     EXPECT_FALSE(fs::exists(folder / "all/beliefs.csv"));
-}
-
-/// Six designs, of which simulations of three fail, because their list entries cannot hold an index
-/// of so many visible splats. Their estimates do not look at that.
-std::string failing_space(const Folder& folder) {
-    const std::string file = folder / "failing.yaml";
-    std::ofstream(file) << "study: failing\ndesigns:\n  - include: " << config("degs-64")
-                        << "\n    name: degs-64\n"
-                           "    pipeline: { formats: { depth_key: ue4m12b3 } }\n"
-                           "    traffic: { list_entry_bytes: 6 }\n"
-                           "axes:\n  traffic.list_entry_bytes: [4, 6]\n"
-                           "  span.count: [4, 8, 16]\n"
-                           "scenes: synthetic:object,gaussians=80000\nwidth: 32\n"
-                           "reference: false\n";
-    return file;
 }
 
 TEST(Evolution, TriesADesignThatFailsOnce) {
@@ -285,6 +257,31 @@ TEST(Evolution, GoesOnAfterItWasKilled) {
         EXPECT_EQ(read_file(folder / "killed/" + name), read_file(folder / "whole/" + name))
             << name;
     }
+}
+
+// A folder shows nothing of runs that are not those of its results.
+TEST(SearchFiles, GoWithTheResultsThatTheyTellOf) {
+    const Folder folder;
+    const std::string file = two_view_space(folder);
+    const std::string out = folder / "out";
+    explored(file, out, kEvolution);
+    EXPECT_TRUE(fs::exists(out + "/beliefs.csv"));
+    explored(file, out, {"--search", "halving", "--rungs", "1"});
+    EXPECT_FALSE(fs::exists(out + "/beliefs.csv"));
+    EXPECT_TRUE(fs::exists(out + "/front.svg"));
+    const std::string other = folder / "bandwidth.yaml";
+    std::ofstream(other) << "study: bandwidth\ndesigns:\n  - include: " << config("degs-64")
+                         << "\n    name: degs-64\naxes:\n"
+                            "  memory.bandwidth_gb_per_s: 51.2GB/s..204.8GB/s x2\n"
+                            "scenes: synthetic:object,gaussians=300\nwidth: 64\n";
+    EXPECT_EQ(degs({"sweep", other, "--out", out}).code, 0);
+    for (const char* gone : {"explore.json", "front.csv", "front.svg", "reports/000004.json"}) {
+        EXPECT_FALSE(fs::exists(out + "/" + gone)) << gone;
+    }
+    EXPECT_TRUE(fs::exists(out + "/bandwidth.svg"));
+    explored(file, out, {"--rungs", "1", "--limits", "area_mm2<=2.7"});
+    EXPECT_FALSE(fs::exists(out + "/bandwidth.svg"));
+    EXPECT_FALSE(fs::exists(out + "/reports/000049.json")); // 24 designs on two views
 }
 
 TEST(Evolution, SearchesAMillionDesigns) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/sweep/slurm.hpp"
+#include "sim/text/shell_word.hpp"
 
 #include <cstdlib>
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command that a result states as the one that made it.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <CLI/App.hpp>
+
+namespace degs::sim {
+
+/// What the parsed arguments ask for, as a shell takes it: "degs sweep study.yaml --width 64".
+/// Positional arguments come first, options in the order of the help. Options that say where
+/// results go, who runs what, or what a terminal shows are left out, so that all commands with the
+/// same results state the same.
+std::string stated_command(const CLI::App& program);
+
+/// Calls `use` with the stated command before a command begins.
+void when_parsed(CLI::App& program, const std::function<void(const std::string&)>& use);
+
+} // namespace degs::sim
