@@ -199,8 +199,10 @@ inline __attribute__((always_inline)) void ArraySlice::pass_packet(Cycle date) {
     if (self_.local() > date) {
         refuse(date);
     }
-    stats_.packets++;
-    stats_.window.include(date);
+    if (stats_.packets++ == 0) {
+        stats_.window.include(date);
+    }
+    stats_.window.last = date;
     self_.advance_to(date + 1);
 }
 

@@ -38,11 +38,15 @@ void DrawnBank::run_cycles() {
             see_contexts();
         }
         accept<single, in_turn>();
-        const int issued = issue<single, in_turn>();
+        const bool issued = issue<single, in_turn>() != 0;
         if (closing_ != 0) {
             finish_tiles();
+            over = this->over();
         }
-        over = this->over();
+        const bool works = issued || can_cut();
+        if (!works) {
+            over = this->over(); // if it became so elsewhere, there is nothing left to do
+        }
         if (packet_.due(now_)) {
             send_part(idle_cause());
         }
@@ -50,9 +54,10 @@ void DrawnBank::run_cycles() {
         if (over) {
             const Cycle open = packet_.open_until();
             next = open == kNever ? next : std::max(open, next);
-        } else if (issued == 0 && !can_cut()) {
+        } else if (!works) {
             next = next_date();
         } // else work is left, whatever arrives
+        stats_.busy += issued ? 1 : 0;
         if (packet_.leaves_slots(next)) {
             packing_.count_idle_later(idle_cause(), packet_.left_slots(now_, next));
             idle_pending_ = true;

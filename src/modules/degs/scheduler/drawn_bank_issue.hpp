@@ -21,7 +21,6 @@ inline __attribute__((always_inline)) int DrawnBank::issue() {
     const int issued =
         single || single_stream_ ? issue_in_order<in_turn>() : issue_from_all<in_turn>();
     width_limited_ = issued == issue_width_;
-    stats_.busy += issued != 0 ? 1 : 0;
     return issued;
 }
 

@@ -13,7 +13,7 @@ namespace degs {
 class PassedPackets {
 public:
     std::uint64_t items() const { return items_; }
-    Cycle empty_cycles() const { return empty_cycles_; }
+    Cycle empty_cycles() const { return ready_ - (items_ - ends_); }
     Cycle occupied_cycles() const { return occupied_cycles_; }
     std::size_t high_water() const { return high_water_; }
 
@@ -23,7 +23,7 @@ public:
         while (size <= depth) {
             size *= 2;
         }
-        reads_.resize(size);
+        reads_.resize(size, kNever);
     }
     /// A packet that leaves at `written` and executes at `slot`.
     void pass_packet(Cycle written, Cycle slot) {
@@ -35,25 +35,26 @@ public:
         const Cycle read = date > ready_ ? date : ready_;
         pass(written, read);
         ready_ = read;
+        ++ends_;
         return read;
     }
 
 private:
     __attribute__((always_inline)) void pass(Cycle written, Cycle read) {
         const std::size_t mask = reads_.size() - 1;
-        empty_cycles_ += read - ready_;
         occupied_cycles_ += read - written;
-        // The mark rises by one where as many items as before it were still inside.
-        if (high_water_ == 0 || reads_[(items_ - high_water_) & mask] > written) {
+        // The mark rises by one where as many items as before it were still inside. The first item
+        // raises it, because it asks for a cell that was never read.
+        if (reads_[(items_ - high_water_) & mask] > written) {
             high_water_++;
         }
         reads_[items_++ & mask] = read;
     }
 
     std::vector<Cycle> reads_; // of the latest items, in their order
-    std::uint64_t items_ = 0;
+    std::uint64_t items_ = 0, ends_ = 0; // of these, ends of tiles, which take no cycle
     Cycle ready_ = 0; // of the reader
-    Cycle empty_cycles_ = 0, occupied_cycles_ = 0;
+    Cycle occupied_cycles_ = 0;
     std::size_t high_water_ = 0;
 };
 
