@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/runs/shared_view.hpp"
 
+#include <cstring>
+#include <string_view>
+
 #include <nlohmann/json.hpp>
 
 #include "sim/analytic/analytic_run.hpp"
@@ -22,6 +25,29 @@ void SharedView::render_reference(TileMode mode) {
     }
 }
 
+// Most designs of a study draw the same image, whose error is found once.
+ImageError SharedView::error_of(const Image& image) const {
+    constexpr int kMostImages = 8; // of different numbers
+    const std::string_view colours(reinterpret_cast<const char*>(image.rgb.data()),
+                                   image.rgb.size() * sizeof(float));
+    for (int number = 0; kept != nullptr && number < kMostImages; ++number) {
+        const std::string name = "image " + std::to_string(number);
+        const std::string_view known = kept->find(name);
+        if (known.data() == nullptr) {
+            const ImageError error = compare_images(reference->image, image);
+            std::string bytes(reinterpret_cast<const char*>(&error), sizeof error);
+            kept->put(name, bytes.append(colours));
+            return error;
+        }
+        if (known.substr(sizeof(ImageError)) == colours) {
+            ImageError error;
+            std::memcpy(&error, known.data(), sizeof error);
+            return error;
+        }
+    }
+    return compare_images(reference->image, image);
+}
+
 std::string SharedView::run(const RunRequest& request, bool path) const {
     const Stopwatch wall;
     Progress::silence();
@@ -34,7 +60,8 @@ std::string SharedView::run(const RunRequest& request, bool path) const {
     RunResult result = run_frames(request, wanted);
     put_scene(scene, result);
     if (request.reference && !path) {
-        judge(result, *reference);
+        judge(result, *reference,
+              [this](const Image&, const Image& image) { return error_of(image); });
     }
     result.host.load_s = load_s;
     result.host.workload_s = workload_s;

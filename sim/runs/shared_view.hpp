@@ -34,6 +34,9 @@ struct SharedView {
     std::string run(const RunRequest& request, bool path) const;
     /// In the child: the summary, as a message, of an estimate of the first frame.
     std::string estimate(const RunConfig& config) const;
+
+private:
+    ImageError error_of(const Image& image) const;
 };
 
 } // namespace degs::sim

@@ -99,10 +99,11 @@ Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame,
     return make_reference(exact);
 }
 
-void judge(RunResult& result, const Reference& reference) {
+void judge(RunResult& result, const Reference& reference,
+           const std::function<ImageError(const Image&, const Image&)>& compare) {
     result.host.render_s = reference.render_s;
     result.workload.reference = reference.counts;
-    result.error = compare_images(reference.image, result.accelerator.images.front());
+    result.error = compare(reference.image, result.accelerator.images.front());
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -102,8 +103,10 @@ Reference make_reference(const FrameWorkload& workload);
 /// The reference of a frame in any format: what was not projected in double is projected again, and
 /// the host seconds of that are added to `seconds`.
 Reference make_reference(const GaussianCloud& cloud, const FrameWorkload& frame, double& seconds);
-/// Compares the first frame with its reference and fills in the result.
-void judge(RunResult& result, const Reference& reference);
+/// Fills in the reference, and the first frame's error against it, which `compare` finds.
+void judge(RunResult& result, const Reference& reference,
+           const std::function<ImageError(const Image& reference, const Image& test)>& compare =
+               compare_images);
 
 /// Runs the accelerator on frames that were made for it (at least one). The caller fills in the
 /// facts of the scene, the host times of earlier steps and the comparison. Throws std::logic_error

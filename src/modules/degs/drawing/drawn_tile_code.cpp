@@ -5,6 +5,8 @@
 #include <array>
 #include <cstring>
 
+#include "base/byte_order.hpp"
+
 namespace degs {
 namespace {
 
@@ -41,18 +43,20 @@ RowMask mask_of(std::uint64_t low, std::uint64_t high, int x0) {
     return mask;
 }
 
-RowMask take_mask(const char*& from, int x0, int length) {
-    std::uint64_t words[2] = {0, 0};
-    const int bytes = bytes_of(length);
-    for (int i = 0; i < bytes; ++i) {
-        words[i / 8] |= std::uint64_t{static_cast<unsigned char>(from[i])} << 8 * (i % 8);
-    }
-    from += bytes;
-    return mask_of(words[0], words[1], x0);
-}
-
 std::uint64_t ones(int bits) {
     return bits >= 64 ? ~std::uint64_t{0} : bits <= 0 ? 0 : (std::uint64_t{1} << bits) - 1;
+}
+
+// Bytes beyond the mask are read, too, and cut off.
+RowMask take_mask(const char*& from, int x0, int length) {
+    std::uint64_t words[2] = {0, 0};
+    std::memcpy(words, from, length <= RowMask::kHalf ? sizeof words[0] : sizeof words);
+    from += bytes_of(length);
+    if (host_is_big_endian()) { // bytes are written from the lowest one on
+        words[0] = __builtin_bswap64(words[0]);
+        words[1] = __builtin_bswap64(words[1]);
+    }
+    return mask_of(words[0] & ones(length), words[1] & ones(length - RowMask::kHalf), x0);
 }
 
 // All pixels of a span.
@@ -166,7 +170,7 @@ std::string DrawnTileWriter::bytes(const std::vector<PixelValue>& pixels) const 
         put(to, end);
     }
     single ? put_pixels<float>(to, pixels) : put_pixels<double>(to, pixels);
-    return to + rows_;
+    return (to += rows_).append(sizeof(RowMask), '\0'); // for take_mask()
 }
 
 DrawnTileReader::DrawnTileReader(std::string_view bytes) {
