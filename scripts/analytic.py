@@ -3,7 +3,7 @@
 """analytic.py [--designs CONFIG...] [--scenes SCENE...] [--exact FOLDER]: the analytic fidelity against exact runs, as
 the table of docs/analytic.md has it.
 
-For each design and each view of the scenes one exact run and one estimate: the share of the views within 20 % of the
+For each design and each view of the scenes one exact run and one estimate: the share of the views within 10 % of the
 exact cycles, the median error without sign, the worst one with its view, and the time of the estimate after the frame
 is projected, median and longest. Runs with DEGS_PROGRAM (default build/release/sim/degs); scenes are SCENE/scene.ply in
 DEGS_SCENES (default ../shared/scenes), with the cameras of their cameras.json. A design is a file of configs without
@@ -63,7 +63,7 @@ def row(design, views, folder):
 
 def print_line(name, errors, times):
     """One line of the table."""
-    near = sum(abs(error) <= 0.2 for error in errors.values())
+    near = sum(abs(error) <= 0.1 for error in errors.values())
     worst = max(errors, key=lambda view: abs(errors[view]))
     cells = [name, f"{near} of {len(errors)}", f"{100 * statistics.median(map(abs, errors.values())):.1f}",
              f"{100 * errors[worst]:+.0f}: {worst}", f"{statistics.median(times):.1f}", f"{max(times):.1f}"]
@@ -81,7 +81,7 @@ def main():
     for scene in options.scenes:
         with open(SCENES / scene / "cameras.json", encoding="utf-8") as file:
             views += [(scene, camera) for camera in range(len(json.load(file)))]
-    print("| design | within 20 % | median error, % | worst, % | time, ms | longest, ms |")
+    print("| design | within 10 % | median error, % | worst, % | time, ms | longest, ms |")
     print("|---|---:|---:|---|---:|---:|")
     errors, times = {}, []
     for design in options.designs:

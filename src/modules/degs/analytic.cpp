@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "modules/degs/analytic_bank.hpp"
 #include "modules/degs/config.hpp"
 #include "modules/kit/analytic/front_end_load.hpp"
 
@@ -38,9 +39,12 @@ public:
         return {config_.scheduler.segment_length, 1, config_.pipeline.span_ends != SpanEnds::Exact,
                 config_.pipeline.span_delta};
     }
+    // Banks and Span Units own every n-th row, so rows are left out bank by bank. Those that have
+    // more to do than others hold these up, which only shows if enough of them are drawn.
     Blocks blocks() const override {
-        // Banks and Span Units own every n-th row, so rows are left out bank by bank.
-        return {1, std::max(1, std::gcd(config_.scheduler.banks, config_.span.count) / 2)};
+        constexpr int kLeastBanks = 16;
+        return {1,
+                std::max(1, std::gcd(config_.scheduler.banks, config_.span.count) / kLeastBanks)};
     }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double) const override {
@@ -73,9 +77,8 @@ public:
 
 private:
     struct Bank {
-        RingDates queue;
+        AnalyticBank queue;
         double cut = 0;          ///< when the next segment may be cut
-        double free = 0;         ///< when the PEs have had the tasks so far
         std::uint64_t splat = 0; ///< the last one with a segment in it, from 1
     };
     struct Lane {
@@ -94,12 +97,13 @@ private:
     const DegsConfig& config_;
     std::vector<Bank> banks_;
     std::vector<Lane> lanes_;
-    std::vector<double> region_free_; ///< per row and segment of the tile
-    std::vector<double> finished_;    ///< when the tiles that hold the contexts are over, by turn
+    std::vector<double> finished_; ///< when the tiles that hold the contexts are over, by turn
     std::size_t tiles_ = 0;
     std::vector<CoarseSpan> sent_; ///< rows of a splat; empty ones, too
-    int segments_per_row_;
+    std::size_t segments_per_row_;
     double units_;        ///< Slicing Units of a tile
+    RingDates supply_;    ///< places for splats before the Slicing Units
+    double asked_ = 0;    ///< when the latest splat was asked for
     double sliced_ = 0;   ///< when the Slicing Units have sent the rows so far
     double last_end_ = 0; ///< of the tile before
     double start_ = 0;    ///< when a context is free
@@ -142,24 +146,30 @@ double DegsAnalytic::latency() const {
 }
 
 DegsClock::DegsClock(const DegsAnalytic& model, const FrameWorkload& frame)
-    : model_(model), config_(model.config()), banks_(config_.scheduler.banks),
-      lanes_(config_.span.count), finished_(config_.contexts(), 0),
+    : model_(model), config_(model.config()), lanes_(config_.span.count),
+      finished_(config_.contexts(), 0),
       segments_per_row_((frame.tile_size + config_.scheduler.segment_length - 1) /
                         config_.scheduler.segment_length),
-      units_(config_.slicing.units_per_module()) {
-    for (Bank& bank : banks_) {
-        bank.queue = RingDates(config_.queue_depth());
-    }
+      units_(config_.slicing.units_per_module()),
+      supply_(static_cast<int>(std::max(1.0, model.places() / config_.clusters))),
+      asked_(-model.memory_latency()) {
+    banks_.assign(
+        config_.scheduler.banks,
+        {AnalyticBank(config_.queue_depth(),
+                      Segmenter::domains_per_tile(frame.tile_size, config_.scheduler.segment_length,
+                                                  config_.scheduler.banks),
+                      config_.scheduler.reuse_cycles, config_.scheduler.scan)});
     const int rows = config_.span_buffer.bytes / config_.span_buffer.row_bytes / config_.span.count;
     for (Lane& lane : lanes_) {
         lane.rows = RingDates(std::max(rows, 1));
     }
-    region_free_.resize(std::size_t{1} * frame.tile_size * segments_per_row_);
 }
 
 void DegsClock::begin(const CoarseTile&) {
     start_ = finished_[tiles_ % finished_.size()];
-    std::fill(region_free_.begin(), region_free_.end(), 0.0);
+    for (Bank& bank : banks_) {
+        bank.queue.begin_tile();
+    }
     tasks_ = rows_ = segments_ = slices_ = issues_ = features_ = 0;
 }
 
@@ -206,18 +216,13 @@ void DegsClock::segment(const CoarseTile& tile, const CoarseSpan& span, double s
         if (tasks == 0) {
             continue;
         }
-        at = std::max(at, bank.queue.oldest());
-        bank.cut = std::max(bank.cut, at);
-        double& region = region_free_[span.row * segments_per_row_ + s];
         const double taken =
             std::max(tasks / config_.array.pes_per_bank, 1.0 / config_.scheduler.issue_width);
-        bank.free = std::max(bank.free, at) + taken;
+        at = bank.queue.add(at, taken, span.row / banks_.size() * segments_per_row_ + s);
+        bank.cut = std::max(bank.cut, at);
         issues_ += taken;
         features_ += bank.splat == splats_ ? 0 : 1;
         bank.splat = splats_;
-        const double issued = std::max(bank.free, region);
-        region = issued + config_.scheduler.reuse_cycles;
-        bank.queue.replace_oldest(issued);
         tasks_ += tasks;
         ++segments_;
         // Span Vectors wait in their unit until the bank takes them.
@@ -262,8 +267,11 @@ void DegsClock::splat(const CoarseTile& tile) {
     ++splats_;
     const double rows = choose_rows(tile);
     const double cycles = std::max(1.0, std::ceil(rows / config_.slicing.rows_per_cycle));
+    // The splat is asked for when there is a place for it, and a request less in flight.
+    asked_ = std::max(asked_ + model_.front().cycles_per_fetch(), supply_.oldest());
     slices_ += cycles;
-    sliced_ += cycles / units_;
+    sliced_ = std::max(sliced_, asked_ + model_.memory_latency()) + cycles / units_;
+    supply_.replace_oldest(sliced_);
     rows_ += rows;
     const double sliced = sliced_;
     for (const CoarseSpan& span : sent_) {
@@ -288,7 +296,7 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
     const double left = tile.entries() - tile.walked();
     double done = 0;
     for (const Bank& bank : banks_) {
-        done = std::max(done, bank.free);
+        done = std::max(done, bank.queue.done());
     }
     // The rest of the list keeps coming until the end of the last pixel is known.
     const double known = std::min(done + config_.slicing.feedback_cycles, sliced_ + left / units_);
@@ -314,12 +322,13 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
     cycles.busy[DegsAnalytic::kPacking] = drawn * segments_ / config_.scheduler.issue_width /
                                           (config_.clusters * config_.scheduler.banks);
     cycles.busy[DegsAnalytic::kBlending] = cycles.slots / config_.pes();
+    const double behind = std::max(done - sliced_, 0.0); // are the banks when all rows are sent
     cycles.time = with_other_streams(
-        std::max(sliced_ - last_end_, cycles.time),
+        std::max(sliced_ + behind - last_end_, cycles.time),
         config_.clusters * *std::max_element(cycles.busy.begin() + DegsAnalytic::kSpan,
                                              cycles.busy.begin() + DegsAnalytic::kMemory));
     last_end_ += cycles.time;
-    sliced_ = last_end_;
+    sliced_ = last_end_ - behind; // of the next tile, meanwhile
     return cycles;
 }
 

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "modules/degs/scheduler/issue_bank.hpp"
+
+namespace degs {
+
+/// The queue of an Issue Bank without cycles: segments wait by conflict domain, and whichever may
+/// go first does, when the PEs are free and its domain may be updated again; of several, one of the
+/// oldest tile, by the scan rule. Cycles are real numbers.
+class AnalyticBank {
+public:
+    /// `depth`: segments that may wait. `domains`: of the bank in a tile.
+    AnalyticBank(std::size_t depth, std::size_t domains, double reuse_cycles, DomainScan scan)
+        : depth_(depth), reuse_cycles_(reuse_cycles), scan_(scan),
+          domains_(kTilesInFlight * domains) {}
+
+    /// A tile begins; all that waits of the one whose place it takes is issued.
+    void begin_tile();
+
+    /// A segment that arrives at `date` and keeps the PEs busy for `taken` cycles waits for its
+    /// domain; returns the date at which there was room for it. Dates do not fall.
+    double add(double date, double taken, std::size_t domain);
+    /// When the PEs have had all tasks, unless they wait for a domain.
+    double done() const { return free_ + waiting_cycles_; }
+
+private:
+    struct Segment {
+        double arrived = 0, taken = 0;
+        std::uint64_t number = 0;
+    };
+    struct Domain {
+        std::vector<Segment> segments; ///< the first `issued` have been
+        std::size_t issued = 0;
+        double free = 0; ///< from which it may be updated
+        bool empty() const { return issued == segments.size(); }
+        std::size_t size() const { return segments.size() - issued; }
+        const Segment& front() const { return segments[issued]; }
+        void pop() {
+            if (++issued == segments.size()) {
+                segments.clear();
+                issued = 0;
+            }
+        }
+    };
+
+    static constexpr std::size_t kTilesInFlight = 2;
+    double start_of(const Domain& domain) const;
+    std::uint64_t rank_of(std::size_t domain) const;
+    static constexpr double kLast = std::numeric_limits<double>::infinity();
+    /// Issues the next segment if it goes before `limit`; returns when, or `limit`.
+    double issue(double limit);
+
+    std::size_t depth_;
+    double reuse_cycles_;
+    DomainScan scan_;
+    std::size_t first_ = 0;  ///< domain of the tile that began last
+    std::size_t cursor_ = 0; ///< behind the domain that was issued last
+    std::vector<Domain> domains_;
+    std::vector<std::size_t> occupied_; ///< domains with segments
+    std::size_t size_ = 0;              ///< segments that wait
+    std::uint64_t number_ = 0;          ///< of the next segment
+    double free_ = 0;                   ///< when the PEs have had the tasks issued so far
+    double waiting_cycles_ = 0;         ///< that the waiting segments take
+};
+
+} // namespace degs
