@@ -87,6 +87,7 @@ private:
     };
     bool has_live_segment(const CoarseTile& tile, const CoarseSpan& span) const;
     double choose_rows(const CoarseTile& tile);
+    void supply();
     double solve_row(int row, double sliced);
     void segment(const CoarseTile& tile, const CoarseSpan& span, double solved);
     double tasks_of(const CoarseTile& tile, const CoarseSpan& part) const;
@@ -101,12 +102,14 @@ private:
     std::size_t tiles_ = 0;
     std::vector<CoarseSpan> sent_; ///< rows of a splat; empty ones, too
     std::size_t segments_per_row_;
-    double units_;        ///< Slicing Units of a tile
-    RingDates supply_;    ///< places for splats before the Slicing Units
-    double asked_ = 0;    ///< when the latest splat was asked for
-    double sliced_ = 0;   ///< when the Slicing Units have sent the rows so far
-    double last_end_ = 0; ///< of the tile before
-    double start_ = 0;    ///< when a context is free
+    double units_;          ///< Slicing Units of a tile
+    RingDates supply_;      ///< places for chunks of splats before the Slicing Units
+    double asked_ = 0;      ///< when the latest chunk was asked for
+    double arrived_ = 0;    ///< and when it is there
+    int left_of_chunk_ = 0; ///< splats
+    double sliced_ = 0;     ///< when the Slicing Units have sent the rows so far
+    double last_end_ = 0;   ///< of the tile before
+    double start_ = 0;      ///< when a context is free
     double tasks_ = 0, rows_ = 0, segments_ = 0, slices_ = 0;
     double issues_ = 0;   ///< cycles of banks with an issue
     double features_ = 0; ///< splats with a segment in a bank, for every bank
@@ -150,9 +153,8 @@ DegsClock::DegsClock(const DegsAnalytic& model, const FrameWorkload& frame)
       finished_(config_.contexts(), 0),
       segments_per_row_((frame.tile_size + config_.scheduler.segment_length - 1) /
                         config_.scheduler.segment_length),
-      units_(config_.slicing.units_per_module()),
-      supply_(static_cast<int>(std::max(1.0, model.places() / config_.clusters))),
-      asked_(-model.memory_latency()) {
+      units_(config_.slicing.units_per_module()), supply_(std::max(1, config_.gaussian_chunks())),
+      asked_(-model.front().cycles_per_chunk()) {
     banks_.assign(
         config_.scheduler.banks,
         {AnalyticBank(config_.queue_depth(),
@@ -166,6 +168,10 @@ DegsClock::DegsClock(const DegsAnalytic& model, const FrameWorkload& frame)
 }
 
 void DegsClock::begin(const CoarseTile&) {
+    if (left_of_chunk_ != 0) { // the last one of a tile is not full
+        supply_.replace_oldest(sliced_);
+        left_of_chunk_ = 0;
+    }
     start_ = finished_[tiles_ % finished_.size()];
     for (Bank& bank : banks_) {
         bank.queue.begin_tile();
@@ -263,15 +269,27 @@ double DegsClock::choose_rows(const CoarseTile& tile) {
     return tile.rows_per_drawn() * static_cast<double>(sent_.size());
 }
 
+// A chunk is asked for when there is a place for it, and a request less in flight.
+void DegsClock::supply() {
+    if (left_of_chunk_ == 0) {
+        const FrontEndLoad& front = model_.front();
+        asked_ = std::max(asked_ + front.cycles_per_chunk() / front.fetching.chunks_in_flight,
+                          supply_.oldest());
+        arrived_ = asked_ + front.cycles_per_chunk();
+        left_of_chunk_ = front.fetching.chunk;
+    }
+}
+
 void DegsClock::splat(const CoarseTile& tile) {
     ++splats_;
     const double rows = choose_rows(tile);
     const double cycles = std::max(1.0, std::ceil(rows / config_.slicing.rows_per_cycle));
-    // The splat is asked for when there is a place for it, and a request less in flight.
-    asked_ = std::max(asked_ + model_.front().cycles_per_fetch(), supply_.oldest());
+    supply();
     slices_ += cycles;
-    sliced_ = std::max(sliced_, asked_ + model_.memory_latency()) + cycles / units_;
-    supply_.replace_oldest(sliced_);
+    sliced_ = std::max(sliced_, arrived_) + cycles / units_;
+    if (--left_of_chunk_ == 0) {
+        supply_.replace_oldest(sliced_);
+    }
     rows_ += rows;
     const double sliced = sliced_;
     for (const CoarseSpan& span : sent_) {

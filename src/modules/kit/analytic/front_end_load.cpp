@@ -99,13 +99,14 @@ PreparationCycles FrontEndLoad::preparation(const FrameWorkload& frame,
 
 double FrontEndLoad::fetch_cycles(double walked) const {
     const double ahead = as_real(places); // of a tile, while those before it are rendered
-    const double paced = std::max(0.0, walked - ahead) * cycles_per_fetch();
+    const double in_flight = fetching.chunk * fetching.chunks_in_flight;
+    const double paced = std::max(0.0, walked - ahead) * cycles_per_chunk() / in_flight;
     return std::max(paced, walked / fetching.chunk);
 }
 
-double FrontEndLoad::cycles_per_fetch() const {
+double FrontEndLoad::cycles_per_chunk() const {
     const double bytes = fetching.chunk * scattered_bytes(traffic.splat_bytes, traffic.burst_bytes);
-    return (memory.latency + memory.cycles(bytes)) / (fetching.chunk * fetching.chunks_in_flight);
+    return memory.latency + memory.cycles(bytes);
 }
 
 double FrontEndLoad::tile_bytes(double entries, double walked, double pixels) const {

@@ -76,8 +76,8 @@ public:
 
     int list_passes = 0; ///< of every list through memory
     PreparationCycles preparation(const FrameWorkload& frame, std::size_t memory_unit) const;
-    /// Cycles per splat of a fetcher whose chunks in flight wait for memory.
-    double cycles_per_fetch() const;
+    /// Cycles from the request of a chunk of splats to its last byte.
+    double cycles_per_chunk() const;
     /// Cycles in which a fetcher has the first `walked` splats of a list come from memory.
     double fetch_cycles(double walked) const;
     /// Bytes of a tile: its list, the splats that are fetched, its pixels.
