@@ -42,9 +42,9 @@ public:
     // Banks and Span Units own every n-th row, so rows are left out bank by bank. Those that have
     // more to do than others hold these up, which only shows if enough of them are drawn.
     Blocks blocks() const override {
-        constexpr int kLeastBanks = 16;
-        return {1,
-                std::max(1, std::gcd(config_.scheduler.banks, config_.span.count) / kLeastBanks)};
+        constexpr int kLeastBanks = 8;
+        const int banks = std::gcd(config_.scheduler.banks, config_.span.count);
+        return {1, std::max(1, banks / std::max(kLeastBanks, banks / 2))};
     }
     int sorters() const override { return config_.sorting.count; }
     SortCycles sort_cycles(double entries, double) const override {

@@ -24,6 +24,9 @@ std::uint64_t AnalyticBank::rank_of(std::size_t domain) const {
 }
 
 double AnalyticBank::issue(double limit) {
+    if (free_ >= limit) {
+        return limit;
+    }
     double earliest = limit;
     std::uint64_t least = 0;
     std::size_t chosen = occupied_.size();

@@ -13,9 +13,9 @@ namespace degs {
 namespace {
 
 /// Entries of lists and rows of splats that are looked at, which bounds the time: some 20 ns each.
-constexpr double kVisits = 400e3;
+constexpr double kVisits = 300e3;
 /// A view of few and long lists exceeds kVisits rather than rest on fewer tiles than these.
-constexpr double kLeastTiles = 16;
+constexpr double kLeastTiles = 10;
 /// Chains of tiles that are followed one after the other; blocks of work for the host's processors.
 constexpr std::size_t kChains = 2;
 
