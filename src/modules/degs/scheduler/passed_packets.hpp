@@ -51,9 +51,9 @@ private:
         reads_[items_++ & mask] = read;
     }
 
-    std::vector<Cycle> reads_; // of the latest items, in their order
+    std::vector<Cycle> reads_;           // of the latest items, in their order
     std::uint64_t items_ = 0, ends_ = 0; // of these, ends of tiles, which take no cycle
-    Cycle ready_ = 0; // of the reader
+    Cycle ready_ = 0;                    // of the reader
     Cycle occupied_cycles_ = 0;
     std::size_t high_water_ = 0;
 };
