@@ -10,9 +10,10 @@ packages=(
     libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libstb-dev libtinygltf-dev libxxhash-dev libpugixml-dev
 )
 test_packages=(chromium libgtest-dev libgmock-dev libbenchmark-dev clang clang-format clang-tidy libclang-rt-14-dev
-    ccache jupyter-nbconvert libxml2-utils mandoc mkdocs-material munge mypy procps pyflakes3 python3 python3-ipykernel
-    python3-jsonschema python3-matplotlib python3-numpy python3-pandas python3-pil python3-pip python3-pytest
-    python3-setuptools python3-tqdm python3-wheel python3-yaml slurm-wlm verilator zsh)
+    ccache gcc-riscv64-unknown-elf jupyter-nbconvert libxml2-utils mandoc mkdocs-material munge mypy procps
+    pyflakes3 python3 python3-ipykernel python3-jsonschema python3-matplotlib python3-numpy python3-pandas
+    python3-pil python3-pip python3-pytest python3-setuptools python3-tqdm python3-wheel python3-yaml slurm-wlm
+    verilator zsh)
 [[ ${1:-} != --tests ]] || packages+=("${test_packages[@]}")
 
 missing=()

@@ -10,7 +10,7 @@ double AnalyticBank::start_of(const Domain& domain) const {
     return std::max({free_, domain.free, domain.front().arrived});
 }
 
-// Of domains that may go at the same time the lowest rank does.
+// Several domains may go at the same time: the lowest rank does.
 std::uint64_t AnalyticBank::rank_of(std::size_t domain) const {
     const std::uint64_t younger = domain >= first_ && domain < first_ + domains_.size() / 2 ? 1 : 0;
     const Domain& own = domains_[domain];

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Where things are for the processor, and what the platform leaves for the firmware at BOOT_TABLE. link.ld has ROM and
+ * RAM, too. */
+#ifndef MAP_H
+#define MAP_H
+
+#include <stdint.h>
+
+#define REGISTERS  0x10000000u /* of the accelerator */
+#define CONSOLE    0x20000000u /* write: a character */
+#define EXIT       0x20000004u /* write: ends the simulation with this status */
+#define BOOT_TABLE 0x80000000u /* at the start of the memory that the accelerator uses, too */
+
+#define FRAMES 2
+
+/* Words of 32 bits and doubles in aligned places, so that host and firmware agree on it. */
+typedef struct view {
+    double focal_x, focal_y, axes[9], position[3];
+    uint32_t width, height;
+} view;
+
+typedef struct boot_table {
+    view views[FRAMES];
+    uint32_t geometry, sh, count, sh_degree;
+    uint32_t workspace, workspace_bytes, frame_buffer, reserved;
+} boot_table;
+
+#endif

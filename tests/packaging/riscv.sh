@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# riscv.sh BUILD COMPILER PROGRAM: builds examples/riscv against an installed package, boots its
+# firmware, and compares the checksums of both frames with those of PROGRAM for the same scene and
+# views, for a design with a number set and one in single precision.
+set -euo pipefail
+
+command -v riscv64-unknown-elf-gcc >/dev/null || {
+    echo "skipped: the firmware needs riscv64-unknown-elf-gcc (scripts/install.sh --tests installs it)"
+    exit 77
+}
+build=$1
+compiler=$2
+program=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+# quietly LOG COMMAND...: shows what the command says only if it fails.
+quietly() { "${@:2}" >"$work/$1.log" 2>&1 || { cat "$work/$1.log"; return 1; }; }
+
+quietly install cmake --install "$build" --prefix "$work/prefix" --component degs
+quietly configure cmake -S "$work/prefix/share/degs/examples/riscv" -B "$work/riscv" \
+    -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$compiler"
+quietly compile cmake --build "$work/riscv"
+quietly generate "$program" scene generate object --gaussians 2000 --out "$work/scene.ply"
+for design in degs-64 gscore-64; do
+    configuration=$work/prefix/share/degs/configs/$design.yaml
+    for camera in 0 1; do
+        quietly run "$program" run "$configuration" --scene "$work/scene.ply" --camera "$camera" --no-reference \
+            --out "$work/run"
+        sed -n 's/.*"crc32": "\([0-9a-f]*\)".*/image \1/p' "$work/run/report.json"
+    done >"$work/expected"
+    SYSTEMC_DISABLE_COPYRIGHT_MESSAGE=1 timeout 60 "$work/riscv/riscv" "$configuration" "$work/scene.ply" \
+        "$work/riscv/firmware.elf" 0 1 >"$work/said"
+    grep '^image ' "$work/said" >"$work/images"
+    [[ $(sort -u "$work/expected" | wc -l) == 2 ]] || { echo "degs run reports:"; cat "$work/expected"; exit 1; }
+    diff "$work/expected" "$work/images" || { echo "$design: other images than those of degs run"; exit 1; }
+    echo "$design: $(tr '\n' ' ' <"$work/images")$(grep instructions "$work/said")"
+done
+if "$work/riscv/riscv" "$configuration" "$work/scene.ply" "$work/scene.ply" >"$work/said" ||
+    ! grep -q 'scene.ply is no ELF file' "$work/said"; then
+    echo "the platform says of a wrong firmware:"
+    cat "$work/said"
+    exit 1
+fi
