@@ -29,9 +29,16 @@ std::string words_of(const CLI::Option& option) {
     std::string text;
     for (const std::string& value : option.results()) {
         const bool dashed = value.rfind('-', 0) == 0;
-        text += option.get_positional() ? " " + shell_word((dashed ? "./" : "") + value)
-                : dashed                ? " " + shell_word(name + "=" + value)
-                                        : " " + name + " " + shell_word(value);
+        text += ' ';
+        if (option.get_positional()) {
+            text += shell_word((dashed ? "./" : "") + value);
+        } else if (dashed) {
+            text += shell_word(name + "=" + value);
+        } else {
+            text += name;
+            text += ' ';
+            text += shell_word(value);
+        }
     }
     return text;
 }

@@ -10,6 +10,7 @@
 
 #include "config/config_words.hpp"
 #include "degs/error.hpp"
+#include "sim/shell/output_folder.hpp"
 #include "sim/study/addressed_overrides.hpp"
 #include "sim/sweep/tree_changes.hpp"
 #include "sim/text/words.hpp"
