@@ -31,9 +31,10 @@ std::string words_of(const CLI::Option& option) {
         const bool dashed = value.rfind('-', 0) == 0;
         text += ' ';
         if (option.get_positional()) {
-            text += shell_word((dashed ? "./" : "") + value);
+            text += shell_word(dashed ? "./" + value : value);
         } else if (dashed) {
-            text += shell_word(name + "=" + value);
+            std::string both = name;
+            text += shell_word(both.append("=").append(value));
         } else {
             text += name;
             text += ' ';

@@ -203,7 +203,7 @@ TEST(Evolution, TriesADesignThatFailsOnce) {
     EXPECT_EQ(tries, 3) << outcome.err;
     const auto found = nlohmann::json::parse(read_file(folder / "out/explore.json"));
     EXPECT_EQ(found["rungs"].back()["failed"].size(), 3U);
-    // Of the others, one is larger and no faster by its estimate, so that it may be left out.
+    // One of the others is larger and no faster by its estimate, so that it may be left out.
     EXPECT_GE(found["rungs"].back()["designs"].size(), 2U);
     EXPECT_EQ(found["rungs"].back()["designs"].back()["name"], "degs-64 span.count=4");
 }
