@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the platforms of this folder have in common: a host that lets an accelerator render one
+// A host for the platforms of this folder, which lets an accelerator render one
 // view, and prints the checksum of its pixels as degs run does (image.crc32 of its report).
 #pragma once
 

@@ -269,7 +269,7 @@ double DegsClock::choose_rows(const CoarseTile& tile) {
     return tile.rows_per_drawn() * static_cast<double>(sent_.size());
 }
 
-// A chunk is asked for when there is a place for it, and a request less in flight.
+// A chunk is asked for when there is a place for it and fewer requests are in flight than may be.
 void DegsClock::supply() {
     if (left_of_chunk_ == 0) {
         const FrontEndLoad& front = model_.front();
@@ -340,13 +340,13 @@ TileCycles DegsClock::end(const CoarseTile& tile) {
     cycles.busy[DegsAnalytic::kPacking] = drawn * segments_ / config_.scheduler.issue_width /
                                           (config_.clusters * config_.scheduler.banks);
     cycles.busy[DegsAnalytic::kBlending] = cycles.slots / config_.pes();
-    const double behind = std::max(done - sliced_, 0.0); // are the banks when all rows are sent
+    const double behind = std::max(done - sliced_, 0.0); // cycles of the banks behind the last row
     cycles.time = with_other_streams(
         std::max(sliced_ + behind - last_end_, cycles.time),
         config_.clusters * *std::max_element(cycles.busy.begin() + DegsAnalytic::kSpan,
                                              cycles.busy.begin() + DegsAnalytic::kMemory));
     last_end_ += cycles.time;
-    sliced_ = last_end_ - behind; // of the next tile, meanwhile
+    sliced_ = last_end_ - behind; // the next tile is sliced while the banks catch up
     return cycles;
 }
 

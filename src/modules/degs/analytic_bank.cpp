@@ -12,7 +12,8 @@ double AnalyticBank::start_of(const Domain& domain) const {
 
 // Several domains may go at the same time: the lowest rank does.
 std::uint64_t AnalyticBank::rank_of(std::size_t domain) const {
-    const std::uint64_t younger = domain >= first_ && domain < first_ + domains_.size() / 2 ? 1 : 0;
+    const std::uint64_t younger =
+        domain >= first_ && domain < first_ + domains_.size() / kTilesInFlight ? 1 : 0;
     const Domain& own = domains_[domain];
     std::uint64_t rank = own.front().number;
     if (scan_ == DomainScan::RoundRobin) {

@@ -14,7 +14,7 @@ namespace {
 // pixels and rows follow.
 using Head = std::array<std::uint32_t, 3>;
 
-// What the masks of a row are beside the span.
+// Says which masks of a row are stored, because they do not follow from the span.
 enum : unsigned char { kInsideDiffers = 1, kUsefulDiffers = 2, kEnds = 4 };
 
 template <class Real>

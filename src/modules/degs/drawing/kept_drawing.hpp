@@ -20,7 +20,7 @@ namespace degs {
 class KeptDrawing final : public TileDrawing {
 public:
     /// `pixels` names what the pixels of the job's frames depend on beside them, see
-    /// BuildOptions::kept. No frame joins the job later.
+    /// KeptTiles. No frame joins the job later.
     KeptDrawing(RenderJob& job, const DrawingOptions& options, const std::string& pixels,
                 SharedBytes& kept);
 
