@@ -13,6 +13,7 @@ inline std::uint32_t bits_between(int begin, int end) {
 /// A bit for each of up to 128 neighbouring pixels.
 struct RowMask {
     static constexpr int kHalf = 64;
+    static constexpr int kBits = 32; // that from() returns
     std::uint64_t low = 0, high = 0;
 
     /// Sets bit `column` if bit 0 of `bits` is set, and so on.
@@ -26,9 +27,11 @@ struct RowMask {
     }
     /// Bits column .. column + 31; those beyond the last one are 0.
     std::uint32_t from(int column) const {
-        return static_cast<std::uint32_t>(column < kHalf
-                                              ? low >> column | high << 1 << (kHalf - 1 - column)
-                                              : high >> (column - kHalf));
+        const int within = column % kHalf;
+        const std::uint64_t bits = (column < kHalf ? low : high) >> within;
+        return static_cast<std::uint32_t>(column < kHalf && within > kHalf - kBits
+                                              ? bits | high << 1 << (kHalf - 1 - within)
+                                              : bits);
     }
     int count() const { return __builtin_popcountll(low) + __builtin_popcountll(high); }
 };

@@ -19,13 +19,15 @@ void FeatureBuffer::Config::describe(ConfigVisitor& visitor) {
 }
 
 FeatureBuffer::FeatureBuffer(int entries, int open_splats, int streams, const Fill& fill)
-    : entries_(entries), free_(entries), first_free_(free_.data()), end_free_(first_free_),
-      free_count_(entries_.size()), several_open_(open_splats > 1 || streams > 1), fill_(fill),
+    : entries_(entries), free_(entries), first_(free_.data()), last_(first_ + entries - 1),
+      first_free_(first_), end_free_(first_), free_count_(entries), size_(entries),
+      several_open_(open_splats > 1 || streams > 1), fill_(fill),
       write_ports_(std::size_t{1} * fill.ports.sram_banks * fill.ports.ports, 0),
       streams_(streams) {
     for (Stream& stream : streams_) {
-        stream.open.resize(std::min(open_splats, entries / streams));
-        stream.size = stream.open.size();
+        stream.splats.resize(std::min(open_splats, entries / streams));
+        stream.first = stream.oldest = stream.next = stream.splats.data();
+        stream.end = stream.first + stream.splats.size();
     }
     take_in_order();
 }
@@ -36,7 +38,7 @@ void FeatureBuffer::take_in_order() {
     for (Free& place : free_) {
         place = {0, entry++};
     }
-    first_free_ = end_free_ = free_.data();
+    first_free_ = end_free_ = first_;
 }
 
 void FeatureBuffer::close(Cycle now, std::size_t stream) {

@@ -59,7 +59,7 @@ public:
                                               std::size_t stream = 0) {
         const std::uint64_t wanted = key(tile, splat);
         return wanted == current_key_ || (several_open_ && find(wanted, stream)) ||
-               enter(wanted, now, stream);
+               enter(wanted, now, streams_.data()[stream]);
     }
     /// Entry of the splat that enters.
     std::uint16_t current() const { return current_; }
@@ -69,10 +69,10 @@ public:
         stats_.fill_waits += filled ? 0 : 1;
         return filled;
     }
-    void hold(std::uint16_t entry) { entries_[entry].held++; }
+    void hold(std::uint16_t entry) { entries_.data()[entry].held++; }
     /// One held task group is done; the entry is needed until `date`.
     __attribute__((always_inline)) void release(std::uint16_t entry, Cycle date) {
-        Entry& e = entries_[entry];
+        Entry& e = entries_.data()[entry];
         e.needed_until = std::max(e.needed_until, date);
         if (--e.held == 0) {
             retire(entry, e.needed_until);
@@ -103,25 +103,29 @@ private:
         std::uint16_t entry = 0;
     };
     struct Stream {
-        std::vector<Open> open; // ring in the order of their first rows
-        std::size_t size = 0;   // of the ring
-        std::size_t oldest = 0, count = 0;
+        std::vector<Open> splats; // ring in the order of their first rows
+        Open *first = nullptr, *end = nullptr;
+        Open* oldest = nullptr;
+        Open* next = nullptr; // place of the next one, which is the oldest if all are taken
+        std::size_t count = 0;
         bool waiting = false; // a splat has found no entry
+        Open* after(Open* place) const { return place + 1 == end ? first : place + 1; }
     };
     inline bool find(std::uint64_t splat, std::size_t stream);
-    bool enter(std::uint64_t splat, Cycle now, std::size_t stream);
+    bool enter(std::uint64_t splat, Cycle now, Stream& own);
     void close_oldest(Stream& own, Cycle now);
     void retire(std::uint16_t entry, Cycle date);
     void take_in_order();
     Cycle fill(std::uint16_t entry, Cycle now);
-    Free* next(Free* place) { return place == &free_.back() ? &free_.front() : place + 1; }
+    Free* next(Free* place) const { return place == last_ ? first_ : place + 1; }
 
     std::vector<Entry> entries_;
     std::vector<Free> free_; // ring in order of dates, which do not fall
+    Free *first_, *last_;    // of the ring
     Free* first_free_;
     Free* end_free_;
-    std::size_t free_count_;
-    bool several_open_; // splats at a time
+    std::size_t free_count_, size_; // free entries, and all
+    bool several_open_;             // splats at a time
     Cycle last_retired_ = 0;
     Fill fill_;
     std::vector<Cycle> write_ports_; // dates at which they are free, SRAM bank by bank
@@ -134,10 +138,11 @@ private:
 // One of the stream's open splats beside the current one.
 inline __attribute__((always_inline)) bool FeatureBuffer::find(std::uint64_t splat,
                                                                std::size_t stream) {
-    for (const Open& open : streams_[stream].open) {
-        if (open.key == splat) {
+    const Stream& own = streams_.data()[stream];
+    for (const Open* open = own.first; open != own.end; ++open) {
+        if (open->key == splat) {
             current_key_ = splat;
-            current_ = open.entry;
+            current_ = open->entry;
             return true;
         }
     }
@@ -146,14 +151,14 @@ inline __attribute__((always_inline)) bool FeatureBuffer::find(std::uint64_t spl
 
 // What follows is inlined in the hot loops of banks: most splats that enter close another one.
 inline __attribute__((always_inline)) void FeatureBuffer::close_oldest(Stream& own, Cycle now) {
-    Open& oldest = own.open[own.oldest];
-    own.oldest = own.oldest + 1 == own.size ? 0 : own.oldest + 1;
+    Open& oldest = *own.oldest;
+    own.oldest = own.after(own.oldest);
     own.count--;
     if (oldest.key == current_key_) {
         current_key_ = kNobody;
     }
     oldest.key = kNobody;
-    Entry& e = entries_[oldest.entry];
+    Entry& e = entries_.data()[oldest.entry];
     if (--e.held == 0) {
         retire(oldest.entry, std::max(now, e.needed_until));
     }
@@ -167,12 +172,11 @@ inline __attribute__((always_inline)) void FeatureBuffer::retire(std::uint16_t e
 }
 
 inline __attribute__((always_inline)) bool FeatureBuffer::enter(std::uint64_t splat, Cycle now,
-                                                                std::size_t stream) {
-    Stream& own = streams_[stream];
-    if (own.count == own.size) {
+                                                                Stream& own) {
+    if (own.next == own.oldest && own.count != 0) {
         close_oldest(own, now);
     }
-    if (free_count_ == entries_.size() && last_retired_ <= now) {
+    if (free_count_ == size_ && last_retired_ <= now) {
         take_in_order();
     }
     if (next_free() > now) {
@@ -185,10 +189,11 @@ inline __attribute__((always_inline)) bool FeatureBuffer::enter(std::uint64_t sp
     current_ = first_free_->entry;
     first_free_ = next(first_free_);
     free_count_--;
-    entries_[current_] = {now, 1, fill_.cycles == 0 ? now : fill(current_, now)};
+    entries_.data()[current_] = {now, 1, fill_.cycles == 0 ? now : fill(current_, now)};
     current_key_ = splat;
-    const std::size_t place = own.oldest + own.count++;
-    own.open[place < own.size ? place : place - own.size] = {splat, current_};
+    *own.next = {splat, current_};
+    own.next = own.after(own.next);
+    own.count++;
     return true;
 }
 

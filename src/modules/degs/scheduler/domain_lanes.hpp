@@ -14,19 +14,21 @@
 
 namespace degs {
 
-/// The conflict domains of a tile in flight, as the choice among them sees them: a key and a date
-/// for each, which the host compares four at a time. A date says from when the array may touch the
-/// domain again; low bits are enough, because it lies near the date that is asked about.
+/// The conflict domains of a tile in flight, as the choice among them sees them: who has segments,
+/// and a date for each, which the host compares several at a time. A date says from when the array
+/// may touch the domain again; low bits are enough, because it lies near the date that is asked
+/// about. A bank either has domains wait in turn, or gives each one that waits a key.
 class DomainLanes {
 public:
     /// Keys lie below. It is the key of a domain without segments.
     static constexpr std::uint32_t kTop = std::uint32_t{1} << 31U;
+    static constexpr int kMostInTurn = 64;
 
     explicit DomainLanes(int domains)
-        : size_((domains + kStep - 1) / kStep * kStep), numbers_(3 * std::size_t{size_}, ~0U),
-          keys_(numbers_.data()), dates_(keys_ + size_), lengths_(dates_ + size_) {
+        : size_(up_to(domains, kStep)), dated_(up_to(domains, kBlock)),
+          numbers_(2 * std::size_t{size_} + dated_, ~0U), keys_(numbers_.data()),
+          dates_(keys_ + size_), lengths_(dates_ + dated_) {
         std::fill_n(keys_, size_, kTop);
-        present_ = size_ < kBits ? (std::uint64_t{1} << size_) - 1 : ~std::uint64_t{0};
         while (mask_ + 1 < static_cast<std::uint32_t>(domains)) {
             mask_ = 2 * mask_ + 1;
         }
@@ -37,6 +39,11 @@ public:
     void set_key(int domain, std::uint32_t key) { keys_[domain] = key; }
     /// Segments that wait; for longest() alone.
     void set_length(int domain, std::uint32_t length) { lengths_[domain] = ~length; }
+    /// The domain has segments, or none; for next_from() and until_next_in_turn() alone.
+    void set_waiting(int domain, bool waits) {
+        const std::uint64_t bit = std::uint64_t{1} << domain;
+        waiting_ = waits ? waiting_ | bit : waiting_ & ~bit;
+    }
     /// The domain may be touched from `date` on.
     void set_date(int domain, Cycle date) { dates_[domain] = static_cast<std::uint32_t>(date); }
     /// All domains may be touched from `date` on.
@@ -47,24 +54,30 @@ public:
     __attribute__((always_inline)) std::uint32_t least(Cycle date) const {
         return least_of(date, [&](std::uint32_t i) { return load(keys_ + i); });
     }
-    /// Where keys are the numbers of the domains: the next one from `first` on, in a circle; not
-    /// below kTop if there is none.
+    /// The next of up to kMostInTurn domains with segments that may be touched at `date`, from
+    /// `first` on, in a circle; not below kTop if there is none.
     __attribute__((always_inline)) std::uint32_t next_from(std::uint32_t first, Cycle date) const {
-        if (size_ > kBits) {
-            return far_next_from(first, date);
+        const Lanes next = all(static_cast<std::uint32_t>(date) + 1);
+        std::uint64_t ready = before(dates_, next);
+        for (std::uint32_t i = kBlock; i < dated_; i += kBlock) {
+            ready |= std::uint64_t{before(dates_ + i, next)} << i;
         }
-        const Lanes now = all(static_cast<std::uint32_t>(date));
-        const auto signs_from = [&](std::uint32_t i) {
-            return signs(load(keys_ + i) | (now - load(dates_ + i)));
-        };
-        std::uint64_t missing = signs_from(0) | signs_from(kLanes) << kLanes;
-        for (std::uint32_t i = kStep; i < size_; i += kStep) {
-            missing |= std::uint64_t{signs_from(i) | signs_from(i + kLanes) << kLanes} << i;
-        }
-        const std::uint64_t ready = ~missing & present_;
+        ready &= waiting_;
         const std::uint64_t later = ready & ~std::uint64_t{0} << first;
         return ready == 0 ? kTop
                           : static_cast<std::uint32_t>(__builtin_ctzll(later != 0 ? later : ready));
+    }
+    /// The next domain with a key that may be touched at `date`, like next_from().
+    std::uint32_t next_keyed_from(std::uint32_t first, Cycle date) const {
+        for (std::uint32_t i = 0; i < size_; ++i) {
+            const std::uint32_t domain = first + i < size_ ? first + i : first + i - size_;
+            const auto left =
+                static_cast<std::int32_t>(dates_[domain] - static_cast<std::uint32_t>(date));
+            if (keys_[domain] < kTop && left <= 0) {
+                return domain;
+            }
+        }
+        return kTop;
     }
     /// The inverse of the greatest length in its upper half, below it the smallest key of those
     /// domains that have it; all bits if there is none.
@@ -89,11 +102,21 @@ public:
         const std::uint32_t least = least_lane(smallest(cycles));
         return least >= kTop ? kNever : least;
     }
+    /// The same for domains that wait in turn.
+    Cycle until_next_in_turn(Cycle date) const {
+        std::uint32_t least = kTop;
+        for (std::uint64_t left = waiting_; left != 0; left &= left - 1) {
+            const std::uint32_t cycles =
+                dates_[__builtin_ctzll(left)] - static_cast<std::uint32_t>(date);
+            least = std::min(least, cycles);
+        }
+        return least == kTop ? kNever : least;
+    }
 
 private:
     static constexpr std::uint32_t kLanes = 4;
-    static constexpr std::uint32_t kBits = 64;
-    static constexpr std::uint32_t kStep = 2 * kLanes; // domains that a turn of a loop looks at
+    static constexpr std::uint32_t kStep = 2 * kLanes;  // domains that a turn of a loop looks at
+    static constexpr std::uint32_t kBlock = 4 * kLanes; // dates that are compared at once
     using Lanes = std::uint32_t __attribute__((vector_size(kLanes * sizeof(std::uint32_t))));
     using Differences = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
 
@@ -103,25 +126,28 @@ private:
         return lanes;
     }
     static Lanes all(std::uint32_t value) { return Lanes{value, value, value, value}; }
-    /// The highest bit of each lane.
-    static std::uint32_t signs(Lanes lanes) {
-#ifdef __SSE2__
-        return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
-#else
-        lanes >>= 31;
-        return lanes[0] | lanes[1] << 1U | lanes[2] << 2U | lanes[3] << 3U;
-#endif
+    static std::uint32_t up_to(int domains, std::uint32_t multiple) {
+        return (static_cast<std::uint32_t>(domains) + multiple - 1) / multiple * multiple;
     }
-    std::uint32_t far_next_from(std::uint32_t first, Cycle date) const {
-        for (std::uint32_t i = 0; i < size_; ++i) {
-            const std::uint32_t domain = first + i < size_ ? first + i : first + i - size_;
-            const auto left =
-                static_cast<std::int32_t>(dates_[domain] - static_cast<std::uint32_t>(date));
-            if (keys_[domain] < kTop && left <= 0) {
-                return domain;
-            }
-        }
-        return kTop;
+    /// A bit for each of a block of dates that lies before `date`.
+    __attribute__((always_inline)) static std::uint32_t before(const std::uint32_t* dates,
+                                                               Lanes date) {
+        const Lanes a = load(dates) - date, b = load(dates + kLanes) - date,
+                    c = load(dates + 2 * kLanes) - date, d = load(dates + 3 * kLanes) - date;
+#ifdef __SSE2__
+        // Saturation keeps the sign.
+        const auto packed = [](Lanes x, Lanes y) {
+            return _mm_packs_epi32(reinterpret_cast<__m128i>(x), reinterpret_cast<__m128i>(y));
+        };
+        return static_cast<std::uint32_t>(
+            _mm_movemask_epi8(_mm_packs_epi16(packed(a, b), packed(c, d))));
+#else
+        const auto signs = [](Lanes lanes) {
+            lanes >>= 31;
+            return lanes[0] | lanes[1] << 1U | lanes[2] << 2U | lanes[3] << 3U;
+        };
+        return signs(a) | signs(b) << 4U | signs(c) << 8U | signs(d) << 12U;
+#endif
     }
     static Lanes smaller(Lanes a, Lanes b) {
         return a < b ? a : b;
@@ -155,11 +181,12 @@ private:
         }));
     }
 
-    std::uint32_t size_; // domains, up to a multiple of kLanes; those in excess stay empty
+    // Domains, up to a multiple of kStep and kBlock; those in excess stay empty.
+    std::uint32_t size_, dated_;
+    std::uint64_t waiting_ = 0; // a bit for each of up to kMostInTurn domains
     std::vector<std::uint32_t> numbers_;
     std::uint32_t *keys_, *dates_, *lengths_; // in numbers_
     std::uint32_t mask_ = 0;
-    std::uint64_t present_; // a bit for each number of `size_` ones, up to kBits
 };
 
 } // namespace degs

@@ -7,11 +7,10 @@
 namespace degs {
 
 void DrawnBank::run() {
-    const bool in_turn = scan_ == DomainScan::RoundRobin;
     if (spans_ != nullptr) {
-        in_turn ? run_cycles<true, true>() : run_cycles<true, false>();
+        in_turn_ ? run_cycles<true, true>() : run_cycles<true, false>();
     } else {
-        in_turn ? run_cycles<false, true>() : run_cycles<false, false>();
+        in_turn_ ? run_cycles<false, true>() : run_cycles<false, false>();
     }
     finish();
 }
@@ -135,11 +134,12 @@ DrawnBank::admits(const BankStream& stream, TileNumber number, std::uint32_t spl
 inline __attribute__((always_inline)) void DrawnBank::start(const BankStream& stream, int row,
                                                             const DrawnRow& drawn) {
     cut_tile_ = own_[stream.index].entering;
-    cut_ = segmenter_.domain_of(row, drawn.x0);
-    column_ = segmenter_.domains()[cut_].column;
+    const Segmenter::Place place = segmenter_.place_of(drawn.x0);
+    cut_ = segmenter_.first_domain_of(row) + place.segment;
+    column_ = place.column;
     low_ = std::uint64_t{1} << (drawn.x0 - column_);
     left_ = drawn.x0 + drawn.length - column_;
-    drawn_ = drawn;
+    drawn_ = &drawn;
     stats_.spans++;
     stats_.tasks_in += drawn.length;
     inside_ += drawn.inside.count();
@@ -181,7 +181,8 @@ inline __attribute__((always_inline)) bool DrawnBank::take_from(BankStream& stre
                 enter_tile(stream, number);
             }
             if (row) {
-                start(stream, item.span->y, item.drawn);
+                taken_ = item.drawn;
+                start(stream, item.span->y, taken_);
             }
             source->ring->drop(self_);
         }
@@ -200,7 +201,7 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
     const std::uint32_t mask = cut_mask();
     if ((mask & domain.live) == 0) {
         stats_.drop(mask);
-        inside_ -= __builtin_popcount(mask & drawn_.inside.from(column_));
+        inside_ -= __builtin_popcount(mask & drawn_->inside.from(column_));
     } else {
         Waiting* const segment = free_;
         if (segment == nullptr) {
@@ -208,27 +209,27 @@ inline __attribute__((always_inline)) bool DrawnBank::cut_segment() {
         }
         free_ = segment->next;
         segment->mask = mask;
-        segment->inside = drawn_.inside.from(column_);
-        segment->ended = drawn_.ended.from(column_);
-        segment->key = next_key_ | static_cast<std::uint32_t>(cut_);
+        segment->inside = drawn_->inside.from(column_);
+        segment->ended = drawn_->ended.from(column_);
         segment->next = nullptr;
         segment->feature = features_.current();
         features_.hold(segment->feature);
         *domain.end = segment;
         domain.end = &segment->next;
-        DomainLanes& lanes = cut_tile_->lanes;
-        lanes.set_key(cut_, in_turn
-                                ? segment->key
-                                : std::min(lanes.key(cut_), segment->key)); // an older one stays
-        if (!in_turn && scan_ == DomainScan::Deepest) {
-            lanes.set_length(cut_, ++domain.length);
-        }
         ++cut_tile_->waiting;
         issuable_ += cut_tile_->started ? 1 : 0;
         if (++size_ > stats_.queue_high_water) {
             stats_.queue_high_water = size_;
         }
-        if (!in_turn) {
+        DomainLanes& lanes = cut_tile_->lanes;
+        if (in_turn) {
+            lanes.set_waiting(cut_, true);
+        } else {
+            segment->key = next_key_ | static_cast<std::uint32_t>(cut_);
+            lanes.set_key(cut_, std::min(lanes.key(cut_), segment->key)); // an older one stays
+            if (scan_ == DomainScan::Deepest) {
+                lanes.set_length(cut_, ++domain.length);
+            }
             next_key_ += key_step_;
             if (next_key_ >= DomainLanes::kTop) {
                 renumber();

@@ -48,8 +48,8 @@ public:
     void run();
 
 private:
-    /// `single`: one tile stream, through DrawnSpans. `in_turn`: DomainScan::RoundRobin. The loop
-    /// then asks for nothing else.
+    /// `single`: one tile stream, through DrawnSpans. `in_turn`: see in_turn_. The loop then asks
+    /// for nothing else.
     template <bool single, bool in_turn>
     void run_cycles();
 
@@ -189,6 +189,7 @@ private:
     Cycle reuse_;
     int contexts_, tiles_in_flight_;
     DomainScan scan_;
+    bool in_turn_;               // RoundRobin, and few domains
     bool by_task_, sees_pixels_; // see TerminationGrain
     bool fills_;                 // filling a Feature Buffer entry takes time
     Slot width_cause_;           // what limits the issue width
@@ -213,7 +214,8 @@ private:
     Tile* cut_tile_ = nullptr;
     int cut_ = 0;           // domain of the span's next segment
     std::uint64_t low_ = 1; // bit of the segment's first pixel
-    DrawnRow drawn_;
+    const DrawnRow* drawn_ = nullptr;
+    DrawnRow taken_;          // a copy, unless its ring keeps it
     BankStream* next_stream_; // whose span is taken next
     bool features_full_ = false, no_room_ = false, width_limited_ = false;
     OpenPacket packet_;
@@ -242,8 +244,12 @@ inline __attribute__((always_inline)) void DrawnBank::pop(Tile& tile, int number
     const bool last = next == nullptr;
     const Waiting& head = last ? segment : *next;
     domain.end = last ? &domain.head : domain.end;
+    if (in_turn) {
+        tile.lanes.set_waiting(number, !last);
+        return;
+    }
     tile.lanes.set_key(number, last ? DomainLanes::kTop : head.key);
-    if (!in_turn && scan_ == DomainScan::Deepest) {
+    if (scan_ == DomainScan::Deepest) {
         tile.lanes.set_length(number, --domain.length);
     }
 }

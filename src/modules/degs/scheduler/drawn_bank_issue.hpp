@@ -32,8 +32,10 @@ inline __attribute__((always_inline)) std::uint64_t DrawnBank::find(const Tile& 
     if (!in_turn && scan_ == DomainScan::Deepest) {
         return tile.lanes.longest(slot);
     }
-    const std::uint32_t found =
-        in_turn ? tile.lanes.next_from(tile.cursor, slot) : tile.lanes.least(slot);
+    const std::uint32_t found = in_turn ? tile.lanes.next_from(tile.cursor, slot)
+                                : scan_ == DomainScan::RoundRobin
+                                    ? tile.lanes.next_keyed_from(tile.cursor, slot)
+                                    : tile.lanes.least(slot);
     return found >= DomainLanes::kTop ? kNothing : found;
 }
 
@@ -133,8 +135,9 @@ inline __attribute__((always_inline)) int DrawnBank::issue_from_all() {
                 ready.rank = kNothing;
             }
         }
-        const std::size_t chosen =
-            in_turn ? first_ready<in_turn>(slot) : least_ready<in_turn>(slot);
+        const std::size_t chosen = in_turn || scan_ == DomainScan::RoundRobin
+                                       ? first_ready<in_turn>(slot)
+                                       : least_ready<in_turn>(slot);
         if (chosen == streams_.size()) {
             break;
         }

@@ -47,6 +47,7 @@ DrawnBank::DrawnBank(const Parts& parts, DrawnSpans* spans)
       spans_per_cycle_(parts.spans_per_cycle), issue_width_(config_.issue_width),
       reuse_(config_.reuse_cycles), contexts_(parts.contexts),
       tiles_in_flight_(parts.tiles_in_flight), scan_(config_.scan),
+      in_turn_(scan_ == DomainScan::RoundRobin && domain_count_ <= DomainLanes::kMostInTurn),
       by_task_(config_.termination == TerminationGrain::Task),
       sees_pixels_(config_.termination != TerminationGrain::Segment),
       fills_(config_.fill.cycles != 0), width_cause_(parts.width_cause), pool_(config_.queue_depth),
@@ -66,9 +67,7 @@ DrawnBank::DrawnBank(const Parts& parts, DrawnSpans* spans)
     for (std::size_t i = 0; i < tiles; ++i) {
         tiles_.emplace_back(domain_count_, &domains_[i * domain_count_]);
     }
-    if (scan_ != DomainScan::RoundRobin) {
-        key_step_ = tiles_.front().lanes.mask() + 1;
-    }
+    key_step_ = tiles_.front().lanes.mask() + 1;
     watched_.reserve(streams_.size() * (streams_.front().inputs.size() + 1));
 }
 
@@ -142,7 +141,11 @@ void DrawnBank::end_pixels(const Termination& message) {
         features_.release(domain.head->feature, now_);
         drop(*domain.head, domain.head->mask);
         stats_.segments_dropped++;
-        pop<false>(tile, number);
+        if (in_turn_) {
+            pop<true>(tile, number);
+        } else {
+            pop<false>(tile, number);
+        }
     }
 }
 
@@ -302,7 +305,8 @@ Cycle DrawnBank::next_ready() const {
     Cycle earliest = kNever;
     for (const Tile* const tile : started_) {
         if (tile->waiting != 0) {
-            earliest = std::min(earliest, tile->lanes.until_next(slot));
+            earliest = std::min(earliest, in_turn_ ? tile->lanes.until_next_in_turn(slot)
+                                                   : tile->lanes.until_next(slot));
         }
     }
     return earliest;

@@ -24,6 +24,7 @@ public:
             size *= 2;
         }
         reads_.resize(size, kNever);
+        mask_ = size - 1;
     }
     /// A packet that leaves at `written` and executes at `slot`.
     void pass_packet(Cycle written, Cycle slot) {
@@ -41,17 +42,18 @@ public:
 
 private:
     __attribute__((always_inline)) void pass(Cycle written, Cycle read) {
-        const std::size_t mask = reads_.size() - 1;
         occupied_cycles_ += read - written;
+        Cycle* const reads = reads_.data();
         // The mark rises by one where as many items as before it were still inside. The first item
         // raises it, because it asks for a cell that was never read.
-        if (reads_[(items_ - high_water_) & mask] > written) {
+        if (reads[(items_ - high_water_) & mask_] > written) {
             high_water_++;
         }
-        reads_[items_++ & mask] = read;
+        reads[items_++ & mask_] = read;
     }
 
-    std::vector<Cycle> reads_;           // of the latest items, in their order
+    std::vector<Cycle> reads_; // of the latest items, in their order
+    std::size_t mask_ = 0;
     std::uint64_t items_ = 0, ends_ = 0; // of these, ends of tiles, which take no cycle
     Cycle ready_ = 0;                    // of the reader
     Cycle occupied_cycles_ = 0;

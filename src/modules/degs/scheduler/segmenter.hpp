@@ -18,6 +18,10 @@ public:
     struct Domain {
         int row, column; ///< inside the tile; the column is that of its first pixel
     };
+    /// The segment of a row that a pixel lies in.
+    struct Place {
+        std::int16_t segment = 0, column = 0; ///< its number, and the column of its first pixel
+    };
 
     /// For bank `index` of `banks`, which owns every row y with y mod banks = index.
     Segmenter(int tile_size, int length, int index, int banks)
@@ -25,7 +29,7 @@ public:
         const int per_row = (tile_size + length - 1) / length;
         for (int i = 0; i < tile_size; ++i) {
             first_domain_of_row_.push_back(i / banks * per_row);
-            segment_of_column_.push_back(i / length);
+            place_of_column_.push_back({inside_tile(i / length), inside_tile(i / length * length)});
         }
         for (int row = index; row < tile_size; row += banks) {
             for (int s = 0; s < per_row; ++s) {
@@ -40,16 +44,18 @@ public:
     }
     const std::vector<Domain>& domains() const { return domains_; }
     int domain_of(int row, int column) const {
-        return first_domain_of_row_[row] + segment_of_column_[column];
+        return first_domain_of(row) + place_of(column).segment;
     }
+    int first_domain_of(int row) const { return first_domain_of_row_.data()[row]; }
+    Place place_of(int column) const { return place_of_column_.data()[column]; }
 
     /// Begins with a span; the end of a tile is not one. `context` of the Pixel Buffer holds its
     /// tile.
     void start(const SpanItem& item, std::int16_t context) {
         const RowSpan& span = *item.span;
-        const int first = segment_of_column_[span.x0];
-        column_ = first * length_;
-        domain_ = first_domain_of_row_[span.y] + first;
+        const Place place = place_of(span.x0);
+        column_ = place.column;
+        domain_ = first_domain_of(span.y) + place.segment;
         low_ = std::uint64_t{1} << (span.x0 - column_);
         left_ = span.x0 + span.length - column_;
         base_ = span.base;
@@ -105,7 +111,8 @@ private:
     std::uint64_t full_; // the bit behind a segment
     // Tables replace divisions in the hot loop.
     std::vector<Domain> domains_;
-    std::vector<int> first_domain_of_row_, segment_of_column_;
+    std::vector<int> first_domain_of_row_;
+    std::vector<Place> place_of_column_;
     // The span being cut, in pixels of the tile, and its next segment.
     TileNumber tile_ = kNoTile;
     std::uint32_t splat_ = 0;

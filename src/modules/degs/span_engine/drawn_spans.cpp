@@ -10,7 +10,7 @@ DrawnSpans::DrawnSpans(Process& unit, Process& bank, DatedFifo<RowItem>& rows,
       ring_(ring), stats_(stats), tiles_(tiles), cycles_per_row_(config.cycles_per_row) {
     depth_ = ring.depth();
     std::size_t size = 1;
-    while (size <= depth_) {
+    while (size < depth_ + 2) { // the span taken last and the one that the unit holds are beside
         size *= 2;
     }
     cells_.resize(size);

@@ -35,7 +35,8 @@ public:
     void report_to(DatedFifo<RowSolved>& solved) { solved_ = &solved; }
     /// The oldest one. Only if not empty().
     const Span& front() const { return cells_[taken_ & mask_]; }
-    /// The bank has taken the oldest one at `now`.
+    /// The bank has taken the oldest one at `now`. It may still be looked at until the next one is
+    /// taken.
     inline void drop(Cycle now);
     /// Takes rows from the lane until it is empty, or the crossbar is full and the unit holds
     /// another span.
@@ -62,7 +63,8 @@ private:
     TileEnd& tiles_;
     DatedFifo<RowSolved>* solved_ = nullptr;
     Cycle cycles_per_row_;
-    std::vector<Span> cells_; // as many as a power of two: also the one that the unit holds
+    // As many as a power of two: also the one taken last, and the one that the unit holds.
+    std::vector<Span> cells_;
     std::size_t mask_ = 0;
     std::size_t made_ = 0, taken_ = 0; // so far
     Cycle room_ = 0;                   // date from which the crossbar has had room again

@@ -68,19 +68,27 @@ TEST_P(DomainLanesOf, ChooseAsALoopDoes) {
         domain.length = domain.key == DomainLanes::kTop ? 0 : 1 + upto(4);
         domain.date = now + upto(9);
         const bool empty = domain.key == DomainLanes::kTop;
-        in_turn.set_key(number, empty ? DomainLanes::kTop : static_cast<std::uint32_t>(number));
+        if (count <= DomainLanes::kMostInTurn) {
+            in_turn.set_waiting(number, !empty);
+        }
         by_key.set_key(number, domain.key);
         by_key.set_length(number, domain.length);
         in_turn.set_date(number, domain.date);
         by_key.set_date(number, domain.date);
         const int first = upto(count - 1);
-        ASSERT_EQ(in_turn.next_from(first, now), next_of(plain, first, now));
+        if (count <= DomainLanes::kMostInTurn) {
+            ASSERT_EQ(in_turn.next_from(first, now), next_of(plain, first, now));
+        }
+        ASSERT_EQ(by_key.next_keyed_from(first, now), next_of(plain, first, now));
         const std::uint64_t best = best_of(plain, now, false);
         const bool none = best == ~std::uint64_t{0};
         ASSERT_EQ(by_key.least(now) >= DomainLanes::kTop, none);
         ASSERT_EQ(by_key.longest(now), best_of(plain, now, true));
         if (none) {
             ASSERT_EQ(by_key.until_next(now), wait_of(plain, now));
+            if (count <= DomainLanes::kMostInTurn) {
+                ASSERT_EQ(in_turn.until_next_in_turn(now), wait_of(plain, now));
+            }
         } else {
             ASSERT_EQ(by_key.least(now), best);
         }
