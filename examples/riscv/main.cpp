@@ -1,92 +1,91 @@
 // SPDX-License-Identifier: Apache-2.0
 // A platform whose processor runs firmware from power-on.
-//     riscv DESIGN.yaml SCENE FIRMWARE.elf [CAMERA CAMERA]
-// The firmware renders a view of each camera (0 and 0 without them) and prints the checksums of
-// their pixels.
-#include <algorithm>
+//     riscv DESIGN.yaml SCENE FIRMWARE.elf [--lpddr5 | --memory FILE] [CAMERA ...]
+// The firmware renders a view of each camera (0 without them) and prints the checksums of their
+// pixels. The memory takes 80 ns for an access, or is LPDDR5-6400 of 256 bit, or the one of a file.
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
-#include <stdexcept>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <degs/accelerator.hpp>
+#include <degs/lpddr5.hpp>
+#include <degs/riscv_cpu.hpp>
 #include <degs/scene.hpp>
 
 #include "bus.hpp"
-#include "cpu.hpp"
-#include "elf.hpp"
-#include "firmware/map.h"
+#include "flat_memory.hpp"
+#include "loader.hpp"
 
 namespace {
 
-/// The program as a ROM from address 0 on.
-std::vector<unsigned char> rom(const rv32::Program& program) {
-    constexpr std::uint64_t limit = 0x10000;
-    std::vector<unsigned char> bytes;
-    for (const auto& segment : program.segments) {
-        const std::uint64_t end = segment.address + std::uint64_t{segment.bytes.size()};
-        if (end > limit || program.entry != 0) {
-            throw std::runtime_error("The firmware does not start at 0 and end before 0x10000.");
+struct Arguments {
+    std::vector<std::string> files; ///< design, scene, firmware
+    bool lpddr5 = false;
+    std::string memory; ///< a file; empty: the default of degs::Lpddr5
+    std::vector<std::size_t> cameras;
+};
+
+bool parse(int argc, char* argv[], Arguments& to) {
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--lpddr5") {
+            to.lpddr5 = true;
+        } else if (word == "--memory" && i + 1 < argc) {
+            to.lpddr5 = true;
+            to.memory = argv[++i];
+        } else if (word.compare(0, 2, "--") == 0) {
+            return false;
+        } else if (to.files.size() < 3) {
+            to.files.push_back(word);
+        } else if (word.find_first_not_of("0123456789") == std::string::npos) {
+            to.cameras.push_back(std::strtoul(word.c_str(), nullptr, 10));
+        } else {
+            return false;
         }
-        bytes.resize(std::max<std::size_t>(bytes.size(), end));
-        std::memcpy(&bytes[segment.address], segment.bytes.data(), segment.bytes.size());
     }
-    return bytes;
+    if (to.cameras.empty()) {
+        to.cameras.push_back(0);
+    }
+    return to.files.size() == 3;
 }
 
-view to_view(const degs::MemoryScene& scene, const char* camera) {
-    const long position = std::atol(camera);
-    if (position < 0 || std::size_t(position) >= scene.views.size()) {
-        throw std::runtime_error("The scene has no camera " + std::string(camera) + ".");
-    }
-    const degs::MemoryScene::View& from = scene.views[std::size_t(position)];
-    view to{};
-    to.focal_x = from.focal_x;
-    to.focal_y = from.focal_y;
-    std::memcpy(to.axes, from.axes, sizeof to.axes);
-    std::memcpy(to.position, from.position, sizeof to.position);
-    to.width = static_cast<std::uint32_t>(from.width);
-    to.height = static_cast<std::uint32_t>(from.height);
-    return to;
-}
-
-/// Puts the scene into memory, and tells the firmware where it is.
-void fill(Bus& bus, const degs::MemoryScene& scene, const char* const cameras[FRAMES]) {
-    boot_table table{};
-    std::uint64_t pixels = 0;
-    for (int i = 0; i < FRAMES; ++i) {
-        table.views[i] = to_view(scene, cameras[i]);
-        pixels = std::max(pixels, std::uint64_t{table.views[i].width} * table.views[i].height);
-    }
-    const std::uint32_t here = bus.add(std::vector<unsigned char>(sizeof table));
-    table.geometry = bus.add(scene.geometry);
-    table.sh = bus.add(scene.sh);
-    table.count = scene.gaussians;
-    table.sh_degree = scene.sh_degree;
-    table.frame_buffer = bus.add(std::vector<unsigned char>(pixels * 4));
-    table.workspace_bytes = std::uint32_t{64} << 20U;
-    table.workspace = bus.add(std::vector<unsigned char>(table.workspace_bytes));
-    bus.put(here, &table, sizeof table);
-}
-
-int boot(const char* design_file, const char* scene_file, const char* firmware,
-         const char* const cameras[FRAMES]) {
-    const degs::MemoryScene scene = degs::load_memory_scene(scene_file);
+int boot(const Arguments& arguments) {
+    enum Initiator : std::size_t { kCpu, kAccelerator, kLoader, kInitiators };
+    const degs::MemoryScene scene = degs::load_memory_scene(arguments.files[1]);
     degs::AcceleratorOptions options;
     options.antialiased = scene.antialiased;
-    degs::Accelerator accelerator("accelerator", degs::load_design(design_file), options);
-    Cpu cpu("cpu", rom(rv32::load_elf(firmware)), sc_core::sc_time(1, sc_core::SC_NS));
-    Bus bus("bus");
+    if (arguments.lpddr5) { // which sorts accesses by date
+        options.memory.pacing = degs::Pacing::Annotated;
+    }
+    degs::Accelerator accelerator("accelerator", degs::load_design(arguments.files[0]), options);
+    degs::RiscvCpu cpu("cpu", degs::load_riscv_program(arguments.files[2]),
+                       sc_core::sc_time(1, sc_core::SC_NS));
+    Loader loader("loader", scene, arguments.cameras);
+    Bus bus("bus", kInitiators);
     sc_core::sc_signal<bool> irq("irq");
     cpu.out.bind(bus.in);
     accelerator.mem.bind(bus.in);
+    loader.out.bind(bus.in);
     bus.registers.bind(accelerator.registers);
     accelerator.irq.bind(irq);
     cpu.irq.bind(irq);
-    fill(bus, scene, cameras);
+    std::unique_ptr<FlatMemory> flat;
+    std::unique_ptr<degs::Lpddr5> lpddr5;
+    if (arguments.lpddr5) {
+        lpddr5 = std::make_unique<degs::Lpddr5>("memory", arguments.memory, kInitiators);
+    } else {
+        flat = std::make_unique<FlatMemory>("memory", loader.bytes());
+    }
+    for (std::size_t i = 0; i < kInitiators; ++i) {
+        if (lpddr5) {
+            bus.memory[i].bind(lpddr5->in(i));
+        } else {
+            bus.memory[i].bind(flat->in);
+        }
+    }
     sc_core::sc_start();
     if (!bus.ended()) {
         std::printf("The firmware sleeps for ever.\n");
@@ -100,13 +99,14 @@ int boot(const char* design_file, const char* scene_file, const char* firmware,
 } // namespace
 
 int sc_main(int argc, char* argv[]) {
-    if (argc != 4 && argc != 6) {
-        std::printf("usage: riscv DESIGN.yaml SCENE FIRMWARE.elf [CAMERA CAMERA]\n");
+    Arguments arguments;
+    if (!parse(argc, argv, arguments)) {
+        std::printf("usage: riscv DESIGN.yaml SCENE FIRMWARE.elf [--lpddr5 | --memory FILE] "
+                    "[CAMERA ...]\n");
         return 2;
     }
-    const char* const cameras[FRAMES] = {argc == 6 ? argv[4] : "0", argc == 6 ? argv[5] : "0"};
     try {
-        return boot(argv[1], argv[2], argv[3], cameras);
+        return boot(arguments);
     } catch (const std::exception& mistake) {
         std::printf("%s\n", mistake.what());
         return 1;

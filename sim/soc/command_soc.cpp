@@ -10,6 +10,7 @@
 #include "sim/shell/output_folder.hpp"
 #include "sim/shell/view_options.hpp"
 #include "sim/simulation/warnings.hpp"
+#include "sim/soc/boot_study.hpp"
 #include "sim/soc/soc_study.hpp"
 #include "sim/text/standard_output.hpp"
 #include "sim/trace/trace_options.hpp"
@@ -21,6 +22,9 @@ struct SocOptions {
     std::string config;
     std::vector<std::string> overrides;
     std::string memory;
+    std::string cpu = "host";
+    std::string firmware;
+    std::vector<const CLI::Option*> traffic; ///< what a platform that boots does not have
     ViewRequest view;
     std::vector<double> loads;
     int cores = 4;
@@ -43,12 +47,54 @@ std::vector<double> loads_of(const SocOptions& options, double peak_gb_per_s) {
     return loads;
 }
 
-void run(const SocOptions& options) {
-    SocRequest request;
-    request.config = load_run_config(options.config, options.overrides);
+RunConfig soc_config(const SocOptions& options, dram::Config& memory) {
+    RunConfig config = load_run_config(options.config, options.overrides);
     if (!options.memory.empty()) {
-        ConfigSource::from_file(options.memory).load(request.memory);
+        ConfigSource::from_file(options.memory).load(memory);
     }
+    return config;
+}
+
+void refuse_with_riscv(const SocOptions& options) {
+    for (const CLI::Option* option : options.traffic) {
+        if (option->count() > 0) {
+            throw InputError(option->get_name() +
+                             " has no meaning with --cpu riscv, whose platform has the core and "
+                             "the accelerator alone.");
+        }
+    }
+}
+
+void boot(const SocOptions& options) {
+    refuse_with_riscv(options);
+    BootRequest request;
+    request.config = soc_config(options, request.memory);
+    request.firmware = options.firmware.empty() ? "built in" : options.firmware;
+    request.program = load_firmware(options.firmware);
+    const View view = load_view(options.view);
+    print_warnings(view.scene.notes);
+    const OutputFolder out(options.out, {"soc.json", "soc.svg"});
+    const BootResult result = run_boot(request, view);
+    out.replace([&] { out.write_json("soc.json", boot_json(request, view, result)); });
+    print(boot_words(request, view, result));
+    if (!result.ended) {
+        throw InputError("The firmware waits for an interrupt that never comes.");
+    }
+    if (result.status != 0) {
+        throw InputError("The firmware ended with status " + std::to_string(result.status) + ".");
+    }
+}
+
+void run(const SocOptions& options) {
+    if (options.cpu == "riscv") {
+        boot(options);
+        return;
+    }
+    if (!options.firmware.empty()) {
+        throw InputError("--firmware needs --cpu riscv.");
+    }
+    SocRequest request;
+    request.config = soc_config(options, request.memory);
     request.loads = loads_of(options, request.memory.peak_gb_per_s());
     request.cores = options.cores;
     request.pattern =
@@ -74,6 +120,19 @@ void run(const SocOptions& options) {
     print(soc_words(request, view, result));
 }
 
+void add_cpu_options(CLI::App& command, SocOptions& options) {
+    command
+        .add_option("--cpu", options.cpu,
+                    "what drives the accelerator: the simulator as host, or a riscv core that "
+                    "boots firmware and has the memory for itself")
+        ->check(CLI::IsMember({"host", "riscv"}))
+        ->capture_default_str();
+    command
+        .add_option("--firmware", options.firmware,
+                    "ELF executable for --cpu riscv; default: the one that is built in")
+        ->type_name("FILE");
+}
+
 void add_traffic_options(CLI::App& command, SocOptions& options) {
     command
         .add_option("--load", options.loads,
@@ -97,6 +156,9 @@ void add_traffic_options(CLI::App& command, SocOptions& options) {
                     "pictures per second of the display; 0: no display")
         ->check(CLI::Range(0.0, 1000.0))
         ->capture_default_str();
+    for (const char* name : {"--load", "--cores", "--pattern", "--reads-per-write", "--refresh"}) {
+        options.traffic.push_back(command.get_option(name));
+    }
 }
 
 } // namespace
@@ -112,9 +174,11 @@ void add_soc_command(CLI::App& program) {
                      "configuration file of the platform's memory (configs/memory/*.yaml); "
                      "default: LPDDR5-6400 of 256 bit")
         ->type_name("FILE");
+    add_cpu_options(*command, *options);
     add_traffic_options(*command, *options);
     add_out_option(*command, options->out, "folder for soc.json and soc.svg");
     add_trace_options(*command, options->trace);
+    options->traffic.push_back(command->get_option("--trace"));
     add_overrides_option(*command, options->overrides);
     command->callback([options] { run(*options); });
 }

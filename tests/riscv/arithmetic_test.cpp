@@ -10,7 +10,7 @@
 
 #include "tests/riscv/machine.hpp"
 
-namespace rv32::test {
+namespace degs::rv32::test {
 namespace {
 
 using Value = std::uint32_t;
@@ -139,4 +139,4 @@ TEST(RiscvUpper, LoadsImmediatesAndAddsThemToThePc) {
 }
 
 } // namespace
-} // namespace rv32::test
+} // namespace degs::rv32::test

@@ -4,7 +4,7 @@
 
 #include "tests/riscv/machine.hpp"
 
-namespace rv32::test {
+namespace degs::rv32::test {
 namespace {
 
 constexpr std::uint32_t kMret = 0x30200073, kWfi = 0x10500073, kNop = 0x13;
@@ -170,4 +170,4 @@ TEST(RiscvWfi, DoesNotSleepWhileTheLineIsHigh) {
 }
 
 } // namespace
-} // namespace rv32::test
+} // namespace degs::rv32::test

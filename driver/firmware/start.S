@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+    .option arch, +zicsr
     .section .start, "ax"
     .globl _start
 _start:

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Renders a frame for each of two cameras, and prints the checksum of its red, green and blue bytes. */
+/* Renders a frame for each view of the table, and prints the checksum of its red, green and blue bytes. */
 #include "degs_driver.h"
 #include "map.h"
 
 #define EXTERNAL_INTERRUPT 0x8000000Bu
 #define MIE_EXTERNAL       (1u << 11)
 #define MSTATUS_MIE        (1u << 3)
+
+__asm__(".option arch, +zicsr"); /* not in -march, for which GCC 12 has a 32-bit libgcc only as rv32im */
 
 static const degs_device device = {(void *)REGISTERS, degs_mmio_read, degs_mmio_write};
 static volatile uint32_t interrupts; /* bits of IRQ_STATUS of the present frame */
@@ -92,7 +94,7 @@ int main(void) {
     degs_set_workspace(&device, table->workspace, table->workspace_bytes);
     degs_set_frame_buffer(&device, table->frame_buffer, DEGS_FORMAT_RGBA8);
     __asm__ volatile("csrw mie, %0\n\tcsrs mstatus, %1" ::"r"(MIE_EXTERNAL), "r"(MSTATUS_MIE));
-    for (int frame = 0; frame < FRAMES; ++frame) {
+    for (uint32_t frame = 0; frame < table->frames; ++frame) {
         const view *const from = &table->views[frame];
         set_view(from);
         interrupts = 0;

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-namespace rv32 {
+namespace degs::rv32 {
 
 /// What mcause holds after an exception; interrupts have kInterrupt set.
 enum Cause : std::uint32_t {
@@ -107,4 +107,4 @@ private:
     bool waiting_ = false;
 };
 
-} // namespace rv32
+} // namespace degs::rv32

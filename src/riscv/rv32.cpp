@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rv32.hpp"
+#include "riscv/rv32.hpp"
 
-namespace rv32 {
+namespace degs::rv32 {
 namespace {
 
 enum Opcode : std::uint32_t {
@@ -284,4 +284,4 @@ bool Core::change_csr(const Fields& f) {
     return true;
 }
 
-} // namespace rv32
+} // namespace degs::rv32

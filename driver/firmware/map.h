@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Where things are for the processor, and what the platform leaves for the firmware at BOOT_TABLE. link.ld has ROM and
- * RAM, too. */
+/* Where things are for the processor, and what the platform leaves for the firmware at BOOT_TABLE. link.ld has the
+ * core's own memory, too. */
 #ifndef MAP_H
 #define MAP_H
 
@@ -11,7 +11,7 @@
 #define EXIT       0x20000004u /* write: ends the simulation with this status */
 #define BOOT_TABLE 0x80000000u /* at the start of the memory that the accelerator uses, too */
 
-#define FRAMES 2
+#define MOST_FRAMES 16
 
 /* Words of 32 bits and doubles in aligned places, so that host and firmware agree on it. */
 typedef struct view {
@@ -20,9 +20,9 @@ typedef struct view {
 } view;
 
 typedef struct boot_table {
-    view views[FRAMES];
+    view views[MOST_FRAMES];
     uint32_t geometry, sh, count, sh_degree;
-    uint32_t workspace, workspace_bytes, frame_buffer, reserved;
+    uint32_t workspace, workspace_bytes, frame_buffer, frames;
 } boot_table;
 
 #endif

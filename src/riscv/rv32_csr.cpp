@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rv32.hpp"
+#include "riscv/rv32.hpp"
 
-namespace rv32 {
+namespace degs::rv32 {
 namespace {
 
 constexpr std::uint32_t kIsa = 1U << 30U | 1U << 8U | 1U << 12U; // misa: 32 bits, I and M
@@ -87,4 +87,4 @@ bool Core::write_csr(std::uint32_t csr, std::uint32_t value) {
     }
 }
 
-} // namespace rv32
+} // namespace degs::rv32

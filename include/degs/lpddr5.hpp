@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <systemc>
+#include <tlm>
+
+namespace degs {
+
+namespace dram {
+class Lpddr5;
+}
+
+/// A main memory at bank level, as docs/lpddr5.md and docs/memories.md describe it, for LT and AT
+/// initiators of 32-bit sockets at once. It serves accesses in the order of their dates (kernel
+/// time plus annotated delay), so the accelerator may annotate them: MemoryOptions::pacing =
+/// Annotated. Contents are 0 at first and moved by debug transport, too. Direct memory access is
+/// refused unless the configuration allows it.
+class Lpddr5 : public sc_core::sc_module {
+public:
+    /// `file`: a configuration as configs/memory has them; empty: LPDDR5-6400 of 256 bit. Throws
+    /// InputError, one sentence that names the file and the line, if something in it is wrong.
+    /// `initiators`: number of sockets, at least 1.
+    Lpddr5(const sc_core::sc_module_name& name, const std::string& file, std::size_t initiators);
+    ~Lpddr5() override;
+
+    /// The socket of one initiator, from 0 on; addresses begin at 0.
+    tlm::tlm_target_socket<>& in(std::size_t initiator);
+
+    const std::string& memory_name() const; ///< e.g. "lpddr5-6400x256"
+    std::uint64_t capacity() const;         ///< bytes
+    double peak_gb_per_s() const;           ///< 1e9 B/s
+    /// Bytes that moved for an initiator, in whole bursts.
+    std::uint64_t bytes_read(std::size_t initiator) const;
+    std::uint64_t bytes_written(std::size_t initiator) const;
+
+private:
+    std::unique_ptr<dram::Lpddr5> model_;
+    std::string memory_name_;
+    double peak_gb_per_s_ = 0;
+};
+
+} // namespace degs
