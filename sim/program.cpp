@@ -64,6 +64,7 @@ void add_commands(CLI::App& program) {
     add_compare_command(program);
     add_sweep_command(program);
     add_explore_command(program);
+    add_motion_command(program);
     add_render_command(program);
     add_scene_command(program);
     add_memory_command(program);

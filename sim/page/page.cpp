@@ -25,14 +25,6 @@ std::string embedded(const ordered_json& json) {
     return text;
 }
 
-std::string html_escaped(const std::string& text) {
-    std::string html;
-    for (const char c : text) {
-        html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    }
-    return html;
-}
-
 bool is_of_host(const std::string& measure) {
     return measure.rfind("host.", 0) == 0;
 }
@@ -161,6 +153,14 @@ std::string filled(const std::string& page, const std::map<std::string, std::str
 }
 
 } // namespace
+
+std::string html_escaped(const std::string& text) {
+    std::string html;
+    for (const char c : text) {
+        html += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+    }
+    return html;
+}
 
 std::string study_page(const PageFacts& facts, const Comparison& comparison) {
     using namespace page_assets;

@@ -45,4 +45,7 @@ struct PageFacts {
 /// index.html: measures of the host are left out, so that it depends only on what was simulated.
 std::string study_page(const PageFacts& facts, const Comparison& comparison);
 
+/// The text with `&`, `<` and `>` as HTML writes them.
+std::string html_escaped(const std::string& text);
+
 } // namespace degs::sim

@@ -55,6 +55,9 @@ Scene ViewRuns::load(const std::string& spec, double& seconds) const {
     const Progress progress("loading " + spec);
     const Stopwatch clock;
     Scene scene = load_scene(spec, request_.camera_file);
+    if (!request_.views.empty()) {
+        scene.cameras = request_.views;
+    }
     seconds = clock.seconds();
     return scene;
 }

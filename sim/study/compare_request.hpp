@@ -28,6 +28,7 @@ struct CompareRequest {
     std::vector<NamedConfig> configs; ///< the others are compared with the first
     std::vector<std::string> scenes;
     std::string camera_file;                 ///< empty: the scenes' own
+    std::vector<Camera> views;               ///< in place of the scenes' cameras; empty: none
     std::optional<std::vector<int>> cameras; ///< positions in each scene's list; empty: all
     std::vector<ImageSize> sizes{ImageSize{}};
     PathRequest path;

@@ -102,7 +102,7 @@ public:
         const std::uint32_t least = least_lane(smallest(cycles));
         return least >= kTop ? kNever : least;
     }
-    /// The same for domains that wait in turn.
+    /// What until_next() returns, of domains that wait in turn.
     Cycle until_next_in_turn(Cycle date) const {
         std::uint32_t least = kTop;
         for (std::uint64_t left = waiting_; left != 0; left &= left - 1) {

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs motion: latencies of accelerators along a path of the head.
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include "base/visible_text.hpp"
+#include "degs/error.hpp"
+#include "sim/motion/motion_path.hpp"
+#include "sim/motion/motion_session.hpp"
+#include "sim/report/terminal.hpp"
+#include "sim/shell/commands.hpp"
+#include "sim/shell/view_options.hpp"
+#include "sim/simulation/warnings.hpp"
+#include "sim/study/compare_request.hpp"
+#include "sim/text/standard_output.hpp"
+#include "sim/text/words.hpp"
+
+namespace degs::sim {
+namespace {
+
+struct MotionOptions {
+    std::vector<std::string> configs, overrides;
+    MotionRequest motion;
+    std::vector<double> rates{90, 72, 120};
+    std::string memory, fidelity = "exact";
+    bool array_only = false;
+    int jobs = 1;
+    std::string out = "out";
+};
+
+void check_rates(const std::vector<double>& rates) {
+    for (const double hz : rates) {
+        if (std::count(rates.begin(), rates.end(), hz) > 1) {
+            throw InputError("--rates has " + decimal_text(hz) + " Hz twice.");
+        }
+    }
+}
+
+void check(const MotionRequest& motion) {
+    if (motion.poses.empty() && (motion.in_scene || motion.units_per_metre != 1)) {
+        throw InputError("--in-scene and --units-per-metre are for recorded poses: --poses is "
+                         "missing.");
+    }
+    if (!motion.poses.empty() && motion.between != 0) {
+        throw InputError("--between is for a path through cameras; recorded poses have dates.");
+    }
+    if (motion.in_scene && motion.units_per_metre != 1) {
+        throw InputError("--in-scene takes poses as they are, in scene units; --units-per-metre "
+                         "is for poses in metres.");
+    }
+}
+
+void run(const MotionOptions& options) {
+    Motion motion;
+    check_rates(options.rates);
+    motion.rates_hz = options.rates;
+    check(options.motion);
+    check_view(options.motion.view);
+    CompareRequest request;
+    request.configs = load_configs(options.configs, options.overrides, options.memory);
+    request.scenes = {options.motion.view.scene};
+    request.camera_file = options.motion.view.camera_file;
+    request.analytic = is_analytic(options.fidelity);
+    request.array_only = options.array_only;
+    request.reference = false;
+    request.jobs = options.jobs;
+    check_estimates(request);
+    const OutputFolder out(options.out, motion_files());
+    MotionWords words;
+    {
+        const View view = load_view(options.motion.view);
+        const MotionPath path = motion_path(options.motion, view.scene, motion.rates_hz.front());
+        motion.times_s = path.times_s;
+        request.views = path.cameras;
+        words = {view.scene.name, size_words(view.camera), request.analytic};
+    }
+    request.cameras.emplace(request.views.size());
+    std::iota(request.cameras->begin(), request.cameras->end(), 0);
+    MotionSession session(request, out, words, std::move(motion));
+    const Motion& found = session.run();
+    print(motion_text(words, found) + "all numbers and pictures: " + visible(out.path("")) + "\n");
+    print_warnings(session.warnings());
+    if (const std::optional<Failure> failure = session.failure()) {
+        throw FailureError(*failure);
+    }
+}
+
+void add_path_of_motion_options(CLI::App& command, MotionRequest& motion) {
+    command
+        .add_option("--poses", motion.poses,
+                    "CSV file of recorded poses: time_s, x, y, z, qw, qx, qy, qz; default: the "
+                    "path goes through the scene's cameras, from --camera on")
+        ->type_name("FILE");
+    command
+        .add_option("--units-per-metre", motion.units_per_metre,
+                    "scene units for a metre of the recorded poses")
+        ->check(CLI::Range(1e-6, 1e6))
+        ->capture_default_str();
+    command.add_flag("--in-scene", motion.in_scene,
+                     "the poses are those of the camera in the scene; else the head starts at "
+                     "--camera");
+    command.add_option("--between", motion.between, "frames between two cameras")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    command.add_option("--frames", motion.frames, "frames at most, the first ones of the path")
+        ->check(CLI::Range(1, 10000));
+}
+
+} // namespace
+
+void add_motion_command(CLI::App& program) {
+    auto options = std::make_shared<MotionOptions>();
+    CLI::App* command = program.add_subcommand(
+        "motion", "latencies along a path of the head, and what displays show of it");
+    command
+        ->add_option("config", options->configs,
+                     "configuration files (YAML), each as FILE or NAME=FILE")
+        ->type_name("FILE")
+        ->required();
+    add_view_options(*command, options->motion.view);
+    add_path_of_motion_options(*command, options->motion);
+    command
+        ->add_option("--rates", options->rates,
+                     "refresh rates of displays, Hz, separated by commas; frames are rendered at "
+                     "the first")
+        ->type_name("HZ")
+        ->delimiter(',')
+        ->check(CLI::Range(1.0, 1000.0))
+        ->capture_default_str();
+    command
+        ->add_option("--fidelity", options->fidelity,
+                     "exact, or analytic for estimates without simulation")
+        ->capture_default_str();
+    command->add_flag("--array-only", options->array_only,
+                      "the rasterisation arrays alone: sorted lists are there at once, and memory "
+                      "is unlimited");
+    add_addressed_overrides_option(*command, options->overrides);
+    add_memory_option(*command, options->memory);
+    command->add_option("--jobs", options->jobs, "simulations at a time, each in its own process")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    add_out_option(*command, options->out, "folder for tables and pictures");
+    command->callback([options] { run(*options); });
+}
+
+} // namespace degs::sim

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "sim/motion/motion.hpp"
+
+namespace degs::sim {
+
+/// Words about what was rendered, for headings.
+struct MotionWords {
+    std::string scene, size; ///< "flowers", "640×427"
+    bool estimated = false;  ///< by the analytic model
+};
+
+nlohmann::ordered_json motion_json(const MotionWords& words, const Motion& motion);
+/// A row for each frame, a column for each design.
+std::string motion_csv(const Motion& motion);
+/// Tables for the terminal.
+std::string motion_text(const MotionWords& words, const Motion& motion);
+
+/// Latency over the time of the path, with what is in time at which rate.
+std::string motion_latency_svg(const MotionWords& words, const Motion& motion);
+/// Shares of the refreshes that show a new image, by rate and design.
+std::string motion_refresh_svg(const MotionWords& words, const Motion& motion);
+/// Both pictures and the numbers; needs nothing else.
+std::string motion_page(const MotionWords& words, const Motion& motion);
+
+} // namespace degs::sim

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// degs motion, as a user calls it.
+#include <fstream>
+
+#include "tests/sim/process/child.hpp"
+
+namespace degs::sim_test {
+namespace {
+
+const char* const kMotionScene = "synthetic:object,gaussians=300";
+
+Outcome motion(const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"motion",  config("degs-16"), config("gscore-16"),
+                                       "--scene", kMotionScene,      "--width",
+                                       "64",      "--out",           out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    Outcome outcome = degs(arguments);
+    outcome.err = without_progress(outcome.err);
+    return outcome;
+}
+
+nlohmann::json document_in(const std::string& folder) {
+    return nlohmann::json::parse(read_file(fs::path(folder) / "motion.json"));
+}
+
+std::string poses_file(const Folder& folder, const std::string& rows) {
+    const std::string file = folder / "head.csv";
+    std::ofstream(file) << "time_s,x,y,z,qw,qx,qy,qz\n" << rows;
+    return file;
+}
+
+/// Every frame is what degs run says of its camera.
+TEST(MotionRuns, GoesThroughTheCameras) {
+    const Folder folder;
+    const Outcome outcome = motion(folder / "m", {"--rates", "90,120", "--jobs", "2"});
+    expect_success(outcome);
+    const nlohmann::json written = document_in(folder / "m");
+    EXPECT_EQ(written["frames"], 3);
+    ASSERT_EQ(written["designs"].size(), 2U);
+    ASSERT_EQ(written["designs"][1]["displays"].size(), 2U);
+    for (const char* file : {"motion.csv", "index.html", "latency.svg", "refreshes.svg"}) {
+        EXPECT_TRUE(fs::exists(fs::path(folder / "m") / file)) << file;
+    }
+    double worst = 0;
+    for (const char* camera : {"0", "1", "2"}) {
+        expect_success(degs({"run", config("degs-16"), "--scene", kMotionScene, "--camera", camera,
+                             "--width", "64", "--no-reference", "--out", folder / "r"}));
+        const nlohmann::json report =
+            nlohmann::json::parse(read_file(fs::path(folder / "r") / "report.json"));
+        worst = std::max(worst, report["timing"]["latency_ms"].get<double>());
+    }
+    EXPECT_DOUBLE_EQ(written["designs"][0]["latency_ms"]["worst"].get<double>(), worst);
+}
+
+/// The first frame is the camera's own; a head that stands still sees the same frame again.
+TEST(MotionRuns, FollowsRecordedPoses) {
+    const Folder folder;
+    const std::string head =
+        poses_file(folder, "10,5,1.6,5,1,0,0,0\n10.05,5,1.6,5,1,0,0,0\n10.1,5,1.7,5,0.8,0,0.6,0\n");
+    const Outcome outcome =
+        motion(folder / "m", {"--poses", head, "--camera", "1", "--rates", "20",
+                              "--units-per-metre", "0.5", "--fidelity", "analytic"});
+    expect_success(outcome);
+    EXPECT_NE(outcome.out.find("estimated"), std::string::npos) << outcome.out;
+    const std::string table = read_file(fs::path(folder / "m") / "motion.csv");
+    std::istringstream lines(table);
+    std::vector<std::string> rows;
+    for (std::string line; std::getline(lines, line);) {
+        rows.push_back(line.substr(line.find(',', line.find(',') + 1) + 1));
+    }
+    ASSERT_EQ(rows.size(), 4U) << table;
+    EXPECT_EQ(rows[1], rows[2]);
+    EXPECT_NE(rows[2], rows[3]);
+}
+
+TEST(MotionRuns, RefusesInOneSentence) {
+    const Folder folder;
+    const std::string head = poses_file(folder, "0,0,0,0,1,0,0,0\n1000,0,0,0,1,0,0,0\n");
+    for (const auto& [more, words] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{"--poses", folder / "none.csv"}, "none.csv"},
+             {{"--poses", head}, "--frames takes the first ones"},
+             {{"--poses", head, "--between", "3"}, "--between is for a path through cameras"},
+             {{"--in-scene"}, "--poses is missing"},
+             {{"--rates", "90,90"}, "--rates has 90 Hz twice"},
+             {{"--rates", "0"}, "--rates"},
+             {{"--rates", "fast"}, "--rates"},
+             {{"--camera", "9"}, "9"},
+         }) {
+        expect_mistake(motion(folder / "m", more), words);
+    }
+}
+
+} // namespace
+} // namespace degs::sim_test
